@@ -1,0 +1,1 @@
+#include "references/data/reference.h"

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// The planar model: what a case file describes and what `assemble` turns into matrices.
+/// Everything is in SI units and world axes; indices point into the vectors of the same Model.
+namespace trammel {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Index = Eigen::Index;
+
+/// Isotropic linear elastic material.
+struct Material {
+  double E = 0;    ///< Young's modulus [Pa]
+  double rho = 0;  ///< density [kg/m^3]
+  double nu = 0;   ///< Poisson's ratio [-]
+};
+
+/// What the cross-section of a frame member contributes per unit length.
+struct Section {
+  double EA = 0;               ///< axial stiffness [N]
+  double EI = 0;               ///< in-plane bending stiffness [N m^2]
+  double kappa_GA = 0;         ///< shear stiffness with its correction factor [N]; Timoshenko only
+  double mass_per_length = 0;  ///< rho A [kg/m]
+  double inertia_per_length = 0;  ///< rho I [kg m]; the rotary inertia of a Timoshenko member
+  double area = 0;                ///< A [m^2], for stresses
+  double section_modulus = 0;     ///< I / c [m^3], for bending stresses
+};
+
+enum class BeamTheory { euler_bernoulli, timoshenko };
+enum class MassMatrix { consistent, lumped };
+
+/// How a member's end is joined to the rotation of its node.
+enum class EndFixity { welded, hinged, sprung };
+
+struct MemberEnd {
+  EndFixity fixity = EndFixity::welded;
+  double stiffness = 0;  ///< of the rotational spring between end and node [N m/rad]; sprung only
+  double inertia = 0;    ///< rotary inertia that turns with the member's end [kg m^2]
+};
+
+/// A straight frame member, cut into equal elements by `assemble`.
+struct Member {
+  std::string name;
+  std::array<Index, 2> nodes{};
+  Section section;      ///< at the first node
+  Section end_section;  ///< at the second node; each element takes its mid-point between the two
+  BeamTheory theory = BeamTheory::euler_bernoulli;
+  MassMatrix mass = MassMatrix::consistent;
+  Index elements = 1;
+  std::array<MemberEnd, 2> ends{};
+  bool axially_flexible = true;      ///< false: inextensible, by a constraint on each element
+  Vector2d load = Vector2d::Zero();  ///< uniform load per unit length, world axes [N/m]
+};
+
+/// A membrane in plane stress; its triangles name it.
+struct Plate {
+  std::string name;
+  Material material;
+  double thickness = 0;  ///< [m]
+};
+
+/// Constant-strain triangle (three nodes) or, with mid-side nodes 01, 12, 20, six-node triangle.
+struct Triangle {
+  Index plate = 0;
+  std::array<Index, 6> nodes{-1, -1, -1, -1, -1, -1};
+  [[nodiscard]] bool quadratic() const { return nodes[3] >= 0; }
+};
+
+struct Node {
+  std::string name;
+  Vector2d position = Vector2d::Zero();  ///< [m]
+};
+
+/// The nodes move as one body with the reference node, whose rotation is the body's rotation.
+/// Every member end welded to an attached node turns with the body (paper Eq. 20-24).
+struct RigidBody {
+  std::string name;
+  Index reference = 0;
+  std::vector<Index> attached;
+};
+
+/// Mass and inertia carried by a node, its centre offset from the node (world axes).
+struct PointMass {
+  Index node = 0;
+  double mass = 0;                     ///< [kg]
+  double inertia = 0;                  ///< about the centre of mass [kg m^2]
+  Vector2d offset = Vector2d::Zero();  ///< [m]; needs the node's rotation when not zero
+};
+
+/// Spring between two nodes, or between a node and the ground (second node -1).
+struct Spring {
+  std::string name;
+  std::array<Index, 2> nodes{-1, -1};
+  Vector3d stiffness = Vector3d::Zero();  ///< along world x, y [N/m] and in rotation [N m/rad]
+};
+
+/// Which motions of a node the ground takes away.
+struct Support {
+  std::string name;
+  Index node = 0;
+  std::array<bool, 3> fixed{};  ///< x, y, rotation
+};
+
+/// One coordinate of the unconstrained model: a node's motion, or the rotation of a member's end.
+struct Coordinate {
+  enum class Kind { x, y, rotation, end_rotation };
+  Kind kind = Kind::x;
+  Index node = -1;    ///< x, y, rotation
+  Index member = -1;  ///< end_rotation
+  int end = 0;        ///< end_rotation
+};
+
+/// sum of coefficient * coordinate = 0; Eq. 25 and pins of finite radius are such sums.
+struct LinearConstraint {
+  std::string name;
+  std::vector<std::pair<Coordinate, double>> terms;
+};
+
+struct NodalLoad {
+  Index node = 0;
+  Vector3d force = Vector3d::Zero();  ///< Fx, Fy [N], moment [N m]
+};
+
+struct Model {
+  std::vector<Node> nodes;
+  std::vector<Member> members;
+  std::vector<Plate> plates;
+  std::vector<Triangle> triangles;
+  std::vector<RigidBody> rigid_bodies;
+  std::vector<PointMass> masses;
+  std::vector<Spring> springs;
+  std::vector<Support> supports;
+  std::vector<LinearConstraint> constraints;
+  std::vector<NodalLoad> loads;
+  Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
+
+  /// Index of the node of that name, or -1.
+  [[nodiscard]] Index find_node(std::string_view name) const;
+};
+
+/// A model or an option that has no mechanical meaning, such as a beam welded to a node without
+/// rotation. The reader of a case file adds the file and the JSON pointer.
+class ModelError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace trammel

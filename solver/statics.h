@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "solver/outcome.h"
+#include "solver/system.h"
+
+namespace trammel {
+
+/// Linear statics K q = f (paper Eq. 11).
+struct StaticSolution {
+  Outcome outcome;                ///< singular: the reason names the free motion in words
+  double digits_left = 0;         ///< about log10(1 / (condition number * eps)), never below 0
+  Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation
+                                  ///< where a node has none
+  Eigen::MatrixX2d end_rotation;  ///< member x (first, second end) [rad]
+  Eigen::MatrixX3d reaction;  ///< support x (Fx, Fy [N], moment [N m]) of the ground on the node
+  Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m]) at its first node
+  Eigen::MatrixX3d resultant_end;    ///< the same at its second node
+  Eigen::VectorXd member_stress;     ///< largest |N/A| + |M|/W along each member [Pa]
+  Eigen::MatrixX3d triangle_stress;  ///< triangle x (sxx, syy, sxy) at its centroid [Pa]
+  double equilibrium_residual = 0;   ///< norm of reactions + loads [N]; the same for moments below
+  double moment_residual = 0;        ///< about the world origin [N m]
+  Counters counters;
+};
+
+[[nodiscard]] StaticSolution solve_statics(const System& system);
+
+}  // namespace trammel
