@@ -16,7 +16,7 @@ struct Arrows {
   std::set<std::string> forbidden;  ///< outside libraries it must not know
 };
 
-const std::map<std::string, Arrows>& arrows() {
+const std::map<std::string, Arrows>& rules() {
   static const std::map<std::string, Arrows> table = {
       {"solver",
        {{"solver"},
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(no_include_goes_against_the_arrows) {
   const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   const std::set<std::string> own = {"solver", "references", "harness", "reports", "tests"};
   int seen = 0;
-  for (const auto& [folder, rule] : arrows()) {
+  for (const auto& [folder, rule] : rules()) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".h" && extension != ".cpp") continue;
