@@ -1,1 +1,0 @@
-#include "references/data/reference.h"
