@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "solver/kinematics.h"
@@ -8,12 +9,28 @@
 /// The 3-RRR builder: a geometry, a pose and the choices the paper leaves open make a Model.
 namespace trammel {
 
-struct JointChoice {
-  enum class Kind { locked, free, welded, hinged, sprung, eq25_mean, eq25_sum };
-  Kind kind = Kind::hinged;
-  double stiffness = 0;  ///< sprung only [N m/rad]
+/// A choice for one joint; the stiffness belongs to the kind `sprung` alone.
+template <class Kind>
+struct Joint {
+  Kind kind{};
+  double stiffness = 0;  ///< > 0 [N m/rad]
 };
 
+/// At A_i. locked: clamped to the ground; sprung: a torsion spring between ground and link.
+enum class ActiveKind { locked, free, sprung };
+/// At B_i. The node's rotation is the proximal link's; a hinge or spring sits on the distal end.
+enum class ElbowKind { welded, hinged, sprung };
+/// At C_i. hinged: Eq. 24 alone. eq25_*: hinged, and the platform's rotation zeta is tied to the
+/// three link ends' rotations by Eq. 25, zeta = mean, or zeta = sum as printed. All but `hinged`
+/// need a rigid platform: a node of triangles has no rotation. Eq. 25 is one equation for all
+/// three.
+enum class PlatformJointKind { hinged, welded, sprung, eq25_mean, eq25_sum };
+
+using ActiveJoint = Joint<ActiveKind>;
+using ElbowJoint = Joint<ElbowKind>;
+using PlatformJoint = Joint<PlatformJointKind>;
+
+/// A straight link of rectangular section.
 struct LinkDesign {
   double thickness = 0;  ///< in the plane [m]
   double width = 0;      ///< out of the plane [m]
@@ -24,7 +41,9 @@ struct LinkDesign {
   Index elements = 4;
   bool axially_flexible = true;
   std::optional<double> mass;  ///< printed total, spread over the length [kg]; empty: from density
-  std::optional<double> inertia;  ///< printed: J/2 at each end on top of the mass [kg m^2]
+  /// Printed inertia J [kg m^2]: J/2 turns with each end of the link, whatever the mesh, on top of
+  /// the inertia that the mass has by its spread. Empty: that of the mass alone.
+  std::optional<double> inertia;
 };
 
 struct PlatformDesign {
@@ -32,21 +51,47 @@ struct PlatformDesign {
   Kind kind = Kind::triangles;
   double thickness = 0;  ///< [m]
   Material material;
-  int refinements = 0;    ///< 0: the paper's three triangles; each splits every triangle in four
-  double pin_radius = 0;  ///< > 0: P and C_i move with the smooth mean of the plate around them [m]
-  std::optional<double> mass;     ///< printed [kg]; empty: from density, thickness and area
-  std::optional<double> inertia;  ///< printed, about P [kg m^2]; rigid only
+  /// Triangles only. 0: the paper's C1 C2 P, C2 C3 P, C3 C1 P; each step splits every triangle in
+  /// four.
+  int refinements = 0;
+  /// Triangles only. > 0: P and C_i are no nodes of the mesh but move with a weighted mean of the
+  /// plate within this radius [m] (`pin_weights`), so that a force on them has a limit under
+  /// refinement.
+  double pin_radius = 0;
+  /// Printed [kg]; empty: from density, thickness and area. It scales the density.
+  std::optional<double> mass;
+  /// Printed, about P [kg m^2]; rigid only. Empty: that of a uniform triangle of the mass. The
+  /// centre of mass is the triangle's centroid either way, wherever P is.
+  std::optional<double> inertia;
 };
 
 struct ManipulatorDesign {
   ManipulatorGeometry geometry;
   std::array<LinkDesign, 3> proximal, distal;
   PlatformDesign platform;
-  std::array<JointChoice, 3> active, elbow, platform_joint;
+  std::array<ActiveJoint, 3> active;
+  std::array<ElbowJoint, 3> elbow;
+  std::array<PlatformJoint, 3> platform_joint;
 };
 
-/// Builds the planar model of a pose: nodes "A1".."A3", "B1"..., "C1"..., "P"; members
-/// "A1-B1"..., "B1-C1"...; supports "A1".."A3".
+/// The uniform triangle C1 C2 C3, or what is printed instead.
+struct PlatformMass {
+  double mass = 0;                     ///< [kg]
+  double inertia = 0;                  ///< about the centre of mass [kg m^2]
+  Vector2d center = Vector2d::Zero();  ///< of mass, from P in platform axes [m]
+};
+
+/// @throws ModelError  where the triangle has no area or the printed inertia is less than its mass
+///                     has about P by being off P.
+[[nodiscard]] PlatformMass platform_mass(const ManipulatorDesign& design);
+/// Total mass of a link [kg].
+[[nodiscard]] double link_mass(const LinkDesign& link, double length);
+/// @throws ModelError  where a dimension or a constant has no meaning.
+[[nodiscard]] Section link_section(const LinkDesign& link, double length);
+
+/// Builds the planar model of a pose: nodes "A1".."A3", "B1".., "C1".., "P" (then the plate's);
+/// members "A1-B1".., "B1-C1"..; supports "A1".."A3"; rigid body or plate "platform"; constraints
+/// "eq25" or "pin P x"... It carries no loads and no gravity.
 /// @throws ModelError  where the pose is out of reach or a combination has no meaning.
 [[nodiscard]] Model build_manipulator(const ManipulatorDesign& design, const Pose& pose);
 
