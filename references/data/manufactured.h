@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+
+/// Manufactured solutions: smooth fields in closed form, and the loads that hold them up. A field
+/// is chosen first; strain, stress and load follow from it by differentiation, so that the exact
+/// solution of a problem without special symmetry is known. Motion is harmonic, field * cos(omega
+/// t); omega = 0 is statics. Source: P. J. Roache, "Code Verification by the Method of Manufactured
+/// Solutions", J. Fluids Eng. 124(1), 2002, doi:10.1115/1.1436090.
+///
+/// T is double, or std::complex<double> for derivatives by complex step.
+namespace trammel::manufactured {
+
+/// Membranes in plane stress on the rectangle 0 <= x <= length, 0 <= y <= height.
+enum class MembraneField {
+  clamped,         ///< trigonometric; vanishes on all four sides, body force alone
+  cantilever,      ///< trigonometric and exponential; vanishes on x = 0, tractions on the others
+  uniform_strain,  ///< linear displacement: the patch test of three-node triangles
+  linear_strain,   ///< quadratic displacement: the patch test of six-node triangles
+};
+
+struct MembraneProblem {
+  MembraneField field = MembraneField::clamped;
+  double E = 0;          ///< [Pa]
+  double nu = 0;         ///< [-]
+  double rho = 0;        ///< [kg/m^3]
+  double length = 0;     ///< along x [m]
+  double height = 0;     ///< along y [m]
+  double amplitude = 0;  ///< size of the displacement [m]
+  double omega = 0;      ///< [rad/s]
+};
+
+template <typename T>
+struct MembraneState {
+  std::array<T, 2> displacement;  ///< u, v [m]
+  T rotation;                     ///< (dv/dx - du/dy) / 2 [rad]
+  std::array<T, 3> strain;        ///< exx, eyy, gxy [-]
+  std::array<T, 3> stress;        ///< sxx, syy, sxy [Pa]
+  std::array<T, 2> body_force;    ///< -div(stress) - rho omega^2 displacement [N/m^3]
+};
+
+template <typename T>
+[[nodiscard]] MembraneState<T> evaluate(const MembraneProblem& problem, const T& x, const T& y);
+
+/// Which displacements the ground holds at a point of the outline; the field is zero there.
+[[nodiscard]] std::array<bool, 2> held(const MembraneProblem& problem, double x, double y);
+
+/// Beams along 0 <= x <= length, clamped at x = 0 and loaded at the far end by (N, V, M) there.
+enum class BeamField {
+  smooth,  ///< exponential and trigonometric
+  cubic,   ///< needs no transverse load: what the interpolation of a prismatic element holds
+};
+
+enum class ShearStrain {
+  none,          ///< Euler-Bernoulli: the section stays normal, no rotary inertia
+  from_bending,  ///< Timoshenko under transverse load alone (statically no distributed moment)
+  independent,   ///< Timoshenko: a shear angle of its own, held up by a distributed moment
+};
+
+struct BeamProblem {
+  BeamField field = BeamField::smooth;
+  ShearStrain shear = ShearStrain::none;
+  double EA = 0;                  ///< [N]
+  double EI = 0;                  ///< [N m^2]
+  double kappa_GA = 0;            ///< [N]; not used without shear
+  double mass_per_length = 0;     ///< rho A [kg/m]
+  double inertia_per_length = 0;  ///< rho I [kg m]; not used without shear
+  double length = 0;              ///< [m]
+  double amplitude = 0;           ///< size of the displacement [m]
+  double omega = 0;               ///< [rad/s]
+};
+
+/// Axes of the beam: x along it, y to its left. N = EA u', M = EI θ', V = kappa GA (v' - θ), or
+/// -M' without shear.
+template <typename T>
+struct BeamState {
+  T axial, deflection, rotation;               ///< u, v [m], θ [rad]
+  T axial_force, shear_force, bending_moment;  ///< N, V [N], M [N m]
+  T axial_load, transverse_load, moment_load;  ///< n, q [N/m], m [N m/m]:
+  ///< N' + n + rho A omega^2 u = 0, V' + q + rho A omega^2 v = 0, M' + V + m + rho I omega^2 θ = 0
+};
+
+template <typename T>
+[[nodiscard]] BeamState<T> evaluate(const BeamProblem& problem, const T& x);
+
+}  // namespace trammel::manufactured
