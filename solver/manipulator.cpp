@@ -17,7 +17,9 @@ constexpr Index kC = 6;
 constexpr Index kP = 9;
 
 std::string numbered(char letter, std::size_t i) {
-  return letter + std::to_string(i + 1);
+  std::string name(1, letter);
+  name += std::to_string(i + 1);
+  return name;
 }
 
 void require(bool holds, const std::string& sentence) {
