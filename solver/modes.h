@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
+#include "solver/eigenpairs.h"
 #include "solver/outcome.h"
 #include "solver/system.h"
 
 namespace trammel {
-
-enum class EigenPath { automatic, dense, sparse };
 
 struct ModesOptions {
   Index count = 6;
@@ -15,12 +15,22 @@ struct ModesOptions {
 };
 
 /// Free vibration K x = w^2 M x (paper Eq. 28, 29), x^T M x = 1 (Eq. 33).
+///
+/// Frequencies are Rayleigh quotients whose strain energy is summed over the elements' deformations
+/// (see strain.h), with vectors improved by inverse iteration with the same residuals: their
+/// round-off grows with the digits lost in taking the deformations from the displacements (about
+/// the square of the number of elements a wavelength), not with the condition number of K (its
+/// fourth power).
 struct ModalSolution {
-  Outcome outcome;  ///< not_converged: fewer modes than the inertia count says there are
+  /// singular: a massless part moves freely; not_converged: fewer modes than the inertia count says
+  Outcome outcome;
   Eigen::VectorXd
       frequency;  ///< ascending, copies of repeated ones included [Hz]; rigid motions are 0
-  Eigen::VectorXd roundoff;        ///< estimate of each frequency's relative round-off error [-]
-  Eigen::MatrixXd shape;           ///< free coordinate x mode
+  /// Estimate of each frequency's relative round-off error [-]: half of 2 eps sum |d|^T C |B||u|
+  /// over w^2 (what rounding the mode to doubles can do to its strain energy), and the error left
+  /// by the residual.
+  Eigen::VectorXd roundoff;
+  Eigen::MatrixXd shape;           ///< free coordinate x mode; use node_motion, mesh_motion
   Index rigid_motions = 0;         ///< how many leading frequencies are zero
   std::string rigid_motion_words;  ///< what they are, in words
   Index inertia_count = 0;         ///< eigenvalues below the check shift, by sparse LDL^T
@@ -28,8 +38,5 @@ struct ModalSolution {
 };
 
 [[nodiscard]] ModalSolution solve_modes(const System& system, const ModesOptions& options);
-
-/// Node motions of one mode: model node x (ux, uy, rotation), as in StaticSolution.
-[[nodiscard]] Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q);
 
 }  // namespace trammel

@@ -1,0 +1,260 @@
+#include <cmath>
+#include <limits>
+
+#include "solver/strain.h"
+#include "solver/symmetric_builder.h"
+#include "solver/system.h"
+#include "solver/validate.h"
+
+namespace trammel {
+namespace {
+
+/// Adds element matrices of unconstrained coordinates to a matrix of free ones, through T's rows.
+class Projection {
+ public:
+  Projection(const Constraints& constraints, SymmetricBuilder& builder)
+      : T_(constraints.T), builder_(builder) {}
+
+  template <std::size_t n, class Matrix>
+  void add(const std::array<Index, n>& coordinates, const Matrix& k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (coordinates[i] < 0) continue;
+      for (std::size_t j = 0; j <= i; ++j) {
+        const double value = k(static_cast<Index>(i), static_cast<Index>(j));
+        if (coordinates[j] >= 0 && value != 0)
+          add_pair(coordinates[i], coordinates[j], value, i == j);
+      }
+    }
+  }
+
+ private:
+  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+
+  /// k u_i u_j + k u_j u_i, or k u_i^2 on the diagonal, in terms of q.
+  void add_pair(Index i, Index j, double k, bool diagonal) {
+    for (Row a(T_, i); a; ++a) {
+      for (Row b(T_, j); b; ++b) {
+        const double value = a.value() * k * b.value();
+        if (diagonal) {
+          if (b.col() <= a.col()) builder_.add(a.col(), b.col(), value);
+        } else {
+          builder_.add(a.col(), b.col(), a.col() == b.col() ? 2 * value : value);
+        }
+      }
+    }
+  }
+
+  const Eigen::SparseMatrix<double, Eigen::RowMajor>& T_;
+  SymmetricBuilder& builder_;
+};
+
+/// Free coordinates that carry nothing keep their place on the diagonal.
+void reserve_diagonal(SymmetricBuilder& builder, Index size) {
+  for (Index i = 0; i < size; ++i) builder.add(i, i, 0.0);
+}
+
+std::vector<SpringElement> spring_elements(const Model& model, const Coordinates& coordinates) {
+  std::vector<SpringElement> springs;
+  const auto of = [&](Index node, std::size_t k) {
+    return node < 0 ? Index{-1} : coordinates.node[static_cast<std::size_t>(node)][k];
+  };
+  for (const Spring& spring : model.springs) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double stiffness = spring.stiffness[static_cast<Index>(k)];
+      if (stiffness == 0) continue;
+      springs.push_back({{of(spring.nodes[1], k), of(spring.nodes[0], k)}, stiffness});
+    }
+  }
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const MemberEnd& joint = model.members[i].ends[end];
+      if (joint.fixity != EndFixity::sprung || joint.stiffness == 0) continue;
+      springs.push_back(
+          {{of(model.members[i].nodes[end], 2), coordinates.member_end[i][end]}, joint.stiffness});
+    }
+  }
+  return springs;
+}
+
+class Assembler {
+ public:
+  explicit Assembler(const Model& model) {
+    validate(model);
+    system_.model = model;
+    Discretisation discretisation = discretise(model);
+    system_.constraints = constrain(model, discretisation);
+    system_.mesh = std::move(discretisation.mesh);
+    system_.coordinates = std::move(discretisation.coordinates);
+    system_.springs = spring_elements(model, system_.coordinates);
+    system_.T = system_.constraints.T;
+  }
+
+  System run() {
+    stiffness();
+    mass();
+    loads();
+    return std::move(system_);
+  }
+
+ private:
+  [[nodiscard]] Index free_count() const { return system_.constraints.free_count; }
+  [[nodiscard]] std::size_t entries() const {
+    return 21 * (system_.mesh.frame.size() + system_.model.triangles.size());
+  }
+
+  void stiffness() {
+    SymmetricBuilder builder(free_count());
+    builder.reserve(entries() + static_cast<std::size_t>(free_count()));
+    reserve_diagonal(builder, free_count());
+    Projection projection(system_.constraints, builder);
+    for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
+      projection.add(coordinates, (B.transpose() * c.asDiagonal() * B).eval());
+      ++system_.counters.element_evaluations;
+    });
+    system_.K = builder.build();
+  }
+
+  void mass() {
+    SymmetricBuilder builder(free_count());
+    builder.reserve(entries() + static_cast<std::size_t>(free_count()));
+    reserve_diagonal(builder, free_count());
+    Projection projection(system_.constraints, builder);
+    for (const FrameElement& e : system_.mesh.frame) {
+      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
+      if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
+      if (e.is_bar()) {
+        projection.add(e.coordinates, bar_mass(e.section, member.mass, e.length));
+      } else {
+        const Matrix6d R = frame_rotation(e.direction);
+        const Matrix6d m = frame_mass(e.section, member.theory, member.mass, e.length);
+        projection.add(e.coordinates, (R.transpose() * m * R).eval());
+      }
+      ++system_.counters.element_evaluations;
+    }
+    triangle_masses(projection);
+    lumps(projection);
+    system_.M = builder.build();
+  }
+
+  void triangle_masses(Projection& projection) {
+    for (const Triangle& triangle : system_.model.triangles) {
+      TrianglePoints points;
+      std::array<Index, 6> coordinates{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto node = static_cast<std::size_t>(triangle.nodes[i]);
+        points[i] = system_.model.nodes[node].position;
+        coordinates[2 * i] = system_.coordinates.node[node][0];
+        coordinates[2 * i + 1] = system_.coordinates.node[node][1];
+      }
+      projection.add(
+          coordinates,
+          triangle_mass(points, system_.model.plates[static_cast<std::size_t>(triangle.plate)]));
+      ++system_.counters.element_evaluations;
+    }
+  }
+
+  void lumps(Projection& projection) {
+    for (const PointMass& lump : system_.model.masses) {
+      Eigen::Matrix3d m;
+      const double m_dx = lump.mass * lump.offset.x();
+      const double m_dy = lump.mass * lump.offset.y();
+      m << lump.mass, 0, -m_dy,  //
+          0, lump.mass, m_dx,    //
+          -m_dy, m_dx, lump.mass * lump.offset.squaredNorm() + lump.inertia;
+      projection.add(system_.coordinates.node[static_cast<std::size_t>(lump.node)], m);
+    }
+    for (std::size_t i = 0; i < system_.model.members.size(); ++i) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const double inertia = system_.model.members[i].ends[end].inertia;
+        if (inertia == 0) continue;
+        projection.add(std::array<Index, 1>{system_.coordinates.member_end[i][end]},
+                       Eigen::Matrix<double, 1, 1>(inertia));
+      }
+    }
+  }
+
+  template <std::size_t n, class Vector>
+  void add_load(const std::array<Index, n>& coordinates, const Vector& force) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (coordinates[i] >= 0) system_.load[coordinates[i]] += force[static_cast<Index>(i)];
+    }
+  }
+
+  void loads() {
+    const Model& model = system_.model;
+    system_.load = Eigen::VectorXd::Zero(system_.coordinates.size);
+    for (const NodalLoad& load : model.loads) {
+      if (load.force[2] != 0) {  // asks for the rotation, so that a node without one is an error
+        (void)system_.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
+      }
+      add_load(system_.coordinates.node[static_cast<std::size_t>(load.node)], load.force);
+    }
+    for (const FrameElement& e : system_.mesh.frame) {
+      const Member& member = model.members[static_cast<std::size_t>(e.member)];
+      const Vector2d q = member.load + e.section.mass_per_length * model.gravity;
+      if (!q.isZero(0)) add_load(e.coordinates, element_load(e, q));
+    }
+    if (!model.gravity.isZero(0)) weights();
+    system_.f = system_.T.transpose() * system_.load;
+  }
+
+  void weights() {
+    const Model& model = system_.model;
+    for (const Triangle& triangle : model.triangles) {
+      TrianglePoints points;
+      for (std::size_t i = 0; i < 3; ++i) {
+        points[i] = model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
+      }
+      const Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
+      const Vector2d third =
+          plate.material.rho * plate.thickness * std::abs(signed_area(points)) / 3 * model.gravity;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& node = system_.coordinates.node[static_cast<std::size_t>(triangle.nodes[i])];
+        add_load(std::array<Index, 2>{node[0], node[1]}, third);
+      }
+    }
+    for (const PointMass& lump : model.masses) {
+      const Vector2d weight = lump.mass * model.gravity;
+      const double moment = lump.offset.x() * weight.y() - lump.offset.y() * weight.x();
+      add_load(system_.coordinates.node[static_cast<std::size_t>(lump.node)],
+               Vector3d(weight.x(), weight.y(), moment));
+    }
+  }
+
+  System system_;
+};
+
+}  // namespace
+
+Vector6d element_load(const FrameElement& element, const Vector2d& load) {
+  if (element.is_bar()) {
+    Vector6d f;
+    f << load * (element.length / 2), 0, load * (element.length / 2), 0;
+    return f;
+  }
+  const Matrix6d R = frame_rotation(element.direction);
+  return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * load, element.length);
+}
+
+System assemble(const Model& model) {
+  return Assembler(model).run();
+}
+
+Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {
+  const Eigen::VectorXd u = system.T * q;
+  Eigen::MatrixX3d motion(static_cast<Index>(system.mesh.positions.size()), 3);
+  for (Index node = 0; node < motion.rows(); ++node) {
+    const auto& coordinates = system.coordinates.node[static_cast<std::size_t>(node)];
+    motion(node, 0) = u[coordinates[0]];
+    motion(node, 1) = u[coordinates[1]];
+    motion(node, 2) =
+        coordinates[2] < 0 ? std::numeric_limits<double>::quiet_NaN() : u[coordinates[2]];
+  }
+  return motion;
+}
+
+Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q) {
+  return mesh_motion(system, q).topRows(static_cast<Index>(system.model.nodes.size()));
+}
+
+}  // namespace trammel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+namespace trammel {
+
+/// LDL^T of a sparse symmetric matrix scaled to a unit diagonal, S A S = P^T L D L^T P with
+/// S = |diag A|^(-1/2), so that metres and radians weigh alike. Where the diagonal is zero, S is 1.
+class Factorization {
+ public:
+  /// `pattern` is kept from call to call: a second matrix must have the first one's.
+  void compute(const Eigen::SparseMatrix<double>& A);
+
+  /// False where a pivot was exactly zero or not finite; then nothing else may be asked.
+  [[nodiscard]] bool exists() const { return exists_; }
+  /// Smallest pivot; S A S has unit diagonal, so that it lies below 1 and, for a positive definite
+  /// matrix, is no less than its smallest eigenvalue.
+  [[nodiscard]] double smallest_pivot() const;
+  /// Sylvester: the number of negative eigenvalues.
+  [[nodiscard]] Eigen::Index negative_pivots() const;
+  /// Largest |L|: above about 1e8 an indefinite matrix without row exchanges has lost its digits.
+  [[nodiscard]] double growth() const;
+
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  /// x = F^-T y, y = F^-1 b with F F^T = A, for a positive definite A.
+  [[nodiscard]] Eigen::VectorXd solve_half(const Eigen::VectorXd& b) const;
+  [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
+
+  [[nodiscard]] const Eigen::VectorXd& scaling() const { return scaling_; }
+  /// Condition number of S A S in the 1-norm, estimated from a few solves.
+  /// Source: Hager (1984), Higham (1988).
+  [[nodiscard]] double condition() const;
+
+ private:
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt_;
+  Eigen::VectorXd scaling_;
+  double norm_ = 0;  // 1-norm of S A S
+  bool analyzed_ = false;
+  bool exists_ = false;
+};
+
+}  // namespace trammel
