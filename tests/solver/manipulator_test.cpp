@@ -13,6 +13,14 @@ namespace {
 
 using namespace trammel;
 
+/// "A1-B1" or "B1-C1".
+std::string link_name(char first, char second, std::size_t i) {
+  const std::string n = std::to_string(i);
+  std::string name(1, first);
+  name.append(n).append("-").append(1, second).append(n);
+  return name;
+}
+
 const Member& member(const Model& model, const std::string& name) {
   for (const Member& m : model.members) {
     if (m.name == name) return m;
@@ -105,8 +113,9 @@ BOOST_AUTO_TEST_CASE(the_nodes_stand_where_the_kinematics_puts_them) {
     BOOST_TEST(position(model, model.find_node("A" + n)) == design.geometry.base[i]);
     BOOST_TEST(position(model, model.find_node("B" + n)) == posture.B[i]);
     BOOST_TEST(position(model, model.find_node("C" + n)) == posture.C[i]);
-    for (const auto& [name, length] : {std::pair{"A" + n + "-B" + n, design.geometry.proximal[i]},
-                                       std::pair{"B" + n + "-C" + n, design.geometry.distal[i]}}) {
+    for (const auto& [name, length] :
+         {std::pair{link_name('A', 'B', i + 1), design.geometry.proximal[i]},
+          std::pair{link_name('B', 'C', i + 1), design.geometry.distal[i]}}) {
       const Member& m = member(model, name);
       const double between = (position(model, m.nodes[1]) - position(model, m.nodes[0])).norm();
       BOOST_TEST(std::abs(between - length) < 1e-15);
@@ -136,9 +145,8 @@ BOOST_AUTO_TEST_CASE(a_printed_link_mass_is_the_links_total_whatever_its_length)
   }
   const Model model = build_manipulator(design, {0.27, 0.14, 0.2});
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string n = std::to_string(i + 1);
-    const Section p = member(model, "A" + n + "-B" + n).section;
-    const Section d = member(model, "B" + n + "-C" + n).section;
+    const Section p = member(model, link_name('A', 'B', i + 1)).section;
+    const Section d = member(model, link_name('B', 'C', i + 1)).section;
     BOOST_TEST(std::abs(p.mass_per_length * design.geometry.proximal[i] / 0.0234 - 1) < 1e-15);
     BOOST_TEST(std::abs(d.mass_per_length * design.geometry.distal[i] / 0.0234 - 1) < 1e-15);
     // The rotary inertia of a slice follows its mass: rho I / rho A = h^2 / 12.
@@ -340,8 +348,7 @@ BOOST_AUTO_TEST_CASE(eq_25_ties_the_platform_to_the_mean_or_the_sum_of_its_link_
       BOOST_TEST((terms[i].first.kind == Coordinate::Kind::end_rotation));
       BOOST_TEST(terms[i].second == share);
       const Member& m = model.members.at(static_cast<std::size_t>(terms[i].first.member));
-      const std::string n = std::to_string(i);
-      BOOST_TEST(m.name == "B" + n + "-C" + n);
+      BOOST_TEST(m.name == link_name('B', 'C', i));
       BOOST_TEST(terms[i].first.end == 1);
       BOOST_TEST((m.ends[1].fixity == EndFixity::hinged));
     }
