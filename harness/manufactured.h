@@ -1,0 +1,47 @@
+#pragma once
+
+#include "references/data/manufactured.h"
+#include "solver/field_error.h"
+#include "solver/outcome.h"
+#include "solver/system.h"
+
+/// Manufactured solutions on a mesh: loads from the closed form, solve, errors against the closed
+/// form.
+namespace trammel {
+
+struct MembraneTest {
+  manufactured::MembraneProblem problem;
+  double thickness = 0;  ///< [m]
+  Index cells = 1;       ///< along either side
+  bool six_nodes = false;
+  double distortion = 0;  ///< of the mesh, in cells
+};
+
+struct MembraneTestResult {
+  Outcome outcome;
+  MembraneErrors errors;
+  Counters counters;
+};
+
+[[nodiscard]] MembraneTestResult run_membrane_test(const MembraneTest& test);
+
+struct BeamTest {
+  manufactured::BeamField field = manufactured::BeamField::smooth;
+  manufactured::ShearStrain shear = manufactured::ShearStrain::none;
+  Section section;
+  double length = 0;     ///< along the direction (4, 3) / 5, so that no coordinate is left out [m]
+  double amplitude = 0;  ///< [m]
+  double omega = 0;      ///< [rad/s]
+  Index cells = 1;
+  double distortion = 0;  ///< of the mesh, in cells
+};
+
+struct BeamTestResult {
+  Outcome outcome;
+  BeamErrors errors;
+  Counters counters;
+};
+
+[[nodiscard]] BeamTestResult run_beam_test(const BeamTest& test);
+
+}  // namespace trammel
