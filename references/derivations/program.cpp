@@ -2,6 +2,8 @@
 
 #include "references/derivations/beam_modes.h"
 #include "references/derivations/expression.h"
+#include "references/derivations/unit_load.h"
+#include "references/derivations/wittrick_williams.h"
 
 namespace trammel::derive {
 
@@ -17,6 +19,20 @@ const std::map<std::string, Program>& programs() {
         "ends, count; clamped-free also tip_mass_ratio M/(rho A L), tip_inertia_ratio J/(rho A "
         "L^3)",
         beam_roots_program}},
+      {"frame-count",
+       {"how many natural frequencies of a planar frame lie below one, rigid motions included, by "
+        "Wittrick and Williams (1971)",
+        "model (as in a case file; or manipulator, pose), below_Hz", frame_count_program}},
+      {"frame-frequencies",
+       {"exact elastic natural frequencies of a planar frame [Hz] by the dynamic stiffness method "
+        "and "
+        "the count of Wittrick and Williams (1971)",
+        "model (as in a case file; or manipulator, pose), count", frame_frequencies_program}},
+      {"frame-statics",
+       {"exact statics of a planar frame by the unit-load method",
+        "model (as in a case file; or manipulator, pose, loads), outputs (displacement_x_m:NODE, "
+        "rotation_rad:NODE, reaction_y_N:NODE, bending_moment_N_m:MEMBER.end, ...)",
+        frame_statics_program}},
       {"formula",
        {"closed formulas, one value each, in extended precision",
         "formulas (array of texts: + - * / ^, parentheses, sqrt, sin, cos, tan, exp, log, pi), "

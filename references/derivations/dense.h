@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+/// Small dense matrices in extended precision. Boost.Multiprecision brings no linear algebra, and
+/// uBLAS of Boost 1.74 does not compile with C++20 for numbers that are not built in.
+namespace trammel::derive {
+
+template <class T>
+class Dense {
+ public:
+  Dense() = default;
+  Dense(std::size_t rows, std::size_t columns)
+      : rows_(rows), columns_(columns), values_(rows * columns, T(0)) {}
+
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] std::size_t columns() const { return columns_; }
+  T& operator()(std::size_t i, std::size_t j) { return values_[i * columns_ + j]; }
+  const T& operator()(std::size_t i, std::size_t j) const { return values_[i * columns_ + j]; }
+
+ private:
+  std::size_t rows_ = 0, columns_ = 0;
+  std::vector<T> values_;
+};
+
+/// A x.
+template <class T>
+[[nodiscard]] std::vector<T> product(const Dense<T>& A, const std::vector<T>& x) {
+  std::vector<T> y(A.rows(), T(0));
+  for (std::size_t i = 0; i < A.rows(); ++i) {
+    for (std::size_t j = 0; j < A.columns(); ++j) y[i] += A(i, j) * x[j];
+  }
+  return y;
+}
+
+/// A^T B.
+template <class T>
+[[nodiscard]] Dense<T> transpose_product(const Dense<T>& A, const Dense<T>& B) {
+  Dense<T> C(A.columns(), B.columns());
+  for (std::size_t k = 0; k < A.rows(); ++k) {
+    for (std::size_t i = 0; i < A.columns(); ++i) {
+      if (A(k, i) == 0) continue;
+      for (std::size_t j = 0; j < B.columns(); ++j) C(i, j) += A(k, i) * B(k, j);
+    }
+  }
+  return C;
+}
+
+/// Solves A x = b by Gaussian elimination with partial pivoting; b becomes x.
+/// @returns false where a pivot is below `smallest`, that is, where A is singular.
+template <class T>
+[[nodiscard]] bool solve_in_place(Dense<T> A, std::vector<T>& b, const T& smallest) {
+  using std::abs;
+  const std::size_t n = A.rows();
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t p = k;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      if (abs(A(i, k)) > abs(A(p, k))) p = i;
+    }
+    if (!(abs(A(p, k)) > smallest)) return false;
+    for (std::size_t j = k; j < n; ++j) std::swap(A(k, j), A(p, j));
+    std::swap(b[k], b[p]);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      if (A(i, k) == 0) continue;
+      const T factor = A(i, k) / A(k, k);
+      for (std::size_t j = k; j < n; ++j) A(i, j) -= factor * A(k, j);
+      b[i] -= factor * b[k];
+    }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j) b[k] -= A(k, j) * b[j];
+    b[k] /= A(k, k);
+  }
+  return true;
+}
+
+}  // namespace trammel::derive

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "references/derivations/arguments.h"
+#include "references/derivations/frame.h"
+
+/// Reads a frame in the format of the case files' "model": materials, sections, nodes, members,
+/// rigid_bodies, point_masses, springs, supports, loads, gravity_m_s2. Plates and tapered members
+/// are not frames in this sense and are refused.
+namespace trammel::derive {
+
+/// @throws DerivationError  with the JSON pointer.
+[[nodiscard]] Frame read_frame(const Json& model, const std::string& pointer);
+
+}  // namespace trammel::derive

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "references/derivations/arguments.h"
+#include "references/derivations/frame.h"
+
+/// Natural frequencies of a frame by the Wittrick-Williams count: bracketed in double, the bracket
+/// confirmed in extended precision, then refined there. None is missed or doubled, and a repeated
+/// one appears as often as it occurs. (A double alone reaches about 3e-10.)
+namespace trammel::derive {
+
+struct FrameFrequencies {
+  int rigid_motions = 0;          ///< at w = 0
+  std::vector<Real> frequencies;  ///< the elastic ones, ascending [Hz]
+};
+
+/// The first `count` elastic natural frequencies, each to 1e-20.
+/// @throws DerivationError  where the frame has no mass or not so many frequencies are found.
+[[nodiscard]] FrameFrequencies frame_frequencies(const Frame& frame, int count);
+
+/// How many natural frequencies, rigid motions included, lie below `frequency` [Hz].
+[[nodiscard]] int frequencies_below(const Frame& frame, const Real& frequency);
+
+/// Arguments: model (or manipulator and pose), count. Values: elastic frequencies [Hz].
+[[nodiscard]] std::vector<double> frame_frequencies_program(const Json& arguments);
+
+/// Arguments: model (or manipulator and pose), below_Hz. Value: their number, rigid ones included.
+[[nodiscard]] std::vector<double> frame_count_program(const Json& arguments);
+
+}  // namespace trammel::derive
