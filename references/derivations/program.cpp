@@ -19,6 +19,9 @@ const std::map<std::string, Program>& programs() {
         "ends, count; clamped-free also tip_mass_ratio M/(rho A L), tip_inertia_ratio J/(rho A "
         "L^3)",
         beam_roots_program}},
+      {"beam-share",
+       {"the beam's share of the modal mass of a cantilever with a tip mass",
+        "count, tip_mass_ratio M/(rho A L)", beam_share_program}},
       {"frame-count",
        {"how many natural frequencies of a planar frame lie below one, rigid motions included, by "
         "Wittrick and Williams (1971)",
