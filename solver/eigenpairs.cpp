@@ -207,12 +207,12 @@ class Solver {
   void improve_until_settled() {
     constexpr int kSteps = 4;
     values();
+    if (X_.cols() == 0) return;  // rigid motions and massless coordinates only
     for (int step = 0; step < kSteps; ++step) {
       const VectorXd before = pairs_.value;
       improve();
       const VectorXd& now = pairs_.value;
       const VectorXd change = (now - before).cwiseAbs().cwiseQuotient(now.cwiseAbs());
-      if (now.size() == 0) return;
       const VectorXd ratio = now / now[now.size() - 1];
       pairs_.error = change.cwiseProduct(ratio.cwiseAbs2());
       if (change.head(std::min(count_, now.size())).maxCoeff() < kSettled) return;
