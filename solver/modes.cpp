@@ -83,6 +83,7 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   ModalSolution solution;
   solution.counters = system.counters;
   Counters& counters = solution.counters;
+  if (system.K.rows() == 0) return solution;  // nothing can move
   FreeMotions free;
   {
     Factorization K;

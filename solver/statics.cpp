@@ -257,7 +257,8 @@ class Recovery {
 StaticSolution solve_statics(const System& system) {
   StaticSolution solution;
   solution.counters = system.counters;
-  VectorXd q = VectorXd::Zero(system.K.rows());
+  VectorXd& q = solution.q;
+  q.setZero(system.K.rows());
   if (q.size() > 0) {
     Factorization factorization;
     factorization.compute(system.K);

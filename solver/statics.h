@@ -12,6 +12,7 @@ namespace trammel {
 /// Linear statics K q = f (paper Eq. 11).
 struct StaticSolution {
   Outcome outcome;                ///< singular: the reason names the free motion in words
+  Eigen::VectorXd q;              ///< free coordinates; draw them with mesh_motion
   double digits_left = 0;         ///< about log10(1 / (condition number * eps)), never below 0
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation
                                   ///< where a node has none
