@@ -1,1 +1,173 @@
 #include "references/data/reference.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+namespace trammel {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const std::string& file, const std::string& pointer,
+                       const std::string& expected) {
+  throw ReferenceError(file + ": " + pointer + ": expected " + expected);
+}
+
+template <class T>
+T required(const Json& json, const std::string& file, const char* key, const char* expected) {
+  const auto found = json.find(key);
+  if (found == json.end()) fail(file, "/", std::string("the key '") + key + "'");
+  try {
+    return found->get<T>();
+  } catch (const Json::exception&) {
+    fail(file, std::string("/") + key, expected);
+  }
+}
+
+template <class T>
+T optional(const Json& json, const std::string& file, const char* key, const char* expected) {
+  return json.contains(key) ? required<T>(json, file, key, expected) : T{};
+}
+
+ReferenceKind read_kind(const std::string& word, const std::string& file) {
+  if (word == "exact") return ReferenceKind::exact;
+  if (word == "computed") return ReferenceKind::computed;
+  if (word == "paper") return ReferenceKind::paper;
+  if (word == "code") return ReferenceKind::code;
+  fail(file, "/kind", "'exact', 'computed', 'paper' or 'code' (got '" + word + "')");
+}
+
+/// One number for all values, or one for each.
+std::vector<double> spread(const Json& stated, const std::string& file, const char* pointer,
+                           std::size_t count) {
+  std::vector<double> each;
+  if (stated.is_number()) {
+    each.assign(count, stated.get<double>());
+  } else if (stated.is_array() && stated.size() == count) {
+    for (const Json& one : stated) {
+      if (!one.is_number()) fail(file, pointer, "numbers");
+      each.push_back(one.get<double>());
+    }
+  } else {
+    fail(file, pointer, "a number or " + std::to_string(count) + " of them, one a value");
+  }
+  for (const double one : each) {
+    if (!(one >= 0)) fail(file, pointer, "numbers that are not negative");
+  }
+  return each;
+}
+
+std::vector<double> read_uncertainty(const Json& json, const Reference& reference,
+                                     const std::string& file) {
+  const auto stated = json.find("uncertainty");
+  if (stated != json.end()) {
+    const bool relative = stated->contains("relative");
+    const char* key = relative ? "relative" : "absolute";
+    if (!stated->is_object() || !stated->contains(key)) {
+      fail(file, "/uncertainty", "'relative' or 'absolute'");
+    }
+    const std::string pointer = std::string("/uncertainty/") + key;
+    auto each = spread(stated->at(key), file, pointer.c_str(), reference.values.size());
+    for (std::size_t i = 0; relative && i < each.size(); ++i) {
+      each[i] *= std::abs(reference.values[i]);
+    }
+    return each;
+  }
+  if (reference.printed.empty()) {
+    fail(file, "/", "'uncertainty', or 'printed' digits that tell it");
+  }
+  std::vector<double> each;
+  for (std::size_t i = 0; i < reference.printed.size(); ++i) {
+    // Where the digits are in another unit or corrected, they say nothing about the value.
+    const double read = std::strtod(reference.printed[i].c_str(), nullptr);
+    if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read)) {
+      fail(file, "/printed/" + std::to_string(i),
+           "the digits of the value, or 'uncertainty' beside them (got '" + reference.printed[i] +
+               "')");
+    }
+    each.push_back(half_unit_in_last_place(reference.printed[i]));
+  }
+  return each;
+}
+
+std::string in_words(const Json& derivation) {
+  std::string text = derivation.value("program", "");
+  const Json arguments = derivation.value("arguments", Json::object());
+  for (const auto& item : arguments.items()) text += " " + item.key() + "=" + item.value().dump();
+  return text;
+}
+
+}  // namespace
+
+const char* to_string(ReferenceKind kind) {
+  switch (kind) {
+    case ReferenceKind::exact:
+      return "exact";
+    case ReferenceKind::computed:
+      return "computed";
+    case ReferenceKind::paper:
+      return "paper";
+    case ReferenceKind::code:
+      return "code";
+  }
+  return "";
+}
+
+double half_unit_in_last_place(const std::string& printed) {
+  static const std::regex decimal(R"(\s*[-+]?\d*(?:\.(\d*))?(?:[eE]([-+]?\d+))?\s*)");
+  std::smatch match;
+  const bool has_digit = printed.find_first_of("0123456789") != std::string::npos;
+  if (!has_digit || !std::regex_match(printed, match, decimal)) {
+    throw ReferenceError("expected a decimal number as printed (got '" + printed + "')");
+  }
+  const int decimals = static_cast<int>(match[1].length());
+  const int exponent = match[2].matched ? std::atoi(match[2].str().c_str()) : 0;
+  // Through text: 0.5e-3 read from decimal is the nearest double, a power by pow need not be.
+  return std::strtod(("0.5e" + std::to_string(exponent - decimals)).c_str(), nullptr);
+}
+
+Reference read_reference(const Json& json, const std::string& name) {
+  if (!json.is_object()) fail(name, "/", "an object");
+  const auto text = [&](const char* key) { return required<std::string>(json, name, key, "text"); };
+  Reference read;
+  read.id = text("id");
+  read.title = text("title");
+  read.kind = read_kind(text("kind"), name);
+  read.unit = text("unit");
+  read.values = required<std::vector<double>>(json, name, "values", "an array of numbers");
+  read.source = text("source");
+  read.place = text("place");
+  read.printed = optional<std::vector<std::string>>(json, name, "printed", "an array of texts");
+  read.errata = optional<std::vector<std::string>>(json, name, "errata", "an array of texts");
+  read.notes = optional<std::string>(json, name, "notes", "text");
+  if (json.contains("derivation")) read.derivation = in_words(json.at("derivation"));
+  if (read.values.empty()) fail(name, "/values", "at least one number");
+  if (!read.printed.empty() && read.printed.size() != read.values.size()) {
+    fail(name, "/printed",
+         "as many texts as values (got " + std::to_string(read.printed.size()) + " for " +
+             std::to_string(read.values.size()) + ")");
+  }
+  if (read.kind == ReferenceKind::exact && read.derivation.empty()) {
+    fail(name, "/", "'derivation' for a reference of kind 'exact'");
+  }
+  read.uncertainty = read_uncertainty(json, read, name);
+  return read;
+}
+
+Reference load_reference(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw ReferenceError(file.string() + ": expected a readable file");
+  try {
+    return read_reference(Json::parse(in), file.string());
+  } catch (const Json::parse_error& error) {
+    throw ReferenceError(file.string() + ": byte " +
+                         std::to_string(error.byte > 0 ? error.byte - 1 : 0) + ": expected JSON");
+  } catch (const Json::exception& error) {
+    throw ReferenceError(file.string() + ": /: expected a reference (" + error.what() + ")");
+  }
+}
+
+}  // namespace trammel

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,13 +17,16 @@ struct Reference {
   ReferenceKind kind = ReferenceKind::exact;
   std::string unit;  ///< "Hz", "m", "1", ...
   std::vector<double> values;
-  std::vector<double> uncertainty;   ///< absolute, one a value, same unit
+  std::vector<double> uncertainty;   ///< absolute half width, one a value, same unit
   std::string source;                ///< key into references/bibliography.json
   std::string place;                 ///< where in the source: "Table 2, row 1"
   std::vector<std::string> printed;  ///< as printed, where the source prints them
   std::string derivation;            ///< program and arguments in words; empty where none
   std::vector<std::string> errata;   ///< what is wrong with the source, and how it was shown
+  std::string notes;
 };
+
+[[nodiscard]] const char* to_string(ReferenceKind kind);
 
 /// Bad input: one line with file, JSON pointer (or byte offset) and what was expected.
 class ReferenceError : public std::runtime_error {
@@ -34,5 +36,14 @@ class ReferenceError : public std::runtime_error {
 
 /// @throws ReferenceError
 [[nodiscard]] Reference load_reference(const std::filesystem::path& file);
+
+/// @param name  stands for the file in messages
+/// @throws ReferenceError  where a key is missing or of the wrong type, where lengths differ, where
+///                         a printed number is not the value or nothing gives the uncertainty.
+[[nodiscard]] Reference read_reference(const nlohmann::json& json, const std::string& name);
+
+/// Half a unit in the last printed place: "12.768" -> 0.0005, "6.9e10" -> 0.05e10, "12" -> 0.5.
+/// @throws ReferenceError  where the text is not a decimal number.
+[[nodiscard]] double half_unit_in_last_place(const std::string& printed);
 
 }  // namespace trammel
