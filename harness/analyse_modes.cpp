@@ -1,0 +1,48 @@
+#include "harness/analysis_kinds.h"
+#include "harness/words.h"
+#include "solver/modes.h"
+
+namespace trammel {
+namespace {
+
+constexpr Index shapes_drawn = 12;
+
+ModesOptions read_options(const Cursor& analysis) {
+  ModesOptions options;
+  options.count = analysis["count"].get<Index>();
+  const std::string path = analysis.get<std::string>("path", "automatic");
+  if (path == "dense") options.path = EigenPath::dense;
+  if (path == "sparse") options.path = EigenPath::sparse;
+  return options;
+}
+
+std::string label(Index mode, double frequency) {
+  char text[64];
+  std::snprintf(text, sizeof text, "mode %d, %.4g Hz", static_cast<int>(mode) + 1, frequency);
+  return text;
+}
+
+}  // namespace
+
+StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
+                         Recorder& record) {
+  const System system = assemble(build_model(scene, step));
+  const ModalSolution modes = solve_modes(system, read_options(analysis));
+  StepResult result{modes.outcome, modes.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (!modes.outcome.solved()) return result;
+  for (Index i = 0; i < modes.frequency.size(); ++i) {
+    const std::string of = scene.along_path ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", of, modes.frequency[i], modes.roundoff[i]);
+    record.add("frequency_roundoff", of, modes.roundoff[i]);
+    if (result.drawing && i < shapes_drawn) {
+      result.drawing->shapes.push_back(
+          draw_shape(system, modes.shape.col(i), label(i, modes.frequency[i])));
+    }
+  }
+  record.add("rigid_motions", "", static_cast<double>(modes.rigid_motions));
+  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  return result;
+}
+
+}  // namespace trammel

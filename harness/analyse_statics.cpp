@@ -1,0 +1,93 @@
+#include <cmath>
+
+#include "harness/analysis_kinds.h"
+#include "solver/statics.h"
+
+namespace trammel {
+namespace {
+
+void record_nodes(const Model& model, const StaticSolution& solution, double roundoff,
+                  Recorder& record) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const std::string& name = model.nodes[i].name;
+    if (name.empty()) continue;  // inside a plate
+    const Eigen::RowVector3d motion = solution.displacement.row(static_cast<Index>(i));
+    record.add("displacement_x_m", name, motion[0], roundoff);
+    record.add("displacement_y_m", name, motion[1], roundoff);
+    if (!std::isnan(motion[2])) record.add("rotation_rad", name, motion[2], roundoff);
+  }
+}
+
+void record_members(const Model& model, const StaticSolution& solution, double roundoff,
+                    Recorder& record) {
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    const auto row = static_cast<Index>(i);
+    const std::string& name = model.members[i].name;
+    const std::array<Eigen::RowVector3d, 2> resultants = {solution.resultant_start.row(row),
+                                                          solution.resultant_end.row(row)};
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::string of = name + (end == 0 ? ".start" : ".end");
+      const double rotation = solution.end_rotation(row, static_cast<Index>(end));
+      if (!std::isnan(rotation)) record.add("end_rotation_rad", of, rotation, roundoff);
+      record.add("axial_force_N", of, resultants[end][0], roundoff);
+      record.add("shear_force_N", of, resultants[end][1], roundoff);
+      record.add("bending_moment_N_m", of, resultants[end][2], roundoff);
+    }
+    // Not finite where the section does not say how far its outermost fibre is.
+    if (std::isfinite(solution.member_stress[row])) {
+      record.add("stress_Pa", name, solution.member_stress[row], roundoff);
+    }
+  }
+}
+
+void record_reactions(const Model& model, const StaticSolution& solution, double roundoff,
+                      Recorder& record) {
+  for (std::size_t i = 0; i < model.supports.size(); ++i) {
+    const Eigen::RowVector3d reaction = solution.reaction.row(static_cast<Index>(i));
+    const std::string& name = model.supports[i].name;
+    record.add("reaction_x_N", name, reaction[0], roundoff);
+    record.add("reaction_y_N", name, reaction[1], roundoff);
+    record.add("reaction_moment_N_m", name, reaction[2], roundoff);
+  }
+}
+
+/// Largest von Mises stress of each plate's triangles.
+void record_plates(const Model& model, const StaticSolution& solution, double roundoff,
+                   Recorder& record) {
+  std::vector<double> largest(model.plates.size(), 0);
+  for (std::size_t i = 0; i < model.triangles.size(); ++i) {
+    const Eigen::RowVector3d s = solution.triangle_stress.row(static_cast<Index>(i));
+    const double von_mises = std::sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]);
+    double& plate = largest[static_cast<std::size_t>(model.triangles[i].plate)];
+    // A NaN must come through.
+    if (!(von_mises <= plate)) plate = von_mises;
+  }
+  for (std::size_t p = 0; p < largest.size(); ++p) {
+    record.add("von_mises_stress_Pa", model.plates[p].name, largest[p], roundoff);
+  }
+}
+
+}  // namespace
+
+StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw, Recorder& record) {
+  const System system = assemble(build_model(scene, step));
+  const StaticSolution solution = solve_statics(system);
+  StepResult result{solution.outcome, solution.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (!solution.outcome.solved()) return result;
+  const double roundoff = std::pow(10.0, -solution.digits_left);
+  const Model& model = system.model;
+  record_nodes(model, solution, roundoff, record);
+  record_members(model, solution, roundoff, record);
+  record_reactions(model, solution, roundoff, record);
+  record_plates(model, solution, roundoff, record);
+  record.add("equilibrium_residual_N", "", solution.equilibrium_residual);
+  record.add("moment_residual_N_m", "", solution.moment_residual);
+  record.add("digits_left", "", solution.digits_left);
+  if (result.drawing) {
+    result.drawing->shapes.push_back(draw_shape(system, solution.q, "under the loads"));
+  }
+  return result;
+}
+
+}  // namespace trammel

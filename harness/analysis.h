@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "harness/document.h"
+#include "harness/drawing.h"
+#include "harness/quantity.h"
+#include "harness/reference_library.h"
+#include "solver/system.h"
+
+/// One computation: a case with its patches in, numbers out.
+namespace trammel {
+
+/// What to keep beside the numbers.
+struct AnalysisOptions {
+  bool drawing = true;  ///< nodes, members and shapes, for the report
+};
+
+struct AnalysisResult {
+  Outcome outcome;
+  Quantities quantities;
+  std::optional<Drawing> drawing;
+  Counters counters;
+};
+
+/// @throws InputError  where the model has no meaning.
+[[nodiscard]] AnalysisResult analyse(const Document& document, const References& references,
+                                     const AnalysisOptions& options);
+
+/// The one key of "analysis": "modes", "statics", ...
+[[nodiscard]] std::string analysis_kind(const Document& document);
+
+}  // namespace trammel

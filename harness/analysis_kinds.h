@@ -1,0 +1,36 @@
+#pragma once
+
+#include "harness/analysis.h"
+#include "harness/recorder.h"
+#include "harness/scene.h"
+
+/// The analyses, one source each. Each adds what it finds at one step of the scene's path.
+namespace trammel {
+
+/// What an analysis of one step leaves behind.
+struct StepResult {
+  Outcome outcome;
+  Counters counters;
+  std::optional<Drawing> drawing;  ///< on the first step, when asked for
+};
+
+/// Natural frequencies; along a path one quantity a mode, frequency_Hz:1 ...
+[[nodiscard]] StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step,
+                                       bool draw, Recorder& record);
+
+/// Displacements, end rotations, reactions, section forces, stresses, residuals.
+[[nodiscard]] StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw,
+                                         Recorder& record);
+
+/// Joint angles, closure, distances from singularities, holding torques.
+[[nodiscard]] StepResult analyse_kinematics(const Scene& scene, std::size_t step, bool draw,
+                                            Recorder& record);
+
+/// Lengths, masses, centres and inertias of the parts and of the whole.
+[[nodiscard]] StepResult analyse_properties(const Scene& scene, std::size_t step, bool draw,
+                                            Recorder& record);
+
+/// relative_difference and difference_percent of references from each other, by name.
+void compare_references(const Cursor& comparison, const References& references, Recorder& record);
+
+}  // namespace trammel

@@ -1,0 +1,175 @@
+#include "harness/case.h"
+
+#include <algorithm>
+
+#include "harness/catalogue.h"
+#include "harness/cursor.h"
+#include "harness/json_file.h"
+#include "harness/words.h"
+
+namespace trammel {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What one case takes from another: how things are computed, not what is judged.
+Json inherited(const Json& base) {
+  Json kept = Json::object();
+  for (const char* key : {"model", "analysis", "variants", "sweeps"}) {
+    if (base.contains(key)) kept[key] = base.at(key);
+  }
+  if (!kept.contains("variants") || !kept["variants"].is_object()) return kept;
+  for (auto& variant : kept["variants"]) {
+    if (!variant.is_object()) continue;
+    variant.erase("checks");
+    variant.erase("sweeps");
+    variant.erase("expect_status");
+  }
+  return kept;
+}
+
+/// Lays the file over all that it extends, outermost first.
+void lay_with_bases(Document& document, const fs::path& file, std::vector<fs::path> seen) {
+  const Json json = read_json(file);
+  if (!json.is_object()) throw InputError(file.string(), "", "expected an object");
+  seen.push_back(fs::weakly_canonical(file));
+  if (const auto extends = json.find("extends"); extends != json.end()) {
+    if (!extends->is_string()) {
+      throw InputError(file.string(), "/extends", "expected the name or the file of a case");
+    }
+    const fs::path base = find_extended(extends->get<std::string>(), file);
+    if (std::find(seen.begin(), seen.end(), fs::weakly_canonical(base)) != seen.end()) {
+      throw InputError(file.string(), "/extends", "expected a case that does not extend this one");
+    }
+    lay_with_bases(document, base, seen);
+  }
+  const bool outermost = seen.size() == 1;
+  document.lay(file.string(), "", outermost ? json : inherited(json));
+}
+
+void check_names(const Case& given) {
+  const Cursor root(given.document);
+  const std::string stem = given.file.stem().string();
+  if (given.id() != stem) {
+    throw root["id"].error("expected the file's name, '" + printable(stem) + "' (got '" +
+                           printable(given.id()) + "')");
+  }
+  if (!root.has("variants")) return;
+  for (const auto& [name, variant] : root["variants"].entries()) {
+    if (name == base_variant) {
+      throw variant.error("expected another name: 'base' is the case itself");
+    }
+  }
+}
+
+Json patch_of_pointers(const Cursor& sweep, const Json& document, const Json& value) {
+  Json patch = Json::object();
+  for (const auto& [number, at] : sweep["pointers"].entries()) {
+    const std::string pointer = at.get<std::string>();
+    bool found = false;
+    try {
+      found = document.contains(JsonPointer(pointer));
+    } catch (const Json::exception&) {
+      found = false;
+    }
+    if (!found || pointer.empty()) {
+      throw at.error("expected a pointer to a value of the case, as /model/elements (got '" +
+                     printable(pointer) + "')");
+    }
+    // From the inside out; a patch replaces arrays whole, so an item is set in a copy of its array.
+    Json nested = value;
+    for (JsonPointer place(pointer); !place.empty(); place.pop_back()) {
+      const Json& around = document.at(place.parent_pointer());
+      Json outer = around.is_array() ? around : Json::object();
+      if (around.is_array()) {
+        outer.at(std::stoul(place.back())) = nested;
+      } else {
+        outer[place.back()] = nested;
+      }
+      nested = std::move(outer);
+    }
+    patch.merge_patch(nested);
+  }
+  return patch;
+}
+
+}  // namespace
+
+std::vector<std::string> Case::labels() const {
+  return document.value().value("labels", std::vector<std::string>{});
+}
+
+std::vector<std::string> Case::variants() const {
+  std::vector<std::string> names = {base_variant};
+  if (document.value().contains("variants")) {
+    for (const auto& item : document.value().at("variants").items()) names.push_back(item.key());
+  }
+  return names;
+}
+
+std::string Case::variant_title(const std::string& variant) const {
+  if (variant == base_variant) return "As the case has it";
+  return document.value().at("variants").at(variant).value("title", variant);
+}
+
+Case load_case(const fs::path& file) {
+  Case loaded;
+  loaded.file = file;
+  lay_with_bases(loaded.document, file, {});
+  loaded.document.check("case");
+  check_names(loaded);
+  return loaded;
+}
+
+Document patched(const Case& given, const std::string& variant) {
+  Document document = given.document;
+  const std::string file = given.file.string();
+  if (variant != base_variant) {
+    const std::vector<std::string> names = given.variants();
+    if (std::find(names.begin(), names.end(), variant) == names.end()) {
+      throw InputError(file, "/variants",
+                       "expected the name of a variant (got '" + printable(variant) + "')" +
+                           did_you_mean(variant, names));
+    }
+    Json patch = given.document.value().at("variants").at(variant);
+    patch.erase("title");
+    patch.erase("description");
+    const Origin written = given.document.origin((JsonPointer("/variants") / variant).to_string());
+    document.lay(written.file, written.pointer, patch);
+  }
+  document.lay(file, "", Json{{"variants", nullptr}});
+  document.check("case");
+  return document;
+}
+
+std::vector<Level> levels(const Document& variant, const std::string& sweep_name) {
+  const Cursor sweep = Cursor(variant)["sweeps"][sweep_name];
+  const Cursor values = sweep["values"];
+  const bool by_patches = sweep.has("patches");
+  if (by_patches == sweep.has("pointers")) {
+    throw sweep.error("expected either 'pointers' or 'patches'");
+  }
+  if (by_patches && sweep["patches"].size() != values.size()) {
+    throw sweep["patches"].error("expected a patch for each of the " +
+                                 std::to_string(values.size()) + " values (got " +
+                                 std::to_string(sweep["patches"].size()) + ")");
+  }
+  std::vector<Level> found;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Level level{values[i].get<double>(), variant};
+    const Json patch = by_patches ? sweep["patches"][i].json()
+                                  : patch_of_pointers(sweep, variant.value(), values[i].json());
+    const Cursor place = by_patches ? sweep["patches"][i] : values[i];
+    const Origin written = variant.origin(place.pointer());
+    if (by_patches) {
+      level.document.lay(written.file, written.pointer, patch);
+    } else {
+      level.document.lay_value(written.file, written.pointer, patch);
+    }
+    level.document.check("case");
+    found.push_back(std::move(level));
+  }
+  return found;
+}
+
+}  // namespace trammel

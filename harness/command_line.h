@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace trammel {
+
+/// What the harness cannot know: how results become a page and a JUnit file.
+struct Renderers {
+  std::function<std::filesystem::path(const std::filesystem::path& results,
+                                      const std::filesystem::path& folder)>
+      report;
+  std::function<void(const std::filesystem::path& results, const std::filesystem::path& junit)>
+      junit;
+};
+
+/// Runs the program. @returns 0: every gate holds, 1: a check failed, 2: bad usage or input, 3: our
+/// own fault.
+/// @param words  the command line without the program's name
+[[nodiscard]] int run_command_line(const std::vector<std::string>& words,
+                                   const Renderers& renderers);
+
+}  // namespace trammel

@@ -1,0 +1,192 @@
+#include <iostream>
+
+#include "harness/analysis.h"
+#include "harness/catalogue.h"
+#include "harness/check.h"
+#include "harness/commands.h"
+#include "harness/cursor.h"
+#include "harness/json_file.h"
+#include "harness/reference_library.h"
+#include "harness/scene.h"
+#include "harness/table.h"
+#include "harness/words.h"
+
+namespace trammel {
+namespace {
+
+std::string family_of(const Case& given) {
+  return given.document.value().value("family", "");
+}
+
+std::string text_of(const Case& given, const char* key) {
+  return given.document.value().value(key, "");
+}
+
+Json summary(const Case& given) {
+  return {{"id", given.id()},
+          {"title", given.title()},
+          {"family", family_of(given)},
+          {"labels", given.labels()},
+          {"analysis", analysis_kind(given.document)},
+          {"variants", given.variants()},
+          {"file", given.file.string()}};
+}
+
+std::string count_of(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string model_words(const Document& document) {
+  if (analysis_kind(document) == "comparison") return "no model: references against each other";
+  const Scene scene = read_scene(document);
+  const Model model = build_model(scene, 0);
+  std::string text;
+  if (scene.manipulator) {
+    const auto& platform = scene.manipulator->platform;
+    text = platform.kind == PlatformDesign::Kind::rigid
+               ? "3-RRR manipulator with a rigid platform"
+               : "3-RRR manipulator with a platform of triangles";
+    const Pose& pose = scene.poses.front();
+    text += scene.along_path ? ", along " + count_of(scene.poses.size(), "pose")
+                             : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
+                                   " m, phi = " + shortest(pose.phi) + " rad";
+  } else {
+    text = "planar model";
+  }
+  Index elements = 0;
+  for (const Member& member : model.members) elements += member.elements;
+  text += "; " + count_of(model.nodes.size(), "node") + ", " +
+          count_of(model.members.size(), "member") + " in " +
+          count_of(static_cast<std::size_t>(elements), "element");
+  if (!model.triangles.empty()) text += ", " + count_of(model.triangles.size(), "triangle");
+  if (!model.masses.empty()) text += ", " + count_of(model.masses.size(), "point mass");
+  if (!model.springs.empty()) text += ", " + count_of(model.springs.size(), "spring");
+  if (!model.loads.empty()) text += ", " + count_of(model.loads.size(), "load");
+  return text;
+}
+
+std::string windows_in_words(const Check& check) {
+  if (check.windows.empty()) return "recorded, does not gate";
+  if (check.symmetric) return "within " + shortest(check.windows[0].high);
+  std::vector<std::string> each;
+  for (const Window& window : check.windows) {
+    each.push_back("[" + shortest(window.low) + ", " + shortest(window.high) + "]");
+  }
+  return "in " + join(each, "and");
+}
+
+std::string check_words(const Check& check) {
+  std::string text = check.statistic.empty() ? "" : check.statistic + " of ";
+  text += check.quantity;
+  if (!check.index.empty()) {
+    std::vector<std::string> each;
+    for (const std::size_t i : check.index) each.push_back(std::to_string(i));
+    text += "[" + join(each, "and") + "]";
+  }
+  if (!check.reference.empty()) text += " against " + check.reference;
+  if (!check.against_quantity.empty()) text += " against " + check.against_quantity;
+  if (!check.against_variant.empty()) text += " of variant " + check.against_variant;
+  if (check.order) {
+    return text + ", order along sweep " + check.order->sweep + " within " +
+           shortest(check.order->within) + " of theory";
+  }
+  text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
+  text += windows_in_words(check);
+  if (check.expectation == Expectation::known_discrepancy) text += " (a known discrepancy)";
+  return text;
+}
+
+void describe_checks(const Case& given, const References& references) {
+  const Document base = patched(given, base_variant);
+  const std::vector<Check> checks = read_checks(base, base_variant, given.variants());
+  if (checks.empty()) return;
+  std::cout << "\nChecks\n";
+  const Cursor places = Cursor(base)["checks"];
+  for (const Check& check : checks) {
+    std::cout << "  " << check.name << "  (" << to_string(check.role) << ")\n"
+              << wrapped(check_words(check), "      ") << wrapped(check.why, "      ");
+    if (!check.reference.empty()) (void)references.get(places[check.name]["reference"]);
+  }
+}
+
+void describe_references(const References& references) {
+  const auto used = references.used();
+  if (used.empty()) return;
+  std::cout << "\nReferences\n";
+  for (const auto& [id, cited] : used) {
+    const Reference& reference = cited.reference;
+    std::cout << "  " << id << "  (" << to_string(reference.kind) << ", "
+              << count_of(reference.values.size(), "value") << " in " << reference.unit << ")\n"
+              << wrapped(reference.title, "      ")
+              << wrapped(cited.source.text + ", " + reference.place +
+                             (cited.source.doi.empty() ? "" : ", doi:" + cited.source.doi),
+                         "      ");
+    for (const std::string& erratum : reference.errata) {
+      std::cout << wrapped("Erratum: " + erratum, "      ");
+    }
+  }
+}
+
+}  // namespace
+
+int list_cases(const std::vector<std::string>& labels, bool json) {
+  const std::vector<Case> cases = load_catalogue(labels);
+  if (json) {
+    Json all = Json::array();
+    for (const Case& one : cases) all.push_back(summary(one));
+    std::cout << pretty(all);
+    return 0;
+  }
+  Table table({"case", "analysis", ">variants", "labels", "title"});
+  for (const Case& one : cases) {
+    std::string labels_text;
+    for (const std::string& label : one.labels()) {
+      labels_text += (labels_text.empty() ? "" : ",") + label;
+    }
+    table.add({one.id(), analysis_kind(one.document), std::to_string(one.variants().size()),
+               labels_text, one.title()});
+  }
+  table.print(std::cout);
+  std::cout << count_of(cases.size(), "case") << '\n';
+  return 0;
+}
+
+int describe_case(const std::string& name, bool json) {
+  const Case given = load_case(find_case(name));
+  if (json) {
+    Json document = given.document.value();
+    document["file"] = given.file.string();
+    std::cout << pretty(document);
+    return 0;
+  }
+  const References references;
+  std::cout << given.id() << ": " << given.title() << '\n';
+  std::cout << wrapped(text_of(given, "description"), "  ");
+  std::cout << "\nModel     " << model_words(patched(given, base_variant)) << '\n';
+  std::cout << "Analysis  " << analysis_kind(given.document) << " "
+            << given.document.value().at("analysis").begin()->dump() << '\n';
+  std::cout << "File      " << given.file.string() << '\n';
+  if (given.variants().size() > 1) {
+    std::cout << "\nVariants\n";
+    Table table({"name", "what it changes"});
+    for (const std::string& variant : given.variants()) {
+      if (variant != base_variant) table.add({variant, given.variant_title(variant)});
+    }
+    table.print(std::cout, "  ");
+  }
+  if (const auto sweeps = Cursor(given.document).find("sweeps")) {
+    std::cout << "\nSweeps\n";
+    for (const auto& [sweep, place] : sweeps->entries()) {
+      std::cout << "  " << sweep << "  " << place["values"].json().dump();
+      if (place.has("theory_order")) {
+        std::cout << ", order " << shortest(place.number("theory_order")) << " by theory";
+      }
+      std::cout << '\n';
+    }
+  }
+  describe_checks(given, references);
+  describe_references(references);
+  return 0;
+}
+
+}  // namespace trammel

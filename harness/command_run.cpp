@@ -1,0 +1,206 @@
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+#include "harness/catalogue.h"
+#include "harness/commands.h"
+#include "harness/errors.h"
+#include "harness/progress.h"
+#include "harness/results.h"
+#include "harness/table.h"
+
+namespace trammel {
+namespace {
+
+/// Cases to run, and the runs of those that could not even be read.
+struct Selection {
+  std::vector<Case> cases;
+  std::vector<Run> broken;
+};
+
+/// Bad files among several must not take the good ones' results with them.
+Selection load(const std::vector<std::filesystem::path>& files) {
+  Selection selection;
+  for (const auto& file : files) {
+    try {
+      selection.cases.push_back(load_case(file));
+    } catch (const InputError& error) {
+      if (files.size() == 1) throw;
+      Run run;
+      run.case_id = file.stem().string();
+      run.variant = base_variant;
+      run.status = "error";
+      run.reason = error.what();
+      run.trouble = Run::Trouble::input;
+      selection.broken.push_back(std::move(run));
+    }
+  }
+  return selection;
+}
+
+void require_distinct(const std::vector<Case>& cases) {
+  std::map<std::string, std::string> seen;
+  for (const Case& one : cases) {
+    const auto [entry, fresh] = seen.emplace(one.id(), one.file.string());
+    if (!fresh) {
+      throw InputError("expected cases of different names (got '" + one.id() + "' in " +
+                       entry->second + " and in " + one.file.string() + ")");
+    }
+  }
+}
+
+void require_variant(const std::vector<Case>& cases, const std::string& variant) {
+  if (variant.empty()) return;
+  for (const Case& one : cases) (void)patched(one, variant);
+}
+
+std::vector<Run> compute(const Selection& selection, const References& references,
+                         const RunOptions& asked) {
+  Progress progress;
+  RunOptions options = asked;
+  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  std::vector<Run> runs = run_cases(selection.cases, references, options);
+  runs.insert(runs.end(), selection.broken.begin(), selection.broken.end());
+  return runs;
+}
+
+/// The entry of a check that deserves to be told: the first one that does not hold, else the one
+/// farthest out.
+struct Told {
+  const Judgement* worst = nullptr;
+  std::size_t entries = 0;
+};
+
+std::vector<Told> by_check(const Run& run) {
+  std::vector<Told> told;
+  for (const Judgement& one : run.judgements) {
+    const bool same = !told.empty() && told.back().worst->name == one.name;
+    if (!same) told.push_back({&one, 0});
+    Told& check = told.back();
+    ++check.entries;
+    const auto rank = [](const Judgement& judged) {
+      return std::pair(breaks_gate(judged.verdict) ? 1 : 0,
+                       std::abs(judged.difference.value_or(0)));
+    };
+    if (rank(one) > rank(*check.worst)) check.worst = &one;
+  }
+  return told;
+}
+
+std::string allowed(const Judgement& one) {
+  if (!one.window) return "";
+  if (one.symmetric) return "+-" + rounded(one.window->high, 3);
+  return "[" + rounded(one.window->low, 3) + ", " + rounded(one.window->high, 3) + "]";
+}
+
+std::string verdict_word(const Judgement& one) {
+  if (one.verdict == Verdict::pass && one.expectation == Expectation::known_discrepancy) {
+    return "known";
+  }
+  return to_string(one.verdict);
+}
+
+void print_run(const Run& run) {
+  std::cout << run.case_id << (run.variant == base_variant ? "" : ":" + run.variant) << "  "
+            << run.status << ", " << rounded(run.wall_s, 2) << " s\n";
+  if (!run.reason.empty()) std::cout << wrapped(run.reason, "  ");
+  Table table(
+      {"verdict", "check", "quantity", ">computed", ">expected", ">difference", ">allowed"});
+  std::vector<std::string> messages;
+  for (const Told& told : by_check(run)) {
+    const Judgement& one = *told.worst;
+    std::string quantity = one.quantity;
+    if (one.index && told.entries > 1) quantity += "[" + std::to_string(*one.index) + "]";
+    if (!one.statistic.empty()) quantity = one.statistic + " " + quantity;
+    table.add({verdict_word(one), one.name, quantity, one.computed ? rounded(*one.computed, 8) : "",
+               one.expected ? rounded(*one.expected, 8) : "",
+               one.difference ? rounded(*one.difference, 3) : "", allowed(one)});
+    if (breaks_gate(one.verdict) && !one.message.empty()) {
+      messages.push_back(one.name + ": " + one.message);
+    }
+  }
+  if (!table.empty()) table.print(std::cout, "  ");
+  for (const std::string& message : messages) std::cout << wrapped(message, "    ");
+}
+
+void print_summary(const std::vector<Run>& runs) {
+  std::map<std::string, std::size_t> verdicts;
+  std::size_t checks = 0;
+  for (const Run& run : runs) {
+    for (const Judgement& one : run.judgements) {
+      ++checks;
+      ++verdicts[verdict_word(one)];
+    }
+  }
+  std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks << " checks";
+  for (const auto& [word, count] : verdicts) std::cout << ", " << count << " " << word;
+  std::cout << '\n';
+}
+
+void print_trouble(const std::vector<Run>& runs) {
+  std::vector<std::string> told;
+  for (const Run& run : runs) {
+    if (run.trouble == Run::Trouble::none) continue;
+    // Variants of one case often have one and the same fault.
+    if (std::find(told.begin(), told.end(), run.reason) != told.end()) continue;
+    told.push_back(run.reason);
+    std::cerr << run.reason << '\n';
+  }
+}
+
+std::filesystem::path write_all(const std::vector<Run>& runs, const Selection& selection,
+                                const References& references, const std::string& out,
+                                const Renderers& renderers) {
+  const auto results = write_results(results_of(runs, selection.cases, references), out);
+  if (renderers.junit) renderers.junit(results, std::filesystem::path(out) / "junit.xml");
+  return results;
+}
+
+}  // namespace
+
+int run_command(const RunCommand& command, const Renderers& renderers) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& name : command.cases) files.push_back(find_case(name));
+  Selection selection = load(files);
+  if (!command.labels.empty()) {
+    for (Case& one : load_catalogue(command.labels)) {
+      const bool there = std::any_of(selection.cases.begin(), selection.cases.end(),
+                                     [&](const Case& other) { return other.id() == one.id(); });
+      if (!there) selection.cases.push_back(std::move(one));
+    }
+  }
+  require_distinct(selection.cases);
+  require_variant(selection.cases, command.variant);
+  require_writable(command.out);
+  const References references;
+  const std::vector<Run> runs =
+      compute(selection, references, {command.variant, command.jobs, Follow::named, {}});
+  for (const Run& run : runs) {
+    if (run.trouble == Run::Trouble::none) print_run(run);
+  }
+  const auto results = write_all(runs, selection, references, command.out, renderers);
+  print_summary(runs);
+  std::cout << "results in " << results.string() << std::endl;
+  print_trouble(runs);
+  return exit_status(runs);
+}
+
+int report_command(const std::string& out, unsigned jobs, const Renderers& renderers) {
+  require_writable(out);
+  const Selection selection = load(catalogue_files());
+  const References references;
+  const std::vector<Run> runs = compute(selection, references, {"", jobs, Follow::named, {}});
+  for (const Run& run : runs) {
+    const bool broken = std::any_of(run.judgements.begin(), run.judgements.end(),
+                                    [](const Judgement& one) { return breaks_gate(one.verdict); });
+    if (broken && run.trouble == Run::Trouble::none) print_run(run);
+  }
+  const auto results = write_all(runs, selection, references, out, renderers);
+  const auto page = renderers.report ? renderers.report(results, out) : results;
+  print_summary(runs);
+  std::cout << "report in " << page.string() << std::endl;
+  print_trouble(runs);
+  return exit_status(runs);
+}
+
+}  // namespace trammel

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trammel {
+
+/// One number followed along a refinement, coarse to fine. NaN where a level does not have it.
+struct Series {
+  std::string sweep, quantity, statistic;
+  std::size_t index = 0;
+  std::vector<double> parameter;  ///< the swept number
+  std::vector<double> size;       ///< h, to a common factor
+  std::vector<double> values;
+  std::vector<double> roundoff;  ///< relative round-off error of each value
+  std::optional<double> exact;
+  std::string reference;         ///< where the exact value is from
+  std::optional<double> theory;  ///< order that theory promises
+};
+
+/// What the refinement shows. One entry a level; NaN where nothing can be said.
+struct Convergence {
+  Series series;
+  std::vector<double> error;  ///< relative: of the exact value, else of the extrapolated one
+  std::vector<double> order;  ///< observed between a level and the one before
+  /// Error above 100 times the round-off error, and an order that agrees with a neighbour's within
+  /// a tenth.
+  std::vector<bool> in_asymptotic_range;
+  std::vector<bool> at_roundoff_floor;  ///< error not above 100 times the round-off error
+  std::optional<double> fitted_order;   ///< slope over the asymptotic range
+  std::optional<double> richardson;     ///< extrapolated value
+  /// Grid convergence index: relative half width of where the converged value is expected, from
+  /// the values alone (never from the exact one), round-off included.
+  std::vector<double> band;
+  /// Roache's factor in the band: 1.25 where the observed order is within a tenth of theory,
+  /// else 3.
+  std::vector<double> factor;
+  bool broken = false;  ///< a level after the first finite one has no finite value
+};
+
+/// Observed orders, asymptotic range, Richardson extrapolation (L. F. Richardson 1911) and the grid
+/// convergence index (P. J. Roache, J. Fluids Eng. 116, 1994; I. B. Celik et al., J. Fluids Eng.
+/// 130, 078001, 2008).
+[[nodiscard]] Convergence study(const Series& series);
+
+/// How many times the round-off error an error must be to say anything about the discretisation.
+inline constexpr double clear_of_roundoff = 100;
+
+}  // namespace trammel

@@ -1,0 +1,41 @@
+#include "harness/document.h"
+
+#include <algorithm>
+
+#include "harness/schema.h"
+
+namespace trammel {
+
+void Document::lay(const std::string& file, const std::string& origin, const Json& patch) {
+  value_.merge_patch(patch);
+  layers_.push_back({file, origin, patch, false});
+}
+
+void Document::lay_value(const std::string& file, const std::string& origin, const Json& patch) {
+  lay(file, origin, patch);
+  layers_.back().is_value = true;
+}
+
+Origin Document::origin(const std::string& pointer) const {
+  for (JsonPointer at(pointer);; at = at.parent_pointer()) {
+    const auto layer = std::find_if(layers_.rbegin(), layers_.rend(), [&](const Layer& candidate) {
+      return candidate.patch.contains(at);
+    });
+    if (layer != layers_.rend()) {
+      return {layer->file, layer->is_value ? layer->origin : layer->origin + pointer,
+              layer->is_value};
+    }
+    if (at.empty()) return {layers_.empty() ? "" : layers_.back().file, pointer, false};
+  }
+}
+
+InputError Document::error(const std::string& pointer, const std::string& message) const {
+  const Origin written = origin(pointer);
+  return {written.file, written.pointer, written.is_value ? message + ", at " + pointer : message};
+}
+
+void Document::check(const std::string& schema) const {
+  if (const auto fault = find_fault(value_, schema)) throw error(fault->pointer, fault->message);
+}
+
+}  // namespace trammel

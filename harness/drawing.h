@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/kinematics.h"
+#include "solver/system.h"
+
+namespace trammel {
+
+/// What a picture of the model needs: the mesh, its joints, and shapes on it.
+struct Drawing {
+  struct Joint {
+    std::size_t node = 0;
+    std::string kind;  ///< active, hinged, welded, rigid, sprung or support
+    std::string name;
+  };
+  struct Shape {
+    std::string label;
+    std::vector<Vector2d> displacement;  ///< one a node [m]
+  };
+  struct Pose {
+    std::string label;
+    std::vector<Vector2d> nodes;  ///< [m]
+  };
+  std::vector<Vector2d> nodes;                      ///< [m]
+  std::vector<std::array<std::size_t, 2>> members;  ///< elements
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::vector<Joint> joints;
+  std::vector<Shape> shapes;
+  std::vector<Pose> poses;  ///< further poses of the same mechanism
+};
+
+/// The mesh of a model, members smoothed by points inside their elements; nothing where there are
+/// more nodes than a picture can show.
+[[nodiscard]] std::optional<Drawing> draw_model(const System& system, bool is_manipulator);
+
+/// Displacements of the drawing's nodes under the free coordinates q: inside elements by the cubic
+/// shape functions of the Euler-Bernoulli beam.
+[[nodiscard]] Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
+                                        const std::string& label);
+
+/// Displacement at s in [0, 1] along an element, from the unconstrained coordinates u = T q [m].
+[[nodiscard]] Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& u,
+                                          double s);
+
+/// A rigid manipulator at the first pose and at a few more of the path.
+[[nodiscard]] Drawing draw_manipulator(const ManipulatorGeometry& geometry,
+                                       const std::vector<trammel::Pose>& poses);
+
+}  // namespace trammel

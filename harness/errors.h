@@ -1,0 +1,17 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace trammel {
+
+/// Bad input or bad usage: what() is one line that says where, and what was expected. Exit 2.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  /// "file: /pointer: message"; the pointer of a whole document is written "/".
+  InputError(const std::string& file, const std::string& pointer, const std::string& message)
+      : std::runtime_error(file + ": " + (pointer.empty() ? "/" : pointer) + ": " + message) {}
+};
+
+}  // namespace trammel

@@ -1,0 +1,50 @@
+#include "harness/quantity.h"
+
+#include <utility>
+
+namespace trammel {
+namespace {
+
+/// Longest first, so that "_N_m" is not read as "_m".
+const std::vector<std::pair<std::string, std::string>>& units() {
+  static const std::vector<std::pair<std::string, std::string>> table = {
+      {"_N_m_per_rad", "N m/rad"},
+      {"_rad_per_s", "rad/s"},
+      {"_m_per_s2", "m/s^2"},
+      {"_N_per_m", "N/m"},
+      {"_percent", "%"},
+      {"_m_per_s", "m/s"},
+      {"_kg_m2", "kg m^2"},
+      {"_rad_s", "rad/s"},
+      {"_m_s2", "m/s^2"},
+      {"_N_m", "N m"},
+      {"_rad", "rad"},
+      {"_kg", "kg"},
+      {"_Pa", "Pa"},
+      {"_Hz", "Hz"},
+      {"_m2", "m^2"},
+      {"_m3", "m^3"},
+      {"_m4", "m^4"},
+      {"_m", "m"},
+      {"_s", "s"},
+      {"_N", "N"},
+      {"_J", "J"},
+      {"_W", "W"},
+  };
+  return table;
+}
+
+}  // namespace
+
+std::string unit_of(const std::string& name) {
+  const std::string head = name.substr(0, name.find(':'));
+  for (const auto& [suffix, unit] : units()) {
+    if (head.size() > suffix.size() &&
+        head.compare(head.size() - suffix.size(), suffix.size(), suffix) == 0) {
+      return unit;
+    }
+  }
+  return "1";
+}
+
+}  // namespace trammel

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace trammel {
+
+/// Numbers under one name. The name carries the unit as its last words, and what it belongs to
+/// after a colon: displacement_x_m:P.
+struct Quantity {
+  std::vector<double> values;
+  /// Relative round-off error of each value as far as it is known; empty where it is not.
+  std::vector<double> roundoff;
+};
+
+using Quantities = std::map<std::string, Quantity>;
+
+/// The unit in a quantity's name, as references write it: "frequency_Hz" -> "Hz",
+/// "reaction_moment_N_m:A1" -> "N m", "parallel_distance" -> "1".
+[[nodiscard]] std::string unit_of(const std::string& name);
+
+}  // namespace trammel

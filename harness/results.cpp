@@ -1,0 +1,216 @@
+#include "harness/results.h"
+
+#include <cmath>
+#include <fstream>
+
+#include "harness/environment.h"
+#include "harness/json_file.h"
+
+namespace trammel {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(number(value));
+  return array;
+}
+
+Json points(const std::vector<Vector2d>& all) {
+  Json array = Json::array();
+  for (const Vector2d& point : all) array.push_back({number(point.x()), number(point.y())});
+  return array;
+}
+
+Json tolerance(const Judgement& one) {
+  if (!one.window) return nullptr;
+  if (one.symmetric) return number(one.window->high);
+  return {number(one.window->low), number(one.window->high)};
+}
+
+Json judgement(const Judgement& one) {
+  Json json = {{"name", one.name}};
+  if (!one.title.empty()) json["title"] = one.title;
+  json["quantity"] = one.quantity;
+  json["index"] = one.index ? Json(*one.index) : Json(nullptr);
+  if (!one.statistic.empty()) json["statistic"] = one.statistic;
+  json["computed"] = number(one.computed);
+  json["expected"] = number(one.expected);
+  json["unit"] = one.unit;
+  if (!one.reference.empty()) json["reference"] = one.reference;
+  if (!one.against_variant.empty()) json["against_variant"] = one.against_variant;
+  if (!one.against_quantity.empty()) json["against_quantity"] = one.against_quantity;
+  json["role"] = to_string(one.role);
+  json["measure"] = one.measure;
+  json["difference"] = number(one.difference);
+  json["tolerance"] = tolerance(one);
+  json["why"] = one.why;
+  json["expectation"] = to_string(one.expectation);
+  json["verdict"] = to_string(one.verdict);
+  json["message"] = one.message;
+  return json;
+}
+
+Json convergence(const Convergence& found) {
+  const Series& series = found.series;
+  Json json = {{"sweep", series.sweep},
+               {"parameter", numbers(series.parameter)},
+               {"quantity", series.quantity},
+               {"index", series.index}};
+  if (!series.statistic.empty()) json["statistic"] = series.statistic;
+  json["values"] = numbers(series.values);
+  if (!series.reference.empty()) json["reference"] = series.reference;
+  json["exact"] = number(series.exact);
+  json["error"] = numbers(found.error);
+  json["roundoff"] = numbers(series.roundoff);
+  json["order"] = numbers(found.order);
+  json["in_asymptotic_range"] = found.in_asymptotic_range;
+  json["at_roundoff_floor"] = found.at_roundoff_floor;
+  json["theory_order"] = number(series.theory);
+  json["fitted_order"] = number(found.fitted_order);
+  json["richardson"] = number(found.richardson);
+  json["band"] = numbers(found.band);
+  json["factor"] = numbers(found.factor);
+  return json;
+}
+
+Json drawing(const Drawing& drawn) {
+  Json json = {{"nodes_m", points(drawn.nodes)},
+               {"members", drawn.members},
+               {"triangles", drawn.triangles},
+               {"joints", Json::array()},
+               {"shapes", Json::array()}};
+  for (const Drawing::Joint& joint : drawn.joints) {
+    json["joints"].push_back({{"node", joint.node}, {"kind", joint.kind}, {"name", joint.name}});
+  }
+  for (const Drawing::Shape& shape : drawn.shapes) {
+    json["shapes"].push_back(
+        {{"label", shape.label}, {"displacement_m", points(shape.displacement)}});
+  }
+  if (drawn.poses.empty()) return json;
+  json["poses"] = Json::array();
+  for (const Drawing::Pose& pose : drawn.poses) {
+    json["poses"].push_back({{"label", pose.label}, {"nodes_m", points(pose.nodes)}});
+  }
+  return json;
+}
+
+Json cost(const Run& run) {
+  const Counters& counters = run.result.counters;
+  Json json = {{"wall_s", run.wall_s},
+               {"cpu_s", run.cpu_s},
+               {"counters",
+                {{"element_evaluations", counters.element_evaluations},
+                 {"factorizations", counters.factorizations},
+                 {"solves", counters.solves}}}};
+  if (run.sweeps.empty()) return json;
+  // What accuracy costs in time.
+  Json& sweeps = json["sweeps"] = Json::object();
+  for (const Sweep& sweep : run.sweeps) {
+    Json& its = sweeps[sweep.name] = {
+        {"parameter", Json::array()}, {"wall_s", Json::array()}, {"cpu_s", Json::array()}};
+    for (const SweepLevel& level : sweep.levels) {
+      its["parameter"].push_back(level.parameter);
+      its["wall_s"].push_back(level.wall_s);
+      its["cpu_s"].push_back(level.cpu_s);
+    }
+  }
+  return json;
+}
+
+Json run_json(const Run& run) {
+  Json json = {{"case", run.case_id},  {"variant", run.variant},       {"status", run.status},
+               {"reason", run.reason}, {"quantities", Json::object()}, {"checks", Json::array()}};
+  for (const auto& [name, quantity] : run.result.quantities) {
+    json["quantities"][name] = numbers(quantity.values);
+  }
+  for (const Judgement& one : run.judgements) json["checks"].push_back(judgement(one));
+  json["convergence"] = Json::array();
+  for (const Convergence& found : run.convergence) {
+    json["convergence"].push_back(convergence(found));
+  }
+  if (run.result.drawing) json["drawing"] = drawing(*run.result.drawing);
+  json["cost"] = cost(run);
+  return json;
+}
+
+Json case_json(const Case& given) {
+  const Json& document = given.document.value();
+  Json json = {{"title", given.title()}};
+  for (const char* key : {"description", "family", "labels", "figures"}) {
+    if (document.contains(key)) json[key] = document.at(key);
+  }
+  json["analysis"] = analysis_kind(given.document);
+  json["variants"] = Json::object();
+  for (const std::string& variant : given.variants()) {
+    json["variants"][variant] = {{"title", given.variant_title(variant)}};
+  }
+  return json;
+}
+
+Json reference_json(const CitedReference& cited) {
+  const Reference& reference = cited.reference;
+  Json json = {{"title", reference.title},
+               {"kind", to_string(reference.kind)},
+               {"unit", reference.unit},
+               {"values", numbers(reference.values)},
+               {"uncertainty", numbers(reference.uncertainty)},
+               {"citation", cited.source.text},
+               {"place", reference.place}};
+  if (!cited.source.doi.empty()) json["doi"] = cited.source.doi;
+  if (!reference.printed.empty()) json["printed"] = reference.printed;
+  if (!reference.derivation.empty()) json["derivation"] = reference.derivation;
+  if (!reference.errata.empty()) json["errata"] = reference.errata;
+  if (!reference.notes.empty()) json["notes"] = reference.notes;
+  return json;
+}
+
+}  // namespace
+
+Json results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
+                const References& references) {
+  Json results = {{"format", 1},
+                  {"environment", environment()},
+                  {"cases", Json::object()},
+                  {"references", Json::object()},
+                  {"runs", Json::array()}};
+  for (const Case& one : cases) results["cases"][one.id()] = case_json(one);
+  for (const auto& [id, cited] : references.used()) {
+    results["references"][id] = reference_json(cited);
+  }
+  for (const Run& run : runs) {
+    if (!results["cases"].contains(run.case_id)) {
+      // A case that could not be read is told of all the same.
+      results["cases"][run.case_id] = {{"title", run.case_id}, {"variants", Json::object()}};
+    }
+    results["runs"].push_back(run_json(run));
+  }
+  return results;
+}
+
+fs::path write_results(const Json& results, const fs::path& folder) {
+  fs::path file = folder / "results.json";
+  write_file(file, pretty(results));
+  return file;
+}
+
+void require_writable(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const fs::path probe = folder / ".trammel-probe";
+  const bool written = static_cast<bool>(std::ofstream(probe) << ' ');
+  fs::remove(probe, error);
+  if (!written)
+    throw InputError("--out " + folder.string() + ": expected a folder that can be written");
+}
+
+}  // namespace trammel

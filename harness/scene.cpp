@@ -1,0 +1,79 @@
+#include "harness/scene.h"
+
+#include "harness/frame_reader.h"
+#include "harness/manipulator_reader.h"
+
+namespace trammel {
+namespace {
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Scene read_scene(const Document& document) {
+  const Cursor root(document);
+  if (!root.has("model")) throw root.error("expected the key 'model' for this analysis");
+  const Cursor model = root["model"];
+  Scene scene;
+  if (model.has("manipulator")) {
+    read_manipulator(model, scene);
+  } else {
+    for (const char* key : {"pose", "trajectory"}) {
+      if (model.has(key)) throw model[key].error("expected a manipulator beside it");
+    }
+    if (!model.has("nodes") || model["nodes"].size() == 0) {
+      throw model.error("expected a manipulator or nodes");
+    }
+  }
+  try {
+    const Model bare =
+        scene.manipulator ? build_manipulator(*scene.manipulator, scene.poses.front()) : Model();
+    scene.parts = read_parts(model, bare.nodes);
+  } catch (const ModelError& error) {
+    throw model_error(document, error);
+  }
+  return scene;
+}
+
+Model build_model(const Scene& scene, std::size_t step) {
+  if (!scene.manipulator) return scene.parts;
+  Model model = build_manipulator(*scene.manipulator, scene.poses.at(step));
+  const auto plates = static_cast<Index>(model.plates.size());
+  for (Triangle triangle : scene.parts.triangles) {
+    triangle.plate += plates;
+    model.triangles.push_back(triangle);
+  }
+  append(model.nodes, scene.parts.nodes);
+  append(model.members, scene.parts.members);
+  append(model.plates, scene.parts.plates);
+  append(model.rigid_bodies, scene.parts.rigid_bodies);
+  append(model.masses, scene.parts.masses);
+  append(model.springs, scene.parts.springs);
+  append(model.supports, scene.parts.supports);
+  append(model.loads, scene.parts.loads);
+  model.gravity = scene.parts.gravity;
+  return model;
+}
+
+InputError model_error(const Document& document, const ModelError& error) {
+  const std::string text = error.what();
+  const Cursor model = Cursor(document)["model"];
+  for (const char* kind : {"members", "rigid_bodies", "supports", "plates", "springs", "nodes"}) {
+    const auto parts = model.find(kind);
+    if (!parts) continue;
+    for (const auto& [name, part] : parts->entries()) {
+      for (const char* quote : {"'", "\""}) {
+        if (text.find(quote + name + quote) != std::string::npos) {
+          return part.error("expected a model that has a meaning: " + text);
+        }
+      }
+    }
+  }
+  const Cursor place = model.has("manipulator") ? model["manipulator"] : model;
+  return place.error("expected a model that has a meaning: " + text);
+}
+
+}  // namespace trammel

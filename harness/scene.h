@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "harness/cursor.h"
+#include "solver/manipulator.h"
+#include "solver/model.h"
+
+namespace trammel {
+
+/// What the "model" of a case describes, ready to be built at each of its poses.
+struct Scene {
+  std::optional<ManipulatorDesign> manipulator;
+  std::vector<Pose> poses;   ///< of the manipulator: one, or those of the path
+  bool along_path = false;   ///< every quantity has one number a pose
+  std::vector<double> time;  ///< of the poses along a path [s]
+  /// Everything else. Its indices count the manipulator's nodes first, then its own.
+  Model parts;
+
+  [[nodiscard]] std::size_t steps() const { return along_path ? poses.size() : 1; }
+};
+
+/// @param document  a case with its patches, which has passed the schema
+/// @throws InputError  where names lead nowhere, geometry is impossible, a pose is out of reach or
+/// a
+///                     combination has no meaning.
+[[nodiscard]] Scene read_scene(const Document& document);
+
+/// The planar model at a pose of the path (0 where there is none).
+[[nodiscard]] Model build_model(const Scene& scene, std::size_t step);
+
+/// The error of a model that the solver refused, at the part that its message names.
+[[nodiscard]] InputError model_error(const Document& document, const ModelError& error);
+
+}  // namespace trammel

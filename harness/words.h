@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Small words for messages.
+namespace trammel {
+
+/// Number of single-character insertions, deletions, substitutions and swaps of neighbours.
+[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate that a misspelt word most likely meant; empty when none is near.
+[[nodiscard]] std::string nearest(const std::string& word,
+                                  const std::vector<std::string>& candidates);
+
+/// "; did you mean 'x'?", or nothing when no candidate is near.
+[[nodiscard]] std::string did_you_mean(const std::string& word,
+                                       const std::vector<std::string>& candidates);
+
+/// "'word'"
+[[nodiscard]] std::string quoted(const std::string& word);
+
+/// "a, b or c"
+[[nodiscard]] std::string join(const std::vector<std::string>& words, const std::string& last);
+
+/// The shortest decimal that reads back the same double.
+[[nodiscard]] std::string shortest(double value);
+
+/// Bytes that a terminal or a line cannot hold become '?', long text is cut.
+[[nodiscard]] std::string printable(std::string text, std::size_t length = 60);
+
+}  // namespace trammel
