@@ -66,7 +66,7 @@ class Study {
     extrapolate();
     measure_errors();
     find_range();
-    fit();
+    result_.fitted_order = slope(h_, error_, in_range_);
     result_.series = series_;
     spread(result_.error, error_);
     spread(result_.order, order_);
@@ -141,17 +141,6 @@ class Study {
     }
   }
 
-  void fit() {
-    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (std::size_t k = 0; k < count(); ++k) {
-      if (!in_range_[k]) continue;
-      const double x = std::log(h_[k]), y = std::log(error_[k]);
-      n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
-    }
-    const double spread_of_x = n * sxx - sx * sx;
-    if (n >= 2 && spread_of_x > 0) result_.fitted_order = (n * sxy - sx * sy) / spread_of_x;
-  }
-
   template <class Values>
   void spread(Values& all, const Values& found) const {
     all.assign(series_.values.size(), typename Values::value_type{});
@@ -167,6 +156,19 @@ class Study {
 };
 
 }  // namespace
+
+std::optional<double> slope(const std::vector<double>& size, const std::vector<double>& error,
+                            const std::vector<bool>& chosen) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    if (!chosen[k]) continue;
+    const double x = std::log(size[k]), y = std::log(std::abs(error[k]));
+    n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const double spread_of_x = n * sxx - sx * sx;
+  if (n < 2 || !(spread_of_x > 0)) return std::nullopt;
+  return (n * sxy - sx * sy) / spread_of_x;
+}
 
 Convergence study(const Series& series) {
   return Study(series).run();

@@ -44,6 +44,11 @@ struct Convergence {
 /// 130, 078001, 2008).
 [[nodiscard]] Convergence study(const Series& series);
 
+/// Slope of log error over log size on the chosen levels (least squares); nothing below two levels.
+[[nodiscard]] std::optional<double> slope(const std::vector<double>& size,
+                                          const std::vector<double>& error,
+                                          const std::vector<bool>& chosen);
+
 /// How many times the round-off error an error must be to say anything about the discretisation.
 inline constexpr double clear_of_roundoff = 100;
 

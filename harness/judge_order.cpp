@@ -78,7 +78,7 @@ class OrderJudge {
     return one;
   }
 
-  /// The qualifying level whose number is farthest from `target`.
+  /// The number of a qualifying level that is farthest from `target`.
   template <class Value>
   double worst(double target, const Value& value, Judgement& one) const {
     double farthest = nothing;
@@ -100,14 +100,17 @@ class OrderJudge {
     one.expected = found_.series.theory;
     if (lacks_evidence(one)) return one;
     const double theory = *found_.series.theory;
-    const auto between = [&](std::size_t k) {
-      return k > 0 && qualifies_[k - 1] ? found_.order[k] : nothing;
-    };
-    one.computed = worst(theory, between, one);
-    if (!std::isfinite(*one.computed)) {
-      one.message = "no two neighbouring meshes qualify";
+    const std::optional<double> fitted = slope(found_.series.size, found_.error, qualifies_);
+    if (!fitted) {
+      one.message = "fewer than two meshes qualify";
       return one;
     }
+    one.computed = *fitted;
+    const double farthest = worst(
+        theory,
+        [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? found_.order[k] : nothing; }, one);
+    one.message = std::to_string(meshes_) + " meshes qualify; between two of them at worst " +
+                  shortest(farthest);
     conclude(one, *one.computed - theory, demand_.within);
     return one;
   }
