@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "harness/analysis_kinds.h"
 #include "harness/words.h"
 #include "solver/modes.h"
@@ -39,6 +41,10 @@ StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t
       result.drawing->shapes.push_back(
           draw_shape(system, modes.shape.col(i), label(i, modes.frequency[i])));
     }
+  }
+  if (analysis.has("count_below_Hz")) {
+    const std::optional<Index> below = count_modes_below(system, analysis.number("count_below_Hz"));
+    record.add("modes_below", "", below ? static_cast<double>(*below) : std::nan(""));
   }
   record.add("rigid_motions", "", static_cast<double>(modes.rigid_motions));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));

@@ -15,10 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr Index kDenseSize = 220;       // free coordinates; above, Lanczos is faster
-constexpr double kLargestGrowth = 1e7;  // of the factor of an indefinite matrix
-constexpr double kSettled = 1e-11;      // relative change of an eigenvalue in one inverse iteration
-constexpr double kClearGap = 1e-3;      // between neighbours that are certainly not copies
+constexpr Index kDenseSize = 220;   // free coordinates; above, Lanczos is faster
+constexpr double kSettled = 1e-11;  // relative change of an eigenvalue in one inverse iteration
+constexpr double kClearGap = 1e-3;  // between neighbours that are certainly not copies
 
 /// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
 class LanczosOperator {
@@ -287,7 +286,7 @@ class Solver {
       }
       factorization_.compute(*pencil_.K - pairs_.check_shift * *pencil_.B);
       ++counters_.factorizations;
-      if (factorization_.exists() && factorization_.growth() < kLargestGrowth) break;
+      if (factorization_.is_reliable()) break;
     }
     pairs_.inertia_count = factorization_.exists() ? factorization_.negative_pivots() : -1;
     return pairs_.inertia_count;

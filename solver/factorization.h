@@ -21,6 +21,8 @@ class Factorization {
   [[nodiscard]] Eigen::Index negative_pivots() const;
   /// Largest |L|: above about 1e8 an indefinite matrix without row exchanges has lost its digits.
   [[nodiscard]] double growth() const;
+  /// Whether the signs of the pivots can be believed.
+  [[nodiscard]] bool is_reliable() const { return exists_ && growth() < 1e8; }
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// x = F^-T y, y = F^-1 b with F F^T = A, for a positive definite A.

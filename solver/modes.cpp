@@ -114,4 +114,12 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   return solution;
 }
 
+std::optional<Index> count_modes_below(const System& system, double frequency) {
+  const double w = 2 * std::numbers::pi * frequency;
+  Factorization factorization;
+  factorization.compute(system.K - w * w * system.M);
+  if (!factorization.is_reliable()) return std::nullopt;
+  return factorization.negative_pivots();
+}
+
 }  // namespace trammel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "solver/eigenpairs.h"
@@ -38,5 +39,10 @@ struct ModalSolution {
 };
 
 [[nodiscard]] ModalSolution solve_modes(const System& system, const ModesOptions& options);
+
+/// Natural frequencies below `frequency` [Hz], copies of repeated ones and rigid motions included,
+/// by the negative pivots of K - (2 pi f)^2 M (Sylvester); nothing where the factorization loses
+/// its digits, as on a natural frequency.
+[[nodiscard]] std::optional<Index> count_modes_below(const System& system, double frequency);
 
 }  // namespace trammel
