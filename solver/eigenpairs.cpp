@@ -112,7 +112,7 @@ class Search {
         size(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
     start = op.complement(start);
     solver.init(start.data());
-    solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-11);
+    solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-9);
     const VectorXd mu = solver.eigenvalues();  // the converged ones, descending
     const MatrixXd Y = solver.eigenvectors();
     const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
@@ -135,7 +135,7 @@ class Search {
 class Solver {
  public:
   Solver(const Pencil& pencil, const MatrixXd& null, Index count, EigenPath path,
-         Counters& counters)
+         Factorization& factorization, Counters& counters)
       : pencil_(pencil),
         null_(null),
         count_(count),
@@ -144,16 +144,16 @@ class Solver {
                 path == EigenPath::dense ||
                     (path == EigenPath::automatic && pencil.K->rows() <= kDenseSize) ||
                     pencil.K->rows() < 4,
-                counters) {}
+                counters),
+        factorization_(factorization) {}
 
   Eigenpairs run() {
     constexpr int kRounds = 40;
-    factor();
     if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) {
       pairs_.outcome = {Status::not_converged, "the matrices are too ill-conditioned for doubles"};
       return pairs_;
     }
-    const Index guard = 4 + count_ / 4;
+    const Index guard = 3 + count_ / 4;
     add(search_.first(factorization_, count_ + guard, null_));
     for (int round = 0; round < kRounds; ++round) {
       improve_until_settled();
@@ -171,8 +171,7 @@ class Solver {
 
  private:
   void factor() {
-    const SparseMatrix A = pencil_.s == 0 ? *pencil_.K : *pencil_.K - pencil_.s * *pencil_.B;
-    factorization_.compute(A);
+    factorization_.compute(shifted(*pencil_.K, *pencil_.B, pencil_.s));
     ++counters_.factorizations;
   }
 
@@ -225,7 +224,8 @@ class Solver {
     MatrixXd Y(X_.rows(), p);
     for (Index j = 0; j < p; ++j) {
       Y.col(j) = refined_solve([this](const VectorXd& x) { return apply(x); }, factorization_,
-                               *pencil_.B * X_.col(j), counters_);
+                               *pencil_.B * X_.col(j), X_.col(j) / (pairs_.value[j] - pencil_.s),
+                               counters_);
       remove_null(Y.col(j));
       for (int twice = 0; twice < 2; ++twice) orthogonalise(Y, j);
     }
@@ -284,7 +284,7 @@ class Solver {
       } else {
         pairs_.check_shift = v[cut - 1] + place * (v[cut] - v[cut - 1]);
       }
-      factorization_.compute(*pencil_.K - pairs_.check_shift * *pencil_.B);
+      factorization_.compute(shifted(*pencil_.K, *pencil_.B, pairs_.check_shift));
       ++counters_.factorizations;
       if (factorization_.is_reliable()) break;
     }
@@ -326,7 +326,7 @@ class Solver {
   Index count_;
   Counters& counters_;
   Search search_;
-  Factorization factorization_;
+  Factorization& factorization_;
   MatrixXd X_;
   Index checked_ = 0;
   Eigenpairs pairs_;
@@ -335,8 +335,12 @@ class Solver {
 }  // namespace
 
 Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null, Index count,
-                             EigenPath path, Counters& counters) {
-  return Solver(pencil, null, count, path, counters).run();
+                             EigenPath path, Factorization& factorization, Counters& counters) {
+  return Solver(pencil, null, count, path, factorization, counters).run();
+}
+
+SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
+  return K - t * B;
 }
 
 }  // namespace trammel

@@ -32,7 +32,7 @@ struct Eigenpairs {
   double check_shift = 0;
 };
 
-/// Dense or sparse, of K - s B, factored once: B x = mu (K - s B) x, largest mu first, mu =
+/// Dense or sparse: B x = mu (K - s B) x, largest mu first, mu =
 /// 1 / (lambda - s). B is never factored. Every answer is improved by inverse iteration with
 /// residuals of `K_times`, and counted: K - t B with t just above the last one, between clusters,
 /// must have as many negative pivots as were found (Sylvester). Lanczos may miss copies of a
@@ -40,7 +40,12 @@ struct Eigenpairs {
 ///
 /// @param null  q x r, vectors with K x = 0 and B-orthonormal, known beforehand; they count
 ///              as the first eigenvalues, 0, and are not among those returned.
+/// @param factorization  has `shifted(K, B, s)` factored; used up.
 [[nodiscard]] Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null,
-                                           Index count, EigenPath path, Counters& counters);
+                                           Index count, EigenPath path,
+                                           Factorization& factorization, Counters& counters);
+
+/// K - t B, with the pattern of both whatever t is.
+[[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
 
 }  // namespace trammel

@@ -2,11 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>  // MetisSupport needs it
+
+// after <iostream>
+#include <Eigen/MetisSupport>
+#include <Eigen/OrderingMethods>
 
 namespace trammel {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+
+void FillReducingOrdering::operator()(const Eigen::SparseMatrix<double>& matrix,
+                                      PermutationType& permutation) const {
+  constexpr Index kSmall = 5000;
+  if (matrix.rows() < kSmall) {
+    Eigen::AMDOrdering<int>()(matrix, permutation);
+  } else {
+    Eigen::MetisOrdering<int>()(matrix, permutation);
+  }
+}
 
 void Factorization::compute(const Eigen::SparseMatrix<double>& A) {
   scaling_ =

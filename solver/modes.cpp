@@ -84,13 +84,10 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   solution.counters = system.counters;
   Counters& counters = solution.counters;
   if (system.K.rows() == 0) return solution;  // nothing can move
-  FreeMotions free;
-  {
-    Factorization K;
-    K.compute(system.K);
-    ++counters.factorizations;
-    free = find_free_motions(system, K, counters);
-  }
+  Factorization factorization;
+  factorization.compute(shifted(system.K, system.M, 0));
+  ++counters.factorizations;
+  FreeMotions free = find_free_motions(system, factorization, counters);
   solution.rigid_motions = free.count();
   solution.rigid_motion_words = describe_free_motions(system, free);
   if (!orthonormalise(system.M, free.basis)) {
@@ -101,13 +98,18 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   Pencil pencil;
   pencil.K = &system.K;
   pencil.B = &system.M;
-  pencil.s = free.count() > 0 ? floating_shift(system, free.basis, counters) : 0;
+  if (free.count() > 0) {
+    pencil.s = floating_shift(system, free.basis, counters);
+    factorization.compute(shifted(system.K, system.M, pencil.s));
+    ++counters.factorizations;
+  }
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const MatrixXd& X) {
     return strain_products(system, system.T * X);
   };
   const Index elastic = std::max<Index>(0, options.count - free.count());
-  const Eigenpairs pairs = lowest_eigenpairs(pencil, free.basis, elastic, options.path, counters);
+  const Eigenpairs pairs =
+      lowest_eigenpairs(pencil, free.basis, elastic, options.path, factorization, counters);
   solution.outcome = pairs.outcome;
   solution.inertia_count = pairs.inertia_count;
   fill(system, pairs, free.basis, options.count, solution);

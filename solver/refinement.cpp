@@ -1,7 +1,5 @@
 #include "solver/refinement.h"
 
-#include <limits>
-
 #include "solver/strain.h"
 
 namespace trammel {
@@ -14,10 +12,17 @@ Operator stiffness_operator(const System& system) {
 
 Eigen::VectorXd refined_solve(const Operator& A, const Factorization& factorization,
                               const Eigen::VectorXd& b, Counters& counters) {
-  constexpr int kMostSteps = 8;
-  constexpr double kEps = std::numeric_limits<double>::epsilon();
-  Eigen::VectorXd x = factorization.solve(b);
+  const Eigen::VectorXd x = factorization.solve(b);
   ++counters.solves;
+  return refined_solve(A, factorization, b, x, counters);
+}
+
+Eigen::VectorXd refined_solve(const Operator& A, const Factorization& factorization,
+                              const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
+                              Counters& counters) {
+  constexpr int kMostSteps = 8;
+  constexpr double kSmall = 1e-10;  // a correction whose own error no longer counts
+  Eigen::VectorXd x = guess;
   double last = x.norm();
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::VectorXd correction = factorization.solve(b - A(x));
@@ -25,7 +30,7 @@ Eigen::VectorXd refined_solve(const Operator& A, const Factorization& factorizat
     const double size = correction.norm();
     if (!(size < last)) break;  // it no longer converges: what is left is rounding, or hopeless
     x += correction;
-    if (size <= 2 * kEps * x.norm() || size > 0.5 * last) break;
+    if (size <= kSmall * x.norm() || size > 0.5 * last) break;
     last = size;
   }
   return x;

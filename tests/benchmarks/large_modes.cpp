@@ -1,0 +1,125 @@
+// Time and peak memory of the first ten modes of two large models, at full size and at a tenth,
+// each in its own process. Measured, never asserted.
+//   large_modes                  both models, both sizes, and their ratios
+//   large_modes lattice 100000   one of them: a square lattice of frame members ...
+//   large_modes plate 200000     ... or a square plate of constant-strain triangles
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "solver/modes.h"
+
+namespace {
+
+using namespace trammel;
+
+double seconds() {
+  using Clock = std::chrono::steady_clock;
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+/// n x n nodes in a square of 1 m, clamped along x = 0.
+Model square(Index n, bool rotations) {
+  Model model;
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      const auto steps = static_cast<double>(n - 1);
+      model.nodes.push_back({"", {static_cast<double>(i) / steps, static_cast<double>(j) / steps}});
+      if (i == 0) model.supports.push_back({"", j * n, {true, true, rotations}});
+    }
+  }
+  return model;
+}
+
+Model lattice(Index members) {
+  const auto n = static_cast<Index>(std::lround(std::sqrt(static_cast<double>(members) / 2)) + 1);
+  Model model = square(n, true);
+  Member member;
+  const double h = 0.2 / static_cast<double>(n - 1);
+  member.section = {2e11 * h * h, 2e11 * h * h * h * h / 12, 0, 8000 * h * h, 0, h * h, 0};
+  member.end_section = member.section;
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      member.nodes = {j * n + i, j * n + i + 1};
+      if (i + 1 < n) model.members.push_back(member);
+      member.nodes = {j * n + i, (j + 1) * n + i};
+      if (j + 1 < n) model.members.push_back(member);
+    }
+  }
+  return model;
+}
+
+Model plate(Index triangles) {
+  const auto n = static_cast<Index>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)) + 1);
+  Model model = square(n, false);
+  model.plates.push_back({"plate", {2e11, 8000, 0.3}, 0.01});
+  for (Index j = 0; j + 1 < n; ++j) {
+    for (Index i = 0; i + 1 < n; ++i) {
+      const Index a = j * n + i;
+      model.triangles.push_back({0, {a, a + 1, a + n + 1, -1, -1, -1}});
+      model.triangles.push_back({0, {a, a + n + 1, a + n, -1, -1, -1}});
+    }
+  }
+  return model;
+}
+
+int run(const std::string& kind, Index size) {
+  const double begin = seconds();
+  const System system = assemble(kind == "lattice" ? lattice(size) : plate(size));
+  const double assembled = seconds();
+  ModesOptions options;
+  options.count = 10;
+  const ModalSolution modes = solve_modes(system, options);
+  const double end = seconds();
+  std::printf("%s of %td: %td free coordinates, assembled in %.2f s, ten modes in %.2f s\n",
+              kind.c_str(), size, system.K.rows(), assembled - begin, end - assembled);
+  std::printf(
+      "  %s%td found, inertia %td, %lld factorizations, %lld solves; f1 = %.10g Hz, "
+      "f10 = %.10g Hz, round-off %.1e\n",
+      modes.outcome.reason.c_str(), modes.frequency.size(), modes.inertia_count,
+      static_cast<long long>(modes.counters.factorizations),
+      static_cast<long long>(modes.counters.solves), modes.frequency[0],
+      modes.frequency[modes.frequency.size() - 1], modes.roundoff.maxCoeff());
+  return modes.outcome.solved() ? 0 : 1;
+}
+
+struct Cost {
+  double seconds = 0;
+  double megabytes = 0;
+};
+
+Cost measure(const std::string& kind, Index size) {
+  std::fflush(stdout);
+  const double begin = seconds();
+  const pid_t child = fork();
+  if (child == 0) {
+    const int status = run(kind, size);
+    std::fflush(stdout);
+    _exit(status);
+  }
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  const Cost cost{seconds() - begin, static_cast<double>(usage.ru_maxrss) / 1024};
+  std::printf("  %.2f s, peak memory %.0f MB\n", cost.seconds, cost.megabytes);
+  return cost;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 3) return run(argv[1], std::atol(argv[2]));
+  for (const auto& [kind, size] : {std::pair{"lattice", Index{100000}}, {"plate", Index{200000}}}) {
+    const Cost tenth = measure(kind, size / 10);
+    const Cost whole = measure(kind, size);
+    std::printf("  ten times the size: %.1f times the time, %.1f times the memory\n\n",
+                whole.seconds / tenth.seconds, whole.megabytes / tenth.megabytes);
+  }
+  return 0;
+}
