@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace trammel::reports {
+
+/// A table with its units in the column heads, as written to a CSV file (RFC 4180, UTF-8).
+struct Table {
+  using Cell = std::variant<std::monostate, double, std::string>;
+
+  std::vector<std::string> heads;
+  std::vector<std::vector<Cell>> rows;
+};
+
+[[nodiscard]] Table::Cell cell(const std::optional<double>& number);
+
+/// Doubles in their shortest text that reads back the same; what is missing is left empty.
+[[nodiscard]] std::string to_csv(const Table& table);
+
+}  // namespace trammel::reports

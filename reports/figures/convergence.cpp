@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "reports/figures/figures.h"
+#include "reports/number.h"
+#include "reports/palette.h"
+#include "reports/plot_script.h"
+#include "reports/quantity.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr double smallest_drawn = 1e-17;  ///< stands for an error of exactly zero
+
+using Sweeps = std::vector<const Convergence*>;
+
+/// Relative errors: as given, else the distance from the extrapolated value.
+Numbers errors_of(const Convergence& c) {
+  Numbers errors = c.error;
+  const bool given = std::any_of(errors.begin(), errors.end(), [](const Number& e) { return e; });
+  if (given || !c.richardson || *c.richardson == 0) return errors;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (c.values[i]) errors[i] = std::abs(*c.values[i] / *c.richardson - 1);
+  return errors;
+}
+
+double drawn_error(double error) {
+  return std::max(std::abs(error), smallest_drawn);
+}
+
+struct Extent {
+  double low = 1, high = 1e-16;
+  void cover(double y) {
+    low = std::min(low, y);
+    high = std::max(high, y);
+  }
+};
+
+/// Largest estimate of round-off at each level over all indices.
+PlotScript::Rows floor_of(const Sweeps& sweeps) {
+  std::map<double, double> largest;
+  for (const Convergence* c : sweeps)
+    for (std::size_t i = 0; i < c->parameter.size(); ++i)
+      if (c->roundoff[i] && *c->roundoff[i] > 0)
+        largest[c->parameter[i]] = std::max(largest[c->parameter[i]], *c->roundoff[i]);
+  PlotScript::Rows rows;
+  for (const auto& [parameter, roundoff] : largest) rows.push_back({parameter, roundoff});
+  return rows;
+}
+
+/// "mode 3: 3.99"; "index" where the quantity has no better word.
+std::string entry_name(const Convergence& c) {
+  const std::string word = c.quantity.rfind("frequency", 0) == 0 ? "mode " : "entry ";
+  return word + std::to_string(c.index + 1);
+}
+
+/// With the fitted order, which the eye then finds beside its curve.
+std::string series_title(const Convergence& c, bool alone) {
+  std::string title = alone ? in_words(parse_quantity(c.quantity)) : entry_name(c);
+  if (c.fitted_order) title += ": " + significant(*c.fitted_order, 3);
+  return title;
+}
+
+void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool alone,
+                 Extent& extent) {
+  const Numbers errors = errors_of(c);
+  PlotScript::Rows line, inside;
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    if (!errors[k]) continue;
+    const double y = drawn_error(*errors[k]);
+    extent.cover(y);
+    line.push_back({c.parameter[k], y});
+    if (c.in_asymptotic_range[k]) inside.push_back(line.back());
+  }
+  const std::string color = lc(palette::color(i));
+  const std::string style = std::to_string(palette::open_point[i % palette::open_point.size()]);
+  const std::string solid = std::to_string(palette::filled_point[i % palette::filled_point.size()]);
+  script.curve(line, "with linespoints lw 1.4 ps 0.8 pt " + style + color);
+  script.curve(inside, "with points ps 0.8 pt " + solid + color);
+  script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
+}
+
+/// The smallest error over all indices at each level.
+std::map<double, double> lowest_errors(const Sweeps& sweeps) {
+  std::map<double, double> lowest;
+  for (const Convergence* c : sweeps) {
+    const Numbers errors = errors_of(*c);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      if (!errors[k]) continue;
+      const double y = drawn_error(*errors[k]);
+      const auto [known, added] = lowest.emplace(c->parameter[k], y);
+      if (!added) known->second = std::min(known->second, y);
+    }
+  }
+  return lowest;
+}
+
+/// A triangle below the lowest curve between two neighbouring levels, its slope the theory's.
+void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Extent& extent) {
+  if (theory <= 0) return;
+  const std::map<double, double> lowest = lowest_errors(sweeps);
+  // Where the lowest curve falls most steeply there is room beside it.
+  double best = 0;
+  auto at = lowest.end();
+  for (auto k = lowest.begin(); k != lowest.end() && std::next(k) != lowest.end(); ++k) {
+    const double fall = std::abs(std::log(k->second / std::next(k)->second));
+    if (fall > best) best = fall, at = k;
+  }
+  if (at == lowest.end()) return;
+  const auto [x0, y0] = *at;
+  const auto [x1, y1] = *std::next(at);
+  const double ratio = std::pow(x1 / x0, theory);
+  const bool falls = y0 > y1;
+  const double top = std::max(y0, y1) / 8;
+  const double bottom = top / ratio;
+  const double x_top = falls ? x0 : x1;
+  const double x_bottom = falls ? x1 : x0;
+  extent.cover(bottom);
+  script.curve({{x_top, top}, {x_top, bottom}, {x_bottom, bottom}, {x_top, top}},
+               "with lines lw 1.4" + lc(palette::ink));
+  script.label(trimmed(theory, 3), shortest(x_top) + "," + shortest(std::sqrt(top * bottom)) +
+                                       (falls ? " right offset -0.6,0" : " left offset 0.6,0") +
+                                       " front textcolor rgb '" + palette::ink + "'");
+}
+
+/// "3.98 to 4.01", "4.00".
+std::string span(double low, double high) {
+  const std::string a = significant(low, 3);
+  const std::string b = significant(high, 3);
+  return a == b ? a : a + " to " + b;
+}
+
+std::string conclusion(const Sweeps& sweeps) {
+  double low = 1e300, high = -1e300;
+  std::string off;
+  std::size_t fitted = 0;
+  const Number theory = sweeps.front()->theory_order;
+  for (const Convergence* c : sweeps) {
+    if (!c->fitted_order) continue;
+    ++fitted;
+    low = std::min(low, *c->fitted_order);
+    high = std::max(high, *c->fitted_order);
+    if (theory && std::abs(*c->fitted_order - *theory) > 0.1)
+      off += (off.empty() ? "" : ", ") + entry_name(*c) + " (" + significant(*c->fitted_order, 3) +
+             ")";
+  }
+  const std::string against = theory ? "; theory: " + trimmed(*theory, 3) : "";
+  std::string text;
+  if (fitted == 0) {
+    text = "No order is claimed: no mesh lies in the asymptotic range";
+  } else {
+    text = sweeps.size() == 1 ? "The error falls with order " + span(low, high)
+           : fitted == sweeps.size()
+               ? "All " + std::to_string(fitted) + " fall with order " + span(low, high)
+               : std::to_string(fitted) + " of " + std::to_string(sweeps.size()) +
+                     " have levels in the asymptotic range and fall with order " + span(low, high);
+  }
+  text += against + ".";
+  if (!off.empty()) text += " More than 0.1 from theory: " + off + ".";
+  return text;
+}
+
+std::string floor_sentence(const Sweeps& sweeps) {
+  const auto rows = floor_of(sweeps);
+  if (rows.empty()) return "";
+  double high = 0;
+  for (const auto& row : rows) high = std::max(high, row[1]);
+  return " Filled marks lie in the asymptotic range; the grey ground is round-off, at most " +
+         trimmed(high, 2) + " here.";
+}
+
+Table table_of(const Sweeps& sweeps) {
+  Table table;
+  table.heads = {sweeps.front()->sweep,    "index",
+                 sweeps.front()->quantity, "relative_error",
+                 "relative_roundoff",      "pairwise_order",
+                 "in_asymptotic_range",    "relative_uncertainty_band"};
+  for (const Convergence* c : sweeps) {
+    const Numbers errors = errors_of(*c);
+    for (std::size_t k = 0; k < c->parameter.size(); ++k)
+      table.rows.push_back({c->parameter[k], static_cast<double>(c->index + 1), cell(c->values[k]),
+                            cell(errors[k]), cell(c->roundoff[k]), cell(c->order[k]),
+                            std::string(c->in_asymptotic_range[k] ? "yes" : "no"),
+                            cell(c->band[k])});
+  }
+  return table;
+}
+
+void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
+  std::set<double> levels;
+  for (const Convergence* c : sweeps) levels.insert(c->parameter.begin(), c->parameter.end());
+  script.command("set logscale x");
+  script.range("x", *levels.begin() / 1.3, *levels.rbegin() * 1.3);
+  std::string tics;
+  const std::size_t step = (levels.size() + 8) / 9;
+  std::size_t i = 0;
+  for (const double level : levels)
+    if (i++ % step == 0) tics += (tics.empty() ? "" : ", ") + tic(trimmed(level, 3), level);
+  script.command("set xtics (" + tics + ")");
+  const Quantity parameter = parse_quantity(sweeps.front()->sweep);
+  script.axis_label("x", axis_label(parameter.label, parameter.unit));
+}
+
+Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
+  const Convergence& first = *sweeps.front();
+  const bool exact =
+      std::any_of(first.error.begin(), first.error.end(), [](const Number& e) { return e; });
+  PlotScript script;
+  parameter_axis(script, sweeps);
+  const std::string words = in_words(parse_quantity(first.quantity));
+  script.axis_label(
+      "y", exact ? "relative error of " + words : "distance of " + words + " from extrapolated");
+  Extent extent;
+  std::vector<std::string> titles = {"round-off"};
+  for (const Convergence* c : sweeps) titles.push_back(series_title(*c, sweeps.size() == 1));
+  const int key_height = script.key_below(titles);
+  const auto floor = floor_of(sweeps);
+  for (const auto& row : floor) extent.cover(0.3 * row[1]);
+  script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::shade), "round-off");
+  for (std::size_t i = 0; i < sweeps.size(); ++i)
+    draw_series(script, *sweeps[i], i, sweeps.size() == 1, extent);
+  if (first.theory_order) draw_slope(script, sweeps, *first.theory_order, extent);
+  script.log_axis("y", extent.low, extent.high);
+  script.plot();
+
+  Figure figure;
+  figure.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity);
+  figure.title = "Convergence of " + words + " over " + parse_quantity(first.sweep).label + ": " +
+                 info.variant_title(run.variant);
+  figure.caption = conclusion(sweeps) + floor_sentence(sweeps);
+  if (!exact)
+    figure.caption +=
+        " No exact value is at hand: errors are distances from the "
+        "Richardson-extrapolated value.";
+  figure.alt = "Error against " + parse_quantity(first.sweep).label + " on logarithmic axes. " +
+               conclusion(sweeps);
+  figure.height = 360 + key_height;
+  figure.commands = script.commands();
+  figure.data = table_of(sweeps);
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
+  std::vector<std::pair<std::string, Sweeps>> groups;
+  for (const Convergence& c : run.convergence) {
+    if (c.parameter.empty()) continue;
+    const Numbers errors = errors_of(c);
+    if (std::none_of(errors.begin(), errors.end(), [](const Number& e) { return e; })) continue;
+    const std::string key = c.sweep + "\n" + c.quantity;
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const auto& group) { return group.first == key; });
+    if (same == groups.end()) {
+      groups.push_back({key, {&c}});
+    } else {
+      same->second.push_back(&c);
+    }
+  }
+  std::vector<Figure> figures;
+  figures.reserve(groups.size());
+  for (const auto& [_, sweeps] : groups) figures.push_back(figure_of(info, run, sweeps));
+  return figures;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures/figures.h"
+#include "reports/figures/strip.h"
+#include "reports/number.h"
+#include "reports/palette.h"
+#include "reports/standing.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t most_digits = 9;  ///< entries of a row that can be told apart by digits
+
+/// Checks of the same name and measure over all runs of a case.
+struct Subject {
+  std::string name, measure;
+  std::vector<CheckGroup> rows;
+};
+
+std::vector<Subject> subjects(const std::vector<const Run*>& runs) {
+  std::vector<Subject> out;
+  for (const Run* run : runs) {
+    for (CheckGroup& group : group_checks(*run)) {
+      const Check& check = group.front();
+      if (!check.known_discrepancy || !check.tolerance) continue;
+      auto subject = std::find_if(out.begin(), out.end(), [&](const Subject& known) {
+        return known.name == check.name && known.measure == check.measure;
+      });
+      if (subject == out.end())
+        subject = out.insert(out.end(), Subject{check.name, check.measure, {}});
+      subject->rows.push_back(std::move(group));
+    }
+  }
+  return out;
+}
+
+bool by_digits(const CheckGroup& group) {
+  return group.checks.size() > 1 && group.checks.size() <= most_digits;
+}
+
+bool digits_shown(const Subject& subject) {
+  return std::any_of(subject.rows.begin(), subject.rows.end(), by_digits);
+}
+
+struct Span {
+  double low = 0, high = 0;
+  void cover(const Number& x) {
+    if (!x) return;
+    low = std::min(low, *x);
+    high = std::max(high, *x);
+  }
+};
+
+Span extent(const Subject& subject, double origin) {
+  Span span{origin, origin};
+  for (const CheckGroup& row : subject.rows)
+    for (const Check* check : row.checks) {
+      span.cover(check->difference);
+      span.cover(check->tolerance->low);
+      span.cover(check->tolerance->high);
+    }
+  const double room = std::max(0.06 * (span.high - span.low), 1e-12);
+  return {span.low - room, span.high + room};
+}
+
+PlotScript::Rows box(double x0, double x1, std::size_t row) {
+  const double y = strip_y(row);
+  return {{x0, y - 0.2}, {x1, y - 0.2}, {x1, y + 0.2}, {x0, y + 0.2}, {x0, y - 0.2}};
+}
+
+/// Entries as digits where they stand; those that would fall on each other one higher, one lower.
+void draw_digits(PlotScript& script, const CheckGroup& group, std::size_t row, double factor,
+                 const Span& span) {
+  std::vector<const Check*> order;
+  for (const Check* check : group.checks)
+    if (check->difference) order.push_back(check);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Check* a, const Check* b) { return *a->difference < *b->difference; });
+  const double near = 0.02 * (span.high - span.low);
+  const auto distance = [&](std::size_t i) {
+    return *order[i]->difference - *order[i - 1]->difference;
+  };
+  bool high = false;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool crowded =
+        (i > 0 && distance(i) < near) || (i + 1 < order.size() && distance(i + 1) < near);
+    high = crowded && !high;
+    const double y = strip_y(row) + (crowded ? (high ? 0.13 : -0.13) : 0);
+    const bool pass = order[i]->verdict == Verdict::pass;
+    script.label(std::to_string(order[i]->index.value_or(0) + 1),
+                 shortest(factor * *order[i]->difference) + "," + shortest(y) +
+                     " center front font ',12.5' textcolor rgb '" + palette::color(pass ? 0 : 1) +
+                     "'");
+  }
+}
+
+void draw_row(PlotScript& script, const CheckGroup& group, std::size_t row, double factor,
+              const Span& span) {
+  const Tolerance& t = *group.front().tolerance;
+  const double low = factor * t.low.value_or(span.low);
+  const double high = factor * t.high.value_or(span.high);
+  script.curve(box(low, high, row), "with filledcurves closed" + lc(palette::amber),
+               row == 0 ? "expected band" : "");
+  if (by_digits(group)) return draw_digits(script, group, row, factor, span);
+  PlotScript::Rows good, bad;
+  for (const Check* check : group.checks) {
+    if (!check->difference) continue;
+    const double x = factor * *check->difference;
+    (check->verdict == Verdict::pass ? good : bad).push_back({x, strip_y(row)});
+  }
+  script.curve(good, "with points pt 7 ps 0.7" + lc(palette::color(0)));
+  script.curve(bad, "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)));
+}
+
+std::string words(double x, const std::string& measure) {
+  return measure == "relative" ? relative(x, 3, true) : trimmed(x, 4);
+}
+
+std::string conclusion(const Subject& subject) {
+  Span span{1e300, -1e300};
+  std::size_t n = 0, outside = 0;
+  for (const CheckGroup& row : subject.rows)
+    for (const Check* check : row.checks) {
+      span.cover(check->difference);
+      ++n;
+      if (check->verdict != Verdict::pass) ++outside;
+    }
+  std::string text = n == 1 ? "The difference is " + words(span.low, subject.measure)
+                            : "The " + count(n, "difference") + " lie between " +
+                                  words(span.low, subject.measure) + " and " +
+                                  words(span.high, subject.measure);
+  text += outside == 0 ? ", as the record of the discrepancy expects."
+                       : "; " + std::to_string(outside) + " outside what the record expects.";
+  return text;
+}
+
+Table table_of(const Subject& subject, const CaseInfo& info) {
+  Table table;
+  const std::string unit = subject.measure == "relative" || subject.measure == "ratio"
+                               ? "_" + subject.measure
+                               : "_" + subject.rows.front().front().unit;
+  table.heads = {"case",
+                 "variant",
+                 "title",
+                 "quantity",
+                 "index",
+                 "computed",
+                 "expected",
+                 "unit",
+                 "difference" + unit,
+                 "band_low" + unit,
+                 "band_high" + unit,
+                 "verdict"};
+  for (const CheckGroup& row : subject.rows)
+    for (const Check* check : row.checks)
+      table.rows.push_back({info.id, row.run->variant, info.variant_title(row.run->variant),
+                            check->quantity, static_cast<double>(check->index.value_or(0) + 1),
+                            cell(check->computed), cell(check->expected), check->unit,
+                            cell(check->difference), cell(check->tolerance->low),
+                            cell(check->tolerance->high), to_string(check->verdict)});
+  return table;
+}
+
+Figure figure_of(const CaseInfo& info, const Results& results, const Subject& subject) {
+  const bool percent = subject.measure == "relative";
+  const double factor = percent ? 100 : 1;
+  const double origin = subject.measure == "ratio" ? 1 : 0;
+  const Span span = extent(subject, origin);
+  PlotScript script;
+  std::vector<std::string> labels;
+  for (const CheckGroup& row : subject.rows) labels.push_back(info.variant_title(row.run->variant));
+  strip_rows(script, labels);
+  script.range("x", factor * span.low, factor * span.high);
+  const Check& first = subject.rows.front().front();
+  const std::string unit = percent ? "%" : (subject.measure == "absolute" ? first.unit : "");
+  const std::string what = subject.measure == "ratio" ? "ratio" : "computed minus target";
+  script.axis_label("x", unit.empty() ? what : what + " (" + unit + ")");
+  for (std::size_t i = 0; i < subject.rows.size(); ++i)
+    draw_row(script, subject.rows[i], i, factor, span);
+  const double bottom = -static_cast<double>(subject.rows.size());
+  script.curve({{factor * origin, bottom}, {factor * origin, 0}},
+               "with lines lw 1.5" + lc(palette::ink), percent ? "agreement" : "");
+  script.plot();
+
+  const Reference* reference = results.reference(first.reference);
+  Figure figure;
+  figure.id = slug(info.id + "-" + subject.name + "-" + subject.measure + "-discrepancy");
+  figure.title = "Known discrepancy: " + (reference ? reference->title : subject.name);
+  figure.caption = conclusion(subject);
+  if (digits_shown(subject)) figure.caption += " Digits number the entries (modes).";
+  figure.alt = "Differences of every variant with the band expected. " + figure.caption;
+  figure.height = strip_height(subject.rows.size()) + 20;
+  figure.commands = script.commands();
+  figure.data = table_of(subject, info);
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> discrepancy_figures(const CaseInfo& info, const Results& results,
+                                        const std::vector<const Run*>& runs) {
+  std::vector<Figure> figures;
+  for (const Subject& subject : subjects(runs)) {
+    // A lone difference is said by its row in the table.
+    if (subject.rows.size() == 1 && subject.rows.front().checks.size() == 1) continue;
+    figures.push_back(figure_of(info, results, subject));
+  }
+  return figures;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/figure.h"
+#include "reports/results.h"
+
+namespace trammel::reports {
+
+/// One maker for each kind of figure. Each returns nothing where there is nothing to draw.
+
+/// The undeformed mechanism with its joints; the geometries of `further` runs (a title each) and
+/// the drawing's own further poses are laid under it.
+[[nodiscard]] std::optional<Figure> mechanism_figure(
+    const CaseInfo& info, const Run& run,
+    const std::vector<std::pair<std::string, const Drawing*>>& further);
+
+/// Up to eight shapes of one run as small multiples: undeformed grey, deformed coloured.
+[[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
+
+/// What a case's "figures" entry asks for. @param problem  set to the reason where it cannot be
+/// drawn (a quantity or variant that is not there, lengths that differ).
+[[nodiscard]] std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& request,
+                                                  const std::vector<const Run*>& runs,
+                                                  std::string& problem);
+
+/// Log-log error over one sweep of one quantity, all its indices together.
+[[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
+
+/// Share of the tolerance that every check of a family uses which is expected to agree.
+[[nodiscard]] std::optional<Figure> tolerance_figure(const std::string& family,
+                                                     const Results& results,
+                                                     const std::vector<const Run*>& runs);
+
+/// Differences that are known, with the band expected of each: one figure a check name.
+[[nodiscard]] std::vector<Figure> discrepancy_figures(const CaseInfo& info, const Results& results,
+                                                      const std::vector<const Run*>& runs);
+
+}  // namespace trammel::reports

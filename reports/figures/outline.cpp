@@ -1,0 +1,106 @@
+#include "reports/figures/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "reports/number.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t coarse_mesh = 60;  ///< triangles up to which every edge can be seen
+
+/// 1, 2 or 5 times a power of ten, not below `least`.
+double round_step(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (digit * power >= least) return digit * power;
+  return 10 * power;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> polylines(const Drawing& drawing) {
+  std::vector<std::vector<int>> lines;
+  for (const auto& member : drawing.members) {
+    if (!lines.empty() && lines.back().back() == member[0]) {
+      lines.back().push_back(member[1]);
+    } else {
+      lines.push_back(member);
+    }
+  }
+  return lines;
+}
+
+std::vector<std::vector<int>> triangle_edges(const Drawing& drawing) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const auto& t : drawing.triangles)
+    for (int i = 0; i < 3; ++i) ++uses[std::minmax(t[i], t[(i + 1) % 3])];
+  std::vector<std::vector<int>> lines;
+  for (const auto& [edge, n] : uses)
+    if (n == 1 || drawing.triangles.size() <= coarse_mesh)
+      lines.push_back({edge.first, edge.second});
+  return lines;
+}
+
+PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
+                         const std::vector<Point>& nodes) {
+  PlotScript::Rows rows;
+  for (const auto& line : lines) {
+    if (!rows.empty()) rows.emplace_back();
+    for (const int node : line) rows.push_back({nodes[node].first, nodes[node].second});
+  }
+  return rows;
+}
+
+PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Point>& nodes) {
+  std::vector<std::vector<int>> closed;
+  closed.reserve(drawing.triangles.size());
+  for (const auto& t : drawing.triangles) closed.push_back({t[0], t[1], t[2], t[0]});
+  return rows_of(closed, nodes);
+}
+
+std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape, double factor) {
+  std::vector<Point> out = nodes;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].first += factor * shape.displacement[i].first;
+    out[i].second += factor * shape.displacement[i].second;
+  }
+  return out;
+}
+
+Box box_around(const std::vector<std::vector<Point>>& sets, double margin, double least) {
+  constexpr double far = std::numeric_limits<double>::max();
+  Box box{far, -far, far, -far};
+  for (const auto& set : sets) {
+    for (const auto& [x, y] : set) {
+      box.x0 = std::min(box.x0, x);
+      box.x1 = std::max(box.x1, x);
+      box.y0 = std::min(box.y0, y);
+      box.y1 = std::max(box.y1, y);
+    }
+  }
+  const double side = std::max({box.width(), box.height(), 1e-12});
+  const auto widen = [&](double& low, double& high) {
+    const double more = margin * side + std::max(0.0, 0.5 * (least * side - (high - low)));
+    low -= more;
+    high += more;
+  };
+  widen(box.x0, box.x1);
+  widen(box.y0, box.y1);
+  return box;
+}
+
+void frame(PlotScript& script, const Box& box) {
+  script.range("x", box.x0, box.x1);
+  script.range("y", box.y0, box.y1);
+  script.command("set size ratio -1");
+  const std::string step = shortest(round_step(std::max(box.width(), box.height()) / 5));
+  script.command("set xtics " + step + "; set ytics " + step);
+}
+
+}  // namespace trammel::reports

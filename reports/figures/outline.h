@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/plot_script.h"
+#include "reports/results.h"
+
+namespace trammel::reports {
+
+/// Lines of a drawing through given node positions.
+
+/// Members joined end to end into as few polylines as their order allows.
+[[nodiscard]] std::vector<std::vector<int>> polylines(const Drawing& drawing);
+
+/// Edges to draw of the triangles: all of a coarse mesh, the outline of a fine one.
+[[nodiscard]] std::vector<std::vector<int>> triangle_edges(const Drawing& drawing);
+
+/// Rows of (x, y), polylines apart by an empty row.
+[[nodiscard]] PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
+                                       const std::vector<Point>& nodes);
+
+/// Triangles as closed polygons, for filling.
+[[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
+                                                const std::vector<Point>& nodes);
+
+/// Node positions moved by `factor` times a shape's displacements.
+[[nodiscard]] std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape,
+                                           double factor);
+
+/// The smallest box around all points, never thinner than `least` times its longer side.
+struct Box {
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  [[nodiscard]] double width() const { return x1 - x0; }
+  [[nodiscard]] double height() const { return y1 - y0; }
+};
+[[nodiscard]] Box box_around(const std::vector<std::vector<Point>>& sets, double margin,
+                             double least);
+
+/// Sets ranges and an equal scale on both axes.
+void frame(PlotScript& script, const Box& box);
+
+}  // namespace trammel::reports

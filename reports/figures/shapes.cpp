@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures/figures.h"
+#include "reports/figures/outline.h"
+#include "reports/number.h"
+#include "reports/palette.h"
+#include "reports/plot_script.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t most_shapes = 8;
+constexpr double drawn_amplitude = 0.13;  ///< of the longer side
+
+double factor_for(const Shape& shape, double side) {
+  double largest = 0;
+  for (const auto& [ux, uy] : shape.displacement) largest = std::max(largest, std::hypot(ux, uy));
+  return largest > 0 && std::isfinite(largest) ? drawn_amplitude * side / largest : 0;
+}
+
+void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Point>& moved,
+                const std::string& label) {
+  script.command("unset label");
+  script.label(label, "graph 0.5,1.05 center textcolor rgb '" + std::string(palette::ink) + "'");
+  const auto lines = polylines(drawing);
+  const auto edges = triangle_edges(drawing);
+  const std::string grey = lc(palette::structure);
+  const std::string blue = lc(palette::color(0));
+  script.curve(rows_of(edges, drawing.nodes), "with lines lw 1" + grey);
+  script.curve(rows_of(lines, drawing.nodes), "with lines lw 1.2" + grey);
+  script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::plate));
+  script.curve(rows_of(edges, moved), "with lines lw 1.2" + blue);
+  script.curve(rows_of(lines, moved), "with lines lw 2.2" + blue);
+  script.plot();
+}
+
+}  // namespace
+
+std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
+  if (!run.drawing || run.drawing->shapes.empty()) return std::nullopt;
+  const Drawing& drawing = *run.drawing;
+  if (drawing.members.empty() && drawing.triangles.empty()) return std::nullopt;
+  const Box body = box_around({drawing.nodes}, 0, 0);
+  const double side = std::max(body.width(), body.height());
+  const std::size_t n = std::min(drawing.shapes.size(), most_shapes);
+  std::vector<std::vector<Point>> moved;
+  Figure figure;
+  figure.data.heads = {"shape", "node", "x_m", "y_m", "u_x_m", "u_y_m", "drawn_times"};
+  for (std::size_t s = 0; s < n; ++s) {
+    const Shape& shape = drawing.shapes[s];
+    const double factor = factor_for(shape, side);
+    moved.push_back(displaced(drawing.nodes, shape, factor));
+    for (std::size_t i = 0; i < drawing.nodes.size(); ++i)
+      figure.data.rows.push_back({shape.label, static_cast<double>(i), drawing.nodes[i].first,
+                                  drawing.nodes[i].second, shape.displacement[i].first,
+                                  shape.displacement[i].second, factor});
+  }
+  auto everything = moved;
+  everything.push_back(drawing.nodes);
+  const Box box = box_around(everything, 0.02, 0.22);
+  const std::size_t columns = n == 1 ? 1 : 2;
+  const std::size_t rows = (n + columns - 1) / columns;
+  const double panel = 500.0 / static_cast<double>(columns);
+  const double height = std::clamp(panel * box.height() / box.width(), 55.0, 270.0) + 32;
+
+  PlotScript script;
+  script.command("set lmargin 0; set rmargin 0; set tmargin 2; set bmargin 0");
+  frame(script, box);
+  script.command("unset border; unset tics; unset grid; unset key");
+  script.command("set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns));
+  for (std::size_t s = 0; s < n; ++s)
+    draw_panel(script, drawing, moved[s], drawing.shapes[s].label);
+  script.command("unset multiplot");
+
+  figure.id = slug(info.id + "-" + run.variant + "-shapes");
+  figure.title = "Shapes: " + info.variant_title(run.variant);
+  figure.caption =
+      "Grey: at rest; blue: displaced. Each shape is scaled so that its largest "
+      "displacement is " +
+      trimmed(100 * drawn_amplitude, 2) + "\u202f% of the longer side.";
+  figure.alt = "Small pictures of the shapes";
+  for (std::size_t s = 0; s < n; ++s) figure.alt += (s ? "; " : ": ") + drawing.shapes[s].label;
+  figure.height = static_cast<int>(height * static_cast<double>(rows)) + 8;
+  figure.commands = script.commands();
+  return figure;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures/figures.h"
+#include "reports/figures/strip.h"
+#include "reports/number.h"
+#include "reports/palette.h"
+#include "reports/standing.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr double least = 1e-8;  ///< left edge: smaller shares, exact agreement included
+constexpr double most = 100;    ///< right edge: anything beyond, and what has no number
+
+struct Row {
+  std::string label;
+  std::vector<std::pair<const Run*, const Check*>> checks;
+  double worst = 0;
+};
+
+double share(const Check& check) {
+  if (check.verdict == Verdict::error) return most;
+  return std::clamp(tolerance_used(check), least, most);
+}
+
+bool is_shown(const Check& check) {
+  return !check.known_discrepancy && check.verdict != Verdict::not_run;
+}
+
+/// A row a case; a row a check where the family has one case only.
+std::vector<Row> rows_of(const Results& results, const std::vector<const Run*>& runs) {
+  const bool one_case = std::all_of(runs.begin(), runs.end(), [&](const Run* run) {
+    return run->case_id == runs.front()->case_id;
+  });
+  std::vector<Row> rows;
+  for (const Run* run : runs) {
+    for (const Check& check : run->checks) {
+      if (!is_shown(check)) continue;
+      const std::string label = one_case ? check.name : results.case_info(run->case_id).title;
+      auto row = std::find_if(rows.begin(), rows.end(),
+                              [&](const Row& known) { return known.label == label; });
+      if (row == rows.end()) row = rows.insert(rows.end(), Row{label, {}, 0});
+      row->checks.emplace_back(run, &check);
+      row->worst = std::max(row->worst, share(check));
+    }
+  }
+  return rows;
+}
+
+/// Points of the rows that `belongs` picks.
+template <typename Belongs>
+PlotScript::Rows points(const std::vector<Row>& rows, Belongs belongs) {
+  PlotScript::Rows out;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const auto& [_, check] : rows[i].checks)
+      if (belongs(*check)) out.push_back({share(*check), strip_y(i)});
+  // Points that fall on each other are one on paper.
+  for (auto& point : out) point[0] = std::pow(10, std::round(100 * std::log10(point[0])) / 100);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::string conclusion(const std::vector<Row>& rows) {
+  std::size_t n = 0, beyond = 0;
+  const Row* worst = &rows.front();
+  for (const Row& row : rows) {
+    if (row.worst > worst->worst) worst = &row;
+    for (const auto& [_, check] : row.checks) {
+      ++n;
+      if (check->verdict != Verdict::pass) ++beyond;
+    }
+  }
+  if (beyond > 0)
+    return std::to_string(beyond) + " of " + count(n, "check") + " not within tolerance; see " +
+           worst->label + ".";
+  return (n == 1 ? "The check holds" : "All " + count(n, "check") + " hold") +
+         "; the one nearest to its limit uses " + trimmed(100 * worst->worst, 2) +
+         "\u202f% of its tolerance (" + worst->label + ").";
+}
+
+void draw_limits(PlotScript& script, std::size_t rows) {
+  const double bottom = -static_cast<double>(rows);
+  script.curve({{1, bottom}, {most * 1.6, bottom}, {most * 1.6, 0}, {1, 0}, {1, bottom}},
+               "with filledcurves closed" + lc(palette::blush));
+  script.curve({{1, bottom}, {1, 0}}, "with lines lw 1.5" + lc(palette::color(1)));
+}
+
+Table table_of(const std::vector<Row>& rows) {
+  Table table;
+  table.heads = {"case", "variant", "check", "quantity", "index", "share_of_tolerance", "verdict"};
+  for (const Row& row : rows)
+    for (const auto& [run, check] : row.checks) {
+      const double used = tolerance_used(*check);
+      table.rows.push_back(
+          {run->case_id, run->variant, check->name, check->quantity,
+           check->index ? Table::Cell(static_cast<double>(*check->index + 1)) : Table::Cell{},
+           std::isfinite(used) ? Table::Cell(used) : Table::Cell{}, to_string(check->verdict)});
+    }
+  return table;
+}
+
+}  // namespace
+
+std::optional<Figure> tolerance_figure(const std::string& family, const Results& results,
+                                       const std::vector<const Run*>& runs) {
+  if (runs.empty()) return std::nullopt;
+  const std::vector<Row> rows = rows_of(results, runs);
+  if (rows.empty()) return std::nullopt;
+
+  PlotScript script;
+  std::vector<std::string> labels;
+  for (const Row& row : rows)
+    labels.push_back(row.label + " (" + std::to_string(row.checks.size()) + ")");
+  strip_rows(script, labels);
+  script.log_axis("x", least, most);
+  script.range("x", least / 1.6, most * 1.6);
+  script.command(
+      "set xtics ('≤ 10⁻⁸' 1e-8, '10⁻⁶' 1e-6, '10⁻⁴' 1e-4, '1 %%' 1e-2, '10 %%' 1e-1, "
+      "'limit' 1, '≥ 100' 1e2)");
+  script.axis_label("x", "share of the tolerance used");
+  draw_limits(script, rows.size());
+  const auto passes = [](const Check& c) { return c.verdict == Verdict::pass; };
+  const std::string dot = "with points pt 7 ps 0.55";
+  const std::vector<std::pair<std::string, std::string>> roles = {
+      {"verification", palette::color(0)},
+      {"validation", palette::color(3)},
+      {"regression", palette::color(5)}};
+  for (const auto& [role, color] : roles)
+    script.curve(
+        points(rows, [&, wanted = role](const Check& c) { return passes(c) && c.role == wanted; }),
+        dot + lc(color), role);
+  script.curve(points(rows, [&](const Check& c) { return !passes(c); }),
+               "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)), "fails or error");
+  script.plot();
+
+  Figure figure;
+  figure.id = slug(family + "-tolerance");
+  figure.title = "How much of its tolerance each check uses";
+  figure.caption = conclusion(rows);
+  figure.alt = "One dot a check on a logarithmic axis, with the limit marked. " + figure.caption;
+  figure.height = strip_height(rows.size()) + 20;
+  figure.commands = script.commands();
+  figure.data = table_of(rows);
+  return figure;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,151 @@
+#include "reports/gallery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "reports/figures/figures.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t most_poses = 4;
+
+bool same_geometry(const Drawing& a, const Drawing& b) {
+  if (a.joints.size() != b.joints.size()) return false;
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    const auto& [ax, ay] = a.nodes[a.joints[i].node];
+    const auto& [bx, by] = b.nodes[b.joints[i].node];
+    if (std::hypot(ax - bx, ay - by) > 1e-9) return false;
+  }
+  return true;
+}
+
+/// Variants whose joints stand elsewhere than in `base`, one for each pose.
+std::vector<std::pair<std::string, const Drawing*>> further_poses(
+    const CaseInfo& info, const std::vector<const Run*>& runs, const Drawing& base) {
+  std::vector<std::pair<std::string, const Drawing*>> poses;
+  for (const Run* run : runs) {
+    if (!run->drawing || run->drawing->joints.empty() || poses.size() + 1 == most_poses) continue;
+    const Drawing& drawing = *run->drawing;
+    const bool known = same_geometry(base, drawing) ||
+                       std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
+                         return same_geometry(*pose.second, drawing);
+                       });
+    if (!known) poses.emplace_back(info.variant_title(run->variant), &drawing);
+  }
+  return poses;
+}
+
+void append(std::vector<Figure>& figures, std::vector<Figure> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(figures));
+}
+
+/// Drawing and shapes of the first run are shown; the shapes and convergence of others are folded.
+Gallery gallery_of(const CaseInfo& info, const Results& results,
+                   const std::vector<const Run*>& runs) {
+  Gallery gallery;
+  const auto drawn =
+      std::find_if(runs.begin(), runs.end(), [](const Run* run) { return run->drawing; });
+  if (drawn != runs.end()) {
+    const auto poses = further_poses(info, runs, *(*drawn)->drawing);
+    if (auto figure = mechanism_figure(info, **drawn, poses)) gallery.shown.push_back(*figure);
+  }
+  bool first = true;
+  for (const Run* run : runs) {
+    auto shapes = shapes_figure(info, *run);
+    if (shapes) (first ? gallery.shown : gallery.folded).push_back(*shapes);
+    first = first && !shapes;
+  }
+  for (const PlotRequest& request : info.figures) {
+    std::string problem;
+    if (auto figure = curves_figure(info, request, runs, problem)) {
+      gallery.shown.push_back(*figure);
+    } else {
+      gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
+    }
+  }
+  append(gallery.shown, discrepancy_figures(info, results, runs));
+  first = true;
+  for (const Run* run : runs) {
+    auto figures = convergence_figures(info, *run);
+    const bool any = !figures.empty();
+    append(first ? gallery.shown : gallery.folded, std::move(figures));
+    first = first && !any;
+  }
+  return gallery;
+}
+
+std::string family_title(const std::string& id) {
+  std::string title = id;
+  std::replace(title.begin(), title.end(), '-', ' ');
+  std::replace(title.begin(), title.end(), '_', ' ');
+  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
+}
+
+void number_figures(std::vector<Family>& families) {
+  std::set<std::string> used;
+  int number = 0;
+  for (Figure* figure : all_figures(families)) {
+    const std::string wanted = figure->id;
+    for (int copy = 2; !used.insert(figure->id).second; ++copy)
+      figure->id = wanted + "-" + std::to_string(copy);
+    figure->number = ++number;
+  }
+}
+
+}  // namespace
+
+std::vector<const Run*> Family::runs_of(const std::string& case_id) const {
+  std::vector<const Run*> out;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(out),
+               [&](const Run* run) { return run->case_id == case_id; });
+  return out;
+}
+
+std::vector<Family> plan_families(const Results& results) {
+  std::vector<Family> families;
+  for (const CaseInfo& info : results.cases) {
+    std::vector<const Run*> runs;
+    for (const Run& run : results.runs)
+      if (run.case_id == info.id) runs.push_back(&run);
+    if (runs.empty()) continue;
+    auto family = std::find_if(families.begin(), families.end(),
+                               [&](const Family& f) { return f.id == info.family; });
+    if (family == families.end()) {
+      family = families.insert(families.end(), Family{});
+      family->id = info.family;
+      family->title = family_title(info.family);
+    }
+    family->cases.push_back(&info);
+    family->runs.insert(family->runs.end(), runs.begin(), runs.end());
+    family->galleries[info.id] = gallery_of(info, results, runs);
+  }
+  for (Family& family : families)
+    if (auto figure = tolerance_figure(family.id, results, family.runs))
+      family.overview.push_back(*figure);
+  number_figures(families);
+  return families;
+}
+
+std::vector<Figure*> all_figures(std::vector<Family>& families) {
+  std::vector<Figure*> figures;
+  const auto add = [&](std::vector<Figure>& from) {
+    for (Figure& figure : from) figures.push_back(&figure);
+  };
+  for (Family& family : families) {
+    add(family.overview);
+    for (const CaseInfo* info : family.cases) {
+      Gallery& gallery = family.galleries.at(info->id);
+      add(gallery.shown);
+      add(gallery.folded);
+    }
+  }
+  return figures;
+}
+
+}  // namespace trammel::reports

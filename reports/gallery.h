@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reports/figure.h"
+#include "reports/results.h"
+
+namespace trammel::reports {
+
+/// The figures of a case: those shown, those folded away, and what could not be drawn.
+struct Gallery {
+  std::vector<Figure> shown, folded;
+  std::vector<std::string> problems;
+};
+
+/// A family as the page shows it: its cases in order, each with its runs, and all its figures.
+struct Family {
+  std::string id, title;
+  std::vector<const CaseInfo*> cases;
+  std::vector<const Run*> runs;
+  std::vector<Figure> overview;
+  std::map<std::string, Gallery> galleries;  ///< by case id
+
+  [[nodiscard]] std::vector<const Run*> runs_of(const std::string& case_id) const;
+};
+
+/// All families in the order of their first case; figures planned, numbered, not yet drawn. Cases
+/// that were not run are left out.
+[[nodiscard]] std::vector<Family> plan_families(const Results& results);
+
+/// Every figure of all families in the order of the page.
+[[nodiscard]] std::vector<Figure*> all_figures(std::vector<Family>& families);
+
+}  // namespace trammel::reports

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+namespace trammel {
+
+/// Writes what a results file says as JUnit XML: one testsuite a case, one testcase a check and one
+/// for the ending of each run. A failed check is a failure, one that could not be judged an error,
+/// one not run is skipped; known discrepancies that are as recorded pass.
+/// @throws std::runtime_error on an unreadable results file.
+void write_junit(const std::filesystem::path& results_json, const std::filesystem::path& junit_xml);
+
+}  // namespace trammel

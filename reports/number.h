@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace trammel::reports {
+
+/// Numbers for people: a real minus sign, powers of ten as 10⁻⁷, no more digits than say something.
+/// Full precision is for the CSV files (`shortest`).
+
+/// `digits` significant digits, zeros at the end kept; scientific outside 1e-4 ... 1e6.
+[[nodiscard]] std::string significant(double x, int digits);
+
+/// The same with zeros at the end dropped: 0.002, not 0.002000.
+[[nodiscard]] std::string trimmed(double x, int digits);
+
+/// With a sign always: +0.31, −4.2 × 10⁻⁹.
+[[nodiscard]] std::string with_sign(double x, int digits);
+
+/// A relative difference: in per cent from 1e-5 upwards, as a plain number below.
+[[nodiscard]] std::string relative(double x, int digits, bool sign);
+
+/// Digits that show where two numbers part, between 4 and 12.
+[[nodiscard]] int telling_digits(double a, double b);
+
+/// The shortest text that reads back as the same double, independent of the locale.
+[[nodiscard]] std::string shortest(double x);
+
+/// 10⁻⁷.
+[[nodiscard]] std::string power_of_ten(int exponent);
+
+/// "1 check", "3 checks".
+[[nodiscard]] std::string count(std::size_t n, const std::string& singular,
+                                const std::string& plural = "");
+
+/// Seconds as people say them: 840 µs, 12 ms, 3.4 s, 2 min 5 s.
+[[nodiscard]] std::string duration(double seconds);
+
+/// An em dash for what is not there.
+[[nodiscard]] std::string or_dash(const std::optional<double>& x, int digits);
+
+}  // namespace trammel::reports

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace trammel::reports::palette {
+
+/// The colours of all figures. They stay apart for every common kind of colour blindness and in
+/// grey print (after Okabe and Ito, darkened for thin lines on white), and style.css maps each to
+/// its partner on a dark page: a colour added here needs a line there.
+inline constexpr const char* paper = "#ffffff";
+inline constexpr const char* ink = "#1d232b";
+inline constexpr const char* muted = "#5b6470";
+inline constexpr const char* structure = "#a6aeb8";
+inline constexpr const char* grid = "#e4e7eb";
+inline constexpr const char* shade = "#eef0f3";
+inline constexpr const char* amber = "#f3e3bd";
+inline constexpr const char* blush = "#f9e1dc";
+inline constexpr const char* plate = "#dde6f0";
+
+inline constexpr std::array<const char*, 7> series = {"#1f5fa8", "#c8500a", "#16806a", "#a3478f",
+                                                      "#4a9fd4", "#b0830a", "#5b6470"};
+/// Point types of gnuplot that go with them: disc, square, triangle, diamond, ...
+inline constexpr std::array<int, 7> filled_point = {7, 5, 9, 13, 11, 15, 7};
+inline constexpr std::array<int, 7> open_point = {6, 4, 8, 12, 10, 14, 6};
+
+[[nodiscard]] inline const char* color(std::size_t i) {
+  return series[i % series.size()];
+}
+
+}  // namespace trammel::reports::palette

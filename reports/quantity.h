@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace trammel::reports {
+
+/// A quantity's name taken apart: displacement_x_m:P is the "x displacement" of "P" in "m".
+struct Quantity {
+  std::string label, subject, unit;  ///< unit for people: N·m, rad/s; empty if dimensionless
+};
+
+[[nodiscard]] Quantity parse_quantity(const std::string& name);
+
+/// "x displacement of P".
+[[nodiscard]] std::string in_words(const Quantity& quantity);
+
+/// A unit as written in key names (N_m, kg_m2, rad_per_s) for people (N·m, kg·m², rad/s).
+[[nodiscard]] std::string unit_for_people(const std::string& unit);
+
+/// The factor that brings values of up to `largest` near 1 ... 1000, and the unit that goes with
+/// it: 0.0081 m is 8.1 mm. Where the unit takes no prefix, a power of ten stands in its place.
+struct Scale {
+  double factor = 1;
+  std::string unit;
+};
+[[nodiscard]] Scale readable_scale(const std::string& unit, double largest);
+
+/// "x displacement of P (mm)".
+[[nodiscard]] std::string axis_label(const std::string& words, const std::string& unit);
+
+}  // namespace trammel::reports

@@ -1,0 +1,328 @@
+#include "reports/results.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "reports/json_view.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr int any_index = std::numeric_limits<int>::max();
+
+template <typename Value>
+Value one_of(const JsonView& view, const std::vector<std::pair<std::string, Value>>& names) {
+  const std::string name = view.text();
+  std::string expected = "one of";
+  for (const auto& [known, value] : names) {
+    if (known == name) return value;
+    expected += " " + known;
+  }
+  view.fail(expected);
+}
+
+const std::vector<std::pair<std::string, Verdict>>& verdicts() {
+  static const std::vector<std::pair<std::string, Verdict>> names = {{"pass", Verdict::pass},
+                                                                     {"fail", Verdict::fail},
+                                                                     {"error", Verdict::error},
+                                                                     {"not-run", Verdict::not_run}};
+  return names;
+}
+
+const std::vector<std::pair<std::string, Status>>& statuses() {
+  static const std::vector<std::pair<std::string, Status>> names = {
+      {"solved", Status::solved},
+      {"singular", Status::singular},
+      {"not-converged", Status::not_converged},
+      {"error", Status::error},
+      {"not-run", Status::not_run}};
+  return names;
+}
+
+Numbers numbers(const JsonView& view) {
+  Numbers out;
+  for (const JsonView& entry : view.entries()) out.push_back(entry.maybe_number());
+  return out;
+}
+
+std::vector<std::string> texts(const JsonView& view) {
+  std::vector<std::string> out;
+  for (const JsonView& entry : view.entries()) out.push_back(entry.text());
+  return out;
+}
+
+std::vector<Point> points(const JsonView& view) {
+  std::vector<Point> out;
+  for (const JsonView& entry : view.entries()) {
+    const auto xy = entry.entries();
+    if (xy.size() != 2) entry.fail("two numbers");
+    out.emplace_back(xy[0].number(), xy[1].number());
+  }
+  return out;
+}
+
+/// A plain number t: |difference| <= t. Two numbers, either of them null: a range. A bound with one
+/// number is an upper limit.
+std::optional<Tolerance> read_tolerance(const JsonView& view, const std::string& measure) {
+  if (view.null()) return std::nullopt;
+  Tolerance tolerance;
+  if (view.json().is_number()) {
+    tolerance.high = view.number();
+    tolerance.symmetric = measure != "bound";
+    if (tolerance.symmetric) tolerance.low = -view.number();
+    return tolerance;
+  }
+  const auto ends = view.entries();
+  if (ends.size() != 2) view.fail("a number or two");
+  tolerance.low = ends[0].maybe_number();
+  tolerance.high = ends[1].maybe_number();
+  return tolerance;
+}
+
+Check read_check(const JsonView& view) {
+  Check check;
+  check.name = view.at("name").text();
+  check.quantity = view.at("quantity").text();
+  check.unit = view.find("unit").text_or("");
+  check.reference = view.find("reference").text_or("");
+  check.role = view.at("role").text();
+  check.measure = view.find("measure").text_or("");
+  check.why = view.find("why").text_or("");
+  check.message = view.find("message").text_or("");
+  check.statistic = view.find("statistic").text_or("");
+  check.against_variant = view.find("against_variant").text_or("");
+  if (!view.find("index").null()) check.index = view.at("index").integer(any_index);
+  check.computed = view.find("computed").maybe_number();
+  check.expected = view.find("expected").maybe_number();
+  check.difference = view.find("difference").maybe_number();
+  check.tolerance = read_tolerance(view.find("tolerance"), check.measure);
+  check.known_discrepancy = view.find("expectation").text_or("agrees") == "known-discrepancy";
+  check.verdict = one_of(view.at("verdict"), verdicts());
+  return check;
+}
+
+Convergence read_convergence(const JsonView& view) {
+  Convergence c;
+  c.sweep = view.find("sweep").text_or("");
+  c.quantity = view.at("quantity").text();
+  c.reference = view.find("reference").text_or("");
+  if (!view.find("index").null()) c.index = view.at("index").integer(any_index);
+  for (const JsonView& level : view.at("parameter").entries())
+    c.parameter.push_back(level.number());
+  const std::size_t levels = c.parameter.size();
+  const auto column = [&](const char* key) {
+    Numbers read = numbers(view.find(key));
+    if (read.size() > levels) view.at(key).fail("at most " + std::to_string(levels) + " entries");
+    read.resize(levels);
+    return read;
+  };
+  c.values = column("values");
+  c.error = column("error");
+  c.roundoff = column("roundoff");
+  c.order = column("order");
+  c.band = column("band");
+  for (const JsonView& level : view.find("in_asymptotic_range").entries())
+    c.in_asymptotic_range.push_back(!level.null() && level.boolean());
+  c.in_asymptotic_range.resize(levels, false);
+  c.exact = view.find("exact").maybe_number();
+  c.theory_order = view.find("theory_order").maybe_number();
+  c.fitted_order = view.find("fitted_order").maybe_number();
+  c.richardson = view.find("richardson").maybe_number();
+  return c;
+}
+
+std::vector<std::vector<int>> node_sets(const JsonView& view, int nodes, std::size_t size) {
+  std::vector<std::vector<int>> out;
+  for (const JsonView& entry : view.entries()) {
+    std::vector<int> set;
+    for (const JsonView& node : entry.entries()) set.push_back(node.integer(nodes));
+    if (set.size() != size) entry.fail(std::to_string(size) + " node numbers");
+    out.push_back(std::move(set));
+  }
+  return out;
+}
+
+std::vector<Point> one_a_node(const JsonView& view, std::size_t nodes) {
+  std::vector<Point> out = points(view);
+  if (out.size() != nodes) view.fail("one pair of numbers a node, " + std::to_string(nodes));
+  return out;
+}
+
+Drawing read_drawing(const JsonView& view) {
+  Drawing drawing;
+  drawing.nodes = points(view.at("nodes_m"));
+  const int nodes = static_cast<int>(drawing.nodes.size());
+  drawing.members = node_sets(view.find("members"), nodes, 2);
+  drawing.triangles = node_sets(view.find("triangles"), nodes, 3);
+  for (const JsonView& joint : view.find("joints").entries())
+    drawing.joints.push_back(
+        {joint.at("node").integer(nodes), joint.at("kind").text(), joint.find("name").text_or("")});
+  for (const JsonView& shape : view.find("shapes").entries())
+    drawing.shapes.push_back(
+        {shape.at("label").text(), one_a_node(shape.at("displacement_m"), drawing.nodes.size())});
+  for (const JsonView& pose : view.find("poses").entries())
+    drawing.poses.push_back(
+        {pose.find("label").text_or(""), one_a_node(pose.at("nodes_m"), drawing.nodes.size())});
+  return drawing;
+}
+
+Cost read_cost(const JsonView& view) {
+  Cost cost;
+  if (view.null()) return cost;
+  cost.wall_s = view.find("wall_s").maybe_number().value_or(0);
+  cost.cpu_s = view.find("cpu_s").maybe_number().value_or(0);
+  for (const auto& [name, count] : view.find("counters").members())
+    cost.counters.emplace_back(name, count.number());
+  return cost;
+}
+
+Run read_run(const JsonView& view) {
+  Run run;
+  run.case_id = view.at("case").text();
+  run.variant = view.find("variant").text_or("base");
+  run.reason = view.find("reason").text_or("");
+  run.status = one_of(view.at("status"), statuses());
+  for (const auto& [name, values] : view.find("quantities").members())
+    run.quantities.emplace_back(name, numbers(values));
+  for (const JsonView& check : view.find("checks").entries())
+    run.checks.push_back(read_check(check));
+  for (const JsonView& sweep : view.find("convergence").entries())
+    run.convergence.push_back(read_convergence(sweep));
+  if (!view.find("drawing").null()) run.drawing = read_drawing(view.at("drawing"));
+  run.cost = read_cost(view.find("cost"));
+  return run;
+}
+
+CaseInfo read_case(const std::string& id, const JsonView& view) {
+  CaseInfo info;
+  info.id = id;
+  info.title = view.find("title").text_or(id.c_str());
+  info.description = view.find("description").text_or("");
+  info.family = view.find("family").text_or(id.c_str());
+  info.labels = texts(view.find("labels"));
+  for (const auto& [figure, plot] : view.find("figures").members()) {
+    PlotRequest request;
+    request.id = figure;
+    request.title = plot.find("title").text_or(figure.c_str());
+    request.x = plot.find("x").text_or("");
+    request.y = texts(plot.at("y"));
+    request.variants = texts(plot.find("variants"));
+    request.caption = plot.find("caption").text_or("");
+    info.figures.push_back(std::move(request));
+  }
+  for (const auto& [variant, value] : view.find("variants").members())
+    info.variants.emplace_back(variant, value.find("title").text_or(variant.c_str()));
+  return info;
+}
+
+Reference read_reference(const std::string& id, const JsonView& view) {
+  Reference reference;
+  reference.id = id;
+  reference.title = view.find("title").text_or(id.c_str());
+  reference.kind = view.find("kind").text_or("");
+  reference.unit = view.find("unit").text_or("");
+  reference.citation = view.find("citation").text_or("");
+  reference.doi = view.find("doi").text_or("");
+  reference.place = view.find("place").text_or("");
+  const JsonView derivation = view.find("derivation");
+  reference.derivation =
+      derivation.json().is_object() ? derivation.json().dump() : derivation.text_or("");
+  reference.notes = view.find("notes").text_or("");
+  reference.values = numbers(view.find("values"));
+  reference.uncertainty = numbers(view.find("uncertainty"));
+  reference.printed = texts(view.find("printed"));
+  reference.errata = texts(view.find("errata"));
+  return reference;
+}
+
+void read_environment(const JsonView& view, Results& results) {
+  for (const auto& [key, value] : view.members()) {
+    if (value.json().is_string()) results.environment[key] = value.text();
+    if (value.json().is_number()) results.environment[key] = value.json().dump();
+  }
+  for (const auto& [name, version] : view.find("libraries").members())
+    results.libraries.emplace_back(name, version.text());
+}
+
+/// A run's case must be described, or the page could not name it.
+void check_cases(const JsonView& runs, const Results& results) {
+  for (const JsonView& run : runs.entries()) {
+    const std::string id = run.at("case").text();
+    const bool known = std::any_of(results.cases.begin(), results.cases.end(),
+                                   [&](const CaseInfo& info) { return info.id == id; });
+    if (!known) run.at("case").fail("a case that stands under /cases");
+  }
+}
+
+Results read_all(const JsonView& root) {
+  if (root.at("format").integer(any_index) != 1) root.at("format").fail("1");
+  Results results;
+  read_environment(root.at("environment"), results);
+  for (const auto& [id, view] : root.at("cases").members())
+    results.cases.push_back(read_case(id, view));
+  for (const auto& [id, view] : root.find("references").members())
+    results.references.push_back(read_reference(id, view));
+  for (const JsonView& run : root.at("runs").entries()) results.runs.push_back(read_run(run));
+  check_cases(root.at("runs"), results);
+  return results;
+}
+
+}  // namespace
+
+Results read_results(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+  Json json;
+  try {
+    json = Json::parse(in);
+  } catch (const Json::parse_error& error) {
+    throw std::runtime_error(file.string() + ": not JSON at byte " + std::to_string(error.byte));
+  }
+  try {
+    return read_all(JsonView(json));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
+}
+
+const Numbers* Run::quantity(const std::string& name) const {
+  for (const auto& [key, values] : quantities)
+    if (key == name) return &values;
+  return nullptr;
+}
+
+std::string CaseInfo::variant_title(const std::string& variant) const {
+  for (const auto& [key, name] : variants)
+    if (key == variant) return name;
+  return variant;
+}
+
+const CaseInfo& Results::case_info(const std::string& id) const {
+  const auto found =
+      std::find_if(cases.begin(), cases.end(), [&](const CaseInfo& info) { return info.id == id; });
+  if (found == cases.end()) throw std::logic_error("no case " + id);
+  return *found;
+}
+
+const Reference* Results::reference(const std::string& id) const {
+  for (const Reference& entry : references)
+    if (entry.id == id) return &entry;
+  return nullptr;
+}
+
+std::string to_string(Verdict verdict) {
+  for (const auto& [name, value] : verdicts())
+    if (value == verdict) return name;
+  throw std::logic_error("unknown verdict");
+}
+
+std::string to_string(Status status) {
+  for (const auto& [name, value] : statuses())
+    if (value == status) return name;
+  throw std::logic_error("unknown status");
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trammel::reports {
+
+/// What results.json says, as plain values in its own order. The schema stands in
+/// cases/schema/results.schema.json; a number that the file gives as null is an empty optional.
+
+using Number = std::optional<double>;
+using Numbers = std::vector<Number>;
+
+enum class Verdict { pass, fail, error, not_run };
+enum class Status { solved, singular, not_converged, error, not_run };
+
+/// Allowed range of a difference: +-high for a plain tolerance, [low, high] for a band or a bound;
+/// an empty end is unbounded.
+struct Tolerance {
+  Number low, high;
+  bool symmetric = false;  ///< written as one number
+};
+
+struct Check {
+  std::string name, quantity, unit, reference, role, measure, why, message;
+  std::string statistic, against_variant;  ///< empty where the check compares an entry as it stands
+  std::optional<int> index;                ///< from 0
+  Number computed, expected, difference;
+  std::optional<Tolerance> tolerance;
+  bool known_discrepancy = false;  ///< expected to differ, with a recorded reason
+  Verdict verdict = Verdict::error;
+};
+
+/// One quantity refined over one parameter; all vectors have one entry a level.
+struct Convergence {
+  std::string sweep, quantity, reference;
+  int index = 0;
+  std::vector<double> parameter;
+  Numbers values, error, roundoff, order, band;
+  std::vector<bool> in_asymptotic_range;
+  Number exact, theory_order, fitted_order, richardson;
+};
+
+using Point = std::pair<double, double>;  ///< (x, y) [m]
+
+struct Joint {
+  int node = 0;
+  std::string kind, name;
+};
+
+struct Shape {
+  std::string label;
+  std::vector<Point> displacement;  ///< one a node [m]
+};
+
+struct Pose {
+  std::string label;
+  std::vector<Point> nodes;  ///< one a node of the drawing [m]
+};
+
+struct Drawing {
+  std::vector<Point> nodes;
+  std::vector<std::vector<int>> members, triangles;
+  std::vector<Joint> joints;
+  std::vector<Shape> shapes;
+  std::vector<Pose> poses;  ///< further poses of the same mechanism
+};
+
+struct Cost {
+  double wall_s = 0, cpu_s = 0;
+  std::vector<std::pair<std::string, double>> counters;
+};
+
+struct Run {
+  std::string case_id, variant, reason;
+  Status status = Status::error;
+  std::vector<std::pair<std::string, Numbers>> quantities;
+  std::vector<Check> checks;
+  std::vector<Convergence> convergence;
+  std::optional<Drawing> drawing;
+  Cost cost;
+
+  /// @returns nullptr when the run has no such quantity.
+  [[nodiscard]] const Numbers* quantity(const std::string& name) const;
+};
+
+/// A plot that a case asks for: quantities `y` over the quantity `x`, for some of its variants.
+struct PlotRequest {
+  std::string id, title, x, caption;
+  std::vector<std::string> y, variants;
+};
+
+struct CaseInfo {
+  std::string id, title, description, family;
+  std::vector<std::string> labels;
+  std::vector<PlotRequest> figures;
+  std::vector<std::pair<std::string, std::string>> variants;  ///< id, title
+
+  [[nodiscard]] std::string variant_title(const std::string& variant) const;
+};
+
+struct Reference {
+  std::string id, title, kind, unit, citation, doi, place, derivation, notes;
+  Numbers values, uncertainty;
+  std::vector<std::string> printed, errata;
+};
+
+struct Results {
+  std::map<std::string, std::string> environment;
+  std::vector<std::pair<std::string, std::string>> libraries;
+  std::vector<CaseInfo> cases;
+  std::vector<Reference> references;
+  std::vector<Run> runs;
+
+  [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
+  /// @returns nullptr for an unknown or empty id.
+  [[nodiscard]] const Reference* reference(const std::string& id) const;
+};
+
+/// @throws std::runtime_error, one line with file and JSON pointer (byte offset for broken JSON).
+[[nodiscard]] Results read_results(const std::filesystem::path& file);
+
+[[nodiscard]] std::string to_string(Verdict verdict);
+[[nodiscard]] std::string to_string(Status status);
+
+}  // namespace trammel::reports

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/gallery.h"
+#include "reports/html.h"
+#include "reports/results.h"
+#include "reports/standing.h"
+
+namespace trammel::reports {
+
+/// The parts of the page as data for their templates, each in a source file of its own name.
+
+/// What holds, what fails, what is known not to agree and why.
+[[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
+
+/// One family with its cases, tables and (drawn) figures.
+[[nodiscard]] Data family_section(const Family& family, const Results& results);
+
+/// The tables of a case: the checks themselves if they are few, else the worst of each with all of
+/// them folded.
+[[nodiscard]] Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
+                               const Results& results);
+
+/// For every reference that validation checks of many variants compare one quantity with: variants
+/// down, entries across, nearest first. @returns a list, empty where there is none.
+[[nodiscard]] Data comparison_matrices(const Family& family, const Results& results);
+
+/// Wall time and counters of every case.
+[[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families);
+
+/// The passports of all references used.
+[[nodiscard]] Data references_section(const Results& results);
+
+/// Machine, compiler, libraries.
+[[nodiscard]] Data environment_section(const Results& results);
+
+/// Signs and class names of a standing: keys standing, standing_class, sign.
+void set_standing(Data& data, Standing standing);
+
+/// Counts as a list of {n, standing, standing_class, sign, percent} without the zeros.
+[[nodiscard]] Data counts_list(const Counts& counts);
+
+/// All checks of a case with every digit.
+[[nodiscard]] Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs);
+
+[[nodiscard]] std::string case_anchor(const std::string& id);
+[[nodiscard]] std::string family_anchor(const std::string& id);
+[[nodiscard]] std::string reference_anchor(const std::string& id);
+
+}  // namespace trammel::reports

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace trammel::reports {
+
+/// gnuplot's SVG made fit to stand beside others in a page: one <svg> element with role, title and
+/// description, ids that start with `id`, colours as #rrggbb, no empty groups, no unused symbols.
+/// @throws std::runtime_error if `text` is not a complete drawing of gnuplot's.
+[[nodiscard]] std::string tidy_svg(const std::string& text, const std::string& id,
+                                   const std::string& title, const std::string& description);
+
+/// & < > " ' as entities; other control characters, which XML cannot hold, as spaces.
+[[nodiscard]] std::string xml_escaped(const std::string& text);
+
+}  // namespace trammel::reports

@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+
+#include "reports/check_text.h"
+#include "reports/number.h"
+#include "reports/sections.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t most_open_rows = 16;  ///< rows of a case shown without folding
+constexpr std::size_t most_entries = 12;    ///< entries of one check shown one by one
+
+/// The cells of one check; the first of its group carries what the group has in common.
+Data row_of(const Check& check, const std::string& entry, bool first = true) {
+  Data row = object();
+  set_text(row, "entry", entry);
+  set_flag(row, "long_entry", entry.size() > 24);
+  row.set("target", target_text(check));
+  row.set("computed", computed_text(check));
+  row.set("difference", difference_text(check));
+  set_standing(row, standing(check));
+  set_text(row, "message", check.verdict == Verdict::pass ? "" : check.message);
+  set_flag(row, "first", first);
+  return row;
+}
+
+/// One check with all its entries: name, reference and tolerance stand once for all of them.
+Data group_of(const Check& check, const Results& results, const Data& rows, std::size_t n) {
+  Data group = object();
+  group.set("rows", rows);
+  group.set("rowspan", std::to_string(n));
+  group.set("name", check.name);
+  group.set("quantity", quantity_text(check));
+  group.set("role", check.role);
+  // A bound is its own target and need not be said twice.
+  const bool said = check.measure == "bound" && !check.expected;
+  set_text(group, "tolerance", said ? "" : tolerance_text(check));
+  set_text(group, "why", check.why);
+  set_flag(group, "known", check.known_discrepancy);
+  const Reference* reference = results.reference(check.reference);
+  set_text(group, "reference", reference ? reference->title : check.reference);
+  set_text(group, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  return group;
+}
+
+/// "631 points, 629 hold": for a group of which only the worst is shown.
+std::string worst_entry(const CheckGroup& group) {
+  const std::string entry = entry_text(group.worst(), group.checks.size());
+  return "worst of " + std::to_string(group.checks.size()) + (entry.empty() ? "" : ": " + entry);
+}
+
+bool same_tolerance(const Check& a, const Check& b) {
+  return tolerance_text(a) == tolerance_text(b) && a.why == b.why && a.reference == b.reference;
+}
+
+/// Every entry, or the worst of many. Entries with tolerances of their own stand apart.
+void add_group(Data& groups, const CheckGroup& group, const Results& results) {
+  if (group.checks.size() > most_entries) {
+    Data rows = list();
+    rows.push_back(row_of(group.worst(), worst_entry(group)));
+    groups.push_back(group_of(group.worst(), results, rows, 1));
+    return;
+  }
+  for (std::size_t from = 0, to = 0; from < group.checks.size(); from = to) {
+    Data rows = list();
+    while (to < group.checks.size() && same_tolerance(*group.checks[from], *group.checks[to])) {
+      const Check& check = *group.checks[to];
+      rows.push_back(row_of(check, entry_text(check, group.checks.size()), to == from));
+      ++to;
+    }
+    groups.push_back(group_of(*group.checks[from], results, rows, to - from));
+  }
+}
+
+Data run_data(const CaseInfo& info, const Run& run, bool many) {
+  Data data = object();
+  set_text(data, "variant", many ? info.variant_title(run.variant) : "");
+  set_text(data, "variant_id", many ? run.variant : "");
+  set_text(data, "ending", run.status == Status::solved ? "" : to_string(run.status));
+  set_text(data, "reason", run.reason);
+  set_standing(data, standing(run));
+  return data;
+}
+
+/// Rows that `add_group` makes.
+std::size_t rows_in(const std::vector<const Run*>& runs) {
+  std::size_t n = 0;
+  for (const Run* run : runs)
+    for (const CheckGroup& group : group_checks(*run))
+      n += group.checks.size() > most_entries ? 1 : group.checks.size();
+  return n;
+}
+
+/// All runs one after another.
+Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, const Results& results) {
+  Data table = list();
+  for (const Run* run : runs) {
+    Data data = run_data(info, *run, runs.size() > 1);
+    Data groups = list();
+    for (const CheckGroup& group : group_checks(*run)) add_group(groups, group, results);
+    data.set("groups", groups);
+    table.push_back(data);
+  }
+  return table;
+}
+
+/// For every check the worst of all variants and entries.
+Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs,
+                 const Results& results) {
+  struct Worst {
+    const Check* check;
+    const Run* run;
+    std::size_t entries, variants;
+  };
+  std::vector<Worst> worst;
+  for (const Run* run : runs) {
+    for (const CheckGroup& group : group_checks(*run)) {
+      const Check& check = group.worst();
+      const auto same = std::find_if(worst.begin(), worst.end(), [&](const Worst& known) {
+        return known.check->name == check.name && known.check->quantity == check.quantity;
+      });
+      if (same == worst.end()) {
+        worst.push_back({&check, run, group.checks.size(), 1});
+        continue;
+      }
+      same->entries += group.checks.size();
+      ++same->variants;
+      if (worse(check, *same->check)) same->check = &check, same->run = run;
+    }
+  }
+  Data groups = list();
+  for (const Worst& w : worst) {
+    std::string entry = "worst of " + std::to_string(w.entries);
+    const std::string which = entry_text(*w.check, w.entries);
+    if (!which.empty()) entry += ": " + which;
+    if (w.variants > 1) entry += ", " + info.variant_title(w.run->variant);
+    Data rows = list();
+    rows.push_back(row_of(*w.check, w.entries > 1 ? entry : which));
+    groups.push_back(group_of(*w.check, results, rows, 1));
+  }
+  Data run = object();
+  for (const char* key : {"variant", "variant_id", "ending", "reason"}) set_text(run, key, "");
+  run.set("groups", groups);
+  Data table = list();
+  table.push_back(run);
+  return table;
+}
+
+}  // namespace
+
+Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
+                 const Results& results) {
+  Data tables = object();
+  std::size_t checks = 0;
+  for (const Run* run : runs) checks += run->checks.size();
+  set_flag(tables, "has_checks", checks > 0);
+  const bool few = rows_in(runs) <= most_open_rows;
+  tables.set("runs", few ? full_table(info, runs, results) : worst_table(info, runs, results));
+  set_flag(tables, "has_folded", !few);
+  if (few) return tables;
+  std::string title = "All " + count(checks, "check");
+  if (runs.size() > 1) title += " of " + count(runs.size(), "variant");
+  tables.set("folded_title", title);
+  tables.set("folded_runs", full_table(info, runs, results));
+  return tables;
+}
+
+Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
+  Table table;
+  table.heads = {"case",      "variant",    "status",        "check",          "role",
+                 "quantity",  "index",      "unit",          "target",         "computed",
+                 "measure",   "difference", "tolerance_low", "tolerance_high", "expectation",
+                 "reference", "verdict",    "reason"};
+  for (const Run* run : runs)
+    for (const Check& c : run->checks)
+      table.rows.push_back(
+          {info.id, run->variant, to_string(run->status), c.name, c.role, c.quantity,
+           c.index ? Table::Cell(static_cast<double>(*c.index + 1)) : Table::Cell{}, c.unit,
+           cell(c.expected), cell(c.computed), c.measure, cell(c.difference),
+           c.tolerance ? cell(c.tolerance->low) : Table::Cell{},
+           c.tolerance ? cell(c.tolerance->high) : Table::Cell{},
+           std::string(c.known_discrepancy ? "known-discrepancy" : "agrees"), c.reference,
+           to_string(c.verdict), c.why});
+  return table;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,29 @@
+#include "reports/quantity.h"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace trammel::reports;
+
+BOOST_AUTO_TEST_SUITE(quantity)
+
+BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
+  const Quantity moment = parse_quantity("reaction_moment_N_m:A1");
+  BOOST_TEST(moment.label == "reaction moment");
+  BOOST_TEST(moment.subject == "A1");
+  BOOST_TEST(moment.unit == "N·m");
+  BOOST_TEST(in_words(parse_quantity("displacement_x_m:P")) == "x displacement of P");
+  BOOST_TEST(parse_quantity("platform_inertia_kg_m2").unit == "kg·m²");
+  BOOST_TEST(parse_quantity("frequency_roundoff").unit == "");
+}
+
+BOOST_AUTO_TEST_CASE(values_are_scaled_to_what_people_say) {
+  BOOST_TEST(readable_scale("m", 0.0081).unit == "mm");
+  BOOST_TEST(readable_scale("m", 0.0081).factor == 1000);
+  BOOST_TEST(readable_scale("m", 0.43).unit == "m");
+  BOOST_TEST(readable_scale("Pa", 3.1e7).unit == "MPa");
+  BOOST_TEST(readable_scale("N", 3.3).unit == "N");
+  BOOST_TEST(readable_scale("", 3e-9).unit == "10⁻⁹");
+  BOOST_TEST(readable_scale("rad", 0).factor == 1);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

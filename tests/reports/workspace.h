@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace trammel::tests {
+
+/// A folder that is gone at the end of the test.
+class Workspace {
+ public:
+  Workspace();
+  ~Workspace();
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// Writes a results file. @returns its path.
+  [[nodiscard]] std::filesystem::path results(const nlohmann::ordered_json& json) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+
+/// The report of the sample, made once for all tests of this program.
+[[nodiscard]] const std::filesystem::path& sample_report();
+
+}  // namespace trammel::tests
