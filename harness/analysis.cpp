@@ -44,6 +44,10 @@ AnalysisResult analyse(const Document& document, const References& references,
     result.quantities = record.take();
     return result;
   }
+  if (kind == "manufactured") {
+    StepResult found = analyse_manufactured(place, options.drawing, record);
+    return {found.outcome, record.take(), std::move(found.drawing), found.counters};
+  }
   const Scene scene = read_scene(document);
   if (kind == "kinematics" && !scene.manipulator) {
     throw place.error("expected a model with a manipulator");

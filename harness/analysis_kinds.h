@@ -30,6 +30,10 @@ struct StepResult {
 [[nodiscard]] StepResult analyse_properties(const Scene& scene, std::size_t step, bool draw,
                                             Recorder& record);
 
+/// Relative error norms of a manufactured solution on one mesh; needs no scene.
+[[nodiscard]] StepResult analyse_manufactured(const Cursor& manufactured, bool draw,
+                                              Recorder& record);
+
 /// relative_difference and difference_percent of references from each other, by name.
 void compare_references(const Cursor& comparison, const References& references, Recorder& record);
 

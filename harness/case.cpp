@@ -65,30 +65,8 @@ void check_names(const Case& given) {
 Json patch_of_pointers(const Cursor& sweep, const Json& document, const Json& value) {
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
-    const std::string pointer = at.get<std::string>();
-    bool found = false;
-    try {
-      found = document.contains(JsonPointer(pointer));
-    } catch (const Json::exception&) {
-      found = false;
-    }
-    if (!found || pointer.empty()) {
-      throw at.error("expected a pointer to a value of the case, as /model/elements (got '" +
-                     printable(pointer) + "')");
-    }
-    // From the inside out; a patch replaces arrays whole, so an item is set in a copy of its array.
-    Json nested = value;
-    for (JsonPointer place(pointer); !place.empty(); place.pop_back()) {
-      const Json& around = document.at(place.parent_pointer());
-      Json outer = around.is_array() ? around : Json::object();
-      if (around.is_array()) {
-        outer.at(std::stoul(place.back())) = nested;
-      } else {
-        outer[place.back()] = nested;
-      }
-      nested = std::move(outer);
-    }
-    patch.merge_patch(nested);
+    require_pointer(sweep.document(), at);
+    patch.merge_patch(patch_at(document, at.get<std::string>(), value));
   }
   return patch;
 }
@@ -140,6 +118,36 @@ Document patched(const Case& given, const std::string& variant) {
   document.lay(file, "", Json{{"variants", nullptr}});
   document.check("case");
   return document;
+}
+
+void require_pointer(const Document& document, const Cursor& pointer) {
+  const auto text = pointer.get<std::string>();
+  bool found = false;
+  try {
+    found = document.value().contains(JsonPointer(text));
+  } catch (const Json::exception&) {
+    found = false;
+  }
+  if (!found || text.empty()) {
+    throw pointer.error("expected a pointer to a value of the case, as /model/elements (got '" +
+                        printable(text) + "')");
+  }
+}
+
+Json patch_at(const Json& document, const std::string& pointer, const Json& value) {
+  // From the inside out; a patch replaces arrays whole, so an item is set in a copy of its array.
+  Json nested = value;
+  for (JsonPointer place(pointer); !place.empty(); place.pop_back()) {
+    const Json& around = document.at(place.parent_pointer());
+    Json outer = around.is_array() ? around : Json::object();
+    if (around.is_array()) {
+      outer.at(std::stoul(place.back())) = nested;
+    } else {
+      outer[place.back()] = nested;
+    }
+    nested = std::move(outer);
+  }
+  return nested;
 }
 
 std::vector<Level> levels(const Document& variant, const std::string& sweep_name) {

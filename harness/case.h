@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/cursor.h"
 #include "harness/document.h"
 
 namespace trammel {
@@ -31,6 +32,13 @@ inline constexpr const char* base_variant = "base";
 /// The case with the variant's patch laid over it; "variants" itself is gone.
 /// @throws InputError  for an unknown name, or where the patched case breaks the schema.
 [[nodiscard]] Document patched(const Case& given, const std::string& variant);
+
+/// @param pointer  a place that holds a JSON pointer
+/// @throws InputError  where the pointer leads to nothing in the document.
+void require_pointer(const Document& document, const Cursor& pointer);
+
+/// The merge patch that puts the value at the pointer, which leads to something in the document.
+[[nodiscard]] Json patch_at(const Json& document, const std::string& pointer, const Json& value);
 
 /// One level of a sweep: the swept number, and the case or variant with the level's patch.
 struct Level {

@@ -61,7 +61,12 @@ void read_bound(const Cursor& place, Check& check) {
   check.why = place.text("why");
 }
 
-OrderDemand read_order(const Cursor& place, const Json& document) {
+/// What the sweep says of the quantity alone.
+Json followed(const Json& sweep, const std::string& quantity) {
+  return sweep.value("quantities", Json::object()).value(quantity, Json::object());
+}
+
+OrderDemand read_order(const Cursor& place, const std::string& quantity, const Json& document) {
   OrderDemand order;
   order.sweep = place.text("sweep");
   const Json sweeps = document.value("sweeps", Json::object());
@@ -71,9 +76,12 @@ OrderDemand read_order(const Cursor& place, const Json& document) {
     throw place["sweep"].error("expected a sweep of the case (got '" + printable(order.sweep) +
                                "')" + did_you_mean(order.sweep, names));
   }
-  if (!sweeps.at(order.sweep).contains("theory_order")) {
+  const Json& sweep = sweeps.at(order.sweep);
+  const Json own = followed(sweep, quantity);
+  if (!sweep.contains("theory_order") && !own.contains("theory_order")) {
     throw place["sweep"].error("expected a sweep with 'theory_order'");
   }
+  order.of_errors = own.value("is_error", false);
   order.within = place.number("within");
   order.meshes = place.get("meshes", std::size_t{3});
   if (const auto wave = place.find("wave_number")) {
@@ -143,15 +151,18 @@ void require_target(const Cursor& place, const Check& check) {
   if (!check.reference_index.empty() && check.reference.empty()) {
     throw place["reference_index"].error("expected 'reference' beside it");
   }
-  const bool needs = check.order || check.measure != Measure::value;
+  const bool of_errors = check.order && check.order->of_errors;
+  const bool needs = !of_errors && (check.order || check.measure != Measure::value);
   if (needs && targets == 0) {
     throw place.error(
         "expected 'reference', 'against_variant' or 'against_quantity' to compare with");
   }
   if (!needs && targets > 0) {
-    throw place.error("expected nothing to compare with: a bound looks at the value alone");
+    throw place.error("expected nothing to compare with: " +
+                      std::string(of_errors ? "the quantity is an error already"
+                                            : "a bound looks at the value alone"));
   }
-  if (check.order && check.reference.empty()) {
+  if (check.order && !of_errors && check.reference.empty()) {
     throw place.error("expected 'reference' with the exact values for 'order'");
   }
 }
@@ -175,7 +186,7 @@ void read_criterion(const Cursor& place, const Document& document, Check& check)
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);
   if (key == "order") {
-    check.order = read_order(place[key], document.value());
+    check.order = read_order(place[key], check.quantity, document.value());
     check.why = place[key].text("why");
   }
 }

@@ -39,6 +39,7 @@ struct OrderDemand {
   std::string sweep;
   double within = 0;
   std::size_t meshes = 3;
+  bool of_errors = false;  ///< the quantity is an error itself, and needs no reference
   std::optional<WaveNumber> wave_number;
   std::optional<LeadingTerm> leading_term;
   std::optional<double> richardson_within;

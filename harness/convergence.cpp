@@ -118,8 +118,9 @@ class Study {
     error_.assign(count(), nothing);
     order_.assign(count(), nothing);
     const std::optional<double> truth = series_.exact ? series_.exact : result_.richardson;
-    for (std::size_t k = 0; truth && *truth != 0 && k < count(); ++k) {
-      error_[k] = relative(v_[k], *truth);
+    for (std::size_t k = 0; truth && k < count(); ++k) {
+      if (series_.is_error) error_[k] = std::abs(v_[k]);
+      if (!series_.is_error && *truth != 0) error_[k] = relative(v_[k], *truth);
     }
     for (std::size_t k = 1; k < count(); ++k) {
       order_[k] = series_.exact ? order_of_errors(error_[k - 1], error_[k], h_[k - 1], h_[k])
@@ -131,7 +132,8 @@ class Study {
     in_range_.assign(count(), false);
     at_floor_.assign(count(), false);
     for (std::size_t k = 0; k < count(); ++k) {
-      at_floor_[k] = !(error_[k] > clear_of_roundoff * roundoff_[k]);
+      const double clear = series_.is_error ? 1.0 : error_[k];  // roundoff_ is relative to v_
+      at_floor_[k] = !(clear > clear_of_roundoff * roundoff_[k]);
     }
     for (std::size_t k = 1; k < count(); ++k) {
       const bool like_before = k > 1 && is_near(order_[k], order_[k - 1]);

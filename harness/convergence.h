@@ -15,6 +15,7 @@ struct Series {
   std::vector<double> values;
   std::vector<double> roundoff;  ///< relative round-off error of each value
   std::optional<double> exact;
+  bool is_error = false;         ///< the values are errors themselves: exact is 0, error the value
   std::string reference;         ///< where the exact value is from
   std::optional<double> theory;  ///< order that theory promises
 };

@@ -9,29 +9,24 @@ namespace trammel {
 namespace {
 
 /// (K - omega^2 M) q = f
-struct Response {
-  Outcome outcome;
-  Eigen::VectorXd q;
-  Counters counters;
-};
-
-Response respond(const System& system, double omega) {
-  Response response;
-  response.counters = system.counters;
+ManufacturedSolution solve(System system, double omega) {
+  ManufacturedSolution solution;
+  solution.counters = system.counters;
   Factorization factorization;
   factorization.compute(omega == 0 ? system.K : SparseMatrix(system.K - omega * omega * system.M));
-  ++response.counters.factorizations;
-  if (!factorization.exists()) {
-    response.outcome = {Status::singular, "the model is free, or at a resonance"};
-    return response;
+  ++solution.counters.factorizations;
+  if (factorization.exists()) {
+    const Operator stiffness = stiffness_operator(system);
+    const Operator dynamic = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+      return stiffness(x) - omega * omega * (system.M * x);
+    };
+    solution.q =
+        refined_solve(omega == 0 ? stiffness : dynamic, factorization, system.f, solution.counters);
+  } else {
+    solution.outcome = {Status::singular, "the model is free, or at a resonance"};
   }
-  const Operator stiffness = stiffness_operator(system);
-  const Operator dynamic = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return stiffness(x) - omega * omega * (system.M * x);
-  };
-  response.q =
-      refined_solve(omega == 0 ? stiffness : dynamic, factorization, system.f, response.counters);
-  return response;
+  solution.system = std::move(system);
+  return solution;
 }
 
 void support_membrane(Model& model, const manufactured::MembraneProblem& problem) {
@@ -95,10 +90,10 @@ MembraneTestResult run_membrane_test(const MembraneTest& test) {
   support_membrane(model, problem);
   System system = assemble(model);
   load_membrane(system, problem);
-  const Response response = respond(system, problem.omega);
-  MembraneTestResult result{response.outcome, {}, response.counters};
-  if (!result.outcome.solved()) return result;
-  result.errors = membrane_errors(system, response.q,
+  MembraneTestResult result{solve(std::move(system), problem.omega), {}};
+  const ManufacturedSolution& solution = result.solution;
+  if (!solution.outcome.solved()) return result;
+  result.errors = membrane_errors(solution.system, solution.q,
                                   [&](const Vector2d& p) { return membrane_truth(problem, p); });
   return result;
 }
@@ -114,13 +109,14 @@ BeamTestResult run_beam_test(const BeamTest& test) {
     const Vector2d force = to_world(s.axial_load, s.transverse_load);
     return {force.x(), force.y(), s.moment_load};
   });
-  const Response response = respond(system, test.omega);
-  BeamTestResult result{response.outcome, {}, response.counters};
-  if (!result.outcome.solved()) return result;
-  result.errors = beam_errors(system, response.q, [&](const Vector2d& p) -> BeamFieldPoint {
-    const auto s = state(p);
-    return {s.axial, s.deflection, s.rotation, s.axial_force, s.shear_force, s.bending_moment};
-  });
+  BeamTestResult result{solve(std::move(system), test.omega), {}};
+  const ManufacturedSolution& solution = result.solution;
+  if (!solution.outcome.solved()) return result;
+  result.errors =
+      beam_errors(solution.system, solution.q, [&](const Vector2d& p) -> BeamFieldPoint {
+        const auto s = state(p);
+        return {s.axial, s.deflection, s.rotation, s.axial_force, s.shear_force, s.bending_moment};
+      });
   return result;
 }
 

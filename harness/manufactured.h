@@ -17,12 +17,20 @@ struct MembraneTest {
   double distortion = 0;  ///< of the mesh, in cells
 };
 
-struct MembraneTestResult {
+/// The discrete model and its solution; q is empty where there is none.
+struct ManufacturedSolution {
   Outcome outcome;
-  MembraneErrors errors;
+  System system;
+  Eigen::VectorXd q;  ///< free coordinates
   Counters counters;
 };
 
+struct MembraneTestResult {
+  ManufacturedSolution solution;
+  MembraneErrors errors;
+};
+
+/// @throws ModelError  where the mesh has no meaning
 [[nodiscard]] MembraneTestResult run_membrane_test(const MembraneTest& test);
 
 struct BeamTest {
@@ -37,11 +45,11 @@ struct BeamTest {
 };
 
 struct BeamTestResult {
-  Outcome outcome;
+  ManufacturedSolution solution;
   BeamErrors errors;
-  Counters counters;
 };
 
+/// @throws ModelError  where the mesh has no meaning
 [[nodiscard]] BeamTestResult run_beam_test(const BeamTest& test);
 
 }  // namespace trammel

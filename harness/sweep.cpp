@@ -20,6 +20,8 @@ struct Followed {
   std::string quantity, statistic;
   std::vector<std::size_t> index, reference_index;
   const Reference* reference = nullptr;
+  bool is_error = false;
+  std::optional<double> theory = std::nullopt;
 };
 
 std::vector<std::size_t> indices(const Cursor& place, const char* key) {
@@ -38,6 +40,8 @@ std::vector<Followed> named_by_sweep(const Cursor& place, const References& refe
   for (const auto& [name, entry] : place.entries()) {
     Followed one{name, entry.get<std::string>("statistic", ""), indices(entry, "index"),
                  indices(entry, "reference_index"), nullptr};
+    one.is_error = entry.get("is_error", false);
+    if (entry.has("theory_order")) one.theory = entry.number("theory_order");
     if (entry.has("reference")) one.reference = &references.get(entry["reference"]);
     followed.push_back(std::move(one));
   }
@@ -132,7 +136,8 @@ Series follow_entry(const Sweep& sweep, const Cursor& place, const Followed& fol
   series.quantity = followed.quantity;
   series.statistic = followed.statistic;
   series.index = index;
-  if (place.has("theory_order")) series.theory = place.number("theory_order");
+  series.theory = followed.theory;
+  if (!series.theory && place.has("theory_order")) series.theory = place.number("theory_order");
   const std::string measures = place.get<std::string>("measures", "elements");
   for (const SweepLevel& level : sweep.levels) {
     const auto [value, roundoff] = entry_of(level.result, followed, index);
@@ -141,8 +146,9 @@ Series follow_entry(const Sweep& sweep, const Cursor& place, const Followed& fol
     series.values.push_back(value);
     series.roundoff.push_back(roundoff);
   }
-  series.exact = exact_of(followed, position);
-  if (series.exact) series.reference = followed.reference->id;
+  series.is_error = followed.is_error;
+  series.exact = followed.is_error ? 0.0 : exact_of(followed, position);
+  if (series.exact && followed.reference) series.reference = followed.reference->id;
   return series;
 }
 
@@ -203,7 +209,7 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
     for (std::size_t position = 0; position < chosen.size(); ++position) {
       const Series series = follow_entry(sweep, place, one, chosen[position], position);
       // A zero (a rigid motion) has no relative error.
-      if (series.exact == 0.0 || !changes(series)) continue;
+      if ((series.exact == 0.0 && !series.is_error) || !changes(series)) continue;
       found.push_back(study(series));
     }
   }

@@ -67,7 +67,7 @@ void check_membrane(t::MembraneTest test, const std::vector<Index>& cells,
   const auto errors_of = [&](Index n) {
     test.cells = n;
     const auto result = t::run_membrane_test(test);
-    BOOST_REQUIRE(result.outcome.solved());
+    BOOST_REQUIRE(result.solution.outcome.solved());
     errors.push_back(result.errors);
     return result.errors.displacement;
   };
@@ -91,7 +91,7 @@ void check_beam(t::BeamTest test, const BeamTheoryOrders& theory) {
   for (const Index n : cells) {
     test.cells = n;
     const auto result = t::run_beam_test(test);
-    BOOST_REQUIRE(result.outcome.solved());
+    BOOST_REQUIRE(result.solution.outcome.solved());
     errors.push_back(result.errors);
   }
   const auto stored = [&](double t::BeamErrors::*which) {
