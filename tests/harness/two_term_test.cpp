@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(terms_of_opposite_sign_may_cancel_between_two_levels) {
 }
 
 BOOST_AUTO_TEST_CASE(coarse_levels_that_feel_a_third_term_are_left_out) {
-  const auto fit = t::fit_two_terms(kSizes, errors(0.3, 2e-3, 0.5), kAll, {4, 2}, 0.01);
+  const auto fit = t::fit_two_terms(kSizes, errors(0.3, 2e-3, 0.1), kAll, {4, 2}, 0.01);
   BOOST_REQUIRE(fit.has_value());
   BOOST_TEST(!fit->used[0]);
   BOOST_TEST(fit->used[4]);
