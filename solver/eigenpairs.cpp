@@ -14,6 +14,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr const char* kIllConditioned =
+    "the stiffness matrix is too ill-conditioned for double precision";
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr Index kDenseSize = 220;   // free coordinates; above, Lanczos is faster
 constexpr double kSettled = 1e-11;  // relative change of an eigenvalue in one inverse iteration
@@ -150,13 +152,17 @@ class Solver {
   Eigenpairs run() {
     constexpr int kRounds = 40;
     if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) {
-      pairs_.outcome = {Status::not_converged, "the matrices are too ill-conditioned for doubles"};
+      pairs_.outcome = {Status::not_converged, kIllConditioned};
       return pairs_;
     }
     const Index guard = 3 + count_ / 4;
     add(search_.first(factorization_, count_ + guard, null_));
     for (int round = 0; round < kRounds; ++round) {
       improve_until_settled();
+      if (lost_) {
+        pairs_.outcome = {Status::not_converged, kIllConditioned};
+        return pairs_;
+      }
       const Index expected = check();
       if (expected == checked_) break;
       if (expected < checked_ || round + 1 == kRounds) return give_up(expected);
@@ -223,9 +229,11 @@ class Solver {
     const Index p = X_.cols();
     MatrixXd Y(X_.rows(), p);
     for (Index j = 0; j < p; ++j) {
-      Y.col(j) = refined_solve([this](const VectorXd& x) { return apply(x); }, factorization_,
-                               *pencil_.B * X_.col(j), X_.col(j) / (pairs_.value[j] - pencil_.s),
-                               counters_);
+      const Refined y = refined_solve([this](const VectorXd& x) { return apply(x); },
+                                      factorization_, *pencil_.B * X_.col(j),
+                                      X_.col(j) / (pairs_.value[j] - pencil_.s), counters_);
+      lost_ = lost_ || !(y.correction < 0.1);
+      Y.col(j) = y.x;
       remove_null(Y.col(j));
       for (int twice = 0; twice < 2; ++twice) orthogonalise(Y, j);
     }
@@ -329,6 +337,7 @@ class Solver {
   Factorization& factorization_;
   MatrixXd X_;
   Index checked_ = 0;
+  bool lost_ = false;  // an inverse iteration that does not converge
   Eigenpairs pairs_;
 };
 

@@ -86,7 +86,8 @@ FreeMotions find_free_motions(const System& system, const Factorization& K, Coun
     while (count < block) {
       const Eigen::VectorXd u = system.T * X.col(count);
       const double energy = strain_products(system, u)(0, 0);
-      if (!(energy <= kDeformation * strain_magnitude(system, u))) break;
+      // x^T D x = 1 stands for parts that nothing deforms, whatever they do.
+      if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
       ++count;
     }
     motions.basis = X.leftCols(count);

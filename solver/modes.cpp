@@ -17,15 +17,16 @@ using Eigen::VectorXd;
 /// M-orthonormal basis of the free motions; false where one of them moves no mass.
 bool orthonormalise(const SparseMatrix& M, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
+  const VectorXd mass = M.diagonal();
+  const double largest = mass.maxCoeff();
+  if (!(largest > 0)) return false;
+  const VectorXd weight = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
   const MatrixXd gram = Z.transpose() * (M * Z);
-  const VectorXd scale = gram.diagonal().cwiseSqrt();
-  if (!(scale.minCoeff() > 0)) return false;
-  const VectorXd inverse = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inverse.asDiagonal() * gram *
-                                                       inverse.asDiagonal());
-  if (!(solver.eigenvalues()[0] > 1e-14)) return false;
-  const VectorXd size = solver.eigenvalues().cwiseSqrt().cwiseInverse();
-  Z = Z * inverse.asDiagonal() * solver.eigenvectors() * size.asDiagonal();
+  const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(gram, size);
+  if (!(solver.eigenvalues()[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
+  const VectorXd inverse = solver.eigenvalues().cwiseSqrt().cwiseInverse();
+  Z = Z * solver.eigenvectors() * inverse.asDiagonal();
   return true;
 }
 

@@ -268,12 +268,16 @@ StaticSolution solve_statics(const System& system) {
       solution.outcome = {Status::singular, describe_free_motions(system, free)};
       return solution;
     }
-    if (!factorization.exists() || factorization.smallest_pivot() <= 0) {
+    const bool definite = factorization.exists() && factorization.smallest_pivot() > 0;
+    const Refined refined = definite ? refined_solve(stiffness_operator(system), factorization,
+                                                     system.f, solution.counters)
+                                     : Refined{q, 1};
+    if (!refined.converged()) {
       solution.outcome = {Status::not_converged,
                           "the stiffness matrix is too ill-conditioned for double precision"};
       return solution;
     }
-    q = refined_solve(stiffness_operator(system), factorization, system.f, solution.counters);
+    q = refined.x;
     const double lost = factorization.condition() * std::numeric_limits<double>::epsilon();
     solution.digits_left = std::max(0.0, -std::log10(lost));
   } else {
