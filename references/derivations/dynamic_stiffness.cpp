@@ -131,7 +131,8 @@ Dense<T> DynamicStiffness<T>::reduced(const RealMatrix& full, const RealMatrix& 
 }
 
 template <class T>
-typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w) const {
+typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
+                                                               const T& load_factor) const {
   const T w2 = w * w;
   Dense<T> D = stiffness_;
   const std::size_t n = D.rows();
@@ -142,7 +143,7 @@ typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w) const
   }
   Count count;
   for (const PlacedMember& member : members_) {
-    const MemberStiffness<T> stiffness = member_stiffness(member.data, w2);
+    const MemberStiffness<T> stiffness = member_stiffness(member.data, w2, load_factor);
     count.clamped_below += stiffness.clamped_below;
     const auto K = member_matrix(stiffness);
     for (std::size_t a = 0; a < 6; ++a) {

@@ -27,7 +27,8 @@ class DynamicStiffness {
     T log_determinant = 0;  ///< log |det D|
   };
   /// @param w  > 0 [rad/s]
-  [[nodiscard]] Count count(const T& w) const;
+  /// @param load_factor  multiplies the tension of every member
+  [[nodiscard]] Count count(const T& w, const T& load_factor = T(1)) const;
 
  private:
   /// A row of a member's transformation: its value of q, as (column, factor).

@@ -7,6 +7,26 @@ namespace trammel::derive {
 
 namespace {
 
+using Function = Real (*)(const Real&);
+
+const std::map<std::string, Function>& functions() {
+  static const std::map<std::string, Function> table = {
+      {"abs", [](const Real& x) -> Real { return abs(x); }},
+      {"acos", [](const Real& x) -> Real { return acos(x); }},
+      {"asin", [](const Real& x) -> Real { return asin(x); }},
+      {"atan", [](const Real& x) -> Real { return atan(x); }},
+      {"cos", [](const Real& x) -> Real { return cos(x); }},
+      {"cosh", [](const Real& x) -> Real { return cosh(x); }},
+      {"exp", [](const Real& x) -> Real { return exp(x); }},
+      {"log", [](const Real& x) -> Real { return log(x); }},
+      {"sin", [](const Real& x) -> Real { return sin(x); }},
+      {"sinh", [](const Real& x) -> Real { return sinh(x); }},
+      {"sqrt", [](const Real& x) -> Real { return sqrt(x); }},
+      {"tan", [](const Real& x) -> Real { return tan(x); }},
+      {"tanh", [](const Real& x) -> Real { return tanh(x); }}};
+  return table;
+}
+
 /// sum = product (('+'|'-') product)*; product = power (('*'|'/') power)*;
 /// power = '-' power | atom ('^' power)?; atom = number | name | function '(' sum ')' | '(' sum
 /// ')'.
@@ -114,13 +134,8 @@ class Parser {
     const auto value = values_.find(name);
     if (value != values_.end()) return value->second;
     if (name == "pi") return pi<Real>();
-    if (name == "sqrt") return sqrt(parenthesised());
-    if (name == "sin") return sin(parenthesised());
-    if (name == "cos") return cos(parenthesised());
-    if (name == "tan") return tan(parenthesised());
-    if (name == "exp") return exp(parenthesised());
-    if (name == "log") return log(parenthesised());
-    if (name == "abs") return abs(parenthesised());
+    const auto function = functions().find(name);
+    if (function != functions().end()) return function->second(parenthesised());
     at_ = from;
     fail("unknown name '" + name + "'");
   }

@@ -8,7 +8,8 @@
 #include "references/derivations/real.h"
 
 /// Closed formulas written out in the passport itself: numbers, names, + - * / ^ (right to left),
-/// unary minus, parentheses, pi, and sqrt, sin, cos, tan, exp, log, abs.
+/// unary minus, parentheses, pi, and abs, sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh,
+/// cosh, tanh.
 namespace trammel::derive {
 
 /// @throws DerivationError  with the column where the text cannot be read, or an unknown name.

@@ -17,6 +17,7 @@ struct FrameSection {
   Real shear_compliance = 0;  ///< 1 / (kappa G A) [1/N]; 0: Euler-Bernoulli
   Real mass = 0;              ///< rho A [kg/m]
   Real rotary_inertia = 0;    ///< rho I [kg m]; 0: Euler-Bernoulli
+  Real tension = 0;           ///< axial force in the state about which it vibrates [N]
 };
 
 enum class Fixity { welded, hinged, sprung };

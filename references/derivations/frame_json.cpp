@@ -117,6 +117,10 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
   const bool extensible =
       object.choice("axial", "flexible", {"flexible", "inextensible"}) == "flexible";
   member.section = section_of_member(section->second, timoshenko, extensible);
+  member.section.tension = object.number("axial_force_N", 0);
+  if (timoshenko && member.section.tension != 0) {
+    object.fail("axial_force_N", "only an Euler-Bernoulli member is derived with an axial force");
+  }
   if (object.has("ends")) {
     const Json& ends = object["ends"];
     if (!ends.is_array() || ends.size() != 2) object.fail("ends", "expected two ends");
@@ -138,9 +142,9 @@ void read_members(const Arguments& model, Frame& frame) {
   const Sections sections = read_sections(model);
   const Arguments members = object_at(model, "members");
   for (const std::string& name : members.keys()) {
-    const Arguments object(
-        members[name], members.pointer(name),
-        {"nodes", "section", "beam", "axial", "ends", "load_N_per_m", "elements", "mass_matrix"});
+    const Arguments object(members[name], members.pointer(name),
+                           {"nodes", "section", "beam", "axial", "ends", "load_N_per_m",
+                            "axial_force_N", "elements", "mass_matrix"});
     frame.members.push_back(read_member(frame, sections, name, object));
   }
 }

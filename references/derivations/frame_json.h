@@ -7,7 +7,8 @@
 
 /// Reads a frame in the format of the case files' "model": materials, sections, nodes, members,
 /// rigid_bodies, point_masses, springs, supports, loads, gravity_m_s2. Plates and tapered members
-/// are not frames in this sense and are refused.
+/// are not frames in this sense and are refused. A member may carry axial_force_N (tension
+/// positive), the state about which it vibrates.
 namespace trammel::derive {
 
 /// @throws DerivationError  with the JSON pointer.

@@ -12,7 +12,8 @@
 ///
 /// With g = w^2 rho A / (kappa G A) and r = w^2 rho I / EI (both zero for Euler-Bernoulli) the wave
 /// numbers of deflection v and rotation psi follow from
-///   k^4 + (g + r) k^2 + g r - w^2 rho A / EI = 0.
+///   k^4 + (g + r - T/EI) k^2 + g r - w^2 rho A / EI = 0,
+/// T the tension of a prestressed Euler-Bernoulli member, which adds T v' to the force V below.
 /// Motions even and odd about mid-span decouple; with C = cos(h) or cosh, S = sin or sinh of k x
 /// over k, x from mid-span,
 ///   even: v = C,     psi = (k^2 + g) S,  M = EI (k^2 + g) C,      V = -(k^2 + g)(EI k^2 + w^2 rho
@@ -43,8 +44,9 @@ struct MemberData {
         EI(static_cast<T>(s.EI)),
         shear_compliance(static_cast<T>(s.shear_compliance)),
         mass(static_cast<T>(s.mass)),
-        rotary_inertia(static_cast<T>(s.rotary_inertia)) {}
-  T length, axial_compliance, EI, shear_compliance, mass, rotary_inertia;
+        rotary_inertia(static_cast<T>(s.rotary_inertia)),
+        tension(static_cast<T>(s.tension)) {}
+  T length, axial_compliance, EI, shear_compliance, mass, rotary_inertia, tension;
 };
 
 namespace detail {
@@ -87,24 +89,29 @@ int waves_below(const T& k, const T& length) {
 }  // namespace detail
 
 /// @param w2  w^2 > 0 [1/s^2].
+/// @param load_factor  multiplies the member's tension.
 template <class T>
-[[nodiscard]] MemberStiffness<T> member_stiffness(const MemberData<T>& m, const T& w2) {
+[[nodiscard]] MemberStiffness<T> member_stiffness(const MemberData<T>& m, const T& w2,
+                                                  const T& load_factor) {
   using std::cos;
   using std::sin;
   using std::sqrt;
   const T h = m.length / 2;
   const T g = w2 * m.mass * m.shear_compliance;
   const T r = w2 * m.rotary_inertia / m.EI;
-  const T p = (g + r) / 2;
+  const T tension = load_factor * m.tension;
+  const T p = (g + r - tension / m.EI) / 2;
   const T q = g * r - w2 * m.mass / m.EI;
-  const T below = -p - sqrt(p * p - q);  // always oscillating
-  const T above = q / below;             // oscillating only above the cut-on of shear waves
+  const T root = sqrt(p * p - q);
+  // `below` always oscillates, `above` only beyond the cut-on of shear waves; neither cancels
+  const T below = p >= 0 ? T(-p - root) : T(q / (root - p));
+  const T above = p >= 0 ? T(q / below) : T(root - p);
   std::array<std::array<T, 2>, 2> even_motion, even_force, odd_motion, odd_force;
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
     const auto [C, S] = detail::half_wave(k2, h);
     const T slope = k2 + g;
-    const T shear = -slope * (m.EI * k2 + w2 * m.rotary_inertia);
+    const T shear = -slope * (m.EI * k2 + w2 * m.rotary_inertia) + tension * k2;
     even_motion[0][i] = C;
     even_motion[1][i] = slope * S;
     even_force[0][i] = shear * S;

@@ -1,7 +1,14 @@
 #include "references/derivations/program.h"
 
+#include "references/derivations/annular_membrane.h"
 #include "references/derivations/beam_modes.h"
+#include "references/derivations/column_buckling.h"
+#include "references/derivations/deep_beam.h"
+#include "references/derivations/elastica.h"
+#include "references/derivations/exponential_beam.h"
 #include "references/derivations/expression.h"
+#include "references/derivations/pendulum.h"
+#include "references/derivations/rotating_beam.h"
 #include "references/derivations/unit_load.h"
 #include "references/derivations/wittrick_williams.h"
 
@@ -9,6 +16,43 @@ namespace trammel::derive {
 
 const std::map<std::string, Program>& programs() {
   static const std::map<std::string, Program> table = {
+      {"annular-membrane",
+       {"in-plane frequencies of a free annular plate [Hz] by Bessel functions (Love)",
+        "inner_radius_m, outer_radius_m, E_Pa, rho_kg_m3, nu, modes (pairs [waves, number])",
+        annular_membrane_program}},
+      {"column-buckling",
+       {"critical loads of one uniform column (Timoshenko and Gere, chapter 2)",
+        "ends, load (end | self-weight), count, EI_N_m2, length_m, weight_N_per_m",
+        column_buckling_program}},
+      {"deep-beam-response",
+       {"simply supported Timoshenko beam under a uniform load, by its exact modes (NAFEMS 5H, 5T)",
+        "length_m, thickness_m, width_m, E_Pa, rho_kg_m3, nu, shear_coefficient, load_N_per_m, "
+        "damping_ratio (or rayleigh_mass_1_s, rayleigh_stiffness_s), response (static | "
+        "harmonic-peak | step-peak), outputs (displacement_m, stress_Pa, frequency_Hz, time_s)",
+        deep_beam_program}},
+      {"elastica-column",
+       {"cantilever column beyond buckling: F/Fcr, lateral and axial displacement over L",
+        "tip_angle_deg (array)", elastica_column_program}},
+      {"elastica-tip-force",
+       {"cantilever under a transverse dead load: v/L, u/L, tip angle (Bisshopp and Drucker 1945)",
+        "load_parameter (array of P L^2/EI)", elastica_tip_force_program}},
+      {"exponential-beam",
+       {"frequencies of a clamped-clamped beam of exponential width [Hz]",
+        "length_m, thickness_m, width_rate_1_m, E_Pa, rho_kg_m3, count, beam; for timoshenko nu, "
+        "shear_coefficient",
+        exponential_beam_program}},
+      {"pendulum",
+       {"plane pendulum of any amplitude by elliptic functions: period [s] or x, y [m]",
+        "length_m, gravity_m_s2, start_angle_deg, output (period | position), times_s",
+        pendulum_program}},
+      {"rotating-beam-frequencies",
+       {"a steadily rotating cantilever's bending frequencies [Hz] by power series",
+        "length_m, hub_radius_m, E_Pa, rho_kg_m3, thickness_m (in the direction of bending), "
+        "angular_speed_rad_s, plane (flap | lag), count, axial (rigid | flexible)",
+        rotating_beam_frequencies_program}},
+      {"rotating-beam-roots",
+       {"the same without dimension: w sqrt(rho A L^4/EI)",
+        "eta, hub_ratio, plane, count, axial_ratio", rotating_beam_roots_program}},
       {"beam-frequencies",
        {"frequencies of one uniform Euler-Bernoulli beam [Hz] (Blevins 1979, Table 8-1)",
         "ends, count, length_m, E_Pa, rho_kg_m3, thickness_m (in the plane), width_m; clamped-free "
@@ -22,6 +66,11 @@ const std::map<std::string, Program>& programs() {
       {"beam-share",
        {"the beam's share of the modal mass of a cantilever with a tip mass",
         "count, tip_mass_ratio M/(rho A L)", beam_share_program}},
+      {"frame-buckling",
+       {"factors of the loads at which a planar frame buckles, by the count of Wittrick and "
+        "Williams "
+        "at vanishing frequency",
+        "model (as in a case file; or manipulator, pose, loads), count", frame_buckling_program}},
       {"frame-count",
        {"how many natural frequencies of a planar frame lie below one, rigid motions included, by "
         "Wittrick and Williams (1971)",

@@ -1,115 +1,73 @@
 #include "references/derivations/wittrick_williams.h"
 
 #include <algorithm>
-#include <boost/math/policies/policy.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
-#include <cmath>
-#include <cstdint>
 
-#include "references/derivations/dynamic_stiffness.h"
+#include "references/derivations/counted_roots.h"
 #include "references/derivations/frame_programs.h"
+#include "references/derivations/roots.h"
+#include "references/derivations/unit_load.h"
 
 namespace trammel::derive {
 
 namespace {
 
 /// The lowest circular frequency that any member could have by itself: a scale, not a bound.
-double lowest_scale(const Frame& frame) {
-  double scale = 0;
+Real lowest_scale(const Frame& frame) {
+  Real scale = 0;
   for (const FrameMember& member : frame.members) {
     const Real L = member_axis(frame, member).length;
-    if (member.section.mass == 0) continue;
-    const auto w = static_cast<double>(sqrt(member.section.EI / member.section.mass) / (L * L));
+    if (member.section.mass == 0) throw DerivationError("member " + member.name + " has no mass");
+    const Real w = sqrt(member.section.EI / member.section.mass) / (L * L);
     scale = scale == 0 ? w : std::min(scale, w);
   }
-  if (scale == 0) throw DerivationError("the frame's members have no mass");
+  if (scale == 0) throw DerivationError("the frame has no members");
   return scale;
 }
 
-class Search {
- public:
-  explicit Search(const Frame& frame) : coarse_(frame), fine_(frame), scale_(lowest_scale(frame)) {
-    rigid_ = fine_.count(Real(scale_) * Real(1e-8)).below;
-  }
-
-  [[nodiscard]] int rigid_motions() const { return rigid_; }
-
-  /// The `index`-th frequency, rigid motions included, from 1 [rad/s].
-  [[nodiscard]] Real frequency(int index) const {
-    auto [lo, hi] = coarse_bracket(index);
-    confirm(index, lo, hi);
-    return refined(index, lo, hi);
-  }
-
-  [[nodiscard]] int count(const Real& w) const { return fine_.count(w).below; }
-
- private:
-  /// lo and hi within 1e-8 of each other, with fewer than `index` below lo and not so below hi.
-  [[nodiscard]] std::pair<Real, Real> coarse_bracket(int index) const {
-    double lo = scale_ * 1e-3;
-    double hi = scale_;
-    for (int i = 0; coarse_.count(hi).below < index; ++i) {
-      if (i > 60) throw DerivationError("too few natural frequencies were found");
-      lo = hi;
-      hi *= 2;
+/// The frame with the axial forces that its loads bring about.
+Frame with_axial_forces(Frame frame) {
+  const FrameStatics statics = unit_load_statics(frame);
+  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+    FrameMember& member = frame.members[i];
+    const auto& N = statics.members[i].N;
+    if (N[0] != N[1]) {
+      throw DerivationError("the axial force varies along member " + member.name);
     }
-    while (hi - lo > 1e-8 * hi) {
-      const double middle = (lo + hi) / 2;
-      (coarse_.count(middle).below < index ? lo : hi) = middle;
+    if (member.section.shear_compliance > 0) {
+      throw DerivationError("buckling is derived for Euler-Bernoulli members alone");
     }
-    return {Real(lo) * (1 - Real(1e-9)), Real(hi) * (1 + Real(1e-9))};
+    member.section.tension = N[0];
   }
+  return frame;
+}
 
-  /// Widens the bracket until the count in extended precision agrees with it.
-  void confirm(int index, Real& lo, Real& hi) const {
-    for (Real widen = Real(1e-8); count(lo) >= index; widen *= 10)
-      lo *= 1 - std::min(widen, Real(0.5));
-    for (Real widen = Real(1e-8); count(hi) < index; widen *= 10) hi *= 1 + widen;
+/// The load at which a pinned member alone would buckle, as a factor: the smallest of them.
+Real buckling_scale(const Frame& frame) {
+  Real scale = 0;
+  for (const FrameMember& member : frame.members) {
+    const Real L = member_axis(frame, member).length;
+    const Real compression = -member.section.tension;
+    if (!(compression > 0)) continue;
+    const Real factor = 10 * member.section.EI / (L * L * compression);
+    scale = scale == 0 ? factor : std::min(scale, factor);
   }
-
-  /// Where the count passes `index`. The m-th root of |det D|, with the sign of the count, crosses
-  /// zero there as a simple root does, m the frequencies that the bracket holds; where a clamped
-  /// frequency of a member falls into the bracket, det D has a pole and the count alone is
-  /// bisected.
-  [[nodiscard]] Real refined(int index, Real lo, Real hi) const {
-    const auto at_lo = fine_.count(lo);
-    const auto at_hi = fine_.count(hi);
-    const Real shift = at_lo.log_determinant;
-    const int m = at_hi.below - at_lo.below;
-    const bool pole = at_lo.clamped_below != at_hi.clamped_below;
-    const auto value = [&](const typename DynamicStiffness<Real>::Count& c) {
-      const int sign = c.below < index ? -1 : 1;
-      return pole ? Real(sign) : Real(sign * exp((c.log_determinant - shift) / m));
-    };
-    std::uintmax_t iterations = 400;
-    const auto close = [](const Real& a, const Real& b) { return b - a <= Real(1e-20) * b; };
-    const auto ends = boost::math::tools::toms748_solve(
-        [&](const Real& w) { return value(fine_.count(w)); }, lo, hi, value(at_lo), value(at_hi),
-        close, iterations, boost::math::policies::policy<>());
-    return (ends.first + ends.second) / 2;
-  }
-
-  DynamicStiffness<double> coarse_;
-  DynamicStiffness<Real> fine_;
-  double scale_;
-  int rigid_ = 0;
-};
+  if (scale == 0) throw DerivationError("no member is in compression");
+  return scale;
+}
 
 }  // namespace
 
 FrameFrequencies frame_frequencies(const Frame& frame, int count) {
-  const Search search(frame);
+  const DynamicStiffness<double> coarse(frame);
+  const DynamicStiffness<Real> fine(frame);
+  const Real scale = lowest_scale(frame);
+  const CountedFunction f{[&](double w) { return coarse.count(w).below; },
+                          [&](const Real& w) { return fine.count(w); },
+                          1e-3 * static_cast<double>(scale), static_cast<double>(scale)};
   FrameFrequencies result;
-  result.rigid_motions = search.rigid_motions();
-  while (static_cast<int>(result.frequencies.size()) < count) {
-    const int found = result.rigid_motions + static_cast<int>(result.frequencies.size());
-    const Real w = search.frequency(found + 1);
-    const int copies = search.count(w * (1 + Real(1e-15))) - found;
-    for (int i = 0; i < std::max(copies, 1) && static_cast<int>(result.frequencies.size()) < count;
-         ++i) {
-      result.frequencies.push_back(w / (2 * pi<Real>()));
-    }
-  }
+  result.rigid_motions = fine.count(scale * Real(1e-8)).below;
+  result.frequencies = counted_roots(f, result.rigid_motions, count);
+  for (Real& w : result.frequencies) w /= 2 * pi<Real>();
   return result;
 }
 
@@ -117,20 +75,36 @@ int frequencies_below(const Frame& frame, const Real& frequency) {
   return DynamicStiffness<Real>(frame).count(2 * pi<Real>() * frequency).below;
 }
 
+std::vector<Real> frame_buckling_factors(const Frame& given, int count) {
+  const Frame frame = with_axial_forces(given);
+  const DynamicStiffness<double> coarse(frame);
+  const DynamicStiffness<Real> fine(frame);
+  const Real w = lowest_scale(frame) * Real(1e-11);  // its square changes a factor by 1e-22
+  const auto coarse_w = static_cast<double>(lowest_scale(frame)) * 1e-3;
+  if (fine.count(w, Real(1e-6) * buckling_scale(frame)).below > 0) {
+    throw DerivationError("the frame can move freely");
+  }
+  const auto scale = static_cast<double>(buckling_scale(frame));
+  return counted_roots(
+      {[&](double factor) { return coarse.count(coarse_w, factor).below; },
+       [&](const Real& factor) { return fine.count(w, factor); }, 1e-4 * scale, scale},
+      0, count);
+}
+
 std::vector<double> frame_frequencies_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "count"});
-  std::vector<double> values;
-  for (const Real& f :
-       frame_frequencies(frame_of(arguments), arguments.count("count")).frequencies) {
-    values.push_back(static_cast<double>(f));
-  }
-  return values;
+  return rounded(frame_frequencies(frame_of(arguments), arguments.count("count")).frequencies);
 }
 
 std::vector<double> frame_count_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "below_Hz"});
   return {
       static_cast<double>(frequencies_below(frame_of(arguments), arguments.positive("below_Hz")))};
+}
+
+std::vector<double> frame_buckling_program(const Json& json) {
+  const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "count"});
+  return rounded(frame_buckling_factors(frame_of(arguments), arguments.count("count")));
 }
 
 }  // namespace trammel::derive

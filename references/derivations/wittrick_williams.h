@@ -5,9 +5,7 @@
 #include "references/derivations/arguments.h"
 #include "references/derivations/frame.h"
 
-/// Natural frequencies of a frame by the Wittrick-Williams count: bracketed in double, the bracket
-/// confirmed in extended precision, then refined there. None is missed or doubled, and a repeated
-/// one appears as often as it occurs. (A double alone reaches about 3e-10.)
+/// Natural frequencies and critical loads of a frame by the Wittrick-Williams count.
 namespace trammel::derive {
 
 struct FrameFrequencies {
@@ -22,10 +20,18 @@ struct FrameFrequencies {
 /// How many natural frequencies, rigid motions included, lie below `frequency` [Hz].
 [[nodiscard]] int frequencies_below(const Frame& frame, const Real& frequency);
 
+/// The first `count` positive factors of the loads at which the frame buckles: the axial forces of
+/// unit_load_statics times the factor, and the count at vanishing frequency.
+/// @throws DerivationError  where an axial force varies along its member.
+[[nodiscard]] std::vector<Real> frame_buckling_factors(const Frame& frame, int count);
+
 /// Arguments: model (or manipulator and pose), count. Values: elastic frequencies [Hz].
 [[nodiscard]] std::vector<double> frame_frequencies_program(const Json& arguments);
 
 /// Arguments: model (or manipulator and pose), below_Hz. Value: their number, rigid ones included.
 [[nodiscard]] std::vector<double> frame_count_program(const Json& arguments);
+
+/// Arguments: model (or manipulator, pose and loads), count. Values: factors of the loads.
+[[nodiscard]] std::vector<double> frame_buckling_program(const Json& arguments);
 
 }  // namespace trammel::derive

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "references/derivations/arguments.h"
+
+/// The plane pendulum of any amplitude by Jacobi's elliptic functions.
+namespace trammel::derive {
+
+/// Released at rest at the angle a from the lower vertical, counterclockwise positive: with
+/// k = sin(a/2) and w = sqrt(g/l), sin(theta/2) = k cd(w t, k), period 4 K(k)/w.
+/// Arguments: length_m, gravity_m_s2, start_angle_deg, output (period | position), times_s (for
+/// position). Values: the period [s], or x and y from the pivot for each time [m].
+[[nodiscard]] std::vector<double> pendulum_program(const Json& arguments);
+
+}  // namespace trammel::derive
