@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "references/data/reference.h"
 #include "references/derivations/stored.h"
 
 namespace fs = std::filesystem;
@@ -71,6 +72,20 @@ BOOST_AUTO_TEST_CASE(an_exact_value_has_a_derivation_and_every_source_is_in_the_
         const double printed = std::stod(reference.at("printed").at(i).get<std::string>());
         BOOST_TEST(
             (printed == reference.at("values").at(i).get<double>() || reference.contains("notes")));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_passport_is_read_with_the_uncertainty_that_the_derivation_is_held_to) {
+  for (const fs::path& file : reference_files()) {
+    BOOST_TEST_CONTEXT(file.filename().generic_string()) {
+      const trammel::Reference reference = trammel::load_reference(file);
+      const Comparison& comparison = comparisons().at(reference.id);
+      BOOST_TEST(reference.values == comparison.stored, boost::test_tools::per_element());
+      for (std::size_t i = 0; i < reference.values.size(); ++i) {
+        BOOST_TEST(reference.uncertainty[i] == comparison.uncertainty[i],
+                   boost::test_tools::tolerance(1e-12));
       }
     }
   }
