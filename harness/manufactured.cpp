@@ -20,8 +20,12 @@ ManufacturedSolution solve(System system, double omega) {
     const Operator dynamic = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
       return stiffness(x) - omega * omega * (system.M * x);
     };
-    solution.q =
+    const Refined refined =
         refined_solve(omega == 0 ? stiffness : dynamic, factorization, system.f, solution.counters);
+    solution.q = refined.x;
+    if (!refined.converged()) {
+      solution.outcome = {Status::singular, "the condition number has eaten all digits"};
+    }
   } else {
     solution.outcome = {Status::singular, "the model is free, or at a resonance"};
   }
