@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/edge_load.h"
 #include "solver/strain.h"
 #include "solver/symmetric_builder.h"
 #include "solver/system.h"
@@ -99,7 +100,9 @@ class Assembler {
  private:
   [[nodiscard]] Index free_count() const { return system_.constraints.free_count; }
   [[nodiscard]] std::size_t entries() const {
-    return 21 * (system_.mesh.frame.size() + system_.model.triangles.size());
+    const auto& triangles = system_.model.triangles;
+    const bool quadratic = !triangles.empty() && triangles.front().quadratic();
+    return 21 * system_.mesh.frame.size() + (quadratic ? 78 : 21) * triangles.size();
   }
 
   void stiffness() {
@@ -136,21 +139,26 @@ class Assembler {
     system_.M = builder.build();
   }
 
-  void triangle_masses(Projection& projection) {
-    for (const Triangle& triangle : system_.model.triangles) {
-      TrianglePoints points;
-      std::array<Index, 6> coordinates{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto node = static_cast<std::size_t>(triangle.nodes[i]);
-        points[i] = system_.model.nodes[node].position;
-        coordinates[2 * i] = system_.coordinates.node[node][0];
-        coordinates[2 * i + 1] = system_.coordinates.node[node][1];
+  /// Calls visit(coordinates, mass matrix) for every triangle.
+  template <class Visit>
+  void for_each_plate_mass(Visit&& visit) const {
+    const Model& model = system_.model;
+    for (const Triangle& triangle : model.triangles) {
+      if (triangle.quadratic()) {
+        visit(system_.coordinates.of<12>(triangle), triangle6_mass(model, triangle));
+      } else {
+        visit(system_.coordinates.of<6>(triangle),
+              triangle_mass(corners(model, triangle),
+                            model.plates[static_cast<std::size_t>(triangle.plate)]));
       }
-      projection.add(
-          coordinates,
-          triangle_mass(points, system_.model.plates[static_cast<std::size_t>(triangle.plate)]));
-      ++system_.counters.element_evaluations;
     }
+  }
+
+  void triangle_masses(Projection& projection) {
+    for_each_plate_mass([&](const auto& coordinates, const auto& m) {
+      projection.add(coordinates, m);
+      ++system_.counters.element_evaluations;
+    });
   }
 
   void lumps(Projection& projection) {
@@ -194,25 +202,29 @@ class Assembler {
       const Vector2d q = member.load + e.section.mass_per_length * model.gravity;
       if (!q.isZero(0)) add_load(e.coordinates, element_load(e, q));
     }
+    edge_loads();
     if (!model.gravity.isZero(0)) weights();
     system_.f = system_.T.transpose() * system_.load;
   }
 
-  void weights() {
-    const Model& model = system_.model;
-    for (const Triangle& triangle : model.triangles) {
-      TrianglePoints points;
+  void edge_loads() {
+    for (const EdgeLoad& load : system_.model.edge_loads) {
+      const std::array<Vector2d, 3> forces = edge_forces(system_.model, load);
       for (std::size_t i = 0; i < 3; ++i) {
-        points[i] = model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
-      }
-      const Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
-      const Vector2d third =
-          plate.material.rho * plate.thickness * std::abs(signed_area(points)) / 3 * model.gravity;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto& node = system_.coordinates.node[static_cast<std::size_t>(triangle.nodes[i])];
-        add_load(std::array<Index, 2>{node[0], node[1]}, third);
+        if (load.nodes[i] < 0) continue;
+        const auto& node = system_.coordinates.node[static_cast<std::size_t>(load.nodes[i])];
+        add_load(std::array<Index, 2>{node[0], node[1]}, forces[i]);
       }
     }
+  }
+
+  void weights() {
+    const Model& model = system_.model;
+    for_each_plate_mass([&](const auto& coordinates, const auto& m) {
+      Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
+      for (Index i = 0; i < fall.size(); ++i) fall[i] = model.gravity[i % 2];
+      add_load(coordinates, (m * fall).eval());
+    });
     for (const PointMass& lump : model.masses) {
       const Vector2d weight = lump.mass * model.gravity;
       const double moment = lump.offset.x() * weight.y() - lump.offset.y() * weight.x();

@@ -38,6 +38,16 @@ struct Coordinates {
   std::vector<Index> node_of;                    ///< coordinate -> mesh node it moves or turns at
   std::vector<bool> is_rotation;                 ///< coordinate
 
+  /// (u1 v1 u2 v2 ...) of a triangle's first n / 2 nodes.
+  template <std::size_t n>
+  [[nodiscard]] std::array<Index, n> of(const Triangle& triangle) const {
+    std::array<Index, n> numbers{};
+    for (std::size_t i = 0; i < n; ++i) {
+      numbers[i] = node[static_cast<std::size_t>(triangle.nodes[i / 2])][i % 2];
+    }
+    return numbers;
+  }
+
   /// Number of a coordinate of the model.
   /// @throws ModelError  naming the node or member end that has no such coordinate.
   [[nodiscard]] Index number(const Model& model, const Coordinate& coordinate) const;

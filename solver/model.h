@@ -129,6 +129,16 @@ struct NodalLoad {
   Vector3d force = Vector3d::Zero();  ///< Fx, Fy [N], moment [N m]
 };
 
+/// Uniform force per area on one side of a triangle (its thickness times its length): a traction
+/// in world axes, and one along the normal to the right of the way from the first to the second
+/// node, which points outward where the triangle runs counterclockwise.
+struct EdgeLoad {
+  Index plate = 0;
+  std::array<Index, 3> nodes{-1, -1, -1};  ///< its ends, and its middle where it has one
+  Vector2d traction = Vector2d::Zero();    ///< [Pa]
+  double normal = 0;                       ///< [Pa], tension positive
+};
+
 struct Model {
   std::vector<Node> nodes;
   std::vector<Member> members;
@@ -140,6 +150,7 @@ struct Model {
   std::vector<Support> supports;
   std::vector<LinearConstraint> constraints;
   std::vector<NodalLoad> loads;
+  std::vector<EdgeLoad> edge_loads;
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
 
   /// Index of the node of that name, or -1.

@@ -188,22 +188,38 @@ class Recovery {
     }
   }
 
+  /// (sxx, syy, sxy) of a triangle at a point in area coordinates.
+  [[nodiscard]] Vector3d plate_stress(const Triangle& triangle, const Vector3d& at) const {
+    const Material& material = model_.plates[static_cast<std::size_t>(triangle.plate)].material;
+    if (triangle.quadratic()) {
+      return membrane_stress(material,
+                             triangle6_deformation(model_, triangle, at) *
+                                 detail::gather(system_.coordinates.of<12>(triangle), u_));
+    }
+    return membrane_stress(material, triangle_deformation(corners(model_, triangle)) *
+                                         detail::gather(system_.coordinates.of<6>(triangle), u_));
+  }
+
   void triangles() {
     solution_.triangle_stress.resize(static_cast<Index>(model_.triangles.size()), 3);
+    const auto nodes = static_cast<Index>(model_.nodes.size());
+    solution_.node_stress.setZero(nodes, 3);
+    VectorXd area = VectorXd::Zero(nodes);
+    const double h = 0.5;
+    const std::array<Vector3d, 6> places = {Vector3d(1, 0, 0), Vector3d(0, 1, 0),
+                                            Vector3d(0, 0, 1), Vector3d(h, h, 0),
+                                            Vector3d(0, h, h), Vector3d(h, 0, h)};
     for (std::size_t i = 0; i < model_.triangles.size(); ++i) {
       const Triangle& triangle = model_.triangles[i];
-      TrianglePoints points;
-      Vector6d local;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto node = static_cast<std::size_t>(triangle.nodes[k]);
-        points[k] = model_.nodes[node].position;
-        local[static_cast<Index>(2 * k)] = u_[system_.coordinates.node[node][0]];
-        local[static_cast<Index>(2 * k + 1)] = u_[system_.coordinates.node[node][1]];
-      }
-      const Material& material = model_.plates[static_cast<std::size_t>(triangle.plate)].material;
+      const double size = std::abs(signed_area(corners(model_, triangle)));
       solution_.triangle_stress.row(static_cast<Index>(i)) =
-          membrane_stress(material, triangle_deformation(points) * local);
+          plate_stress(triangle, Vector3d::Constant(1 / 3.0));
+      for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {
+        solution_.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, places[k]);
+        area[triangle.nodes[k]] += size;
+      }
     }
+    for (Index node = 0; node < nodes; ++node) solution_.node_stress.row(node) /= area[node];
   }
 
   /// All that the outside does to the model: loads, reactions, springs to the ground.
@@ -212,23 +228,15 @@ class Recovery {
     const auto position = [&](Index node) -> const Vector2d& {
       return system_.mesh.positions[static_cast<std::size_t>(node)];
     };
-    for (const NodalLoad& load : model_.loads) {
-      sum.add(position(load.node), load.force.head<2>(), load.force[2]);
-    }
-    for (const FrameElement& e : system_.mesh.frame) {
-      const Member& member = model_.members[static_cast<std::size_t>(e.member)];
-      const Vector2d q = member.load + e.section.mass_per_length * model_.gravity;
-      sum.add((position(e.nodes[0]) + position(e.nodes[1])) / 2, q * e.length);
-    }
-    for (const Triangle& triangle : model_.triangles) {
-      const TrianglePoints p = {position(triangle.nodes[0]), position(triangle.nodes[1]),
-                                position(triangle.nodes[2])};
-      const Plate& plate = model_.plates[static_cast<std::size_t>(triangle.plate)];
-      sum.add((p[0] + p[1] + p[2]) / 3,
-              plate.material.rho * plate.thickness * std::abs(signed_area(p)) * model_.gravity);
-    }
-    for (const PointMass& lump : model_.masses) {
-      sum.add(position(lump.node) + lump.offset, lump.mass * model_.gravity);
+    for (Index i = 0; i < system_.load.size(); ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      const Index node = system_.coordinates.node_of[c];
+      const bool x = system_.coordinates.node[static_cast<std::size_t>(node)][0] == i;
+      if (system_.coordinates.is_rotation[c]) {
+        sum.moment += system_.load[i];
+      } else {
+        sum.add(position(node), system_.load[i] * (x ? Vector2d::UnitX() : Vector2d::UnitY()));
+      }
     }
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {
       const Eigen::RowVector3d r = solution_.reaction.row(static_cast<Index>(i));

@@ -22,8 +22,11 @@ struct StaticSolution {
   Eigen::MatrixX3d resultant_end;    ///< the same at its second node
   Eigen::VectorXd member_stress;     ///< largest |N/A| + |M|/W along each member [Pa]
   Eigen::MatrixX3d triangle_stress;  ///< triangle x (sxx, syy, sxy) at its centroid [Pa]
-  double equilibrium_residual = 0;   ///< norm of reactions + loads [N]; the same for moments below
-  double moment_residual = 0;        ///< about the world origin [N m]
+  /// Model node x (sxx, syy, sxy) [Pa]: mean of the stresses that its triangles have there, each
+  /// weighted by its area; NaN at nodes without triangles.
+  Eigen::MatrixX3d node_stress;
+  double equilibrium_residual = 0;  ///< norm of reactions + loads [N]; the same for moments below
+  double moment_residual = 0;       ///< about the world origin [N m]
   Counters counters;
 };
 

@@ -18,7 +18,7 @@ Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) 
 Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) {
   const Index k = U.cols();
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(k, k);
-  Eigen::MatrixXd d(6, k);
+  Eigen::MatrixXd d(18, k);  // the most that an element has
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     const Index m = c.size();
     for (Index j = 0; j < k; ++j) {

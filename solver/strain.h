@@ -5,6 +5,7 @@
 
 #include "solver/frame_element.h"
 #include "solver/system.h"
+#include "solver/triangle6_element.h"
 #include "solver/triangle_element.h"
 
 /// Strain energy, internal forces and their round-off straight from the elements' deformations
@@ -37,17 +38,16 @@ void for_each_deformation(const System& system, Visit&& visit) {
     visit(e.coordinates, frame_deformation(e.direction, e.length), c);
   }
   for (const Triangle& triangle : system.model.triangles) {
-    TrianglePoints points;
-    std::array<Index, 6> coordinates{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto node = static_cast<std::size_t>(triangle.nodes[i]);
-      points[i] = system.model.nodes[node].position;
-      coordinates[2 * i] = system.coordinates.node[node][0];
-      coordinates[2 * i + 1] = system.coordinates.node[node][1];
+    if (triangle.quadratic()) {
+      const Triangle6Stiffness k = triangle6_stiffness(system.model, triangle);
+      visit(system.coordinates.of<12>(triangle), k.deformation, k.rigidity);
+      continue;
     }
+    const TrianglePoints points = corners(system.model, triangle);
     const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
     const double volume = plate.thickness * std::abs(signed_area(points));
-    visit(coordinates, triangle_deformation(points), membrane_rigidity(plate.material, volume));
+    visit(system.coordinates.of<6>(triangle), triangle_deformation(points),
+          membrane_rigidity(plate.material, volume));
   }
   for (const SpringElement& spring : system.springs) {
     visit(spring.coordinates, Eigen::RowVector2d(-1, 1),

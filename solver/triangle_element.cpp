@@ -4,6 +4,14 @@
 
 namespace trammel {
 
+TrianglePoints corners(const Model& model, const Triangle& triangle) {
+  TrianglePoints points;
+  for (std::size_t i = 0; i < 3; ++i) {
+    points[i] = model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
+  }
+  return points;
+}
+
 double signed_area(const TrianglePoints& points) {
   const Vector2d a = points[1] - points[0];
   const Vector2d b = points[2] - points[0];

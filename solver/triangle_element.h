@@ -17,6 +17,8 @@ namespace trammel {
 using TrianglePoints = std::array<Vector2d, 3>;
 using TriangleDeformation = Eigen::Matrix<double, 3, 6>;
 
+[[nodiscard]] TrianglePoints corners(const Model& model, const Triangle& triangle);
+
 /// Area [m^2], positive when the points run counterclockwise.
 [[nodiscard]] double signed_area(const TrianglePoints& points);
 

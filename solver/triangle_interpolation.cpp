@@ -46,7 +46,8 @@ TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
     J += local.col(i) * p.transpose();
   }
   result.gradient = J.inverse() * local;
-  result.area = std::abs(J.determinant()) / 2;
+  result.signed_area = J.determinant() / 2;
+  result.area = std::abs(result.signed_area);
   return result;
 }
 

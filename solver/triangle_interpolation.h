@@ -15,7 +15,8 @@ struct TriangleInterpolation {
   Eigen::Matrix<double, 6, 1> N;         ///< values [-]
   Eigen::Matrix<double, 2, 6> gradient;  ///< dN/dx, dN/dy [1/m]
   Vector2d position = Vector2d::Zero();  ///< world [m]
-  double area = 0;                       ///< the triangle's area if all of it were like here [m^2]
+  double signed_area = 0;  ///< [m^2], positive when the corners run counterclockwise here
+  double area = 0;         ///< the triangle's area if all of it were like here [m^2]
 };
 
 /// @param at  area coordinates L_0, L_1, L_2 of the corners, sum 1

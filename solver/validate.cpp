@@ -6,6 +6,7 @@
 #include "solver/frame_element.h"
 #include "solver/labels.h"
 #include "solver/triangle_element.h"
+#include "solver/triangle_interpolation.h"
 
 namespace trammel {
 namespace {
@@ -46,6 +47,7 @@ class Validator {
       require(load.force.allFinite(), "the load at " + node_label(model_, load.node),
               "is not a finite number");
     }
+    for (const EdgeLoad& load : model_.edge_loads) edge_load(load);
     require(model_.gravity.allFinite(), "gravity", "is not a finite number");
   }
 
@@ -130,11 +132,36 @@ class Validator {
                               position(triangle.nodes[2])};
     const double longest = std::max(
         {(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
+    if (triangle.quadratic()) curved(triangle, part);
     if (!(std::abs(signed_area(p)) > 1e-12 * longest)) {
       fail(part + " (" + node_label(model_, triangle.nodes[0]) + ", " +
            node_label(model_, triangle.nodes[1]) + ", " + node_label(model_, triangle.nodes[2]) +
            ") has no area");
     }
+  }
+
+  /// The map from area coordinates must not fold: same sign of its determinant at all six nodes.
+  void curved(const Triangle& triangle, const std::string& part) const {
+    const double h = 0.5;
+    for (const Vector3d& at : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1),
+                               Vector3d(h, h, 0), Vector3d(0, h, h), Vector3d(h, 0, h)}) {
+      const TriangleInterpolation here = interpolate(model_, triangle, at);
+      const TriangleInterpolation centre =
+          interpolate(model_, triangle, Vector3d::Constant(1 / 3.0));
+      require(here.signed_area * centre.signed_area > 0, part,
+              "is folded by the middle nodes of its sides");
+    }
+  }
+
+  void edge_load(const EdgeLoad& load) const {
+    const std::string part = "an edge load";
+    require(load.plate >= 0 && load.plate < static_cast<Index>(model_.plates.size()), part,
+            "names a plate that does not exist");
+    known(load.nodes[0], part);
+    known(load.nodes[1], part);
+    if (load.nodes[2] != -1) known(load.nodes[2], part);
+    require(load.traction.allFinite() && std::isfinite(load.normal), part,
+            "is not a finite number");
   }
 
   void rigid_body(std::size_t i) const {
