@@ -5,6 +5,7 @@
 #include "harness/catalogue.h"
 #include "harness/commands.h"
 #include "harness/errors.h"
+#include "harness/print_validation.h"
 #include "harness/progress.h"
 #include "harness/results.h"
 #include "harness/table.h"
@@ -135,6 +136,7 @@ void print_summary(const std::vector<Run>& runs) {
   std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks << " checks";
   for (const auto& [word, count] : verdicts) std::cout << ", " << count << " " << word;
   std::cout << '\n';
+  print_validation_summary(runs, std::cout);
 }
 
 void print_trouble(const std::vector<Run>& runs) {
@@ -176,7 +178,9 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   const std::vector<Run> runs =
       compute(selection, references, {command.variant, command.jobs, Follow::named, {}});
   for (const Run& run : runs) {
-    if (run.trouble == Run::Trouble::none) print_run(run);
+    if (run.trouble != Run::Trouble::none) continue;
+    print_run(run);
+    if (runs.size() == 1) print_validation(run, std::cout);
   }
   const auto results = write_all(runs, selection, references, command.out, renderers);
   print_summary(runs);

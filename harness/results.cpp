@@ -83,6 +83,74 @@ Json convergence(const Convergence& found) {
   return json;
 }
 
+Json interval(const Validation& validation) {
+  return {number(validation.low), number(validation.high)};
+}
+
+Json comparison(const ComparedEntry& entry, const std::vector<StatedInput>& inputs) {
+  Json json = {{"check", entry.check},
+               {"quantity", entry.quantity},
+               {"index", entry.index},
+               {"unit", entry.unit},
+               {"reference", entry.reference},
+               {"simulation", number(entry.comparison.simulation)},
+               {"expected", number(entry.comparison.reference)},
+               {"u_num", number(entry.comparison.u_num)},
+               {"u_input", number(entry.comparison.u_input)},
+               {"u_input_sampled", number(entry.u_input_sampled)},
+               {"u_reference", number(entry.comparison.u_reference)},
+               {"contributions", Json::object()}};
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    json["contributions"][inputs[k].name] = number(entry.contribution[k]);
+  }
+  json["dominant_input"] = entry.dominant;
+  json["dominant_share"] = number(entry.dominant_share);
+  json["spread"] = numbers(entry.spread);
+  json["difference"] = number(entry.validation.difference);
+  json["u_val"] = number(entry.validation.u_val);
+  json["interval"] = interval(entry.validation);
+  json["verdict"] = to_string(entry.validation.verdict);
+  json["words"] = entry.validation.words;
+  json["literal"] = {{"u_input", number(entry.literal_comparison.u_input)},
+                     {"u_input_sampled", number(entry.u_input_literal_sampled)},
+                     {"u_val", number(entry.literal.u_val)},
+                     {"interval", interval(entry.literal)},
+                     {"verdict", to_string(entry.literal.verdict)},
+                     {"words", entry.literal.words}};
+  return json;
+}
+
+Json uncertainty(const ValidationUncertainty& found) {
+  Json json = {{"inputs", Json::array()},
+               {"samples", found.samples},
+               {"failed", found.failed},
+               {"literal_samples", found.literal_samples},
+               {"literal_failed", found.literal_failed},
+               {"numerical", Json::array()},
+               {"comparisons", Json::array()}};
+  for (const StatedInput& input : found.inputs) {
+    json["inputs"].push_back({{"name", input.name},
+                              {"pointers", input.pointers},
+                              {"half_width", number(input.half_width)},
+                              {"nominal", input.nominal},
+                              {"why", input.why}});
+  }
+  for (const NumericalEstimate& one : found.numerical) {
+    json["numerical"].push_back({{"refinement", one.refinement},
+                                 {"quantity", one.quantity},
+                                 {"index", one.index},
+                                 {"parameter", numbers(one.parameter)},
+                                 {"values", numbers(one.values)},
+                                 {"order", number(one.order)},
+                                 {"factor", number(one.factor)},
+                                 {"half_width", number(one.half_width)}});
+  }
+  for (const ComparedEntry& entry : found.entries) {
+    json["comparisons"].push_back(comparison(entry, found.inputs));
+  }
+  return json;
+}
+
 Json drawing(const Drawing& drawn) {
   Json json = {{"nodes_m", points(drawn.nodes)},
                {"members", drawn.members},
@@ -112,6 +180,7 @@ Json cost(const Run& run) {
                 {{"element_evaluations", counters.element_evaluations},
                  {"factorizations", counters.factorizations},
                  {"solves", counters.solves}}}};
+  if (!run.uncertainty.empty()) json["uncertainty_wall_s"] = run.uncertainty_wall_s;
   if (run.sweeps.empty()) return json;
   // What accuracy costs in time.
   Json& sweeps = json["sweeps"] = Json::object();
@@ -138,6 +207,7 @@ Json run_json(const Run& run) {
   for (const Convergence& found : run.convergence) {
     json["convergence"].push_back(convergence(found));
   }
+  if (!run.uncertainty.empty()) json["uncertainty"] = uncertainty(run.uncertainty);
   if (run.result.drawing) json["drawing"] = drawing(*run.result.drawing);
   json["cost"] = cost(run);
   return json;

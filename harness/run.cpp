@@ -103,6 +103,18 @@ void compute(Task& task, const References& references) {
   task.run.cpu_s = watch.cpu_s();
 }
 
+void compare_for_validation(Task& task, const References& references) {
+  const bool wanted =
+      task.asked && task.run.status == "solved" && task.document.value().contains("uncertainty");
+  if (!wanted) return;
+  const Stopwatch watch;
+  attempt(task.run, [&] {
+    task.run.uncertainty =
+        study_validation(task.document, task.run.result, task.checks, references);
+  });
+  task.run.uncertainty_wall_s = watch.wall_s();
+}
+
 void compute_all(std::vector<Task>& tasks, const References& references,
                  const RunOptions& options) {
   std::atomic<std::size_t> next{0};
@@ -111,6 +123,7 @@ void compute_all(std::vector<Task>& tasks, const References& references,
   const auto work = [&] {
     for (std::size_t i = next++; i < tasks.size(); i = next++) {
       compute(tasks[i], references);
+      compare_for_validation(tasks[i], references);
       const std::lock_guard<std::mutex> guard(lock);
       ++done;
       if (options.progress) options.progress(done, tasks.size());

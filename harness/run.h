@@ -7,6 +7,7 @@
 #include "harness/case.h"
 #include "harness/judge.h"
 #include "harness/sweep.h"
+#include "harness/validation_uncertainty.h"
 
 /// Runs cases: every (case, variant) is one independent computation.
 namespace trammel {
@@ -31,7 +32,9 @@ struct Run {
   std::vector<Sweep> sweeps;
   std::vector<Judgement> judgements;
   std::vector<Convergence> convergence;
-  double wall_s = 0, cpu_s = 0;
+  ValidationUncertainty uncertainty;  ///< empty where the case does not ask for it
+  double wall_s = 0, cpu_s = 0;       ///< of the computation and its sweeps
+  double uncertainty_wall_s = 0;      ///< of `uncertainty`
 };
 
 /// Runs the cases, and judges them. The numbers do not depend on `jobs`.

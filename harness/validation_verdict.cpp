@@ -18,9 +18,14 @@ std::string digits(double value, int significant = 3) {
 Validation compare(const Comparison& c) {
   Validation v;
   v.difference = c.simulation - c.reference;
-  v.u_val = std::hypot(c.u_num, c.u_input, c.u_reference);
+  // Not std::hypot of three, which may lose a NaN.
+  v.u_val = std::sqrt(c.u_num * c.u_num + c.u_input * c.u_input + c.u_reference * c.u_reference);
   v.low = v.difference - coverage_factor * v.u_val;
   v.high = v.difference + coverage_factor * v.u_val;
+  if (!std::isfinite(v.difference) || !std::isfinite(v.u_val)) {
+    v.verdict = ValidationVerdict::undecided;
+    return v;
+  }
   const bool within = v.low <= 0 && v.high >= 0;
   v.verdict = within ? ValidationVerdict::within_noise : ValidationVerdict::model_off;
   return v;
@@ -54,6 +59,9 @@ Spread printed(const std::vector<Comparison>& row, std::size_t first, std::size_
 
 std::string words(const Validation& v, const std::string& unit) {
   const double noise = coverage_factor * v.u_val;
+  if (v.verdict == ValidationVerdict::undecided) {
+    return "undecided: the value or one of its uncertainties could not be computed";
+  }
   if (v.verdict == ValidationVerdict::within_noise) {
     return "the difference of " + digits(v.difference) + " " + unit + " is within the noise of ±" +
            digits(noise) + " " + unit;
@@ -103,9 +111,11 @@ std::string to_string(ValidationVerdict verdict) {
     case ValidationVerdict::model_off:
       return "model-off";
     case ValidationVerdict::reference_contradicts_itself:
+      return "reference-contradicts-itself";
+    case ValidationVerdict::undecided:
       break;
   }
-  return "reference-contradicts-itself";
+  return "undecided";
 }
 
 }  // namespace trammel

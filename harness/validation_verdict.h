@@ -16,7 +16,8 @@ struct Comparison {
   double u_reference = 0;  ///< u_D, from the printed digits of D
 };
 
-enum class ValidationVerdict { within_noise, model_off, reference_contradicts_itself };
+/// undecided: a number is missing, and nothing is claimed.
+enum class ValidationVerdict { within_noise, model_off, reference_contradicts_itself, undecided };
 
 struct Validation {
   double difference = 0;  ///< E = S - D
@@ -39,7 +40,7 @@ inline constexpr double coverage_factor = 2;
 [[nodiscard]] std::vector<Validation> judge_row(const std::vector<Comparison>& row,
                                                 const std::string& unit);
 
-/// "within-noise", "model-off", "reference-contradicts-itself"
+/// "within-noise", "model-off", "reference-contradicts-itself", "undecided"
 [[nodiscard]] std::string to_string(ValidationVerdict verdict);
 
 }  // namespace trammel

@@ -1,6 +1,7 @@
 #include "harness/validation_verdict.h"
 
 #include <boost/test/unit_test.hpp>
+#include <limits>
 
 namespace t = trammel;
 using t::ValidationVerdict;
@@ -55,6 +56,17 @@ BOOST_AUTO_TEST_CASE(a_pair_printed_to_few_digits_may_differ_by_them) {
   const auto row = t::judge_row({first, second}, "Hz");
   BOOST_TEST((row[0].verdict == ValidationVerdict::model_off));
   BOOST_TEST((row[1].verdict == ValidationVerdict::within_noise));
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_claimed_where_a_number_is_missing) {
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  for (const t::Comparison& c :
+       {t::Comparison{missing, 1, 0, 0, 0}, t::Comparison{1, 1, missing, 0, 0},
+        t::Comparison{1, 1, 0, missing, 0}}) {
+    const auto v = t::judge_row({c}, "Hz").front();
+    BOOST_TEST((v.verdict == ValidationVerdict::undecided));
+    BOOST_TEST(t::to_string(v.verdict) == "undecided");
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
