@@ -24,11 +24,7 @@ ManufacturedSolution solve(System system, double omega) {
         refined_solve(omega == 0 ? stiffness : dynamic, factorization, system.f, solution.counters);
     solution.q = refined.x;
     if (!refined.converged()) {
-<<<<<<< Updated upstream
       solution.outcome = {Status::singular, "the condition number has eaten all digits"};
-=======
-      solution.outcome = {Status::not_converged, "too ill-conditioned for double precision"};
->>>>>>> Stashed changes
     }
   } else {
     solution.outcome = {Status::singular, "the model is free, or at a resonance"};
