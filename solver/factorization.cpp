@@ -36,10 +36,19 @@ void Factorization::compute(const Eigen::SparseMatrix<double>& A) {
     }
     norm_ = std::max(norm_, column);
   }
-  if (!analyzed_) ldlt_.analyzePattern(scaled);
-  analyzed_ = true;
+  if (!has_pattern_of(scaled)) {
+    ldlt_.analyzePattern(scaled);
+    columns_.assign(scaled.outerIndexPtr(), scaled.outerIndexPtr() + scaled.cols() + 1);
+    rows_.assign(scaled.innerIndexPtr(), scaled.innerIndexPtr() + scaled.nonZeros());
+  }
   ldlt_.factorize(scaled);
   exists_ = ldlt_.info() == Eigen::Success && ldlt_.vectorD().allFinite();
+}
+
+bool Factorization::has_pattern_of(const Eigen::SparseMatrix<double>& A) const {
+  return columns_.size() == static_cast<std::size_t>(A.cols()) + 1 &&
+         std::equal(columns_.begin(), columns_.end(), A.outerIndexPtr()) &&
+         std::equal(rows_.begin(), rows_.end(), A.innerIndexPtr());
 }
 
 double Factorization::smallest_pivot() const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <vector>
 
 namespace trammel {
 
@@ -16,7 +17,8 @@ struct FillReducingOrdering {
 /// S = |diag A|^(-1/2), so that metres and radians weigh alike. Where the diagonal is zero, S is 1.
 class Factorization {
  public:
-  /// `pattern` is kept from call to call: a second matrix must have the first one's.
+  /// The ordering is kept from call to call as long as the pattern of the matrix is the same: the
+  /// mass may couple coordinates that the stiffness does not.
   void compute(const Eigen::SparseMatrix<double>& A);
 
   /// False where a pivot was exactly zero or not finite; then nothing else may be asked.
@@ -42,10 +44,13 @@ class Factorization {
   [[nodiscard]] double condition() const;
 
  private:
+  /// Whether the ordering at hand is that of A, which is compressed.
+  [[nodiscard]] bool has_pattern_of(const Eigen::SparseMatrix<double>& A) const;
+
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, FillReducingOrdering> ldlt_;
   Eigen::VectorXd scaling_;
-  double norm_ = 0;  // 1-norm of S A S
-  bool analyzed_ = false;
+  double norm_ = 0;                  // 1-norm of S A S
+  std::vector<int> columns_, rows_;  // pattern that the ordering is of
   bool exists_ = false;
 };
 
