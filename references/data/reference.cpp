@@ -1,10 +1,10 @@
 #include "references/data/reference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 namespace trammel {
 namespace {
@@ -117,16 +117,21 @@ const char* to_string(ReferenceKind kind) {
 }
 
 double half_unit_in_last_place(const std::string& printed) {
-  static const std::regex decimal(R"(\s*[-+]?\d*(?:\.(\d*))?(?:[eE]([-+]?\d+))?\s*)");
-  std::smatch match;
-  const bool has_digit = printed.find_first_of("0123456789") != std::string::npos;
-  if (!has_digit || !std::regex_match(printed, match, decimal)) {
+  char* end = nullptr;
+  (void)std::strtod(printed.c_str(), &end);
+  const bool plain = printed.find_first_not_of("+-.0123456789eE") == std::string::npos;
+  if (printed.empty() || *end != '\0' || !plain) {
     throw ReferenceError("expected a decimal number as printed (got '" + printed + "')");
   }
-  const int decimals = static_cast<int>(match[1].length());
-  const int exponent = match[2].matched ? std::atoi(match[2].str().c_str()) : 0;
+  const auto mantissa = printed.find_first_of("eE");
+  const auto point = printed.find('.');
+  const auto last = std::min(mantissa, printed.size());
+  const auto decimals = point == std::string::npos ? 0 : last - point - 1;
+  const long exponent =
+      mantissa == std::string::npos ? 0 : std::strtol(printed.c_str() + mantissa + 1, nullptr, 10);
   // Through text: 0.5e-3 read from decimal is the nearest double, a power by pow need not be.
-  return std::strtod(("0.5e" + std::to_string(exponent - decimals)).c_str(), nullptr);
+  const long place = exponent - static_cast<long>(decimals);
+  return std::strtod(("0.5e" + std::to_string(place)).c_str(), nullptr);
 }
 
 Reference read_reference(const Json& json, const std::string& name) {
