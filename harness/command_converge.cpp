@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "harness/catalogue.h"
@@ -44,6 +45,24 @@ void print(const Convergence& found) {
   std::cout << wrapped(last, "    ") << '\n';
 }
 
+/// Whether the bands hold the exact value, and how much wider than needed they are.
+void print_bands(const std::vector<Convergence>& all) {
+  std::size_t hits = 0;
+  std::vector<double> ratio;
+  for (const Convergence& found : all) {
+    for (std::size_t k = 0; found.series.exact && k < found.band.size(); ++k) {
+      if (!std::isfinite(found.band[k])) continue;
+      hits += found.band[k] >= found.error[k] ? 1 : 0;
+      ratio.push_back(found.band[k] / found.error[k]);
+    }
+  }
+  if (ratio.empty()) return;
+  std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2),
+                   ratio.end());
+  std::cout << "  the band holds the exact value on " << hits << " of " << ratio.size()
+            << " levels; median band over error " << rounded(ratio[ratio.size() / 2], 3) << "\n\n";
+}
+
 void print_cost(const Sweep& sweep) {
   std::cout << "  time a level [s]:";
   for (const SweepLevel& level : sweep.levels) std::cout << ' ' << rounded(level.wall_s, 2);
@@ -68,6 +87,7 @@ int converge_command(const std::string& name, const std::string& variant, unsign
     std::cout << run.case_id << ":" << run.variant << "\n\n";
     for (const Sweep& sweep : run.sweeps) print_cost(sweep);
     for (const Convergence& found : run.convergence) print(found);
+    print_bands(run.convergence);
   }
   std::cout
       << "error: relative, of the exact value or else of the extrapolated one; band: grid\n"

@@ -75,9 +75,10 @@ struct Told {
 std::vector<Told> by_check(const Run& run) {
   std::vector<Told> told;
   for (const Judgement& one : run.judgements) {
-    const bool same = !told.empty() && told.back().worst->name == one.name;
-    if (!same) told.push_back({&one, 0});
-    Told& check = told.back();
+    auto same = std::find_if(told.begin(), told.end(),
+                             [&](const Told& check) { return check.worst->name == one.name; });
+    if (same == told.end()) same = told.insert(told.end(), {&one, 0});
+    Told& check = *same;
     ++check.entries;
     const auto rank = [](const Judgement& judged) {
       return std::pair(breaks_gate(judged.verdict) ? 1 : 0,

@@ -90,9 +90,11 @@ class Study {
   [[nodiscard]] std::pair<double, double> order_and_factor(std::size_t k) const {
     const double seen = observed_[k];
     if (!series_.theory) return {std::isnan(seen) ? 1 : std::max(0.5, seen), 3};
-    if (std::isnan(seen)) return {std::min(1.0, *series_.theory), 3};
-    if (is_near(seen, *series_.theory)) return {*series_.theory, 1.25};
-    return {std::clamp(seen, 0.5, std::max(0.5, *series_.theory)), 3};
+    const double theory = *series_.theory;
+    if (!std::isnan(seen) && is_near(seen, theory)) return {theory, 1.25};
+    // A higher order than theory is no merit: the values are not yet in its range.
+    if (std::isnan(seen) || seen > theory) return {std::min(1.0, theory), 3};
+    return {std::max(0.5, seen), 3};
   }
 
   void extrapolate() {

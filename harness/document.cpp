@@ -6,8 +6,28 @@
 
 namespace trammel {
 
+namespace {
+
+/// One merge patch that does what two do one after the other: unlike a document, a patch keeps its
+/// nulls.
+void compose(Json& patch, const Json& later) {
+  if (!patch.is_object() || !later.is_object()) {
+    patch = later;
+    return;
+  }
+  for (const auto& item : later.items()) compose(patch[item.key()], item.value());
+}
+
+}  // namespace
+
 void Document::lay(const std::string& file, const std::string& origin, const Json& patch) {
+  // Variants are patches themselves, whose nulls mean something later.
+  Json variants = value_.value("variants", Json());
   value_.merge_patch(patch);
+  if (const auto stated = patch.find("variants"); stated != patch.end() && stated->is_object()) {
+    compose(variants, *stated);
+    value_["variants"] = std::move(variants);
+  }
   layers_.push_back({file, origin, patch, false});
 }
 

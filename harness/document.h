@@ -18,6 +18,7 @@ struct Origin {
 /// which file said what, so that a message points to where the user wrote it.
 class Document {
  public:
+  /// A null removes a key, except inside "variants", which are patches for later.
   /// @param origin  pointer in `file` where the patch stands; empty: the whole file
   void lay(const std::string& file, const std::string& origin, const Json& patch);
   /// A patch that stands in the file as one number of a sweep: errors point to that number.

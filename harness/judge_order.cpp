@@ -31,7 +31,7 @@ class OrderJudge {
     meshes_ = static_cast<std::size_t>(std::count(qualifies_.begin(), qualifies_.end(), true));
   }
 
-  std::vector<Judgement> run() const {
+  [[nodiscard]] std::vector<Judgement> run() const {
     std::vector<Judgement> all = {order()};
     if (demand_.leading_term) all.push_back(leading_term());
     if (demand_.richardson_within) all.push_back(richardson());
@@ -95,7 +95,7 @@ class OrderJudge {
     return farthest;
   }
 
-  Judgement order() const {
+  [[nodiscard]] Judgement order() const {
     Judgement one = start("", "order", "1");
     one.expected = found_.series.theory;
     if (lacks_evidence(one)) return one;
@@ -115,7 +115,7 @@ class OrderJudge {
     return one;
   }
 
-  Judgement leading_term() const {
+  [[nodiscard]] Judgement leading_term() const {
     Judgement one = start(".leading-term", "leading-term", "1");
     one.expected = 1;
     if (lacks_evidence(one)) return one;
@@ -132,7 +132,7 @@ class OrderJudge {
     return one;
   }
 
-  Judgement richardson() const {
+  [[nodiscard]] Judgement richardson() const {
     Judgement one = start(".richardson", "relative", unit_of(check_.quantity));
     one.expected = found_.series.exact;
     if (lacks_evidence(one)) return one;
@@ -189,6 +189,8 @@ std::vector<Judgement> judge_order(const Check& check, const Evidence& evidence)
                                               check.quantity + ", " + std::to_string(wanted) +
                                               " are judged"));
   }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Judgement& a, const Judgement& b) { return a.name < b.name; });
   return all;
 }
 

@@ -15,6 +15,7 @@ const std::vector<std::pair<std::string, std::string>>& units() {
       {"_percent", "%"},
       {"_m_per_s", "m/s"},
       {"_kg_m2", "kg m^2"},
+      {"_kg_m3", "kg/m^3"},
       {"_rad_s", "rad/s"},
       {"_m_s2", "m/s^2"},
       {"_N_m", "N m"},

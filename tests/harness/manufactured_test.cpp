@@ -109,7 +109,7 @@ void check_beam(t::BeamTest test, const BeamTheoryOrders& theory) {
 
 const std::vector<double> kDistortions = {0.0, 0.25};
 constexpr double kMembraneOmega = 4000;  // rad/s
-constexpr double kBeamOmega = 3000;  // rad/s, above the first frequency
+constexpr double kBeamOmega = 3000;      // rad/s, above the first frequency
 
 }  // namespace
 

@@ -1,0 +1,191 @@
+#include "harness/analysis.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "tests/harness/support.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+AnalysisResult result_of(const Json& json) {
+  const Folder folder;
+  const References references;
+  return analyse(patched(testing::read(folder, json), "base"), references, {});
+}
+
+double only(const AnalysisResult& result, const std::string& name) {
+  const auto& values = result.quantities.at(name).values;
+  BOOST_REQUIRE(values.size() == 1);
+  return values[0];
+}
+
+Json on_a_circle(Json json, int points) {
+  json["model"].erase("pose");
+  json["model"]["trajectory"]["circle"] = {
+      {"center_m", {0.25, 0.144}}, {"radius_m", 0.01}, {"points", points}, {"step_s", 0.01}};
+  return json;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(analysis)
+
+BOOST_AUTO_TEST_CASE(a_cantilever_bends_under_its_tip_force_as_beam_theory_says) {
+  const AnalysisResult result = result_of(testing::cantilever());
+  const double EI = 2e11 * 0.05 * 1e-3 / 12, P = 100, L = 2;
+  const auto tolerance = boost::test_tools::tolerance(1e-10);
+  BOOST_TEST(only(result, "displacement_y_m:B") == P * L * L * L / (3 * EI), tolerance);
+  BOOST_TEST(only(result, "rotation_rad:B") == P * L * L / (2 * EI), tolerance);
+  BOOST_TEST(only(result, "reaction_y_N:A") == -P, tolerance);
+  BOOST_TEST(only(result, "reaction_moment_N_m:A") == -P * L, tolerance);
+  BOOST_TEST(only(result, "stress_Pa:AB") == P * L / (0.05 * 0.01 / 6), tolerance);
+  BOOST_TEST(only(result, "equilibrium_residual_N") < 1e-9);
+  BOOST_TEST(std::abs(only(result, "bending_moment_N_m:AB.start")) == P * L, tolerance);
+}
+
+BOOST_AUTO_TEST_CASE(a_section_without_an_outermost_fibre_has_no_stress) {
+  Json json = testing::cantilever();
+  json["model"]["sections"]["bar"] = {
+      {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 1e-6}};
+  BOOST_TEST(result_of(json).quantities.count("stress_Pa:AB") == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(along_a_path_every_quantity_has_one_number_a_point) {
+  for (const char* kind : {"statics", "kinematics"}) {
+    Json json = on_a_circle(testing::manipulator(), 50);
+    json["analysis"] = {{kind, Json::object()}};
+    const AnalysisResult result = result_of(json);
+    BOOST_TEST(result.outcome.solved());
+    BOOST_TEST(result.quantities.size() > 10);
+    for (const auto& [name, quantity] : result.quantities) {
+      BOOST_TEST(quantity.values.size() == 50, name);
+      for (const double value : quantity.values) BOOST_TEST(std::isfinite(value), name);
+    }
+    BOOST_TEST(result.quantities.at("time_s").values[10] == 0.1);
+  }
+  Json json = on_a_circle(testing::manipulator(), 5);
+  const AnalysisResult modes = result_of(json);
+  BOOST_TEST(modes.quantities.at("frequency_Hz:1").values.size() == 5);
+  BOOST_TEST(modes.quantities.at("frequency_Hz:6").values.size() == 5);
+}
+
+BOOST_AUTO_TEST_CASE(the_holding_torques_balance_the_load_by_virtual_work) {
+  Json json = on_a_circle(testing::manipulator(), 101);
+  json["analysis"] = {{"kinematics", Json::object()}};
+  const AnalysisResult result = result_of(json);
+  // tau . dtheta + F . dx = 0 along the path itself; central differences of 0.01 rad.
+  for (std::size_t i = 1; i < 100; i += 7) {
+    double work = 0;
+    for (const char* limb : {"A1", "A2", "A3"}) {
+      const auto& angle = result.quantities.at(std::string("active_angle_rad:") + limb).values;
+      const auto& torque = result.quantities.at(std::string("holding_torque_N_m:") + limb).values;
+      work += torque[i] * (angle[i + 1] - angle[i - 1]);
+    }
+    const auto& x = result.quantities.at("pose_x_m").values;
+    work += 10 * (x[i + 1] - x[i - 1]);
+    BOOST_TEST(std::abs(work) < 1e-6);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_load_at_a_corner_of_the_platform_is_carried_to_its_centre) {
+  Json json = testing::manipulator();
+  json["analysis"] = {{"kinematics", Json::object()}};
+  json["model"]["loads"] = {{"a", {{"node", "C3"}, {"force_N", {3, 0}}}}};
+  const AnalysisResult at_corner = result_of(json);
+  // C3 stands 0.2/sqrt(3) above P.
+  json["model"]["loads"] = {
+      {"a", {{"node", "P"}, {"force_N", {3, 0}}, {"moment_N_m", -3 * 0.2 / std::sqrt(3.0)}}}};
+  const AnalysisResult at_centre = result_of(json);
+  BOOST_TEST(only(at_corner, "holding_torque_N_m:A2") == only(at_centre, "holding_torque_N_m:A2"),
+             boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(a_mechanism_is_singular_with_its_motion_in_words) {
+  Json json = testing::cantilever();
+  json["model"]["supports"] = {{"A", {"x", "y"}}};
+  const AnalysisResult result = result_of(json);
+  BOOST_TEST((result.outcome.status == Status::singular));
+  BOOST_TEST(contains(result.outcome.reason, "rotation"));
+  BOOST_TEST(result.quantities.empty());
+}
+
+BOOST_AUTO_TEST_CASE(properties_are_those_of_rods_and_triangles) {
+  Json json = testing::manipulator();
+  json["analysis"] = {{"properties", Json::object()}};
+  AnalysisResult result = result_of(json);
+  const double link = 0.2 * 0.0015 * 0.03 * 2700;
+  const double plate = std::sqrt(3.0) / 4 * 0.04 * 0.0015 * 2700;
+  const auto tolerance = boost::test_tools::tolerance(1e-12);
+  BOOST_TEST(only(result, "mass_kg:A1-B1") == link, tolerance);
+  BOOST_TEST(only(result, "inertia_kg_m2:B2-C2") == link * 0.04 / 12, tolerance);
+  BOOST_TEST(only(result, "length_m:A3-B3") == 0.2, tolerance);
+  BOOST_TEST(only(result, "mass_kg:platform") == plate, tolerance);
+  BOOST_TEST(only(result, "inertia_kg_m2:platform") == plate * 0.04 / 12, tolerance);
+  BOOST_TEST(only(result, "mass_kg:total") == 6 * link + plate, tolerance);
+  json["model"]["manipulator"]["platform"]["kind"] = "triangles";
+  result = result_of(json);
+  BOOST_TEST(only(result, "mass_kg:platform") == plate, tolerance);
+  BOOST_TEST(only(result, "inertia_kg_m2:platform") == plate * 0.04 / 12, tolerance);
+}
+
+BOOST_AUTO_TEST_CASE(references_are_compared_with_each_other) {
+  const Folder folder;
+  const auto write = [&](const char* id, const char* unit, const Json& values) {
+    (void)folder.write({{"id", id},
+                        {"title", id},
+                        {"kind", "paper"},
+                        {"unit", unit},
+                        {"values", values},
+                        {"uncertainty", {{"absolute", 0}}},
+                        {"source", "me"},
+                        {"place", "here"}});
+  };
+  write("a", "Hz", {11, 22});
+  write("b", "Hz", {10, 20});
+  write("c", "m", {10, 20});
+  Json json = {{"id", "x"},
+               {"title", "X"},
+               {"analysis", {{"comparison", {{"rows", {{"of", "a"}, {"from", "b"}}}}}}}};
+  const References references;
+  const auto result = analyse(testing::read(folder, json).document, references, {});
+  BOOST_TEST(result.quantities.at("difference_percent:rows").values[1] == 10,
+             boost::test_tools::tolerance(1e-14));
+  json["analysis"]["comparison"]["rows"]["from"] = "c";
+  BOOST_TEST(contains(
+      complaint([&] { (void)analyse(testing::read(folder, json).document, references, {}); }),
+      "/analysis/comparison/rows: expected two references of one unit"));
+}
+
+BOOST_AUTO_TEST_CASE(a_picture_bends_inside_its_elements) {
+  Json json = testing::cantilever();
+  json["model"]["elements"] = 1;
+  const AnalysisResult result = result_of(json);
+  BOOST_REQUIRE(result.drawing.has_value());
+  const Drawing& drawing = *result.drawing;
+  BOOST_REQUIRE(drawing.shapes.size() == 1);
+  BOOST_REQUIRE(drawing.shapes[0].displacement.size() == drawing.nodes.size());
+  const double EI = 2e11 * 0.05 * 1e-3 / 12;
+  for (std::size_t i = 0; i < drawing.nodes.size(); ++i) {
+    const double x = drawing.nodes[i].x();
+    // One cubic element is exact between its nodes where no load acts: P x^2 (3 L - x) / 6 EI.
+    BOOST_TEST(drawing.shapes[0].displacement[i].y() == 100 * x * x * (6 - x) / (6 * EI),
+               boost::test_tools::tolerance(1e-9));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_model_for_the_analysis_is_refused) {
+  Json json = testing::cantilever();
+  json["analysis"] = {{"kinematics", Json::object()}};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }),
+                      "/analysis/kinematics: expected a model with a manipulator"));
+  json.erase("model");
+  json["analysis"] = {{"statics", Json::object()}};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "expected the key 'model'"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
