@@ -172,6 +172,14 @@ void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& 
 void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index pin, Index first,
              Model& model) {
   const auto weights = pin_weights(mesh, mesh.nodes[vertex], radius);
+  // A link's stiffness at C couples every node under its pin with every other: n^2 entries. P holds
+  // nothing but loads.
+  constexpr std::size_t kMostNodes = 500;
+  require(pin == kP || weights.size() <= kMostNodes,
+          "the pin at C" + std::to_string(pin - kC + 1) + " covers " +
+              std::to_string(weights.size()) +
+              " nodes of the platform and couples each with each: at most 500, so choose a smaller "
+              "pin radius or fewer refinements");
   for (const Coordinate::Kind kind : {Coordinate::Kind::x, Coordinate::Kind::y}) {
     LinearConstraint tie;
     tie.name = "pin " + model.nodes[static_cast<std::size_t>(pin)].name +

@@ -56,7 +56,7 @@ struct PlatformDesign {
   int refinements = 0;
   /// Triangles only. > 0: P and C_i are no nodes of the mesh but move with a weighted mean of the
   /// plate within this radius [m] (`pin_weights`), so that a force on them has a limit under
-  /// refinement.
+  /// refinement. At most 500 nodes within a pin at C_i: a link couples each with each.
   double pin_radius = 0;
   /// Printed [kg]; empty: from density, thickness and area. It scales the density.
   std::optional<double> mass;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/solver/differences.h"
 #include "tests/solver/table_1.h"
 
 namespace {
@@ -21,29 +22,6 @@ Vector3d as_vector(const std::array<double, 3>& a) {
 
 double wrapped(double angle) {
   return std::remainder(angle, 2 * kPi);
-}
-
-/// Unequal links, base and platform, P off the centroid, mixed working modes.
-ManipulatorGeometry uneven() {
-  ManipulatorGeometry g;
-  g.base = {Vector2d{0.02, -0.01}, Vector2d{0.61, 0.03}, Vector2d{0.2, 0.47}};
-  g.platform = {Vector2d{-0.07, -0.06}, Vector2d{0.11, -0.04}, Vector2d{0.02, 0.1}};
-  g.proximal = {0.24, 0.27, 0.21};
-  g.distal = {0.2, 0.25, 0.3};
-  g.working_mode = {-1, 1, -1};
-  return g;
-}
-
-/// d f / d h at 0 by central differences, extrapolated twice: error of the order h^6.
-template <class F>
-auto richardson(const F& f, double h) {
-  const auto central = [&](double s) { return ((f(s) - f(-s)) / (2 * s)).eval(); };
-  const auto d1 = central(h);
-  const auto d2 = central(h / 2);
-  const auto d4 = central(h / 4);
-  const auto e1 = ((4 * d2 - d1) / 3).eval();
-  const auto e2 = ((4 * d4 - d2) / 3).eval();
-  return ((16 * e2 - e1) / 15).eval();
 }
 
 Pose moved(const Pose& pose, const Vector3d& direction, double s) {
@@ -68,7 +46,7 @@ BOOST_AUTO_TEST_CASE(the_circle_of_table_1_stays_within_the_ticks_of_figure_17) 
 }
 
 BOOST_AUTO_TEST_CASE(the_loops_close_to_round_off_all_around_the_circle) {
-  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven()}) {
+  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()}) {
     for (int k = 0; k < 631; ++k) {
       const double t = 0.01 * k;
       const Posture p =
@@ -102,7 +80,7 @@ BOOST_AUTO_TEST_CASE(the_centred_pose_has_a_threefold_symmetry_for_any_orientati
 }
 
 BOOST_AUTO_TEST_CASE(a_rigid_motion_of_the_whole_turns_every_angle_alike) {
-  const ManipulatorGeometry g = uneven();
+  const ManipulatorGeometry g = uneven_geometry();
   const Pose pose{0.27, 0.14, 0.2};
   const double alpha = 2.5;
   const Eigen::Rotation2Dd R(alpha);
@@ -117,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_rigid_motion_of_the_whole_turns_every_angle_alike) {
 }
 
 BOOST_AUTO_TEST_CASE(the_working_mode_mirrors_the_elbow_in_the_line_from_base_to_platform) {
-  ManipulatorGeometry g = uneven();
+  ManipulatorGeometry g = uneven_geometry();
   const Pose pose{0.27, 0.14, 0.2};
   const Posture p = inverse_kinematics(g, pose);
   for (int& mode : g.working_mode) mode = -mode;
@@ -189,7 +167,7 @@ BOOST_AUTO_TEST_CASE(the_elbow_angle_keeps_its_digits_near_full_stretch) {
 BOOST_AUTO_TEST_CASE(the_jacobians_are_the_derivative_of_the_inverse_kinematics) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven()}) {
+  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()}) {
     for (int trial = 0; trial < 50; ++trial) {
       const Pose pose{0.26 + 0.03 * uniform(random), 0.15 + 0.03 * uniform(random),
                       0.2 * uniform(random)};
@@ -209,7 +187,7 @@ BOOST_AUTO_TEST_CASE(the_jacobians_are_the_derivative_of_the_inverse_kinematics)
 BOOST_AUTO_TEST_CASE(forward_kinematics_undoes_inverse_kinematics) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const ManipulatorGeometry g = uneven();
+  const ManipulatorGeometry g = uneven_geometry();
   for (int trial = 0; trial < 50; ++trial) {
     const Pose pose{0.27 + 0.03 * uniform(random), 0.14 + 0.03 * uniform(random),
                     0.1 * uniform(random)};
@@ -234,7 +212,7 @@ BOOST_AUTO_TEST_CASE(actuators_that_hold_the_elbows_too_far_apart_admit_no_assem
 BOOST_AUTO_TEST_CASE(holding_torques_do_the_opposite_work_of_the_load) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven()}) {
+  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()}) {
     for (int trial = 0; trial < 50; ++trial) {
       const Pose pose{0.26 + 0.03 * uniform(random), 0.15 + 0.03 * uniform(random),
                       0.2 * uniform(random)};
@@ -290,7 +268,7 @@ BOOST_AUTO_TEST_CASE(no_finite_torque_holds_a_platform_whose_distal_links_meet_i
 }
 
 BOOST_AUTO_TEST_CASE(distances_do_not_depend_on_the_size_of_the_manipulator) {
-  const ManipulatorGeometry g = uneven();
+  const ManipulatorGeometry g = uneven_geometry();
   ManipulatorGeometry big = g;
   for (std::size_t i = 0; i < 3; ++i) {
     big.base[i] *= 1000;

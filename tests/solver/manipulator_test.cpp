@@ -395,6 +395,10 @@ BOOST_AUTO_TEST_CASE(combinations_without_a_meaning_are_refused_with_the_reason)
   design.platform.pin_radius = -0.01;
   BOOST_TEST(has(refusal(design), "pin radius"));
   design = table_1_design();
+  design.platform.pin_radius = 0.08;
+  design.platform.refinements = 6;
+  BOOST_TEST(has(refusal(design), "choose a smaller pin radius or fewer refinements"));
+  design = table_1_design();
   for (Vector2d& c : design.geometry.platform) c += Vector2d(0.2, 0);
   BOOST_TEST(has(refusal(design, {0.05, 0.144, 0}), "needs P inside the triangle"));
   design.geometry.platform = {Vector2d{-0.1, 0}, Vector2d{0.1, 0}, Vector2d{0.05, 0}};

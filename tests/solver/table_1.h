@@ -17,6 +17,17 @@ inline ManipulatorGeometry table_1_geometry() {
   return g;
 }
 
+/// Not of the paper: unequal links, base and platform, P off the centroid, mixed working modes.
+inline ManipulatorGeometry uneven_geometry() {
+  ManipulatorGeometry g;
+  g.base = {Vector2d{0.02, -0.01}, Vector2d{0.61, 0.03}, Vector2d{0.2, 0.47}};
+  g.platform = {Vector2d{-0.07, -0.06}, Vector2d{0.11, -0.04}, Vector2d{0.02, 0.1}};
+  g.proximal = {0.24, 0.27, 0.21};
+  g.distal = {0.2, 0.25, 0.3};
+  g.working_mode = {-1, 1, -1};
+  return g;
+}
+
 /// The centroid of the base.
 inline Pose centred_pose(double phi = 0) {
   return {0.25, 0.25 / std::numbers::sqrt3, phi};
