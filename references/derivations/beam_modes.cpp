@@ -76,7 +76,8 @@ std::vector<double> beam_share_program(const Json& json) {
 
 std::vector<double> beam_roots_program(const Json& json) {
   const Arguments arguments(json, "", {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio"});
-  return rounded(beam_roots(read_ends(arguments), arguments.count("count")));
+  const BeamEnds ends = read_ends(arguments);
+  return rounded(beam_roots(ends, arguments.count("count")));
 }
 
 std::vector<double> beam_frequencies_program(const Json& json) {
@@ -88,8 +89,9 @@ std::vector<double> beam_frequencies_program(const Json& json) {
   const Real thickness = arguments.positive("thickness_m");
   const Real radius_of_gyration = thickness / sqrt(Real(12));
   const Real wave_speed = sqrt(arguments.positive("E_Pa") / arguments.positive("rho_kg_m3"));
+  const BeamEnds ends = read_ends(arguments);
   std::vector<double> frequencies;
-  for (const Real& b : beam_roots(read_ends(arguments), arguments.count("count"))) {
+  for (const Real& b : beam_roots(ends, arguments.count("count"))) {
     const Real wave_number = b / length;
     frequencies.push_back(static_cast<double>(wave_number * wave_number * radius_of_gyration *
                                               wave_speed / (2 * pi<Real>())));

@@ -37,9 +37,9 @@ struct BeamEnds {
 
 /// The beam's share of the modal mass of a cantilever with the tip mass mu, one a root b:
 ///   int w^2 dx / (int w^2 dx + mu L w(L)^2) = 1 + 4 (mu / b) db/dmu,
-/// for the frequency falls with the tip mass as the tip mass's share of the kinetic energy (Rayleigh),
-/// and db/dmu follows from the characteristic equation.
-/// Arguments: tip_mass_ratio, count. Values: shares [-].
+/// for the frequency falls with the tip mass as the tip mass's share of the kinetic energy
+/// (Rayleigh), and db/dmu follows from the characteristic equation. Arguments: tip_mass_ratio,
+/// count. Values: shares [-].
 [[nodiscard]] std::vector<double> beam_share_program(const Json& arguments);
 
 }  // namespace trammel::derive

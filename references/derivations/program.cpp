@@ -7,6 +7,7 @@
 #include "references/derivations/elastica.h"
 #include "references/derivations/exponential_beam.h"
 #include "references/derivations/expression.h"
+#include "references/derivations/parallelogram_chain.h"
 #include "references/derivations/pendulum.h"
 #include "references/derivations/rotating_beam.h"
 #include "references/derivations/unit_load.h"
@@ -41,6 +42,10 @@ const std::map<std::string, Program>& programs() {
         "length_m, thickness_m, width_rate_1_m, E_Pa, rho_kg_m3, count, beam; for timoshenko nu, "
         "shear_coefficient",
         exponential_beam_program}},
+      {"parallelogram-chain",
+       {"the chain of N four-bar loops of the IFToMM benchmark A02 by elliptic functions",
+        "loops, length_m, gravity_m_s2, start_speed_m_s, times_s, output (position | velocity)",
+        parallelogram_chain_program}},
       {"pendulum",
        {"plane pendulum of any amplitude by elliptic functions: period [s] or x, y [m]",
         "length_m, gravity_m_s2, start_angle_deg, output (period | position), times_s",

@@ -58,6 +58,25 @@ BOOST_AUTO_TEST_CASE(the_pendulum_agrees_with_values_computed_elsewhere) {
   BOOST_TEST(small == 2 * std::acos(-1.0) / std::sqrt(9.81), tolerance(1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(the_chain_of_four_bars_agrees_with_values_computed_elsewhere) {
+  const auto chain = [](const char* output) {
+    return derive("parallelogram-chain", {{"loops", 40},
+                                          {"length_m", 1},
+                                          {"gravity_m_s2", 9.81},
+                                          {"start_speed_m_s", 1},
+                                          {"times_s", {1, 10, 20}},
+                                          {"output", output}});
+  };
+  check_equal(chain("position"),
+              {-0.11535688063211, -0.99332411130045, 0.18051222668673, 0.98357274058231,
+               0.41090115376295, 0.91167990097198},
+              5e-13);
+  check_equal(chain("velocity"),
+              {-6.6699875239418, 0.77460009866234, 1.1484412774694, -0.21077006677942,
+               1.5667853719091, -0.70616223559384},
+              5e-13);
+}
+
 BOOST_AUTO_TEST_CASE(turning_beams_agree_with_values_computed_elsewhere) {
   check_equal(
       run("rotating-beam-roots", R"({"eta": 12, "hub_ratio": 0, "plane": "flap", "count": 3})"),
