@@ -6,292 +6,95 @@
 
 #include "solver/factorization.h"
 #include "solver/free_motions.h"
+#include "solver/recovery.h"
 #include "solver/refinement.h"
-#include "solver/strain.h"
 
 namespace trammel {
 namespace {
 
 using Eigen::VectorXd;
 
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
+/// q and digits_left of K q = f, or the outcome that keeps them from being.
+void solve_linear(const System& system, StaticSolution& solution) {
+  Factorization factorization;
+  factorization.compute(system.K);
+  ++solution.counters.factorizations;
+  const FreeMotions free = find_free_motions(system, factorization, solution.counters);
+  if (free.count() > 0) {
+    solution.outcome = {Status::singular, describe_free_motions(system, free)};
+    return;
+  }
+  const bool definite = factorization.exists() && factorization.smallest_pivot() > 0;
+  const Refined refined = definite ? refined_solve(stiffness_operator(system), factorization,
+                                                   system.f, solution.counters)
+                                   : Refined{solution.q, 1};
+  if (!refined.converged()) {
+    solution.outcome = {Status::not_converged,
+                        "the stiffness matrix is too ill-conditioned for double precision"};
+    return;
+  }
+  solution.q = refined.x;
+  const double lost = factorization.condition() * std::numeric_limits<double>::epsilon();
+  solution.digits_left = std::max(0.0, -std::log10(lost));
 }
 
-/// Force and moment about the world origin.
-struct Wrench {
-  Vector2d force = Vector2d::Zero();
-  double moment = 0;
-  void add(const Vector2d& at, const Vector2d& f, double m = 0) {
-    force += f;
-    moment += m + cross(at, f);
+/// Goes on from the linear solution: K + K_G of the latest forces, until they repeat.
+Prestress solve_second_order(const System& system, StaticSolution& solution) {
+  constexpr int kSteps = 50;
+  const BodyForces weights = body_forces(system);
+  ElasticState state;
+  state.u = system.T * solution.q;
+  Prestress latest = prestress(system, state.u, constraint_forces(system, state), weights);
+  Factorization factorization;
+  const Operator elastic = stiffness_operator(system);
+  double last_change = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kSteps; ++step) {
+    const SparseMatrix K_G = geometric_stiffness(system, latest);
+    factorization.compute(system.K + K_G);
+    ++solution.counters.factorizations;
+    if (!factorization.exists() || factorization.smallest_pivot() <= 0) {
+      solution.outcome = {Status::singular, "the loads reach or exceed the buckling load"};
+      return latest;
+    }
+    const Operator tangent = [&](const VectorXd& q) -> VectorXd { return elastic(q) + K_G * q; };
+    const VectorXd q =
+        refined_solve(tangent, factorization, system.f, solution.q, solution.counters).x;
+    const double change = (q - solution.q).norm();
+    solution.q = q;
+    state.u = system.T * q;
+    state.prestress = &latest;
+    const Prestress next = prestress(system, state.u, constraint_forces(system, state), weights);
+    const bool rounding = change <= 1e-8 * q.norm() && change >= 0.5 * last_change;
+    if (change <= 1e-13 * q.norm() || rounding) return latest;
+    last_change = change;
+    latest = next;
   }
-};
-
-/// Section forces along one element: N, V and M, the forces on a face whose normal points from the
-/// first to the second node; EI v'' = M, dM/dx = -V, dV/dx = -qy, dN/dx = -qx.
-struct SectionForces {
-  Vector3d start;
-  Vector2d load;  ///< (qx, qy) along and across the element [N/m]
-
-  [[nodiscard]] Vector3d at(double x) const {
-    return {start[0] - load.x() * x, start[1] - load.y() * x,
-            start[2] - start[1] * x + load.y() * x * x / 2};
-  }
-};
-
-Vector2d element_axes(const FrameElement& e, const Vector2d& world) {
-  return {e.direction.dot(world), cross(e.direction, world)};
+  solution.outcome = {Status::not_converged,
+                      "the forces of second-order theory do not settle; the loads may be close to "
+                      "the buckling load"};
+  return latest;
 }
-
-class Recovery {
- public:
-  Recovery(const System& system, VectorXd u, StaticSolution& solution)
-      : system_(system), model_(system.model), u_(std::move(u)), solution_(solution) {
-    const VectorXd force = internal_forces(system, u_) - system.load;
-    multipliers_ = system.constraints.multipliers(force);
-    for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
-      const ConstraintRow& row = system.constraints.rows[i];
-      if (row.source != ConstraintRow::Source::inextensible) continue;
-      if (row_of_element_.empty()) row_of_element_.assign(system.mesh.frame.size(), -1);
-      row_of_element_[static_cast<std::size_t>(row.index)] = static_cast<Index>(i);
-    }
-  }
-
-  void run() {
-    displacements();
-    reactions();
-    members();
-    triangles();
-    equilibrium();
-  }
-
- private:
-  void displacements() {
-    const auto nodes = static_cast<Index>(model_.nodes.size());
-    solution_.displacement.resize(nodes, 3);
-    for (Index i = 0; i < nodes; ++i) {
-      for (Index k = 0; k < 3; ++k) {
-        const Index c =
-            system_.coordinates.node[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
-        solution_.displacement(i, k) = c < 0 ? std::numeric_limits<double>::quiet_NaN() : u_[c];
-      }
-    }
-    const auto members = static_cast<Index>(model_.members.size());
-    solution_.end_rotation.resize(members, 2);
-    for (Index i = 0; i < members; ++i) {
-      for (Index end = 0; end < 2; ++end) {
-        const Index c = system_.coordinates
-                            .member_end[static_cast<std::size_t>(i)][static_cast<std::size_t>(end)];
-        // A bar turns as a whole.
-        solution_.end_rotation(i, end) = c < 0 ? chord_rotation(i) : u_[c];
-      }
-    }
-  }
-
-  [[nodiscard]] double chord_rotation(Index member) const {
-    const auto& nodes = model_.members[static_cast<std::size_t>(member)].nodes;
-    const auto a = static_cast<std::size_t>(nodes[0]);
-    const auto b = static_cast<std::size_t>(nodes[1]);
-    const Vector2d span = model_.nodes[b].position - model_.nodes[a].position;
-    const Vector2d shift =
-        (solution_.displacement.row(nodes[1]) - solution_.displacement.row(nodes[0])).head<2>();
-    return cross(span, shift) / span.squaredNorm();
-  }
-
-  void reactions() {
-    solution_.reaction.setZero(static_cast<Index>(model_.supports.size()), 3);
-    for (std::size_t i = 0; i < system_.constraints.rows.size(); ++i) {
-      const ConstraintRow& row = system_.constraints.rows[i];
-      if (row.source != ConstraintRow::Source::support) continue;
-      const Index u = row.terms.front().first;
-      const auto& node = system_.coordinates.node[static_cast<std::size_t>(
-          model_.supports[static_cast<std::size_t>(row.index)].node)];
-      const Index k = u == node[0] ? 0 : u == node[1] ? 1 : 2;
-      solution_.reaction(row.index, k) = multipliers_[static_cast<Index>(i)];
-    }
-  }
-
-  [[nodiscard]] SectionForces section_forces(std::size_t index) const {
-    const FrameElement& e = system_.mesh.frame[index];
-    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
-    const Vector2d q = element_axes(e, member.load + e.section.mass_per_length * model_.gravity);
-    const Vector3d d = frame_deformation(e.direction, e.length) * detail::gather(e.coordinates, u_);
-    Vector3d s = frame_rigidity(e.section, member.theory, e.length).cwiseProduct(d);
-    if (!member.axially_flexible) s[0] = -multipliers_[row_of_element_[index]];
-    const double L = e.length;
-    SectionForces forces;
-    forces.load = q;
-    if (e.is_bar()) {
-      forces.start = {s[0] + q.x() * L / 2, q.y() * L / 2, 0};
-    } else {
-      forces.start = {s[0] + q.x() * L / 2, -2 * s[2] / L + q.y() * L / 2,
-                      s[1] - s[2] + q.y() * L * L / 12};
-    }
-    return forces;
-  }
-
-  /// |N| / A + |M| / W at a point of an element; 0 where a taper has come to its point, NaN where
-  /// the section states no area.
-  [[nodiscard]] double stress(const FrameElement& e, double from_start, double x,
-                              const Vector3d& forces) const {
-    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
-    const double length = e.length * static_cast<double>(member.elements);
-    const Section section =
-        interpolate(member.section, member.end_section, std::min(1.0, (from_start + x) / length));
-    const bool tip = (section.area <= 0 && e.section.area > 0) ||
-                     (section.section_modulus <= 0 && e.section.section_modulus > 0);
-    if (tip) return 0;
-    const double bending = forces[2] == 0 ? 0 : std::abs(forces[2]) / section.section_modulus;
-    const double axial = forces[0] == 0 ? 0 : std::abs(forces[0]) / section.area;
-    const double sum = axial + bending;
-    return std::isfinite(sum) ? sum : std::numeric_limits<double>::quiet_NaN();
-  }
-
-  /// Both ends and, under a load across, the two places where |N|/A + |M|/W can be stationary.
-  double largest_stress(const FrameElement& e, double from_start, const SectionForces& f) const {
-    double largest = 0;
-    const auto look = [&](double x) {
-      if (!(x >= 0 && x <= e.length)) return;
-      const double value = stress(e, from_start, x, f.at(x));
-      largest = std::isnan(value) || std::isnan(largest) ? std::numeric_limits<double>::quiet_NaN()
-                                                         : std::max(largest, value);
-    };
-    look(0);
-    look(e.length);
-    if (f.load.y() != 0) {
-      const double lever =
-          e.section.area > 0 ? f.load.x() * e.section.section_modulus / e.section.area : 0;
-      look((f.start[1] - lever) / f.load.y());
-      look((f.start[1] + lever) / f.load.y());
-    }
-    return largest;
-  }
-
-  void members() {
-    const auto count = static_cast<Index>(model_.members.size());
-    solution_.resultant_start.resize(count, 3);
-    solution_.resultant_end.resize(count, 3);
-    solution_.member_stress.setZero(count);
-    double from_start = 0;
-    for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i) {
-      const FrameElement& e = system_.mesh.frame[i];
-      const bool first = i == 0 || system_.mesh.frame[i - 1].member != e.member;
-      const SectionForces forces = section_forces(i);
-      if (first) from_start = 0;
-      if (first) solution_.resultant_start.row(e.member) = forces.start;
-      solution_.resultant_end.row(e.member) = forces.at(e.length);
-      const double stress = largest_stress(e, from_start, forces);
-      double& largest = solution_.member_stress[e.member];
-      if (!(stress <= largest)) largest = std::isnan(largest) ? largest : stress;
-      from_start += e.length;
-    }
-  }
-
-  /// (sxx, syy, sxy) of a triangle at a point in area coordinates.
-  [[nodiscard]] Vector3d plate_stress(const Triangle& triangle, const Vector3d& at) const {
-    const Material& material = model_.plates[static_cast<std::size_t>(triangle.plate)].material;
-    if (triangle.quadratic()) {
-      return membrane_stress(material,
-                             triangle6_deformation(model_, triangle, at) *
-                                 detail::gather(system_.coordinates.of<12>(triangle), u_));
-    }
-    return membrane_stress(material, triangle_deformation(corners(model_, triangle)) *
-                                         detail::gather(system_.coordinates.of<6>(triangle), u_));
-  }
-
-  void triangles() {
-    solution_.triangle_stress.resize(static_cast<Index>(model_.triangles.size()), 3);
-    const auto nodes = static_cast<Index>(model_.nodes.size());
-    solution_.node_stress.setZero(nodes, 3);
-    VectorXd area = VectorXd::Zero(nodes);
-    const double h = 0.5;
-    const std::array<Vector3d, 6> places = {Vector3d(1, 0, 0), Vector3d(0, 1, 0),
-                                            Vector3d(0, 0, 1), Vector3d(h, h, 0),
-                                            Vector3d(0, h, h), Vector3d(h, 0, h)};
-    for (std::size_t i = 0; i < model_.triangles.size(); ++i) {
-      const Triangle& triangle = model_.triangles[i];
-      const double size = std::abs(signed_area(corners(model_, triangle)));
-      solution_.triangle_stress.row(static_cast<Index>(i)) =
-          plate_stress(triangle, Vector3d::Constant(1 / 3.0));
-      for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {
-        solution_.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, places[k]);
-        area[triangle.nodes[k]] += size;
-      }
-    }
-    for (Index node = 0; node < nodes; ++node) solution_.node_stress.row(node) /= area[node];
-  }
-
-  /// All that the outside does to the model: loads, reactions, springs to the ground.
-  void equilibrium() {
-    Wrench sum;
-    const auto position = [&](Index node) -> const Vector2d& {
-      return system_.mesh.positions[static_cast<std::size_t>(node)];
-    };
-    for (Index i = 0; i < system_.load.size(); ++i) {
-      const auto c = static_cast<std::size_t>(i);
-      const Index node = system_.coordinates.node_of[c];
-      const bool x = system_.coordinates.node[static_cast<std::size_t>(node)][0] == i;
-      if (system_.coordinates.is_rotation[c]) {
-        sum.moment += system_.load[i];
-      } else {
-        sum.add(position(node), system_.load[i] * (x ? Vector2d::UnitX() : Vector2d::UnitY()));
-      }
-    }
-    for (std::size_t i = 0; i < model_.supports.size(); ++i) {
-      const Eigen::RowVector3d r = solution_.reaction.row(static_cast<Index>(i));
-      sum.add(position(model_.supports[i].node), {r[0], r[1]}, r[2]);
-    }
-    for (const Spring& spring : model_.springs) {
-      if (spring.nodes[1] >= 0) continue;
-      const Eigen::RowVector3d u = solution_.displacement.row(spring.nodes[0]);
-      sum.add(position(spring.nodes[0]), {-spring.stiffness[0] * u[0], -spring.stiffness[1] * u[1]},
-              spring.stiffness[2] == 0 ? 0.0 : -spring.stiffness[2] * u[2]);
-    }
-    solution_.equilibrium_residual = sum.force.norm();
-    solution_.moment_residual = std::abs(sum.moment);
-  }
-
-  const System& system_;
-  const Model& model_;
-  VectorXd u_;
-  StaticSolution& solution_;
-  VectorXd multipliers_;
-  std::vector<Index> row_of_element_;
-};
 
 }  // namespace
 
-StaticSolution solve_statics(const System& system) {
+StaticSolution solve_statics(const System& system, const StaticsOptions& options) {
   StaticSolution solution;
   solution.counters = system.counters;
-  VectorXd& q = solution.q;
-  q.setZero(system.K.rows());
-  if (q.size() > 0) {
-    Factorization factorization;
-    factorization.compute(system.K);
-    ++solution.counters.factorizations;
-    const FreeMotions free = find_free_motions(system, factorization, solution.counters);
-    if (free.count() > 0) {
-      solution.outcome = {Status::singular, describe_free_motions(system, free)};
-      return solution;
-    }
-    const bool definite = factorization.exists() && factorization.smallest_pivot() > 0;
-    const Refined refined = definite ? refined_solve(stiffness_operator(system), factorization,
-                                                     system.f, solution.counters)
-                                     : Refined{q, 1};
-    if (!refined.converged()) {
-      solution.outcome = {Status::not_converged,
-                          "the stiffness matrix is too ill-conditioned for double precision"};
-      return solution;
-    }
-    q = refined.x;
-    const double lost = factorization.condition() * std::numeric_limits<double>::epsilon();
-    solution.digits_left = std::max(0.0, -std::log10(lost));
-  } else {
-    solution.digits_left = -std::log10(std::numeric_limits<double>::epsilon());
+  solution.q.setZero(system.K.rows());
+  solution.digits_left = -std::log10(std::numeric_limits<double>::epsilon());
+  if (solution.q.size() > 0) solve_linear(system, solution);
+  ElasticState state;
+  Prestress forces;
+  if (options.second_order && solution.outcome.solved() && solution.q.size() > 0) {
+    forces = solve_second_order(system, solution);
+    state.prestress = &forces;
   }
-  Recovery(system, system.T * q, solution).run();
+  if (!solution.outcome.solved()) {
+    solution.q.resize(0);
+    return solution;
+  }
+  state.u = system.T * solution.q;
+  recover(system, state, solution);
   return solution;
 }
 

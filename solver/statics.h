@@ -9,7 +9,15 @@
 
 namespace trammel {
 
-/// Linear statics K q = f (paper Eq. 11).
+struct StaticsOptions {
+  /// Second-order theory: (K + K_G) q = f with the geometric stiffness of the forces that the
+  /// solution has itself, so that tension stiffens and compression softens (see prestress.h).
+  bool second_order = false;
+};
+
+/// Statics K q = f (paper Eq. 11). Section forces N, V, M are those on a face whose normal points
+/// from a member's first to its second node, x along it and y to its left: tension is positive,
+/// EI v'' = M, dM/dx = -V, dV/dx = -q_y, dN/dx = -q_x.
 struct StaticSolution {
   Outcome outcome;                ///< singular: the reason names the free motion in words
   Eigen::VectorXd q;              ///< free coordinates; draw them with mesh_motion
@@ -30,6 +38,7 @@ struct StaticSolution {
   Counters counters;
 };
 
-[[nodiscard]] StaticSolution solve_statics(const System& system);
+[[nodiscard]] StaticSolution solve_statics(const System& system,
+                                           const StaticsOptions& options = {});
 
 }  // namespace trammel

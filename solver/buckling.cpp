@@ -1,0 +1,42 @@
+#include "solver/buckling.h"
+
+#include "solver/recovery.h"
+#include "solver/refinement.h"
+#include "solver/statics.h"
+#include "solver/strain.h"
+
+namespace trammel {
+
+BucklingSolution solve_buckling(const System& system, const BucklingOptions& options) {
+  BucklingSolution solution;
+  const StaticSolution statics = solve_statics(system);
+  solution.counters = statics.counters;
+  solution.outcome = statics.outcome;
+  if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
+  ElasticState state;
+  state.u = system.T * statics.q;
+  const Prestress forces =
+      prestress(system, state.u, constraint_forces(system, state), body_forces(system));
+  const SparseMatrix softening = -geometric_stiffness(system, forces);
+  if (softening.nonZeros() == 0 || softening.coeffs().isZero(0)) return solution;
+  Pencil pencil;
+  pencil.K = &system.K;
+  pencil.B = &softening;
+  pencil.K_times = stiffness_operator(system);
+  pencil.K_products = [&system](const Eigen::MatrixXd& X) {
+    return strain_products(system, system.T * X);
+  };
+  Factorization factorization;
+  factorization.compute(shifted(system.K, softening, 0));
+  ++solution.counters.factorizations;
+  const Eigen::MatrixXd no_null(system.K.rows(), 0);
+  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.path,
+                                             factorization, solution.counters);
+  solution.outcome = pairs.outcome;
+  solution.load_factor = pairs.value;
+  solution.shape = pairs.vector;
+  solution.inertia_count = pairs.inertia_count;
+  return solution;
+}
+
+}  // namespace trammel

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/prestress.h"
+#include "solver/statics.h"
+#include "solver/system.h"
+
+namespace trammel {
+
+/// A state from which forces and stresses follow.
+struct ElasticState {
+  Eigen::VectorXd u;             ///< displacements of the unconstrained coordinates [m, rad]
+  double load_factor = 1;        ///< of the system's loads, which act in this state
+  Eigen::VectorXd acceleration;  ///< of the same coordinates; empty: at rest
+  const Prestress* prestress = nullptr;  ///< second-order theory, where given
+};
+
+/// Multipliers of the constraint rows at rest: the forces of supports, rigid bodies and
+/// inextensible members.
+[[nodiscard]] Eigen::VectorXd constraint_forces(const System& system, const ElasticState& state);
+
+/// Fills displacements, forces, stresses and residuals. With an acceleration, section forces hold
+/// the inertia of their element; reactions and residuals do not.
+void recover(const System& system, const ElasticState& state, StaticSolution& solution);
+
+}  // namespace trammel
