@@ -82,7 +82,14 @@ OrderDemand read_order(const Cursor& place, const std::string& quantity, const J
     throw place["sweep"].error("expected a sweep with 'theory_order'");
   }
   order.of_errors = own.value("is_error", false);
-  order.within = place.number("within");
+  if (exactly_one(place, {"within", "two_term_within"}) == "within") {
+    order.within = place.number("within");
+  } else {
+    order.two_term_within = place.number("two_term_within");
+    if (!sweep.contains("lower_order")) {
+      throw place["sweep"].error("expected a sweep with 'lower_order'");
+    }
+  }
   order.meshes = place.get("meshes", std::size_t{3});
   if (const auto wave = place.find("wave_number")) {
     order.wave_number = {wave->text("reference"), read_indices(*wave, "reference_index"),

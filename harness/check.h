@@ -37,7 +37,8 @@ struct OrderDemand {
     std::string pointer;
   };
   std::string sweep;
-  double within = 0;
+  double within = 0;                      ///< of the order; not used with `two_term_within`
+  std::optional<double> two_term_within;  ///< of the two-term law instead
   std::size_t meshes = 3;
   bool of_errors = false;  ///< the quantity is an error itself, and needs no reference
   std::optional<WaveNumber> wave_number;

@@ -5,6 +5,7 @@
 #include "harness/catalogue.h"
 #include "harness/commands.h"
 #include "harness/errors.h"
+#include "harness/print_uncertainty.h"
 #include "harness/run.h"
 #include "harness/table.h"
 #include "harness/words.h"
@@ -15,6 +16,14 @@ namespace {
 std::string note(const Convergence& found, std::size_t k) {
   if (found.at_roundoff_floor[k]) return "round-off";
   return found.in_asymptotic_range[k] ? "asymptotic" : "";
+}
+
+/// The two-term law of the relative error in words.
+std::string law(const Convergence& found) {
+  const auto& [a, b] = found.two_term->coefficient;
+  return "error = " + rounded(a, 4) + " h^" + rounded(*found.series.theory) + " + " + rounded(b, 4) +
+         " h^" + rounded(*found.series.lower) + " within " + rounded(100 * found.two_term->worst, 2) +
+         " %";
 }
 
 void print(const Convergence& found) {
@@ -34,6 +43,8 @@ void print(const Convergence& found) {
   table.print(std::cout, "    ");
   std::string last;
   if (series.theory) last += "order by theory " + rounded(*series.theory);
+  if (series.lower) last += " and " + rounded(*series.lower);
+  if (found.two_term) last += ", " + law(found);
   if (found.fitted_order) last += ", fitted " + rounded(*found.fitted_order, 4);
   if (found.richardson) {
     last += std::string(last.empty() ? "" : ", ") + "extrapolated " + shortest(*found.richardson);
@@ -43,24 +54,6 @@ void print(const Convergence& found) {
     }
   }
   std::cout << wrapped(last, "    ") << '\n';
-}
-
-/// Whether the bands hold the exact value, and how much wider than needed they are.
-void print_bands(const std::vector<Convergence>& all) {
-  std::size_t hits = 0;
-  std::vector<double> ratio;
-  for (const Convergence& found : all) {
-    for (std::size_t k = 0; found.series.exact && k < found.band.size(); ++k) {
-      if (!std::isfinite(found.band[k])) continue;
-      hits += found.band[k] >= found.error[k] ? 1 : 0;
-      ratio.push_back(found.band[k] / found.error[k]);
-    }
-  }
-  if (ratio.empty()) return;
-  std::nth_element(ratio.begin(), ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2),
-                   ratio.end());
-  std::cout << "  the band holds the exact value on " << hits << " of " << ratio.size()
-            << " levels; median band over error " << rounded(ratio[ratio.size() / 2], 3) << "\n\n";
 }
 
 void print_cost(const Sweep& sweep) {
@@ -87,8 +80,8 @@ int converge_command(const std::string& name, const std::string& variant, unsign
     std::cout << run.case_id << ":" << run.variant << "\n\n";
     for (const Sweep& sweep : run.sweeps) print_cost(sweep);
     for (const Convergence& found : run.convergence) print(found);
-    print_bands(run.convergence);
   }
+  print_bands(bands_of(runs), std::cout);
   std::cout
       << "error: relative, of the exact value or else of the extrapolated one; band: grid\n"
          "convergence index with Roache's factor, 1.25 where the order is near theory, else 3\n";

@@ -5,7 +5,7 @@
 #include "harness/catalogue.h"
 #include "harness/commands.h"
 #include "harness/errors.h"
-#include "harness/print_validation.h"
+#include "harness/print_uncertainty.h"
 #include "harness/progress.h"
 #include "harness/results.h"
 #include "harness/table.h"
@@ -137,6 +137,7 @@ void print_summary(const std::vector<Run>& runs) {
   std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks << " checks";
   for (const auto& [word, count] : verdicts) std::cout << ", " << count << " " << word;
   std::cout << '\n';
+  print_bands(bands_of(runs), std::cout);
   print_validation_summary(runs, std::cout);
 }
 

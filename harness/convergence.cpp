@@ -66,7 +66,7 @@ class Study {
     extrapolate();
     measure_errors();
     find_range();
-    result_.fitted_order = slope(h_, error_, in_range_);
+    if (!series_.lower) result_.fitted_order = slope(h_, error_, in_range_);
     result_.series = series_;
     spread(result_.error, error_);
     spread(result_.order, order_);
@@ -74,6 +74,10 @@ class Study {
     spread(result_.factor, factor_);
     spread(result_.in_asymptotic_range, in_range_);
     spread(result_.at_roundoff_floor, at_floor_);
+    if (result_.two_term) {
+      const std::vector<bool> used = result_.two_term->used;
+      spread(result_.two_term->used, used);
+    }
     return result_;
   }
 
@@ -86,15 +90,42 @@ class Study {
     for (std::size_t k = 2; k < count(); ++k) observed_[k] = order_of_three(v_, h_, k);
   }
 
-  /// The order and Roache's factor that the level's band is made with.
-  [[nodiscard]] std::pair<double, double> order_and_factor(std::size_t k) const {
+  /// A converged value expected from a level and those before it, and how far to trust it.
+  struct Expected {
+    double value = nothing;
+    double factor = 3;
+  };
+
+  /// Richardson's, with one order.
+  [[nodiscard]] double extrapolated(std::size_t k, double order) const {
+    return v_[k] + (v_[k] - v_[k - 1]) / (std::pow(h_[k - 1] / h_[k], order) - 1);
+  }
+
+  /// Whether an order is one that theory promises of this level.
+  [[nodiscard]] bool is_promised(double order) const {
+    if (!series_.theory || std::isnan(order)) return false;
+    if (!series_.lower) return is_near(order, *series_.theory);
+    const bool inside = order > *series_.lower && order < *series_.theory;
+    return inside || is_near(order, *series_.theory) || is_near(order, *series_.lower);
+  }
+
+  [[nodiscard]] Expected expected(std::size_t k) const {
     const double seen = observed_[k];
-    if (!series_.theory) return {std::isnan(seen) ? 1 : std::max(0.5, seen), 3};
-    const double theory = *series_.theory;
-    if (!std::isnan(seen) && is_near(seen, theory)) return {theory, 1.25};
-    // A higher order than theory is no merit: the values are not yet in its range.
-    if (std::isnan(seen) || seen > theory) return {std::min(1.0, theory), 3};
-    return {std::max(0.5, seen), 3};
+    if (!series_.theory) return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
+    const double lowest = series_.lower.value_or(*series_.theory);
+    // Two levels show no order: Roache's factor for that of theory.
+    if (k == 1) return {extrapolated(k, lowest), 3};
+    // Values that go to and fro, or away from each other.
+    if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
+    if (is_promised(seen) && series_.lower) {
+      const double value =
+          extrapolate_two_terms({h_[k - 2], h_[k - 1], h_[k]}, {v_[k - 2], v_[k - 1], v_[k]},
+                                {*series_.theory, *series_.lower});
+      if (std::isfinite(value)) return {value, 1.25};
+    }
+    if (is_promised(seen)) return {extrapolated(k, *series_.theory), 1.25};
+    // A higher order than theory's is no merit: it does not last.
+    return {extrapolated(k, std::clamp(seen, std::min(0.5, lowest), lowest)), 3};
   }
 
   void extrapolate() {
@@ -102,12 +133,10 @@ class Study {
     factor_.assign(count(), nothing);
     double before = nothing, least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < count(); ++k) {
-      const auto [order, factor] = order_and_factor(k);
-      const double correction = (v_[k] - v_[k - 1]) / (std::pow(h_[k - 1] / h_[k], order) - 1);
-      band_[k] = factor * std::abs(correction / v_[k]) + roundoff_[k];
+      const auto [value, factor] = expected(k);
+      band_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
       // The extrapolated value of the level where it changes least, round-off counted in.
-      const double value = v_[k] + correction;
       const double change = std::abs(value - before) + roundoff_[k] * std::abs(value);
       before = value;
       if (k < 2 || !(change < least)) continue;
@@ -130,6 +159,25 @@ class Study {
     }
   }
 
+  /// The two-term law of the errors, where two orders mix; @returns whether they do.
+  bool fit_two_orders() {
+    if (!series_.theory || !series_.lower) return false;
+    const std::optional<double> truth = series_.exact ? series_.exact : result_.richardson;
+    if (!truth || *truth == 0) return false;
+    std::vector<double> signed_error;
+    std::vector<bool> usable;
+    for (std::size_t k = 0; k < count(); ++k) {
+      signed_error.push_back((v_[k] - *truth) / std::abs(*truth));
+      usable.push_back(!at_floor_[k]);
+    }
+    result_.two_term =
+        fit_two_terms(h_, signed_error, usable, {*series_.theory, *series_.lower}, two_term_within);
+    if (result_.two_term && result_.two_term->worst <= two_term_within) {
+      in_range_ = result_.two_term->used;
+    }
+    return true;
+  }
+
   void find_range() {
     in_range_.assign(count(), false);
     at_floor_.assign(count(), false);
@@ -137,6 +185,7 @@ class Study {
       const double clear = series_.is_error ? 1.0 : error_[k];  // roundoff_ is relative to v_
       at_floor_[k] = !(clear > clear_of_roundoff * roundoff_[k]);
     }
+    if (fit_two_orders()) return;
     for (std::size_t k = 1; k < count(); ++k) {
       const bool like_before = k > 1 && is_near(order_[k], order_[k - 1]);
       const bool like_after =

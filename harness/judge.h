@@ -21,7 +21,8 @@ struct Judgement {
   std::optional<std::size_t> index;
   std::optional<double> computed, expected, difference;
   Role role = Role::verification;
-  std::string measure;  ///< relative, absolute, ratio, bound, order, leading-term, status
+  std::string measure;  ///< relative, absolute, ratio, bound, order, two-term,
+                        ///< leading-term, status
   std::optional<Window> window;
   bool symmetric = false;
   Expectation expectation = Expectation::none;

@@ -32,7 +32,7 @@ class OrderJudge {
   }
 
   [[nodiscard]] std::vector<Judgement> run() const {
-    std::vector<Judgement> all = {order()};
+    std::vector<Judgement> all = {demand_.two_term_within ? two_term() : order()};
     if (demand_.leading_term) all.push_back(leading_term());
     if (demand_.richardson_within) all.push_back(richardson());
     for (Judgement& one : all) one.index = found_.series.index;
@@ -112,6 +112,24 @@ class OrderJudge {
     one.message = std::to_string(meshes_) + " meshes qualify; between two of them at worst " +
                   shortest(farthest);
     conclude(one, *one.computed - theory, demand_.within);
+    return one;
+  }
+
+  /// The largest relative distance of the law from an error, over the meshes that it is fitted to.
+  [[nodiscard]] Judgement two_term() const {
+    Judgement one = start("", "two-term", "1");
+    one.expected = 0;
+    if (lacks_evidence(one)) return one;
+    if (!found_.two_term) {
+      one.message = "no two-term law could be fitted";
+      return one;
+    }
+    const auto& [a, b] = found_.two_term->coefficient;
+    one.computed = found_.two_term->worst;
+    one.message = std::to_string(meshes_) + " meshes qualify; relative error = " + shortest(a) +
+                  " h^" + shortest(*found_.series.theory) + " + " + shortest(b) + " h^" +
+                  shortest(*found_.series.lower);
+    conclude(one, *one.computed, *demand_.two_term_within);
     return one;
   }
 

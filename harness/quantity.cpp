@@ -48,4 +48,8 @@ std::string unit_of(const std::string& name) {
   return "1";
 }
 
+bool is_count(const std::string& name) {
+  return name == "modes_below" || name == "rigid_motions" || name == "degrees_of_freedom";
+}
+
 }  // namespace trammel

@@ -20,4 +20,7 @@ using Quantities = std::map<std::string, Quantity>;
 /// "reaction_moment_N_m:A1" -> "N m", "parallel_distance" -> "1".
 [[nodiscard]] std::string unit_of(const std::string& name);
 
+/// Whether a quantity counts things, so that it has no order of convergence.
+[[nodiscard]] bool is_count(const std::string& name);
+
 }  // namespace trammel

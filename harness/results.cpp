@@ -76,6 +76,14 @@ Json convergence(const Convergence& found) {
   json["in_asymptotic_range"] = found.in_asymptotic_range;
   json["at_roundoff_floor"] = found.at_roundoff_floor;
   json["theory_order"] = number(series.theory);
+  if (series.lower) json["lower_order"] = number(series.lower);
+  if (found.two_term) {
+    json["two_term"] = {
+        {"coefficients",
+         {number(found.two_term->coefficient[0]), number(found.two_term->coefficient[1])}},
+        {"worst", number(found.two_term->worst)},
+        {"used", found.two_term->used}};
+  }
   json["fitted_order"] = number(found.fitted_order);
   json["richardson"] = number(found.richardson);
   json["band"] = numbers(found.band);
@@ -256,6 +264,16 @@ Json results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
   for (const Case& one : cases) results["cases"][one.id()] = case_json(one);
   for (const auto& [id, cited] : references.used()) {
     results["references"][id] = reference_json(cited);
+  }
+  if (const BandSummary bands = bands_of(runs); bands.levels > 0) {
+    results["bands"] = {{"levels", bands.levels},
+                        {"hits", bands.hits},
+                        {"hit_rate", number(bands.hit_rate())},
+                        {"least_hit_rate", least_hit_rate},
+                        {"median_ratio", number(bands.median_ratio)},
+                        {"largest_median_ratio", largest_median_ratio},
+                        {"levels_to_judge", levels_to_judge},
+                        {"holds", !bands.fails()}};
   }
   for (const Run& run : runs) {
     if (!results["cases"].contains(run.case_id)) {

@@ -209,8 +209,16 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   return runs;
 }
 
+BandSummary bands_of(const std::vector<Run>& runs) {
+  std::vector<const Convergence*> studies;
+  for (const Run& run : runs) {
+    for (const Convergence& found : run.convergence) studies.push_back(&found);
+  }
+  return summarise_bands(studies);
+}
+
 int exit_status(const std::vector<Run>& runs) {
-  int worst = 0;
+  int worst = bands_of(runs).fails() ? 1 : 0;
   for (const Run& run : runs) {
     if (run.trouble == Run::Trouble::ours) worst = std::max(worst, 3);
     if (run.trouble == Run::Trouble::input) worst = std::max(worst, 2);

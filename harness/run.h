@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/band_summary.h"
 #include "harness/case.h"
 #include "harness/judge.h"
 #include "harness/sweep.h"
@@ -42,7 +43,10 @@ struct Run {
 [[nodiscard]] std::vector<Run> run_cases(const std::vector<Case>& cases,
                                          const References& references, const RunOptions& options);
 
-/// 0: every gate holds, 1: a check failed, 2: bad input, 3: our own fault.
+/// The bands of all refinements of the runs against the exact values, where there are any.
+[[nodiscard]] BandSummary bands_of(const std::vector<Run>& runs);
+
+/// 0: every gate holds, 1: a check failed, or the bands do not hold, 2: bad input, 3: our own fault.
 [[nodiscard]] int exit_status(const std::vector<Run>& runs);
 
 }  // namespace trammel

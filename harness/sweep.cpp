@@ -138,6 +138,7 @@ Series follow_entry(const Sweep& sweep, const Cursor& place, const Followed& fol
   series.index = index;
   series.theory = followed.theory;
   if (!series.theory && place.has("theory_order")) series.theory = place.number("theory_order");
+  if (place.has("lower_order")) series.lower = place.number("lower_order");
   const std::string measures = place.get<std::string>("measures", "elements");
   for (const SweepLevel& level : sweep.levels) {
     const auto [value, roundoff] = entry_of(level.result, followed, index);
@@ -205,6 +206,7 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
   if (follow == Follow::all) add_everything_else(sweep, followed);
   std::vector<Convergence> found;
   for (const Followed& one : followed) {
+    if (is_count(one.quantity)) continue;
     const std::vector<std::size_t> chosen = entries(sweep, one);
     for (std::size_t position = 0; position < chosen.size(); ++position) {
       const Series series = follow_entry(sweep, place, one, chosen[position], position);

@@ -126,6 +126,17 @@ BOOST_AUTO_TEST_CASE(three_node_triangles_converge_with_order_two_and_their_stre
   }
 }
 
+BOOST_AUTO_TEST_CASE(six_node_triangles_converge_with_order_three_and_their_stress_with_two) {
+  for (const double distortion : kDistortions) {
+    for (const double omega : {0.0, kMembraneOmega}) {
+      check_membrane(membrane(m::MembraneField::clamped, true, distortion, omega),
+                     {3, 6, 12, 24, 48}, {3, 2});
+    }
+    check_membrane(membrane(m::MembraneField::cantilever, true, distortion), {3, 6, 12, 24, 48},
+                   {3, 2});
+  }
+}
+
 BOOST_AUTO_TEST_CASE(euler_bernoulli_beams_converge_with_orders_four_three_two_one) {
   // Deflection, rotation, moment and shear force are the interpolation's derivatives of order 0
   // to 3.
@@ -185,8 +196,8 @@ BOOST_AUTO_TEST_CASE(nodes_of_a_vibrating_euler_bernoulli_beam_converge_with_ord
 }
 
 BOOST_AUTO_TEST_CASE(distorted_triangles_pass_the_patch_test_to_round_off) {
-  for (const Index cells : {2, 5, 16}) {
-    t::MembraneTest test = membrane(m::MembraneField::uniform_strain, false, 0.29);
+  const auto check = [](m::MembraneField field, bool six_nodes, Index cells) {
+    t::MembraneTest test = membrane(field, six_nodes, 0.29);
     test.cells = cells;
     const auto errors = t::run_membrane_test(test).errors;
     const double roundoff = 1e-15 * static_cast<double>(cells);  // gradients divide by the cell
@@ -194,6 +205,11 @@ BOOST_AUTO_TEST_CASE(distorted_triangles_pass_the_patch_test_to_round_off) {
     BOOST_TEST(errors.rotation < 10 * roundoff);
     BOOST_TEST(errors.stress < 10 * roundoff);
     BOOST_TEST(errors.energy < 10 * roundoff);
+  };
+  for (const Index cells : {2, 5, 16}) {
+    check(m::MembraneField::uniform_strain, false, cells);
+    check(m::MembraneField::uniform_strain, true, cells);
+    check(m::MembraneField::linear_strain, true, cells);
   }
 }
 

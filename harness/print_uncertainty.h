@@ -15,4 +15,8 @@ void print_validation(const Run& run, std::ostream& out);
 /// none.
 void print_validation_summary(const std::vector<Run>& runs, std::ostream& out);
 
+/// Hit rate of the bands of numerical uncertainty, and how wide they are, in one line; nothing
+/// where no exact value tells.
+void print_bands(const BandSummary& bands, std::ostream& out);
+
 }  // namespace trammel

@@ -1,4 +1,4 @@
-#include "harness/print_validation.h"
+#include "harness/print_uncertainty.h"
 
 #include <map>
 #include <ostream>
@@ -50,6 +50,18 @@ void print_validation_summary(const std::vector<Run>& runs, std::ostream& out) {
   if (all == 0) return;
   out << all << " comparisons with the paper (ASME V&V 20)";
   for (const auto& [word, count] : verdicts) out << ", " << count << " " << word;
+  out << '\n';
+}
+
+void print_bands(const BandSummary& bands, std::ostream& out) {
+  if (bands.levels == 0) return;
+  out << "bands of numerical uncertainty hold the exact value on " << bands.hits << " of "
+      << bands.levels << " levels (" << percent(bands.hit_rate()) << "), median band over error "
+      << rounded(bands.median_ratio, 3);
+  if (bands.fails()) {
+    out << ": FAIL, expected at least " << percent(least_hit_rate) << " and at most "
+        << rounded(largest_median_ratio);
+  }
   out << '\n';
 }
 
