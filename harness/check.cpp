@@ -245,8 +245,7 @@ std::vector<Check> read_checks(const Document& document, const std::string& vari
   const auto places = Cursor(document).find("checks");
   if (!places) return checks;
   for (const auto& [name, place] : places->entries()) {
-    Check check = read_check(name, place, document);
-    if (applies(place, variant, variants)) checks.push_back(std::move(check));
+    if (applies(place, variant, variants)) checks.push_back(read_check(name, place, document));
   }
   return checks;
 }
