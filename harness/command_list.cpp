@@ -9,6 +9,7 @@
 #include "harness/reference_library.h"
 #include "harness/scene.h"
 #include "harness/table.h"
+#include "harness/validation_uncertainty.h"
 #include "harness/words.h"
 
 namespace trammel {
@@ -37,7 +38,9 @@ std::string count_of(std::size_t count, const char* what) {
 }
 
 std::string model_words(const Document& document) {
-  if (analysis_kind(document) == "comparison") return "no model: references against each other";
+  const std::string kind = analysis_kind(document);
+  if (kind == "comparison") return "no model: references against each other";
+  if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
   const Scene scene = read_scene(document);
   const Model model = build_model(scene, 0);
   std::string text;
@@ -86,6 +89,10 @@ std::string check_words(const Check& check) {
   if (!check.reference.empty()) text += " against " + check.reference;
   if (!check.against_quantity.empty()) text += " against " + check.against_quantity;
   if (!check.against_variant.empty()) text += " of variant " + check.against_variant;
+  if (check.order && check.order->two_term_within) {
+    return text + ", a law of two orders along sweep " + check.order->sweep + " within " +
+           shortest(*check.order->two_term_within) + " of the errors";
+  }
   if (check.order) {
     return text + ", order along sweep " + check.order->sweep + " within " +
            shortest(check.order->within) + " of theory";
@@ -107,6 +114,18 @@ void describe_checks(const Case& given, const References& references) {
               << wrapped(check_words(check), "      ") << wrapped(check.why, "      ");
     if (!check.reference.empty()) (void)references.get(places[check.name]["reference"]);
   }
+}
+
+void describe_inputs(const Case& given, const References& references) {
+  const Document base = patched(given, base_variant);
+  if (!base.value().contains("uncertainty")) return;
+  std::cout << "\nInputs, as well as they are known\n";
+  Table table({"input", ">half width", "", "why"});
+  for (const StatedInput& input : stated_inputs(base, references)) {
+    table.add({input.name, rounded(input.half_width),
+               input.nominal ? "in the literal reading alone" : "", input.why});
+  }
+  table.print(std::cout, "  ");
 }
 
 void describe_references(const References& references) {
@@ -179,11 +198,14 @@ int describe_case(const std::string& name, bool json) {
     for (const auto& [sweep, place] : sweeps->entries()) {
       std::cout << "  " << sweep << "  " << place["values"].json().dump();
       if (place.has("theory_order")) {
-        std::cout << ", order " << shortest(place.number("theory_order")) << " by theory";
+        std::cout << ", order " << shortest(place.number("theory_order"));
+        if (place.has("lower_order")) std::cout << " and " << shortest(place.number("lower_order"));
+        std::cout << " by theory";
       }
       std::cout << '\n';
     }
   }
+  describe_inputs(given, references);
   describe_checks(given, references);
   describe_references(references);
   return 0;

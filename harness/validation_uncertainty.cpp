@@ -111,7 +111,7 @@ class Study {
 
   ValidationUncertainty run() {
     if (places_.empty()) return {};
-    study_.inputs = read_inputs(stated_["inputs"], references_);
+    study_.inputs = stated_inputs(document_, references_);
     for (const Place& place : places_) study_.entries.push_back(start(place));
     refine();
     derive();
@@ -319,6 +319,10 @@ class Study {
 };
 
 }  // namespace
+
+std::vector<StatedInput> stated_inputs(const Document& document, const References& references) {
+  return read_inputs(Cursor(document)["uncertainty"]["inputs"], references);
+}
 
 ValidationUncertainty study_validation(const Document& document, const AnalysisResult& result,
                                        const std::vector<Check>& checks,

@@ -57,6 +57,11 @@ struct ValidationUncertainty {
   [[nodiscard]] bool empty() const { return entries.empty(); }
 };
 
+/// The inputs of a case or variant that has "uncertainty", without those that stand there as words.
+/// @throws InputError  where a pointer leads nowhere
+[[nodiscard]] std::vector<StatedInput> stated_inputs(const Document& document,
+                                                     const References& references);
+
 /// @param document  case or variant, solved with `result`; has "uncertainty"
 /// @throws InputError  where a pointer leads nowhere or a patched model has no meaning.
 [[nodiscard]] ValidationUncertainty study_validation(const Document& document,

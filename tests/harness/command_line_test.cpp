@@ -220,4 +220,24 @@ BOOST_AUTO_TEST_CASE(a_case_is_described_for_people_and_for_programs) {
   BOOST_TEST(parse_json(run(folder, "list --json").out, "out").is_array());
 }
 
+BOOST_AUTO_TEST_CASE(every_case_of_the_catalogue_can_be_described) {
+  const Folder folder;
+  for (const Json& one : parse_json(run(folder, "list --json").out, "out")) {
+    const auto id = one.at("id").get<std::string>();
+    const Outcome outcome = run(folder, "describe " + id);
+    BOOST_TEST(outcome.status == 0, id << ": " << outcome.err);
+  }
+  const Outcome modes = run(folder, "describe manipulator-modes");
+  BOOST_TEST(contains(modes.out, "half a unit in the last place of '0.0015'"));
+}
+
+BOOST_AUTO_TEST_CASE(the_noise_of_a_validation_is_told_where_one_variant_is_run) {
+  const Folder folder;
+  const Outcome one = run(folder, "run manipulator-modes --variant rigid-platform");
+  BOOST_TEST(contains(one.out, "u_input"));
+  BOOST_TEST(contains(one.out, "link thickness"));
+  BOOST_TEST(contains(one.out, "is within the noise of"));
+  BOOST_TEST(contains(one.out, "comparisons with the paper (ASME V&V 20)"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
