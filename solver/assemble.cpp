@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "solver/edge_load.h"
+#include "solver/element_mass.h"
 #include "solver/projection.h"
 #include "solver/strain.h"
 #include "solver/symmetric_builder.h"
@@ -87,13 +88,7 @@ class Assembler {
     for (const FrameElement& e : system_.mesh.frame) {
       const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
       if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
-      if (e.is_bar()) {
-        projection.add(e.coordinates, bar_mass(e.section, member.mass, e.length));
-      } else {
-        const Matrix6d R = frame_rotation(e.direction);
-        const Matrix6d m = frame_mass(e.section, member.theory, member.mass, e.length);
-        projection.add(e.coordinates, (R.transpose() * m * R).eval());
-      }
+      projection.add(e.coordinates, world_mass(e, member));
       ++system_.counters.element_evaluations;
     }
     triangle_masses(projection);
@@ -101,23 +96,8 @@ class Assembler {
     system_.M = builder.build();
   }
 
-  /// Calls visit(coordinates, mass matrix) for every triangle.
-  template <class Visit>
-  void for_each_plate_mass(Visit&& visit) const {
-    const Model& model = system_.model;
-    for (const Triangle& triangle : model.triangles) {
-      if (triangle.quadratic()) {
-        visit(system_.coordinates.of<12>(triangle), triangle6_mass(model, triangle));
-      } else {
-        visit(system_.coordinates.of<6>(triangle),
-              triangle_mass(corners(model, triangle),
-                            model.plates[static_cast<std::size_t>(triangle.plate)]));
-      }
-    }
-  }
-
   void triangle_masses(Projection& projection) {
-    for_each_plate_mass([&](const auto& coordinates, const auto& m) {
+    for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
       projection.add(coordinates, m);
       ++system_.counters.element_evaluations;
     });
@@ -182,7 +162,7 @@ class Assembler {
 
   void weights() {
     const Model& model = system_.model;
-    for_each_plate_mass([&](const auto& coordinates, const auto& m) {
+    for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
       Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
       for (Index i = 0; i < fall.size(); ++i) fall[i] = model.gravity[i % 2];
       add_load(coordinates, (m * fall).eval());

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/prestress.h"
+#include "solver/system.h"
+
+/// What a steadily rotating frame adds to the equations of the motion relative to it, at angular
+/// speed W (counterclockwise) about a centre c. The acceleration of a mass at x is
+///   u.. + 2 W J u. - W^2 (x - c + u),   J = [0 -1; 1 0],
+/// so that M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c. Rotary inertia of sections and
+/// point masses feels neither term.
+namespace trammel {
+
+struct Spin {
+  double speed = 0;                    ///< W [rad/s]
+  Vector2d centre = Vector2d::Zero();  ///< c [m]
+};
+
+/// S: the mass of the translations, q x q.
+[[nodiscard]] SparseMatrix spin_softening(const System& system);
+
+/// G = integral rho N^T J N dV, q x q; skew.   Source: Coriolis force on the interpolation.
+[[nodiscard]] SparseMatrix coriolis_matrix(const System& system);
+
+/// Centrifugal forces W^2 integral rho N^T (x - c + u) dV on the unconstrained coordinates.
+[[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const Spin& spin,
+                                                 const Eigen::VectorXd& u);
+
+/// The model's own body forces and the centrifugal ones of the undeformed geometry.
+[[nodiscard]] BodyForces body_forces(const System& system, const Spin& spin);
+
+}  // namespace trammel
