@@ -69,6 +69,16 @@ class Recovery {
     equilibrium();
   }
 
+  [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants() const {
+    Eigen::Matrix<double, Eigen::Dynamic, 6> resultants(
+        static_cast<Index>(system_.mesh.frame.size()), 6);
+    for (Index i = 0; i < resultants.rows(); ++i) {
+      const SectionForces forces = section_forces(static_cast<std::size_t>(i));
+      resultants.row(i) << forces.start.transpose(), forces.end.transpose();
+    }
+    return resultants;
+  }
+
  private:
   void displacements() {
     const auto nodes = static_cast<Index>(model_.nodes.size());
@@ -287,6 +297,12 @@ VectorXd constraint_forces(const System& system, const ElasticState& state) {
   VectorXd force = internal_forces(system, state.u) - state.load_factor * system.load;
   if (state.prestress) force += turning_forces(system, *state.prestress, state.u);
   return system.constraints.multipliers(force);
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants(const System& system,
+                                                            const ElasticState& state) {
+  StaticSolution unused;
+  return Recovery(system, state, unused).element_resultants();
 }
 
 void recover(const System& system, const ElasticState& state, StaticSolution& solution) {

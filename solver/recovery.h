@@ -20,6 +20,10 @@ struct ElasticState {
 /// inextensible members.
 [[nodiscard]] Eigen::VectorXd constraint_forces(const System& system, const ElasticState& state);
 
+/// Frame element x (N, V, M at its first node, N, V, M at its second) [N, N, N m].
+[[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants(
+    const System& system, const ElasticState& state);
+
 /// Fills displacements, forces, stresses and residuals. With an acceleration, section forces hold
 /// the inertia of their element; reactions and residuals do not.
 void recover(const System& system, const ElasticState& state, StaticSolution& solution);
