@@ -1,7 +1,9 @@
 #include "reports/check_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "reports/number.h"
 #include "reports/quantity.h"
@@ -30,23 +32,54 @@ int digits_for(const Check& check) {
   return telling_digits(*check.expected, *check.computed);
 }
 
+/// The part of an order check that judges the extrapolated value.
+bool is_extrapolated(const Check& check) {
+  const std::string end = ".richardson";
+  return check.name.size() > end.size() &&
+         check.name.compare(check.name.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string statistic_words(std::string statistic) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> words = {{
+      {"max_abs", "largest magnitude"},
+      {"max", "largest"},
+      {"min", "smallest"},
+      {"rms", "root mean square"},
+  }};
+  for (const auto& [key, people] : words)
+    if (statistic == key) return people;
+  std::replace(statistic.begin(), statistic.end(), '_', ' ');
+  return statistic;
+}
+
+/// As many as show how far from 1 it is.
+int ratio_digits(double ratio) {
+  return telling_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
+}
+
 /// A limit or difference in the check's own measure.
 std::string measured(const Check& check, double x, bool sign) {
   if (check.measure == "relative") return relative(x, 3, sign);
+  if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
   const std::string number = sign ? with_sign(x, 3) : trimmed(x, 4);
-  const bool plain = check.measure == "ratio" || check.measure == "order";
+  const bool plain = check.measure == "order" || check.measure == "leading-term";
   return plain ? number : with_unit(number, check.unit);
 }
 
 std::string bound_text(const Check& check) {
   const Tolerance& t = *check.tolerance;
   const auto limit = [&](double x) { return with_unit(trimmed(x, 4), check.unit); };
-  if (t.low && t.high) return limit(*t.low) + " to " + limit(*t.high);
+  if (t.low && t.high && *t.low == *t.high) return limit(*t.low);
+  if (t.low && t.high) return trimmed(*t.low, 4) + " to " + limit(*t.high);
   if (t.high) return "≤ " + limit(*t.high);
   return t.low ? "≥ " + limit(*t.low) : "";
 }
 
 }  // namespace
+
+std::string check_title(const Check& check) {
+  return check.title.empty() ? check.name : check.title;
+}
 
 std::string target_text(const Check& check) {
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
@@ -57,6 +90,7 @@ std::string target_text(const Check& check) {
 }
 
 std::string computed_text(const Check& check) {
+  if (check.measure == "status") return check.message.substr(0, check.message.find(':'));
   if (!check.computed) return check.verdict == Verdict::not_run ? "–" : "none";
   const double x = *check.computed;
   if (x == std::round(x) && std::abs(x) < 1e6) return trimmed(x, 7);
@@ -64,14 +98,17 @@ std::string computed_text(const Check& check) {
 }
 
 std::string difference_text(const Check& check, double difference) {
-  if (check.measure == "ratio") return "ratio " + trimmed(difference, 4);
+  if (check.measure == "ratio") return "×\u202f" + measured(check, difference, false);
   return measured(check, difference, true);
 }
 
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
+    // Of an upper limit the share used; a range is only kept or not.
     const double used = tolerance_used(check);
-    return std::isfinite(used) ? relative(used, 2, false) + " of the limit" : "–";
+    if (!std::isfinite(used)) return "–";
+    if (check.tolerance->low) return used <= 1 ? "within" : "outside";
+    return relative(used, 2, false) + " of limit";
   }
   return check.difference ? difference_text(check, *check.difference) : "–";
 }
@@ -80,6 +117,7 @@ std::string tolerance_text(const Check& check) {
   if (!check.tolerance) return "–";
   const Tolerance& t = *check.tolerance;
   if (check.measure == "bound") return bound_text(check);
+  if (t.symmetric && *t.high == 0) return "exactly";
   if (t.symmetric) return "± " + measured(check, *t.high, false);
   const bool sign = check.measure != "ratio";
   if (t.low && t.high)
@@ -91,21 +129,23 @@ std::string tolerance_text(const Check& check) {
 std::string quantity_text(const Check& check) {
   const Quantity quantity = parse_quantity(check.quantity);
   std::string text = in_words(quantity);
-  if (!check.statistic.empty()) {
-    std::string statistic = check.statistic;
-    std::replace(statistic.begin(), statistic.end(), '_', ' ');
-    text = statistic + " of " + text;
-  }
-  if (!check.against_variant.empty()) text += ", over that of " + check.against_variant;
-  const std::string unit = check.unit.empty() ? quantity.unit : unit_for_people(check.unit);
-  return axis_label(text, check.measure == "ratio" ? "" : unit);
+  if (check.measure == "status") return "how the run ends";
+  if (check.measure == "order") return "order of convergence of " + text;
+  if (check.measure == "leading-term")
+    return "error of " + text + " over the leading term of theory";
+  if (is_extrapolated(check)) text = "extrapolated " + text;
+  if (!check.statistic.empty()) text = statistic_words(check.statistic) + " of " + text;
+  if (!check.against_quantity.empty())
+    text += ", against " + in_words(parse_quantity(check.against_quantity));
+  if (!check.against_variant.empty()) text += ", against " + check.against_variant;
+  return axis_label(text, check.unit.empty() ? quantity.unit : unit_for_people(check.unit));
 }
 
 std::string entry_text(const Check& check, std::size_t of) {
   if (!check.index) return "";
   const std::string number = std::to_string(*check.index + 1);
   if (check.quantity.rfind("frequency", 0) == 0) return "mode " + number;
-  if (of > 20) return "point " + number;
+  if (of > 20 || *check.index > 20) return "point " + number;
   return of > 1 || *check.index > 0 ? number : "";
 }
 

@@ -17,6 +17,9 @@ namespace trammel::reports {
 /// A difference of this check's measure: +26 %, −3 × 10⁻⁸ N, ratio 1.02.
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
+/// What the case calls the check, else its name.
+[[nodiscard]] std::string check_title(const Check& check);
+
 /// "frequency (Hz)", "largest |x displacement of P| (m), over rigid-platform".
 [[nodiscard]] std::string quantity_text(const Check& check);
 

@@ -39,8 +39,9 @@ Standing overall(const std::vector<const Run*>& runs) {
   };
   for (const Standing bad : {Standing::error, Standing::fails})
     if (count_of(counts, bad) > 0 || any_run(bad)) return bad;
-  if (count_of(counts, Standing::known) > 0) return Standing::known;
-  return count_of(counts, Standing::holds) > 0 ? Standing::holds : Standing::not_run;
+  for (const Standing some : {Standing::known, Standing::holds, Standing::recorded})
+    if (count_of(counts, some) > 0) return some;
+  return Standing::not_run;
 }
 
 Data endings(const CaseInfo& info, const std::vector<const Run*>& runs) {
@@ -74,6 +75,7 @@ Data case_data(const CaseInfo& info, const Family& family, const Results& result
   data.set("anchor", case_anchor(info.id));
   data.set("case_id", info.id);
   data.set("case_title", info.title);
+  data.set("short_title", family.short_title(info));
   set_text(data, "description", info.description);
   data.set("labels", texts(info.labels));
   set_text(data, "variants_count", runs.size() > 1 ? count(runs.size(), "variant") : "");

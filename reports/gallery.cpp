@@ -13,12 +13,14 @@ namespace {
 
 constexpr std::size_t most_poses = 4;
 
+/// Joints of one name stand in one place.
 bool same_geometry(const Drawing& a, const Drawing& b) {
-  if (a.joints.size() != b.joints.size()) return false;
-  for (std::size_t i = 0; i < a.joints.size(); ++i) {
-    const auto& [ax, ay] = a.nodes[a.joints[i].node];
-    const auto& [bx, by] = b.nodes[b.joints[i].node];
-    if (std::hypot(ax - bx, ay - by) > 1e-9) return false;
+  for (const Joint& ja : a.joints) {
+    for (const Joint& jb : b.joints) {
+      const auto& [ax, ay] = a.nodes[ja.node];
+      const auto& [bx, by] = b.nodes[jb.node];
+      if (ja.name == jb.name && std::hypot(ax - bx, ay - by) > 1e-9) return false;
+    }
   }
   return true;
 }
@@ -87,6 +89,12 @@ std::string family_title(const std::string& id) {
   return title;
 }
 
+std::map<std::string, std::string> short_titles(const Family& family) {
+  std::map<std::string, std::string> titles;
+  for (const CaseInfo* info : family.cases) titles[info->id] = family.short_title(*info);
+  return titles;
+}
+
 void number_figures(std::vector<Family>& families) {
   std::set<std::string> used;
   int number = 0;
@@ -99,6 +107,22 @@ void number_figures(std::vector<Family>& families) {
 }
 
 }  // namespace
+
+std::string Family::short_title(const CaseInfo& info) const {
+  const std::string& whole = info.title;
+  std::size_t same = whole.size();
+  for (const CaseInfo* other : cases) {
+    if (other == &info) continue;
+    std::size_t i = 0;
+    while (i < same && i < other->title.size() && other->title[i] == whole[i]) ++i;
+    same = i;
+  }
+  if (cases.size() < 2 || same == 0 || same == whole.size()) return whole;
+  const std::size_t word = whole.find_last_of(",:", same - 1);
+  if (word == std::string::npos) return whole;
+  const std::size_t from = whole.find_first_not_of(" ,:", word);
+  return from == std::string::npos ? whole : whole.substr(from);
+}
 
 std::vector<const Run*> Family::runs_of(const std::string& case_id) const {
   std::vector<const Run*> out;
@@ -126,8 +150,9 @@ std::vector<Family> plan_families(const Results& results) {
     family->galleries[info.id] = gallery_of(info, results, runs);
   }
   for (Family& family : families)
-    if (auto figure = tolerance_figure(family.id, results, family.runs))
-      family.overview.push_back(*figure);
+    for (const auto& make : {tolerance_figure, accuracy_figure})
+      if (auto figure = make(family.id, short_titles(family), family.runs))
+        family.overview.push_back(*figure);
   number_figures(families);
   return families;
 }

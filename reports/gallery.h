@@ -23,6 +23,10 @@ struct Family {
   std::vector<Figure> overview;
   std::map<std::string, Gallery> galleries;  ///< by case id
 
+  /// What tells a case's title from the others of the family: "..., start of the circle" and
+  /// "..., platform centred" are "start of the circle" and "platform centred".
+  [[nodiscard]] std::string short_title(const CaseInfo& info) const;
+
   [[nodiscard]] std::vector<const Run*> runs_of(const std::string& case_id) const;
 };
 

@@ -74,26 +74,10 @@ void sort_rows(Subject& subject) {
   });
 }
 
-/// What tells a case's title from the others of its family: "…, start of the circle" and
-/// "…, centred pose" are "start of the circle" and "centred pose".
-std::string own_part(const std::string& title, const Family& family) {
-  std::size_t same = title.size();
-  for (const CaseInfo* info : family.cases) {
-    if (info->title == title) continue;
-    std::size_t i = 0;
-    while (i < same && i < info->title.size() && info->title[i] == title[i]) ++i;
-    same = i;
-  }
-  const std::size_t word = title.find_last_of(" ,:", same < title.size() ? same : 0);
-  if (same == title.size() || word == std::string::npos) return title;
-  const std::size_t from = title.find_first_not_of(" ,:", word);
-  return from == std::string::npos ? title : title.substr(from);
-}
-
 std::string row_title(const Family& family, const Results& results, const Row& row) {
   const CaseInfo& info = results.case_info(row.run->case_id);
   const std::string variant = info.variant_title(row.run->variant);
-  return family.cases.size() > 1 ? variant + " – " + own_part(info.title, family) : variant;
+  return family.cases.size() > 1 ? variant + " – " + family.short_title(info) : variant;
 }
 
 Data cell_of(const Check* check) {
@@ -207,18 +191,32 @@ Data matrix_of(const Subject& subject, const Family& family, const Results& resu
   return matrix;
 }
 
-}  // namespace
-
-Data comparison_matrices(const Family& family, const Results& results) {
-  Data matrices = list();
+std::vector<Subject> compared(const Family& family) {
+  std::vector<Subject> out;
   for (Subject& subject : subjects(family)) {
     if (subject.rows.size() < fewest_rows || subject.targets.size() < fewest_columns ||
         subject.targets.size() > most_columns)
       continue;
     sort_rows(subject);
-    matrices.push_back(matrix_of(subject, family, results));
+    out.push_back(std::move(subject));
   }
+  return out;
+}
+
+}  // namespace
+
+Data comparison_matrices(const Family& family, const Results& results) {
+  Data matrices = list();
+  for (const Subject& subject : compared(family))
+    matrices.push_back(matrix_of(subject, family, results));
   return matrices;
+}
+
+std::string comparison_conclusion(const Family& family, const Results& results,
+                                  const std::string& reference) {
+  for (const Subject& subject : compared(family))
+    if (subject.reference == reference) return conclusion(subject, family, results);
+  return "";
 }
 
 }  // namespace trammel::reports

@@ -77,7 +77,7 @@ int telling_digits(double a, double b) {
   const double scale = std::max(std::abs(a), std::abs(b));
   if (scale == 0 || a == b || !std::isfinite(a) || !std::isfinite(b)) return 6;
   const double digits = std::ceil(-std::log10(std::abs(a - b) / scale)) + 1;
-  return static_cast<int>(std::clamp(digits, 4.0, 12.0));
+  return digits > 10 ? 6 : static_cast<int>(std::max(digits, 4.0));
 }
 
 std::string shortest(double x) {

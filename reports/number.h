@@ -20,7 +20,7 @@ namespace trammel::reports {
 /// A relative difference: in per cent from 1e-5 upwards, as a plain number below.
 [[nodiscard]] std::string relative(double x, int digits, bool sign);
 
-/// Digits that show where two numbers part, between 4 and 12.
+/// Digits that show where two numbers part, between 4 and 10; 6 where they agree beyond that.
 [[nodiscard]] int telling_digits(double a, double b);
 
 /// The shortest text that reads back as the same double, independent of the locale.

@@ -66,7 +66,18 @@ std::string unit_for_people(const std::string& unit) {
   if (unit == "1") return "";
   for (const auto& [key, people] : units)
     if (unit == key) return people;
-  return unit;
+  std::string people;
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    if (unit[i] == ' ') {
+      people += "·";
+    } else if (unit[i] == '^' && i + 1 < unit.size() && unit[i + 1] >= '2' && unit[i + 1] <= '4') {
+      constexpr std::array<const char*, 3> powers = {"²", "³", "⁴"};
+      people += powers[unit[++i] - '2'];
+    } else {
+      people += unit[i];
+    }
+  }
+  return people;
 }
 
 Quantity parse_quantity(const std::string& name) {

@@ -43,7 +43,7 @@ Data values_of(const Reference& reference) {
   Data out = list();
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
     Data value = object();
-    value.set("i", std::to_string(i + 1));
+    set_text(value, "i", reference.values.size() > 1 ? std::to_string(i + 1) : "");
     value.set("value", value_text(reference, i));
     set_text(value, "uncertainty", uncertainty_text(reference, i));
     out.push_back(value);

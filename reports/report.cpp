@@ -15,10 +15,12 @@ namespace {
 using namespace reports;
 namespace fs = std::filesystem;
 
+constexpr const char* generator = R"(<meta name="generator" content="trammel">)";
+
 Data page_data(const Results& results, const std::vector<Family>& families) {
   Data page = object();
   for (const char* name : {"summary", "family", "case", "figure", "checks", "matrix", "cost",
-                           "references", "counts", "rows", "matrix_row", "cell"})
+                           "references", "counts", "rows", "head", "matrix_row", "cell"})
     page.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -41,6 +43,22 @@ std::string render(const Data& data) {
   return html;
 }
 
+/// Takes away what an earlier report in the same folder has written and links to.
+void remove_earlier(const fs::path& out) {
+  const fs::path page = out / "index.html";
+  if (!fs::exists(page)) return;
+  const std::string html = read_file(page);
+  if (html.find(generator) == std::string::npos) return;
+  for (const std::string folder : {"figures/", "checks/"}) {
+    const std::string link = "href=\"" + folder;
+    for (std::size_t at = html.find(link); at != std::string::npos; at = html.find(link, at + 1)) {
+      const std::size_t from = at + link.size();
+      const std::string name = html.substr(from, html.find('"', from) - from);
+      if (name.find('/') == std::string::npos) fs::remove(out / folder / name);
+    }
+  }
+}
+
 void write_checks(const std::vector<Family>& families, const fs::path& folder) {
   fs::create_directories(folder);
   for (const Family& family : families)
@@ -54,6 +72,7 @@ void write_checks(const std::vector<Family>& families, const fs::path& folder) {
 fs::path write_report(const fs::path& results_json, const fs::path& out) {
   const Results results = read_results(results_json);
   std::vector<Family> families = plan_families(results);
+  remove_earlier(out);
   draw(all_figures(families), fs::absolute(out) / "figures");
   write_checks(families, out / "checks");
   const fs::path page = out / "index.html";

@@ -25,10 +25,12 @@ Value one_of(const JsonView& view, const std::vector<std::pair<std::string, Valu
 }
 
 const std::vector<std::pair<std::string, Verdict>>& verdicts() {
-  static const std::vector<std::pair<std::string, Verdict>> names = {{"pass", Verdict::pass},
-                                                                     {"fail", Verdict::fail},
-                                                                     {"error", Verdict::error},
-                                                                     {"not-run", Verdict::not_run}};
+  static const std::vector<std::pair<std::string, Verdict>> names = {
+      {"pass", Verdict::pass},
+      {"fail", Verdict::fail},
+      {"error", Verdict::error},
+      {"not-run", Verdict::not_run},
+      {"recorded", Verdict::recorded}};
   return names;
 }
 
@@ -59,7 +61,9 @@ std::vector<Point> points(const JsonView& view) {
   for (const JsonView& entry : view.entries()) {
     const auto xy = entry.entries();
     if (xy.size() != 2) entry.fail("two numbers");
-    out.emplace_back(xy[0].number(), xy[1].number());
+    constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();  // is not drawn
+    out.emplace_back(xy[0].maybe_number().value_or(nowhere),
+                     xy[1].maybe_number().value_or(nowhere));
   }
   return out;
 }
@@ -85,6 +89,7 @@ std::optional<Tolerance> read_tolerance(const JsonView& view, const std::string&
 Check read_check(const JsonView& view) {
   Check check;
   check.name = view.at("name").text();
+  check.title = view.find("title").text_or("");
   check.quantity = view.at("quantity").text();
   check.unit = view.find("unit").text_or("");
   check.reference = view.find("reference").text_or("");
@@ -93,6 +98,7 @@ Check read_check(const JsonView& view) {
   check.why = view.find("why").text_or("");
   check.message = view.find("message").text_or("");
   check.statistic = view.find("statistic").text_or("");
+  check.against_quantity = view.find("against_quantity").text_or("");
   check.against_variant = view.find("against_variant").text_or("");
   if (!view.find("index").null()) check.index = view.at("index").integer(any_index);
   check.computed = view.find("computed").maybe_number();
@@ -104,14 +110,23 @@ Check read_check(const JsonView& view) {
   return check;
 }
 
+/// Levels without a number of their own are numbered.
+std::vector<double> read_levels(const JsonView& view) {
+  std::vector<double> levels;
+  for (const JsonView& level : view.entries()) {
+    const auto number = static_cast<double>(levels.size() + 1);
+    levels.push_back(level.maybe_number().value_or(number));
+  }
+  return levels;
+}
+
 Convergence read_convergence(const JsonView& view) {
   Convergence c;
   c.sweep = view.find("sweep").text_or("");
   c.quantity = view.at("quantity").text();
   c.reference = view.find("reference").text_or("");
   if (!view.find("index").null()) c.index = view.at("index").integer(any_index);
-  for (const JsonView& level : view.at("parameter").entries())
-    c.parameter.push_back(level.number());
+  c.parameter = read_levels(view.at("parameter"));
   const std::size_t levels = c.parameter.size();
   const auto column = [&](const char* key) {
     Numbers read = numbers(view.find(key));
@@ -176,6 +191,11 @@ Cost read_cost(const JsonView& view) {
   cost.cpu_s = view.find("cpu_s").maybe_number().value_or(0);
   for (const auto& [name, count] : view.find("counters").members())
     cost.counters.emplace_back(name, count.number());
+  for (const auto& [name, sweep] : view.find("sweeps").members()) {
+    SweepCost levels{name, read_levels(sweep.at("parameter")), numbers(sweep.at("cpu_s"))};
+    levels.cpu_s.resize(levels.parameter.size());
+    cost.sweeps.push_back(std::move(levels));
+  }
   return cost;
 }
 

@@ -15,7 +15,7 @@ namespace trammel::reports {
 using Number = std::optional<double>;
 using Numbers = std::vector<Number>;
 
-enum class Verdict { pass, fail, error, not_run };
+enum class Verdict { pass, fail, error, not_run, recorded };
 enum class Status { solved, singular, not_converged, error, not_run };
 
 /// Allowed range of a difference: +-high for a plain tolerance, [low, high] for a band or a bound;
@@ -26,9 +26,10 @@ struct Tolerance {
 };
 
 struct Check {
-  std::string name, quantity, unit, reference, role, measure, why, message;
-  std::string statistic, against_variant;  ///< empty where the check compares an entry as it stands
-  std::optional<int> index;                ///< from 0
+  std::string name, title, quantity, unit, reference, role, measure, why, message;
+  /// Empty where the check compares an entry with a reference, both as they stand.
+  std::string statistic, against_variant, against_quantity;
+  std::optional<int> index;  ///< from 0
   Number computed, expected, difference;
   std::optional<Tolerance> tolerance;
   bool known_discrepancy = false;  ///< expected to differ, with a recorded reason
@@ -70,8 +71,16 @@ struct Drawing {
   std::vector<Pose> poses;  ///< further poses of the same mechanism
 };
 
+/// Processor time of each level of a sweep.
+struct SweepCost {
+  std::string sweep;
+  std::vector<double> parameter;
+  Numbers cpu_s;
+};
+
 struct Cost {
   double wall_s = 0, cpu_s = 0;
+  std::vector<SweepCost> sweeps;
   std::vector<std::pair<std::string, double>> counters;
 };
 

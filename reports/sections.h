@@ -27,6 +27,10 @@ namespace trammel::reports {
 /// down, entries across, nearest first. @returns a list, empty where there is none.
 [[nodiscard]] Data comparison_matrices(const Family& family, const Results& results);
 
+/// What such a matrix says about a reference in a sentence or two; empty if there is none.
+[[nodiscard]] std::string comparison_conclusion(const Family& family, const Results& results,
+                                                const std::string& reference);
+
 /// Wall time and counters of every case.
 [[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families);
 

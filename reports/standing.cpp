@@ -14,9 +14,10 @@ struct Name {
   const char *words, *css, *sign;
 };
 
-constexpr std::array<Name, 5> names = {{
+constexpr std::array<Name, 6> names = {{
     {Standing::holds, "holds", "holds", "✓"},
     {Standing::known, "known discrepancy", "known", "≠"},
+    {Standing::recorded, "recorded only", "recorded", "○"},
     {Standing::fails, "fails", "fails", "✗"},
     {Standing::error, "error", "error", "!"},
     {Standing::not_run, "not run", "not-run", "–"},
@@ -31,10 +32,12 @@ const Name& name_of(Standing standing) {
 int severity(Standing standing) {
   switch (standing) {
     case Standing::error:
-      return 4;
+      return 5;
     case Standing::fails:
-      return 3;
+      return 4;
     case Standing::not_run:
+      return 3;
+    case Standing::recorded:
       return 2;
     case Standing::known:
       return 1;
@@ -56,6 +59,8 @@ Standing standing(const Check& check) {
       return Standing::error;
     case Verdict::not_run:
       return Standing::not_run;
+    case Verdict::recorded:
+      return Standing::recorded;
   }
   throw std::logic_error("unknown verdict");
 }
@@ -118,10 +123,11 @@ const Check& CheckGroup::worst() const {
 std::vector<CheckGroup> group_checks(const Run& run) {
   std::vector<CheckGroup> groups;
   for (const Check& check : run.checks) {
-    const bool same = !groups.empty() && groups.back().front().name == check.name &&
-                      groups.back().front().quantity == check.quantity;
-    if (!same) groups.push_back({&run, {}});
-    groups.back().checks.push_back(&check);
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const CheckGroup& known) {
+      return known.front().name == check.name && known.front().quantity == check.quantity;
+    });
+    if (group == groups.end()) group = groups.insert(groups.end(), CheckGroup{&run, {}});
+    group->checks.push_back(&check);
   }
   return groups;
 }

@@ -11,9 +11,10 @@ namespace trammel::reports {
 
 /// Where a check stands, as the page says it: a pass that was expected to agree is not the same
 /// as a pass that was expected to differ.
-enum class Standing { holds, known, fails, error, not_run };
-inline constexpr std::array<Standing, 5> all_standings = {
-    Standing::holds, Standing::known, Standing::fails, Standing::error, Standing::not_run};
+enum class Standing { holds, known, recorded, fails, error, not_run };
+inline constexpr std::array<Standing, 6> all_standings = {Standing::holds,    Standing::known,
+                                                          Standing::recorded, Standing::fails,
+                                                          Standing::error,    Standing::not_run};
 
 [[nodiscard]] Standing standing(const Check& check);
 
@@ -31,7 +32,7 @@ inline constexpr std::array<Standing, 5> all_standings = {
 /// For a band the distance from its middle over its half width.
 [[nodiscard]] double tolerance_used(const Check& check);
 
-/// Checks of one run under one name and quantity, in order of their indices.
+/// Checks of one run under one name and quantity, in their order.
 struct CheckGroup {
   const Run* run = nullptr;
   std::vector<const Check*> checks;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include "reports/check_text.h"
 #include "reports/number.h"
@@ -26,12 +25,21 @@ Counts counts_of(const Results& results, const std::string& role) {
   return counts;
 }
 
-Data role_row(const std::string& name, const std::string& meaning, const Counts& counts) {
+/// All but what few results have and none of these does.
+std::vector<Standing> role_columns(const Counts& all) {
+  std::vector<Standing> columns;
+  for (const Standing which : all_standings)
+    if (which != Standing::recorded || count_of(all, which) > 0) columns.push_back(which);
+  return columns;
+}
+
+Data role_row(const std::string& name, const std::string& meaning, const Counts& counts,
+              const std::vector<Standing>& columns) {
   Data row = object();
   row.set("role", name);
   set_text(row, "meaning", meaning);
   Data cells = list();
-  for (const Standing which : all_standings) {
+  for (const Standing which : columns) {
     Data cell = object();
     const std::size_t n = count_of(counts, which);
     set_standing(cell, which);
@@ -45,11 +53,13 @@ Data role_row(const std::string& name, const std::string& meaning, const Counts&
 
 Data role_table(const Results& results) {
   Data rows = list();
+  const Counts all = counts_of(results, "");
+  const std::vector<Standing> columns = role_columns(all);
   for (const Role& role : roles) {
     const Counts counts = counts_of(results, role.name);
-    if (total(counts) > 0) rows.push_back(role_row(role.name, role.meaning, counts));
+    if (total(counts) > 0) rows.push_back(role_row(role.name, role.meaning, counts, columns));
   }
-  rows.push_back(role_row("all", "", counts_of(results, "")));
+  rows.push_back(role_row("all", "", all, columns));
   return rows;
 }
 
@@ -78,7 +88,7 @@ Data troubles(const Results& results, std::size_t& runs_without) {
     for (const CheckGroup& group : group_checks(run)) {
       const Standing worst = standing(group.worst());
       if (worst != Standing::fails && worst != Standing::error) continue;
-      Data data = item(info, run, group.front().name, trouble_text(group));
+      Data data = item(info, run, check_title(group.front()), trouble_text(group));
       set_standing(data, worst);
       out.push_back(data);
     }
@@ -86,71 +96,139 @@ Data troubles(const Results& results, std::size_t& runs_without) {
   return out;
 }
 
-/// Known discrepancies under one name, with one reference and one reason: all cases of a family,
-/// variants and entries together.
-struct Known {
-  std::vector<const CaseInfo*> cases;
+/// Differences with one and the same reason.
+struct Reason {
+  std::string text;
   const Check* least;
   const Check* most;
-  std::size_t checks = 0;
-  std::set<const Run*> runs;
+  std::vector<const Run*> runs;
 };
 
-bool same_discrepancy(const Known& known, const CaseInfo& info, const Check& check) {
-  const Check& other = *known.least;
-  return known.cases.front()->family == info.family && other.name == check.name &&
-         other.reference == check.reference && other.measure == check.measure &&
-         other.why == check.why;
+/// Known discrepancies of a family under one name and with one reference.
+struct Known {
+  const Family* family;
+  const Check* first;
+  std::size_t checks = 0;
+  std::vector<const CaseInfo*> cases;
+  std::vector<Reason> reasons;
+};
+
+template <typename Item, typename Is>
+Item& find_or_add(std::vector<Item>& items, Is is, const Item& fresh) {
+  const auto found = std::find_if(items.begin(), items.end(), is);
+  return found == items.end() ? items.emplace_back(fresh) : *found;
 }
 
-std::vector<Known> known_discrepancies(const Results& results) {
+void add(Known& known, const Run& run, const Check& check, const CaseInfo& info) {
+  ++known.checks;
+  find_or_add(
+      known.cases, [&](const CaseInfo* c) { return c == &info; }, &info);
+  Reason& reason = find_or_add(
+      known.reasons, [&](const Reason& r) { return r.text == check.why; },
+      Reason{check.why, &check, &check, {}});
+  if (check.difference < reason.least->difference) reason.least = &check;
+  if (check.difference > reason.most->difference) reason.most = &check;
+  find_or_add(
+      reason.runs, [&](const Run* r) { return r == &run; }, &run);
+}
+
+std::vector<Known> known_discrepancies(const Results& results,
+                                       const std::vector<Family>& families) {
   std::vector<Known> out;
-  for (const Run& run : results.runs) {
-    for (const Check& check : run.checks) {
-      if (standing(check) != Standing::known) continue;
-      const CaseInfo& info = results.case_info(run.case_id);
-      auto known = std::find_if(out.begin(), out.end(),
-                                [&](const Known& k) { return same_discrepancy(k, info, check); });
-      if (known == out.end()) known = out.insert(out.end(), Known{{&info}, &check, &check, 0, {}});
-      ++known->checks;
-      known->runs.insert(&run);
-      if (known->cases.back() != &info) known->cases.push_back(&info);
-      if (check.difference < known->least->difference) known->least = &check;
-      if (check.difference > known->most->difference) known->most = &check;
+  for (const Family& family : families) {
+    for (const Run* run : family.runs) {
+      for (const Check& check : run->checks) {
+        if (standing(check) != Standing::known) continue;
+        const auto same = [&](const Known& known) {
+          return known.family == &family && known.first->name == check.name &&
+                 known.first->reference == check.reference && known.first->measure == check.measure;
+        };
+        add(find_or_add(out, same, Known{&family, &check, 0, {}, {}}), *run, check,
+            results.case_info(run->case_id));
+      }
     }
   }
   return out;
 }
 
-std::string span_text(const Known& known) {
-  if (!known.least->difference || !known.most->difference) return "";
-  const std::string low = difference_text(*known.least, *known.least->difference);
-  const std::string high = difference_text(*known.most, *known.most->difference);
+std::string span_text(const Check& least, const Check& most) {
+  if (!least.difference || !most.difference) return "";
+  const std::string low = difference_text(least, *least.difference);
+  const std::string high = difference_text(most, *most.difference);
   return low == high ? low : low + " to " + high;
 }
 
-Data known_list(const Results& results) {
+std::string span_text(const Known& known) {
+  const Check* least = known.first;
+  const Check* most = known.first;
+  for (const Reason& reason : known.reasons) {
+    if (reason.least->difference < least->difference) least = reason.least;
+    if (reason.most->difference > most->difference) most = reason.most;
+  }
+  return span_text(*least, *most);
+}
+
+/// What does not agree: as the case puts it, else what it is compared with.
+std::string known_title(const Check& check, const Reference* reference) {
+  if (!check.title.empty()) return check.title;
+  return reference ? reference->title : check.name;
+}
+
+std::string run_names(const Reason& reason, const Known& known, const Results& results) {
+  std::string text;
+  for (const Run* run : reason.runs) {
+    const CaseInfo& info = results.case_info(run->case_id);
+    text += (text.empty() ? "" : "; ") + info.variant_title(run->variant);
+    if (known.cases.size() > 1) text += " (" + known.family->short_title(info) + ")";
+  }
+  return text;
+}
+
+Data reasons_data(const Known& known, const Results& results) {
   Data out = list();
-  for (const Known& known : known_discrepancies(results)) {
+  for (const Reason& reason : known.reasons) {
     Data data = object();
-    const Reference* reference = results.reference(known.least->reference);
-    Data cases = list();
-    for (const CaseInfo* info : known.cases) {
-      Data entry = object();
-      entry.set("case_title", info->title);
-      entry.set("case_anchor", case_anchor(info->id));
-      cases.push_back(entry);
-    }
-    data.set("cases", cases);
-    data.set("what", reference ? reference->title : known.least->name);
-    set_text(data, "reference_anchor", reference ? reference_anchor(reference->id) : "");
-    set_text(data, "span", span_text(known));
-    std::string extent = count(known.checks, "check");
-    if (known.runs.size() > 1) extent += " of " + count(known.runs.size(), "variant");
-    data.set("extent", extent);
-    set_text(data, "reason", known.least->why);
+    set_text(data, "span", span_text(*reason.least, *reason.most));
+    set_text(data, "text", reason.text);
+    data.set("variants", run_names(reason, known, results));
     out.push_back(data);
   }
+  return out;
+}
+
+/// One reason stands as it is; many stand folded, under what they come to.
+Data known_data(const Known& known, const Results& results) {
+  Data data = object();
+  const Reference* reference = results.reference(known.first->reference);
+  Data cases = list();
+  std::size_t variants = 0;
+  for (const Reason& reason : known.reasons) variants += reason.runs.size();
+  for (const CaseInfo* info : known.cases) {
+    Data entry = object();
+    entry.set("case_title", info->title);
+    entry.set("case_anchor", case_anchor(info->id));
+    cases.push_back(entry);
+  }
+  data.set("cases", cases);
+  data.set("what", known_title(*known.first, reference));
+  set_text(data, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(data, "span", span_text(known));
+  std::string extent = count(known.checks, "check");
+  if (variants > 1) extent += " of " + count(variants, "variant");
+  data.set("extent", extent);
+  const bool one = known.reasons.size() == 1;
+  set_text(data, "reason",
+           one ? known.reasons.front().text
+               : comparison_conclusion(*known.family, results, known.first->reference));
+  set_text(data, "reasons_title", one ? "" : count(known.reasons.size(), "reason"));
+  data.set("reasons", one ? list() : reasons_data(known, results));
+  return data;
+}
+
+Data known_list(const Results& results, const std::vector<Family>& families) {
+  Data out = list();
+  for (const Known& known : known_discrepancies(results, families))
+    out.push_back(known_data(known, results));
   return out;
 }
 
@@ -179,6 +257,9 @@ std::string overview_words(const Results& results, const std::vector<Family>& fa
   if (const std::size_t known = count_of(counts, Standing::known))
     text += " " + count(known, "comparison is", "comparisons are") + " known not to agree and " +
             (known == 1 ? "does" : "do") + " not, by as much as recorded; the reasons are below.";
+  if (const std::size_t recorded = count_of(counts, Standing::recorded))
+    text += " " + count(recorded, "comparison is", "comparisons are") +
+            " recorded without an expectation.";
   if (const std::size_t skipped = count_of(counts, Standing::not_run))
     text += " " + count(skipped, "check was", "checks were") + " not run.";
   return text;
@@ -199,11 +280,11 @@ Data summary_section(const Results& results, const std::vector<Family>& families
   summary.set("roles", role_table(results));
   set_flag(summary, "has_troubles", trouble_list.is_non_empty_list());
   summary.set("troubles", trouble_list);
-  const Data known = known_list(results);
+  const Data known = known_list(results, families);
   set_flag(summary, "has_known", known.is_non_empty_list());
   summary.set("known", known);
   Data heads = list();
-  for (const Standing which : all_standings) {
+  for (const Standing which : role_columns(counts)) {
     Data head = object();
     set_standing(head, which);
     heads.push_back(head);

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace trammel::reports {
@@ -42,6 +43,39 @@ void shorten_colors(std::string& text) {
     std::snprintf(hex.data(), hex.size(), "#%02x%02x%02x", r & 255, g & 255, b & 255);
     text.replace(at, end + 1 - at, hex.data());
   }
+}
+
+/// What gnuplot says of every group again and stands once on the root.
+constexpr std::array<const char*, 6> common = {" fill=\"none\"",
+                                               " stroke-linecap=\"butt\"",
+                                               " stroke-linejoin=\"miter\"",
+                                               " stroke-linecap=\"round\"",
+                                               " stroke-linejoin=\"round\"",
+                                               " font-family=\"Helvetica\""};
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// 57.75 -> 57.8, 335.00 -> 335 inside paths and transforms: a tenth of a unit is finer than eyes.
+void shorten_coordinates(std::string& text) {
+  std::string out;
+  out.reserve(text.size());
+  bool inside = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\'') inside = !inside;
+    const bool two_decimals = inside && text[i] == '.' && i > 0 && is_digit(text[i - 1]) &&
+                              i + 2 < text.size() && is_digit(text[i + 1]) &&
+                              is_digit(text[i + 2]) &&
+                              (i + 3 == text.size() || !is_digit(text[i + 3]));
+    if (!two_decimals) {
+      out += text[i];
+      continue;
+    }
+    if (text[i + 1] != '0') out += {'.', text[i + 1]};
+    i += 2;
+  }
+  text = std::move(out);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -119,14 +153,16 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   for (std::size_t at = body.find("<g id="); at != std::string::npos; at = body.find("<g id=", at))
     body.replace(at, body.find('>', at) + 1 - at, "<g>");
   shorten_colors(body);
+  for (const char* inherited : common) replace_all(body, inherited, "");
+  shorten_coordinates(body);
   body = without_empty_groups(body);
   body = symbols(definitions, body) + body;
   replace_all(body, "xlink:href='#gp", "href='#" + id + "-gp");
   replace_all(body, "id='gp", "id='" + id + "-gp");
-  replace_all(body, "font-family=\"Helvetica\"", "font-family=\"Helvetica, Arial, sans-serif\"");
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + view_box(text.substr(start, open - start)) +
-         " role=\"img\" aria-label=\"" + xml_escaped(title + ". " + description) + "\">\n" + body +
-         "</svg>\n";
+         " fill=\"none\" stroke-linejoin=\"round\" font-family=\"Helvetica, Arial, sans-serif\""
+         " role=\"img\" aria-label=\"" +
+         xml_escaped(title + ". " + description) + "\">\n" + body + "</svg>\n";
 }
 
 std::string xml_escaped(const std::string& text) {

@@ -21,24 +21,32 @@ Data row_of(const Check& check, const std::string& entry, bool first = true) {
   row.set("computed", computed_text(check));
   row.set("difference", difference_text(check));
   set_standing(row, standing(check));
-  set_text(row, "message", check.verdict == Verdict::pass ? "" : check.message);
+  const bool telling = check.verdict != Verdict::pass || check.measure == "status";
+  set_text(row, "message", telling ? check.message : "");
+  set_text(row, "own_range", "");
   set_flag(row, "first", first);
   return row;
 }
 
-/// One check with all its entries: name, reference and tolerance stand once for all of them.
+/// A bound is its own target and need not be said twice.
+std::string range_text(const Check& check) {
+  if (check.measure == "status" || (check.measure == "bound" && !check.expected)) return "";
+  return (check.known_discrepancy ? "expected " : "") + tolerance_text(check);
+}
+
+/// One check with all its entries: name, reference and reason stand once for all of them, and so
+/// does the tolerance if they share it.
 Data group_of(const Check& check, const Results& results, const Data& rows, std::size_t n) {
   Data group = object();
   group.set("rows", rows);
+  for (const Data& row : rows.list_value()) n += row.get("message")->is_string() ? 1 : 0;
   group.set("rowspan", std::to_string(n));
-  group.set("name", check.name);
+  group.set("name", check_title(check));
   group.set("quantity", quantity_text(check));
   group.set("role", check.role);
-  // A bound is its own target and need not be said twice.
-  const bool said = check.measure == "bound" && !check.expected;
-  set_text(group, "tolerance", said ? "" : tolerance_text(check));
+  set_flag(group, "shared", true);
+  set_text(group, "range", range_text(check));
   set_text(group, "why", check.why);
-  set_flag(group, "known", check.known_discrepancy);
   const Reference* reference = results.reference(check.reference);
   set_text(group, "reference", reference ? reference->title : check.reference);
   set_text(group, "reference_anchor", reference ? reference_anchor(reference->id) : "");
@@ -51,11 +59,11 @@ std::string worst_entry(const CheckGroup& group) {
   return "worst of " + std::to_string(group.checks.size()) + (entry.empty() ? "" : ": " + entry);
 }
 
-bool same_tolerance(const Check& a, const Check& b) {
-  return tolerance_text(a) == tolerance_text(b) && a.why == b.why && a.reference == b.reference;
+bool same_reason(const Check& a, const Check& b) {
+  return a.why == b.why && a.reference == b.reference;
 }
 
-/// Every entry, or the worst of many. Entries with tolerances of their own stand apart.
+/// Every entry, or the worst of many. Entries with reasons of their own stand apart.
 void add_group(Data& groups, const CheckGroup& group, const Results& results) {
   if (group.checks.size() > most_entries) {
     Data rows = list();
@@ -64,13 +72,20 @@ void add_group(Data& groups, const CheckGroup& group, const Results& results) {
     return;
   }
   for (std::size_t from = 0, to = 0; from < group.checks.size(); from = to) {
+    const Check& first = *group.checks[from];
+    bool shared = true;
+    for (to = from; to < group.checks.size() && same_reason(first, *group.checks[to]); ++to)
+      shared = shared && range_text(first) == range_text(*group.checks[to]);
     Data rows = list();
-    while (to < group.checks.size() && same_tolerance(*group.checks[from], *group.checks[to])) {
-      const Check& check = *group.checks[to];
-      rows.push_back(row_of(check, entry_text(check, group.checks.size()), to == from));
-      ++to;
+    for (std::size_t i = from; i < to; ++i) {
+      const Check& check = *group.checks[i];
+      Data row = row_of(check, entry_text(check, group.checks.size()), i == from);
+      set_text(row, "own_range", shared ? "" : range_text(check));
+      rows.push_back(row);
     }
-    groups.push_back(group_of(*group.checks[from], results, rows, to - from));
+    Data data = group_of(first, results, rows, to - from);
+    set_flag(data, "shared", shared);
+    groups.push_back(data);
   }
 }
 
@@ -172,7 +187,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
   table.heads = {"case",      "variant",    "status",        "check",          "role",
                  "quantity",  "index",      "unit",          "target",         "computed",
                  "measure",   "difference", "tolerance_low", "tolerance_high", "expectation",
-                 "reference", "verdict",    "reason"};
+                 "reference", "verdict",    "reason",        "message"};
   for (const Run* run : runs)
     for (const Check& c : run->checks)
       table.rows.push_back(
@@ -182,7 +197,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
            c.tolerance ? cell(c.tolerance->low) : Table::Cell{},
            c.tolerance ? cell(c.tolerance->high) : Table::Cell{},
            std::string(c.known_discrepancy ? "known-discrepancy" : "agrees"), c.reference,
-           to_string(c.verdict), c.why});
+           to_string(c.verdict), c.why, c.message});
   return table;
 }
 

@@ -229,8 +229,8 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
 
   Figure figure;
   figure.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity);
-  figure.title = "Convergence of " + words + " over " + parse_quantity(first.sweep).label + ": " +
-                 info.variant_title(run.variant);
+  figure.title =
+      titled("Convergence of " + words + " over " + parse_quantity(first.sweep).label, info, run);
   figure.caption = conclusion(sweeps) + floor_sentence(sweeps);
   if (!exact)
     figure.caption +=
@@ -250,8 +250,11 @@ std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
   std::vector<std::pair<std::string, Sweeps>> groups;
   for (const Convergence& c : run.convergence) {
     if (c.parameter.empty()) continue;
+    // A count that is right on every mesh has nothing to show.
     const Numbers errors = errors_of(c);
-    if (std::none_of(errors.begin(), errors.end(), [](const Number& e) { return e; })) continue;
+    const auto nonzero =
+        std::count_if(errors.begin(), errors.end(), [](const Number& e) { return e && *e != 0; });
+    if (nonzero < 2) continue;
     const std::string key = c.sweep + "\n" + c.quantity;
     const auto same = std::find_if(groups.begin(), groups.end(),
                                    [&](const auto& group) { return group.first == key; });

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "reports/figures/figures.h"
 #include "reports/number.h"
@@ -99,10 +100,19 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
   return series;
 }
 
+/// A quantity among those of a plot: what tells them apart.
+std::string own_words(const std::string& name, const PlotRequest& request) {
+  const Quantity quantity = parse_quantity(name);
+  const bool one_label = std::all_of(request.y.begin(), request.y.end(), [&](const auto& y) {
+    return parse_quantity(y).label == quantity.label;
+  });
+  return one_label && !quantity.subject.empty() ? quantity.subject : in_words(quantity);
+}
+
 void name_series(std::vector<Series>& series, const CaseInfo& info, const PlotRequest& request,
                  std::size_t variants) {
   for (Series& s : series) {
-    const std::string quantity = in_words(parse_quantity(s.quantity));
+    const std::string quantity = own_words(s.quantity, request);
     const std::string variant = info.variant_title(s.variant);
     if (request.y.size() == 1) {
       s.label = variant;
@@ -112,22 +122,22 @@ void name_series(std::vector<Series>& series, const CaseInfo& info, const PlotRe
   }
 }
 
+/// The words at the end that two texts share: "serial distance", "parallel distance": "distance".
+std::string common_end(const std::string& a, const std::string& b) {
+  std::size_t n = 0;
+  while (n < a.size() && n < b.size() && a[a.size() - 1 - n] == b[b.size() - 1 - n]) ++n;
+  if (n == a.size() && n == b.size()) return a;
+  const std::string end = a.substr(a.size() - n);
+  const std::size_t space = end.find(' ');
+  return space == std::string::npos ? "" : end.substr(space + 1);
+}
+
 /// "x displacement of P", "x reaction", "displacement", "value": as much as all have in common.
 std::string common_words(const std::vector<std::string>& names) {
   if (names.size() == 1) return in_words(parse_quantity(names.front()));
-  const auto without_direction = [](const std::string& label) {
-    return label.rfind("x ", 0) == 0 || label.rfind("y ", 0) == 0 ? label.substr(2) : label;
-  };
-  const std::string label = parse_quantity(names.front()).label;
-  const auto all = [&](const auto& same) { return std::all_of(names.begin(), names.end(), same); };
-  if (all([&](const std::string& name) { return parse_quantity(name).label == label; }))
-    return label;
-  const std::string bare = without_direction(label);
-  return all([&](const std::string& name) {
-    return without_direction(parse_quantity(name).label) == bare;
-  })
-             ? bare
-             : "value";
+  std::string common = parse_quantity(names.front()).label;
+  for (const std::string& name : names) common = common_end(common, parse_quantity(name).label);
+  return common.empty() ? "value" : common;
 }
 
 void x_range(PlotScript& script, const Numbers& values, double factor) {
@@ -140,16 +150,21 @@ void x_range(PlotScript& script, const Numbers& values, double factor) {
   if (low < high) script.range("x", low, high);
 }
 
-/// "Largest magnitude: 8.13 mm (base), 8.10 mm (rigid platform)."
+/// "Largest magnitude: 8.13 mm (base), 8.10 mm (rigid platform)."; of more than two curves the
+/// smallest and the largest.
 std::string measured(const std::vector<Series>& series, const Scale& scale) {
-  std::string text = "Largest magnitude: ";
-  const std::size_t shown = std::min<std::size_t>(series.size(), 4);
-  for (std::size_t i = 0; i < shown; ++i) {
-    text += (i ? ", " : "") + trimmed(scale.factor * series[i].largest, 3);
+  const auto said = [&](const Series& s) {
+    std::string text = trimmed(scale.factor * s.largest, 3);
     if (!scale.unit.empty()) text += "\u202f" + scale.unit;
-    if (series.size() > 1) text += " (" + series[i].label + ")";
-  }
-  return text + (shown < series.size() ? ", …" : ".");
+    return series.size() > 1 ? text + " (" + shortened(s.label, 44) + ")" : text;
+  };
+  if (series.size() <= 2)
+    return "Largest magnitude: " + said(series.front()) +
+           (series.size() == 2 ? ", " + said(series.back()) : "") + ".";
+  const auto [low, high] =
+      std::minmax_element(series.begin(), series.end(),
+                          [](const Series& a, const Series& b) { return a.largest < b.largest; });
+  return "Largest magnitude: from " + said(*low) + " to " + said(*high) + ".";
 }
 
 Table table_of(const std::vector<Series>& series, const std::vector<const Run*>& runs,
@@ -170,6 +185,41 @@ Table table_of(const std::vector<Series>& series, const std::vector<const Run*>&
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+std::string dashed(std::size_t variant) {
+  const std::size_t pattern = variant % dashes.size();
+  return pattern == 0 ? "" : " dt " + quoted(dashes[pattern]);
+}
+
+/// The curves and their key: where quantities and variants both differ, the key tells colours and
+/// dashes apart instead of naming every pair. @returns the height of the key.
+int draw_series(PlotScript& script, const std::vector<Series>& series, const CaseInfo& info,
+                const PlotRequest& request, const std::vector<std::string>& variants,
+                std::pair<double, double> factors, const std::vector<const Run*>& runs) {
+  const bool product = request.y.size() > 1 && variants.size() > 1;
+  std::vector<std::pair<std::string, std::string>> entries;  // style, title
+  const std::string line = "with lines lw 2.2";
+  if (product) {
+    for (std::size_t i = 0; i < request.y.size(); ++i)
+      entries.emplace_back(line + lc(palette::color(i)), own_words(request.y[i], request));
+    for (std::size_t i = 0; i < variants.size(); ++i)
+      entries.emplace_back(line + dashed(i) + lc(palette::muted), info.variant_title(variants[i]));
+  }
+  for (const Series& s : series) {
+    const Numbers* at = run_of(runs, s.variant)->quantity(request.x);
+    const auto rows = rows_of(at, *s.values, factors.first, factors.second);
+    const std::string style = dashed(s.dash) + lc(palette::color(s.color));
+    const std::string marks = rows.size() <= 40 ? "linespoints pt 7 ps 0.6" : "lines";
+    script.curve(rows, "with " + marks + " lw 2.2" + style);
+    if (!product && series.size() > 1) entries.emplace_back(line + style, s.label);
+  }
+  std::vector<std::string> titles;
+  for (const auto& [style, title] : entries) {
+    titles.push_back(title);
+    script.key_entry(style, title);
+  }
+  return script.key_below(titles);
 }
 
 }  // namespace
@@ -198,19 +248,8 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
   if (x_values) x_range(script, *x_values, x_scale.factor);
-  std::vector<std::string> titles;
-  if (series.size() > 1)
-    for (const Series& s : series) titles.push_back(s.label);
-  const int key_height = script.key_below(titles);
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    const Numbers* at = run_of(runs, series[i].variant)->quantity(request.x);
-    const auto rows = rows_of(at, *series[i].values, x_scale.factor, y_scale.factor);
-    const std::size_t pattern = series[i].dash % dashes.size();
-    const std::string dash = pattern == 0 ? "" : " dt " + quoted(dashes[pattern]);
-    const std::string marks = rows.size() <= 40 ? "linespoints pt 7 ps 0.6" : "lines";
-    script.curve(rows, "with " + marks + " lw 2.2" + dash + lc(palette::color(series[i].color)),
-                 series.size() > 1 ? series[i].label : "");
-  }
+  const int key_height =
+      draw_series(script, series, info, request, variants, {x_scale.factor, y_scale.factor}, runs);
   script.plot();
 
   Figure figure;

@@ -67,7 +67,23 @@ Span extent(const Subject& subject, double origin) {
 
 PlotScript::Rows box(double x0, double x1, std::size_t row) {
   const double y = strip_y(row);
-  return {{x0, y - 0.2}, {x1, y - 0.2}, {x1, y + 0.2}, {x0, y + 0.2}, {x0, y - 0.2}};
+  return {{x0, y - 0.23}, {x1, y - 0.23}, {x1, y + 0.23}, {x0, y + 0.23}, {x0, y - 0.23}};
+}
+
+/// The bands of a row; one that is too narrow to be seen is drawn as wide as a digit.
+PlotScript::Rows bands(const CheckGroup& group, std::size_t row, double factor, const Span& span) {
+  const double least = 0.022 * (span.high - span.low);
+  PlotScript::Rows rows;
+  for (const Check* check : group.checks) {
+    double low = check->tolerance->low.value_or(span.low);
+    double high = check->tolerance->high.value_or(span.high);
+    const double more = 0.5 * std::max(0.0, least - (high - low));
+    low = factor * (low - more);
+    high = factor * (high + more);
+    if (!rows.empty()) rows.emplace_back();
+    for (auto& corner : box(low, high, row)) rows.push_back(std::move(corner));
+  }
+  return rows;
 }
 
 /// Entries as digits where they stand; those that would fall on each other one higher, one lower.
@@ -98,11 +114,8 @@ void draw_digits(PlotScript& script, const CheckGroup& group, std::size_t row, d
 
 void draw_row(PlotScript& script, const CheckGroup& group, std::size_t row, double factor,
               const Span& span) {
-  const Tolerance& t = *group.front().tolerance;
-  const double low = factor * t.low.value_or(span.low);
-  const double high = factor * t.high.value_or(span.high);
-  script.curve(box(low, high, row), "with filledcurves closed" + lc(palette::amber),
-               row == 0 ? "expected band" : "");
+  script.curve(bands(group, row, factor, span), "with filledcurves closed" + lc(palette::amber),
+               row == 0 ? "expected" : "");
   if (by_digits(group)) return draw_digits(script, group, row, factor, span);
   PlotScript::Rows good, bad;
   for (const Check* check : group.checks) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "reports/results.h"
 
 namespace trammel::reports {
+
+/// A title with the variant's behind it, unless it is the case as it stands.
+[[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
 
 /// One maker for each kind of figure. Each returns nothing where there is nothing to draw.
 
@@ -30,9 +34,17 @@ namespace trammel::reports {
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
 /// Share of the tolerance that every check of a family uses which is expected to agree.
-[[nodiscard]] std::optional<Figure> tolerance_figure(const std::string& family,
-                                                     const Results& results,
-                                                     const std::vector<const Run*>& runs);
+/// @param titles  of the cases, by id.
+[[nodiscard]] std::optional<Figure> tolerance_figure(
+    const std::string& family, const std::map<std::string, std::string>& titles,
+    const std::vector<const Run*>& runs);
+
+/// Error against processor time over the refinement sweeps of a family: the worst entry of each
+/// level.
+/// @param titles  of the cases, by id.
+[[nodiscard]] std::optional<Figure> accuracy_figure(
+    const std::string& family, const std::map<std::string, std::string>& titles,
+    const std::vector<const Run*>& runs);
 
 /// Differences that are known, with the band expected of each: one figure a check name.
 [[nodiscard]] std::vector<Figure> discrepancy_figures(const CaseInfo& info, const Results& results,

@@ -90,12 +90,10 @@ void add_rows(Table& table, const std::string& pose, const Drawing& drawing,
   }
 }
 
-std::string mechanism_caption(const Drawing& drawing, const Box& box, std::size_t poses) {
-  std::string text = "The model as it was solved: " + count(drawing.nodes.size(), "node") + ", " +
-                     count(drawing.members.size(), "beam element");
-  if (!drawing.triangles.empty()) text += ", " + count(drawing.triangles.size(), "triangle");
-  text += "; it spans " + trimmed(box.width(), 3) + "\u202fm × " + trimmed(box.height(), 3) +
-          "\u202fm.";
+std::string mechanism_caption(const Box& box, std::size_t poses) {
+  std::string text = "The model as it was solved; it spans " + trimmed(box.width(), 3) + "\u202fm";
+  if (box.height() > 0) text += " × " + trimmed(box.height(), 3) + "\u202fm";
+  text += ".";
   if (poses > 1) text += " " + std::to_string(poses) + " poses are laid over each other.";
   return text;
 }
@@ -116,16 +114,18 @@ std::optional<Figure> mechanism_figure(
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
+  const std::string base_label = sets.size() == 1        ? ""
+                                 : drawing.poses.empty() ? info.variant_title(run.variant)
+                                                         : "first pose";
   std::vector<std::string> titles;
   for (const Pose& pose : drawing.poses) titles.push_back(pose.label);
   for (const auto& [label, _] : further) titles.push_back(label);
-  if (!titles.empty()) titles.push_back(info.variant_title(run.variant));
+  if (!titles.empty()) titles.push_back(base_label);
   for (const JointSymbol& symbol : symbols)
     if (is_drawn(drawing, symbol)) titles.emplace_back(symbol.words);
   const int key_height = script.key_below(titles);
   Figure figure;
   figure.data.heads = {"pose", "node", "x_m", "y_m", "joint", "name"};
-  const std::string base_label = sets.size() > 1 ? info.variant_title(run.variant) : "";
   for (std::size_t i = 0; i < drawing.poses.size(); ++i) {
     const Pose& pose = drawing.poses[i];
     draw_body(script, drawing, pose.nodes, palette::color(2 + i), 1.2, pose.label);
@@ -146,8 +146,8 @@ std::optional<Figure> mechanism_figure(
 
   const Box tight = box_around(sets, 0, 0);
   figure.id = slug(info.id + "-" + run.variant + "-mechanism");
-  figure.title = "Geometry: " + info.variant_title(run.variant);
-  figure.caption = mechanism_caption(drawing, tight, sets.size());
+  figure.title = titled("Geometry", info, run);
+  figure.caption = mechanism_caption(tight, sets.size());
   figure.alt = "Drawing of the model with its joints. " + figure.caption;
   const double drawn = 410.0 * box.height() / box.width();
   figure.height = static_cast<int>(std::clamp(drawn, 90.0, 470.0)) + 80 + key_height;

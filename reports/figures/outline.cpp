@@ -6,13 +6,14 @@
 #include <map>
 #include <utility>
 
+#include "reports/figures/figures.h"
 #include "reports/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t coarse_mesh = 60;  ///< triangles up to which every edge can be seen
+constexpr std::size_t coarse_mesh = 12;  ///< triangles up to which every edge can be seen
 
 /// 1, 2 or 5 times a power of ten, not below `least`.
 double round_step(double least) {
@@ -22,7 +23,19 @@ double round_step(double least) {
   return 10 * power;
 }
 
+/// Whether a line from `from` over `p` to `to` is straight for the eye.
+bool is_between(const std::vector<double>& from, const Point& p, const Point& to) {
+  const double ax = p.first - from[0], ay = p.second - from[1];
+  const double bx = to.first - p.first, by = to.second - p.second;
+  const double lengths = std::hypot(ax, ay) * std::hypot(bx, by);
+  return std::abs(ax * by - ay * bx) <= 1e-3 * lengths && ax * bx + ay * by >= 0;
+}
+
 }  // namespace
+
+std::string titled(const std::string& what, const CaseInfo& info, const Run& run) {
+  return run.variant == "base" ? what : what + ": " + info.variant_title(run.variant);
+}
 
 std::vector<std::vector<int>> polylines(const Drawing& drawing) {
   std::vector<std::vector<int>> lines;
@@ -52,7 +65,12 @@ PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
   PlotScript::Rows rows;
   for (const auto& line : lines) {
     if (!rows.empty()) rows.emplace_back();
-    for (const int node : line) rows.push_back({nodes[node].first, nodes[node].second});
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const Point& p = nodes[line[i]];
+      const bool inner = i > 0 && i + 1 < line.size();
+      if (inner && is_between(rows.back(), p, nodes[line[i + 1]])) continue;
+      rows.push_back({p.first, p.second});
+    }
   }
   return rows;
 }

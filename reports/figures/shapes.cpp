@@ -23,7 +23,8 @@ double factor_for(const Shape& shape, double side) {
 void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Point>& moved,
                 const std::string& label) {
   script.command("unset label");
-  script.label(label, "graph 0.5,1.05 center textcolor rgb '" + std::string(palette::ink) + "'");
+  script.label(
+      label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::ink) + "'");
   const auto lines = polylines(drawing);
   const auto edges = triangle_edges(drawing);
   const std::string grey = lc(palette::structure);
@@ -75,7 +76,8 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   script.command("unset multiplot");
 
   figure.id = slug(info.id + "-" + run.variant + "-shapes");
-  figure.title = "Shapes: " + info.variant_title(run.variant);
+  const bool modes = drawing.shapes.front().label.rfind("mode", 0) == 0;
+  figure.title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run);
   figure.caption =
       "Grey: at rest; blue: displaced. Each shape is scaled so that its largest "
       "displacement is " +

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/check_text.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/strip.h"
 #include "reports/number.h"
@@ -26,11 +27,14 @@ double share(const Check& check) {
 }
 
 bool is_shown(const Check& check) {
-  return !check.known_discrepancy && check.verdict != Verdict::not_run;
+  if (check.known_discrepancy || check.verdict == Verdict::not_run) return false;
+  return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
+         (check.verdict == Verdict::pass && std::isfinite(tolerance_used(check)));
 }
 
 /// A row a case; a row a check where the family has one case only.
-std::vector<Row> rows_of(const Results& results, const std::vector<const Run*>& runs) {
+std::vector<Row> rows_of(const std::map<std::string, std::string>& titles,
+                         const std::vector<const Run*>& runs) {
   const bool one_case = std::all_of(runs.begin(), runs.end(), [&](const Run* run) {
     return run->case_id == runs.front()->case_id;
   });
@@ -38,7 +42,7 @@ std::vector<Row> rows_of(const Results& results, const std::vector<const Run*>& 
   for (const Run* run : runs) {
     for (const Check& check : run->checks) {
       if (!is_shown(check)) continue;
-      const std::string label = one_case ? check.name : results.case_info(run->case_id).title;
+      const std::string label = one_case ? check_title(check) : titles.at(run->case_id);
       auto row = std::find_if(rows.begin(), rows.end(),
                               [&](const Row& known) { return known.label == label; });
       if (row == rows.end()) row = rows.insert(rows.end(), Row{label, {}, 0});
@@ -104,16 +108,17 @@ Table table_of(const std::vector<Row>& rows) {
 
 }  // namespace
 
-std::optional<Figure> tolerance_figure(const std::string& family, const Results& results,
+std::optional<Figure> tolerance_figure(const std::string& family,
+                                       const std::map<std::string, std::string>& titles,
                                        const std::vector<const Run*>& runs) {
   if (runs.empty()) return std::nullopt;
-  const std::vector<Row> rows = rows_of(results, runs);
+  const std::vector<Row> rows = rows_of(titles, runs);
   if (rows.empty()) return std::nullopt;
 
   PlotScript script;
   std::vector<std::string> labels;
   for (const Row& row : rows)
-    labels.push_back(row.label + " (" + std::to_string(row.checks.size()) + ")");
+    labels.push_back(shortened(row.label, 44) + " (" + std::to_string(row.checks.size()) + ")");
   strip_rows(script, labels);
   script.log_axis("x", least, most);
   script.range("x", least / 1.6, most * 1.6);

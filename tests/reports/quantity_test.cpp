@@ -16,6 +16,13 @@ BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
   BOOST_TEST(parse_quantity("frequency_roundoff").unit == "");
 }
 
+BOOST_AUTO_TEST_CASE(units_are_written_as_in_print) {
+  BOOST_TEST(unit_for_people("N_m") == "N·m");
+  BOOST_TEST(unit_for_people("N m") == "N·m");
+  BOOST_TEST(unit_for_people("kg m^2") == "kg·m²");
+  BOOST_TEST(unit_for_people("1") == "");
+}
+
 BOOST_AUTO_TEST_CASE(values_are_scaled_to_what_people_say) {
   BOOST_TEST(readable_scale("m", 0.0081).unit == "mm");
   BOOST_TEST(readable_scale("m", 0.0081).factor == 1000);

@@ -1,6 +1,7 @@
 #include "reports/report.h"
 
 #include <boost/test/unit_test.hpp>
+#include <fstream>
 #include <set>
 
 #include "tests/reports/markup.h"
@@ -88,16 +89,24 @@ BOOST_AUTO_TEST_CASE(ids_are_unique_and_every_link_inside_arrives) {
 }
 
 BOOST_AUTO_TEST_CASE(summary_counts_what_the_results_hold) {
-  std::size_t pass = 0, known = 0;
+  std::size_t pass = 0, known = 0, recorded = 0;
   const auto results = sample_results();
   for (const auto& run : results["runs"])
-    for (const auto& check : run["checks"])
+    for (const auto& check : run["checks"]) {
       if (check["verdict"] == "pass") ++(check["expectation"] == "agrees" ? pass : known);
+      recorded += check["verdict"] == "recorded";
+    }
   BOOST_TEST(says("<strong>" + std::to_string(pass) + "</strong> holds"));
   BOOST_TEST(says("<strong>" + std::to_string(known) + "</strong> known discrepancy"));
+  BOOST_TEST(says("<strong>" + std::to_string(recorded) + "</strong> recorded only"));
   BOOST_TEST(says("1 check fails, 1 could not be judged, 1 run did not end as expected."));
   BOOST_TEST(says("platform_inertia_kg_m2[0] is not finite"));
   BOOST_TEST(says("/model/nodes/B: a member of length 0"));
+}
+
+BOOST_AUTO_TEST_CASE(how_a_run_ends_is_judged_like_any_other_check) {
+  BOOST_TEST(says("The free mechanism has no stiffness"));
+  BOOST_TEST(says("<td class=\"number\" data-label=\"Computed\">singular</td>"));
 }
 
 BOOST_AUTO_TEST_CASE(a_figure_that_cannot_be_drawn_is_named_with_its_reason) {
@@ -138,6 +147,21 @@ BOOST_AUTO_TEST_CASE(all_good_results_say_that_every_gate_holds) {
   BOOST_TEST(text.find("Every gate holds.") != std::string::npos);
   BOOST_TEST(text.find("What fails") == std::string::npos);
   BOOST_TEST(text.find("Table 1 against itself") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_second_report_in_the_same_folder_leaves_nothing_of_the_first) {
+  const Workspace workspace;
+  auto results = sample_results();
+  const fs::path out = workspace.path() / "out";
+  trammel::write_report(workspace.results(results), out);
+  std::ofstream(out / "figures" / "mine.svg") << "kept";
+  results["runs"] = nlohmann::ordered_json::array({results["runs"].back()});
+  const std::string text = text_of(trammel::write_report(workspace.results(results), out));
+  std::size_t drawings = 0;
+  for (const auto& entry : fs::directory_iterator(out / "figures"))
+    drawings += entry.path().extension() == ".svg";
+  BOOST_TEST(drawings == occurrences(text, "<svg ") + 1);
+  BOOST_TEST(fs::exists(out / "figures" / "mine.svg"));
 }
 
 BOOST_AUTO_TEST_CASE(no_text_of_a_case_becomes_a_command_of_gnuplot) {
