@@ -31,14 +31,15 @@ StepResult analyse_kinematics(const Scene& scene, std::size_t step, bool draw, R
   const Jacobians at = jacobians(geometry, pose, posture);
   const HoldingTorques holding = holding_torques(at, wrench_on_platform(scene, posture, pose));
   result.outcome = holding.outcome;
+  static const std::array<std::string, 3> active = {"A1", "A2", "A3"}, elbow = {"B1", "B2", "B3"},
+                                          distal = {"B1-C1", "B2-C2", "B3-C3"};
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string limb = std::to_string(i + 1);
-    record.add("active_angle_rad", "A" + limb, posture.active[i]);
-    record.add("passive_angle_rad", "B" + limb, posture.passive[i]);
-    record.add("elbow_sine", "B" + limb, posture.elbow_sine[i]);
-    record.add("holding_torque_N_m", "A" + limb, holding.torque[static_cast<Index>(i)]);
-    record.add("distal_tension_N", "B" + limb + "-C" + limb,
-               holding.tension[static_cast<Index>(i)]);
+    const auto row = static_cast<Index>(i);
+    record.add("active_angle_rad", active[i], posture.active[i]);
+    record.add("passive_angle_rad", elbow[i], posture.passive[i]);
+    record.add("elbow_sine", elbow[i], posture.elbow_sine[i]);
+    record.add("holding_torque_N_m", active[i], holding.torque[row]);
+    record.add("distal_tension_N", distal[i], holding.tension[row]);
   }
   record.add("closure_error_m", "", posture.closure_error);
   record.add("parallel_distance", "", at.parallel_distance);
