@@ -222,6 +222,7 @@ class Study {
 
   [[nodiscard]] std::vector<double> half_widths(const std::vector<std::size_t>& which) const {
     std::vector<double> widths;
+    widths.reserve(which.size());
     for (const std::size_t k : which) widths.push_back(study_.inputs[k].half_width);
     return widths;
   }
