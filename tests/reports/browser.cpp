@@ -30,7 +30,12 @@ addEventListener("load", () => {
   const wide = [...document.querySelectorAll("main *, header *, nav *, footer *")].filter(e =>
     !e.closest("svg") && !scrolls(e) && !e.matches(".visually-hidden") &&
     e.getBoundingClientRect().right > innerWidth + 1);
-  parent.postMessage({width: innerWidth, scrollWidth: root.scrollWidth,
+  const shown = e => e && getComputedStyle(e).display !== "none" && e.getBoundingClientRect().width > 0;
+  const misplaced = [...document.querySelectorAll("table.checks td[data-label=Target]")].filter(e => {
+    const head = [...e.closest("table").querySelectorAll("thead th")].find(h => h.textContent === "Target");
+    return shown(head) && Math.abs(head.getBoundingClientRect().right - e.getBoundingClientRect().right) > 1;
+  });
+  parent.postMessage({width: innerWidth, misplaced: misplaced.length, scrollWidth: root.scrollWidth,
     figures: sized.length, empty: drawings.length - sized.length, wide: wide.length,
     wideNames: wide.slice(0, 5).map(e => e.tagName + "." + e.className).join(" ")}, "*");
 });

@@ -16,7 +16,8 @@ struct Visit {
 /// Shows a page in a frame of this width, for no window is as narrow as a phone, with all folded
 /// parts open, and measures it: <html> then carries data-width, data-scroll-width, data-figures
 /// (drawings with a size), data-empty (those without) and data-wide (elements that stick out at
-/// the right, named in data-wide-names).
+/// the right, named in data-wide-names), data-misplaced (targets that do not stand under their
+/// head).
 [[nodiscard]] Visit visit_framed(const std::filesystem::path& page, int width);
 
 /// The number under data-<name>; -1 if there is none.

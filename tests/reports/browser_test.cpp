@@ -21,6 +21,7 @@ void check_at(int width) {
   BOOST_TEST(measured(seen, "empty") == 0);
   BOOST_TEST(measured(seen, "scroll-width") <= width);
   BOOST_TEST(measured(seen, "wide") == 0, seen.document.substr(0, 600));
+  BOOST_TEST(measured(seen, "misplaced") == 0);
   BOOST_TEST(seen.console.find("CONSOLE") == std::string::npos, seen.console);
 }
 
