@@ -35,6 +35,18 @@ void draw_members(const System& system, Drawing& drawing) {
   }
 }
 
+/// A rigid body is a bar to its one node, or a fan of triangles about its reference.
+void draw_rigid_bodies(const Model& model, Drawing& drawing) {
+  for (const RigidBody& body : model.rigid_bodies) {
+    const std::size_t count = body.attached.size();
+    if (count == 1) drawing.members.push_back({at(body.reference), at(body.attached.front())});
+    for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k) {
+      drawing.triangles.push_back(
+          {at(body.reference), at(body.attached[k]), at(body.attached[(k + 1) % count])});
+    }
+  }
+}
+
 /// One joint a node; the one that says most wins.
 void draw_joints(const System& system, bool is_manipulator, Drawing& drawing) {
   const Model& model = system.model;
@@ -91,6 +103,7 @@ std::optional<Drawing> draw_model(const System& system, bool is_manipulator) {
     drawing.triangles.push_back(
         {at(triangle.nodes[0]), at(triangle.nodes[1]), at(triangle.nodes[2])});
   }
+  draw_rigid_bodies(system.model, drawing);
   draw_joints(system, is_manipulator, drawing);
   if (drawing.nodes.size() > most_nodes) return std::nullopt;
   return drawing;
