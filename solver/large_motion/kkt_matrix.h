@@ -1,0 +1,142 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace trammel::large {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The matrix of one Newton step of a constrained system with compliant constraints,
+///
+///     [ S   G^T ] [ dq      ]   [ b ]
+///     [ G   -C  ] [ dlambda ] = [ d ],      C = diag(c), c >= 0.
+///
+/// S alone may be singular (it has no stretch and no shear: those are rows of G), so what is
+/// factored is the same equation with a weight rho <= 1 / (2c) on each row,
+///
+///     [ S + G^T rho G   G^T E ] [ dq ]   [ b ]
+///     [ E G             -C E  ] [ y  ] = [ d ],   E = 1 - rho C,   dlambda = y + (rho / E) d,
+///
+/// whose upper left block is positive definite where the structure is stable. Each row is
+/// eliminated after its coordinates, so LDL^T needs no pivoting, and its negative pivots count the
+/// unstable directions. A relative 1e-11 on the rows' diagonal keeps redundant constraints regular.
+/// The pattern is set once; assembling, factoring and solving reuse its memory.
+class KktMatrix {
+ public:
+  /// @param blocks  each lists the unknowns that an element couples; rows are numbered from
+  ///                `coordinates` on; every row belongs to one block only; unknowns below 0 or not
+  ///                listed as free take no part.
+  KktMatrix(Index coordinates, Index constraints, const std::vector<std::vector<Index>>& blocks);
+  ~KktMatrix();
+  KktMatrix(const KktMatrix&) = delete;
+  KktMatrix& operator=(const KktMatrix&) = delete;
+  KktMatrix(KktMatrix&&) = delete;
+  KktMatrix& operator=(KktMatrix&&) = delete;
+
+  void clear();
+
+  /// Adds an element's coordinates-only matrix.
+  template <class Matrix>
+  void add(Index block, const Matrix& S) {
+    scatter(block, S, 0);
+  }
+
+  /// Adds an element with constraint rows: S (n x n), G (m x n), c and rho (m).
+  template <class Matrix, class Gradient, class Rows>
+  void add(Index block, const Matrix& S, const Gradient& G, const Rows& c, const Rows& rho) {
+    add(block, S, G, G, c, rho);
+  }
+
+  /// The same where the columns' D^T is not the transpose of the rows' G.
+  template <class Matrix, class Gradient, class Rows>
+  void add(Index block, const Matrix& S, const Gradient& D, const Gradient& G, const Rows& c,
+           const Rows& rho) {
+    const Rows weight = rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
+    const Rows E = Rows::Ones(c.size()) - weight.cwiseProduct(c);
+    const Matrix augmented = S + D.transpose() * weight.asDiagonal() * G;
+    scatter(block, augmented, G.rows());
+    scatter_rows(block, D, G, E);
+    const Index n = S.rows();
+    for (Index i = 0; i < G.rows(); ++i) {
+      add_row_diagonal(block, n + i, n + G.rows(), -c[i] * E[i] - 1e-11 / weight[i],
+                       weight[i] / E[i]);
+    }
+  }
+
+  /// Adds to the diagonal of one coordinate.
+  void add_diagonal(Index coordinate, double value);
+
+  /// Factors by LDL^T, or by LU where the matrix is not symmetric or a pivot vanishes.
+  /// @return false: singular to working precision.
+  [[nodiscard]] bool factor(bool symmetric);
+
+  /// Solves in place: (b, d) becomes (dq, dlambda).
+  void solve(Eigen::Ref<VectorXd> right_hand_side) const;
+
+  /// Unstable directions: negative pivots beyond those of the constraints; -1 without LDL^T.
+  [[nodiscard]] Index negative_pivots() const;
+
+  [[nodiscard]] Index coordinates() const { return coordinates_; }
+  [[nodiscard]] Index constraints() const { return constraints_; }
+  [[nodiscard]] std::int64_t factorizations() const { return factorizations_; }
+  [[nodiscard]] std::int64_t solves() const { return solves_; }
+
+ private:
+  struct Factors;
+
+  void order(const std::vector<std::vector<Index>>& blocks);
+  void allocate(const std::vector<std::vector<Index>>& blocks);
+  [[nodiscard]] int find_slot(Index row, Index column) const;
+  [[nodiscard]] bool factor_lu();
+
+  /// Adds the n x n matrix into the leading part of a block of n + rows unknowns.
+  template <class Matrix>
+  void scatter(Index block, const Matrix& values, Index rows) {
+    const Index n = values.rows();
+    const int* slot = slots_.data() + block_start_[static_cast<std::size_t>(block)];
+    double* a = matrix_.valuePtr();
+    for (Index j = 0; j < n; ++j) {
+      for (Index i = 0; i < n; ++i) {
+        const int s = slot[j * (n + rows) + i];
+        if (s >= 0) a[s] += values(i, j);
+      }
+    }
+  }
+
+  template <class Gradient, class Rows>
+  void scatter_rows(Index block, const Gradient& D, const Gradient& G, const Rows& E) {
+    const Index n = G.cols(), m = G.rows();
+    const int* slot = slots_.data() + block_start_[static_cast<std::size_t>(block)];
+    double* a = matrix_.valuePtr();
+    for (Index j = 0; j < n; ++j) {
+      for (Index i = 0; i < m; ++i) {
+        const int below = slot[j * (n + m) + n + i], right = slot[(n + i) * (n + m) + j];
+        if (below < 0) continue;
+        a[below] += E[i] * G(i, j);
+        a[right] += E[i] * D(i, j);
+      }
+    }
+  }
+
+  void add_row_diagonal(Index block, Index local, Index size, double value, double recovery);
+
+  Index coordinates_ = 0, constraints_ = 0;
+  std::vector<Index> place_;            ///< where an unknown stands in the elimination order
+  Eigen::SparseMatrix<double> matrix_;  ///< in elimination order, both triangles
+  std::vector<std::size_t> block_start_;
+  std::vector<int> slots_;     ///< per block, column-major: position in the values, -1: not free
+  std::vector<int> diagonal_;  ///< per coordinate
+  std::vector<Index> row_of_slot_;
+  VectorXd recovery_;  ///< rho / E of each row
+  std::unique_ptr<Factors> factors_;
+  mutable VectorXd work_, solution_;
+  mutable std::int64_t solves_ = 0;
+  std::int64_t factorizations_ = 0;
+};
+
+}  // namespace trammel::large

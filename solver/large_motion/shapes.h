@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+/// Lagrange polynomials of degree P on the Lobatto points of [-1, 1] and their integrals.
+namespace trammel::large {
+
+template <int P>
+struct Shapes {
+  static_assert(P >= 1 && P <= 3);
+  std::array<double, P + 1> node;                 ///< Lobatto points
+  Eigen::Matrix<double, P, 1> weight;             ///< of the P Gauss points; sum 1
+  Eigen::Matrix<double, P, P + 1> value;          ///< at the Gauss points
+  Eigen::Matrix<double, P, P + 1> slope;          ///< d/dx at the Gauss points, x = s / h in [0, 1]
+  Eigen::Matrix<double, P + 1, 1> integral;       ///< of each polynomial over x
+  Eigen::Matrix<double, P + 1, P + 1> stiffness;  ///< integral of slope_a slope_b
+  Eigen::Matrix<double, P + 1, P + 1> mass;       ///< integral of value_a value_b
+
+  Shapes();
+};
+
+/// The table of degree P.
+template <int P>
+const Shapes<P>& shapes() {
+  static const Shapes<P> table;
+  return table;
+}
+
+/// Place of node a of an element of that degree, in [0, 1].
+[[nodiscard]] double lobatto_place(int degree, std::size_t a);
+
+}  // namespace trammel::large
