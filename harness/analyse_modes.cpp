@@ -1,8 +1,9 @@
 #include <cmath>
 
 #include "harness/analysis_kinds.h"
-#include "harness/words.h"
+#include "harness/eigen_path.h"
 #include "solver/modes.h"
+#include "solver/prestressed_modes.h"
 
 namespace trammel {
 namespace {
@@ -10,12 +11,7 @@ namespace {
 constexpr Index shapes_drawn = 12;
 
 ModesOptions read_options(const Cursor& analysis) {
-  ModesOptions options;
-  options.count = analysis["count"].get<Index>();
-  const std::string path = analysis.get<std::string>("path", "automatic");
-  if (path == "dense") options.path = EigenPath::dense;
-  if (path == "sparse") options.path = EigenPath::sparse;
-  return options;
+  return {analysis["count"].get<Index>(), read_eigen_path(analysis)};
 }
 
 std::string label(Index mode, double frequency) {
@@ -24,12 +20,26 @@ std::string label(Index mode, double frequency) {
   return text;
 }
 
+/// What stands beside the modes of a state that loads or rotation make.
+void refuse_count_below(const Cursor& analysis, const char* beside) {
+  if (!analysis.has("count_below_Hz")) return;
+  throw analysis["count_below_Hz"].error(std::string("expected it without '") + beside +
+                                         "': it counts the modes of the unloaded model");
+}
+
+ModalSolution modes_of(const Cursor& analysis, const System& system) {
+  const ModesOptions options = read_options(analysis);
+  if (!analysis.get("prestressed", false)) return solve_modes(system, options);
+  refuse_count_below(analysis, "prestressed");
+  return solve_prestressed_modes(system, options).modes;
+}
+
 }  // namespace
 
 StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
                          Recorder& record) {
   const System system = assemble(build_model(scene, step));
-  const ModalSolution modes = solve_modes(system, read_options(analysis));
+  const ModalSolution modes = modes_of(analysis, system);
   StepResult result{modes.outcome, modes.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
   if (!modes.outcome.solved()) return result;

@@ -10,11 +10,28 @@ void record_nodes(const Model& model, const StaticSolution& solution, double rou
                   Recorder& record) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const std::string& name = model.nodes[i].name;
-    if (name.empty()) continue;  // inside a plate
+    if (name.empty()) continue;  // inside a plate or a chain of members
     const Eigen::RowVector3d motion = solution.displacement.row(static_cast<Index>(i));
     record.add("displacement_x_m", name, motion[0], roundoff);
     record.add("displacement_y_m", name, motion[1], roundoff);
     if (!std::isnan(motion[2])) record.add("rotation_rad", name, motion[2], roundoff);
+  }
+}
+
+/// M / W at the ends of each member, with the sign of M: what the fibre on the right of the way
+/// from the first to the second node feels.
+void record_bending_stress(const Model& model, const StaticSolution& solution, double roundoff,
+                           Recorder& record) {
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    const Member& member = model.members[i];
+    const auto add = [&](const char* end, const Section& section, double moment) {
+      const double modulus = section.section_modulus;
+      if (!(modulus > 0 && std::isfinite(modulus))) return;
+      record.add("bending_stress_Pa", member.name + end, moment / modulus, roundoff);
+    };
+    const auto row = static_cast<Index>(i);
+    add(".start", member.section, solution.resultant_start(row, 2));
+    add(".end", member.end_section, solution.resultant_end(row, 2));
   }
 }
 
@@ -45,6 +62,7 @@ void record_reactions(const Model& model, const StaticSolution& solution, double
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Eigen::RowVector3d reaction = solution.reaction.row(static_cast<Index>(i));
     const std::string& name = model.supports[i].name;
+    if (name.empty()) continue;  // inside a chain of members
     record.add("reaction_x_N", name, reaction[0], roundoff);
     record.add("reaction_y_N", name, reaction[1], roundoff);
     record.add("reaction_moment_N_m", name, reaction[2], roundoff);
@@ -69,9 +87,11 @@ void record_plates(const Model& model, const StaticSolution& solution, double ro
 
 }  // namespace
 
-StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw, Recorder& record) {
+StepResult analyse_statics(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
+                           Recorder& record) {
   const System system = assemble(build_model(scene, step));
-  const StaticSolution solution = solve_statics(system);
+  const StaticSolution solution =
+      solve_statics(system, {.second_order = analysis.get("second_order", false)});
   StepResult result{solution.outcome, solution.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
   if (!solution.outcome.solved()) return result;
@@ -79,6 +99,7 @@ StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw, Reco
   const Model& model = system.model;
   record_nodes(model, solution, roundoff, record);
   record_members(model, solution, roundoff, record);
+  if (!scene.along_path) record_bending_stress(model, solution, roundoff, record);
   record_reactions(model, solution, roundoff, record);
   record_plates(model, solution, roundoff, record);
   record.add("equilibrium_residual_N", "", solution.equilibrium_residual);

@@ -15,7 +15,8 @@ void add(Counters& total, const Counters& more) {
 StepResult analyse_step(const std::string& kind, const Cursor& analysis, const Scene& scene,
                         std::size_t step, bool draw, Recorder& record) {
   if (kind == "modes") return analyse_modes(analysis, scene, step, draw, record);
-  if (kind == "statics") return analyse_statics(scene, step, draw, record);
+  if (kind == "statics") return analyse_statics(analysis, scene, step, draw, record);
+  if (kind == "buckling") return analyse_buckling(analysis, scene, step, draw, record);
   if (kind == "kinematics") return analyse_kinematics(scene, step, draw, record);
   return analyse_properties(scene, step, draw, record);
 }

@@ -14,13 +14,18 @@ struct StepResult {
   std::optional<Drawing> drawing;  ///< on the first step, when asked for
 };
 
-/// Natural frequencies; along a path one quantity a mode, frequency_Hz:1 ...
+/// Natural frequencies, at rest, under the model's loads or in a rotating frame; along a path one
+/// quantity a mode, frequency_Hz:1 ...
 [[nodiscard]] StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step,
                                        bool draw, Recorder& record);
 
 /// Displacements, end rotations, reactions, section forces, stresses, residuals.
-[[nodiscard]] StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw,
-                                         Recorder& record);
+[[nodiscard]] StepResult analyse_statics(const Cursor& analysis, const Scene& scene,
+                                         std::size_t step, bool draw, Recorder& record);
+
+/// Multiples of all loads together at which the model buckles, and what they make of each force.
+[[nodiscard]] StepResult analyse_buckling(const Cursor& analysis, const Scene& scene,
+                                          std::size_t step, bool draw, Recorder& record);
 
 /// Joint angles, closure, distances from singularities, holding torques.
 [[nodiscard]] StepResult analyse_kinematics(const Scene& scene, std::size_t step, bool draw,

@@ -62,7 +62,9 @@ void draw_joints(const System& system, bool is_manipulator, Drawing& drawing) {
     std::string& word = kind[at(body.reference)];
     if (word.empty()) word = "rigid";
   }
-  for (const Support& support : model.supports) kind[at(support.node)] = "support";
+  for (const Support& support : model.supports) {
+    if (!support.name.empty()) kind[at(support.node)] = "support";
+  }
   if (is_manipulator) {
     for (std::size_t i = 0; i < 3; ++i) {
       kind[i] = "active";

@@ -1,10 +1,12 @@
 #include "harness/frame_reader.h"
 
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 
 #include "harness/material_reader.h"
+#include "harness/member_chain.h"
 #include "harness/words.h"
 
 namespace trammel {
@@ -32,6 +34,7 @@ struct Names {
   std::vector<Vector2d> position;
   std::map<std::string, Material> material;
   std::map<std::string, Section> section;
+  Index count_before = 0;  ///< nodes that the manipulator has
 
   [[nodiscard]] Index find_node(const Cursor& name) const { return look_up(node, name, "node"); }
 };
@@ -112,6 +115,44 @@ Member read_member(const std::string& name, const Cursor& place, const Names& na
   if (place.has("ends")) member.ends = {read_end(place["ends"][0]), read_end(place["ends"][1])};
   if (place.has("load_N_per_m")) member.load = read_point(place["load_N_per_m"]);
   return member;
+}
+
+bool tapers(const Cursor& place) {
+  if (!place.has("taper")) return false;
+  if (!place.has("end_section")) throw place["taper"].error("expected an 'end_section' beside it");
+  return place.text("taper") == "exponential";
+}
+
+MemberChain read_chain(const Cursor& place) {
+  MemberChain chain;
+  if (const auto center = place.find("arc_center_m")) chain.arc_center = read_point(*center);
+  if (const auto held = place.find("held")) {
+    for (const auto& entry : held->entries()) {
+      const auto motion = entry.second.get<std::string>();
+      chain.held[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
+    }
+  }
+  chain.exponential = tapers(place);
+  return chain;
+}
+
+void read_members(const Cursor& members, const Names& names, Index elements, Model& parts) {
+  for (const auto& [name, place] : members.entries()) {
+    const Member member = read_member(name, place, names, elements);
+    const MemberChain chain = read_chain(place);
+    if (!chain.needed()) {
+      parts.members.push_back(member);
+      continue;
+    }
+    const auto at = [&](std::size_t end) {
+      return names.position[static_cast<std::size_t>(member.nodes[end])];
+    };
+    try {
+      add_chain(member, chain, at(0), at(1), names.count_before + std::ssize(parts.nodes), parts);
+    } catch (const ModelError& error) {
+      throw place["arc_center_m"].error(error.what());
+    }
+  }
 }
 
 double twice_area(const Names& names, const Triangle& triangle) {
@@ -219,6 +260,7 @@ Names read_names(const Cursor& model, const std::vector<Node>& before, Model& pa
     names.position.push_back(position);
     return fresh;
   };
+  names.count_before = std::ssize(before);
   for (const Node& node : before) add(node.name, node.position);
   each(model, "nodes", [&](const std::string& name, const Cursor& place) {
     parts.nodes.push_back({name, read_point(place)});
@@ -241,9 +283,7 @@ Model read_parts(const Cursor& model, const std::vector<Node>& before) {
   Model parts;
   const Names names = read_names(model, before, parts);
   const Index elements = model.get<Index>("elements", 1);
-  each(model, "members", [&](const std::string& name, const Cursor& place) {
-    parts.members.push_back(read_member(name, place, names, elements));
-  });
+  if (const auto members = model.find("members")) read_members(*members, names, elements, parts);
   if (const auto plates = model.find("plates")) read_plates(*plates, names, parts);
   each(model, "rigid_bodies", [&](const std::string& name, const Cursor& place) {
     parts.rigid_bodies.push_back(read_rigid_body(name, place, names));

@@ -1,5 +1,7 @@
 #include "solver/buckling.h"
 
+#include <limits>
+
 #include "solver/recovery.h"
 #include "solver/refinement.h"
 #include "solver/statics.h"
@@ -36,6 +38,15 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.load_factor = pairs.value;
   solution.shape = pairs.vector;
   solution.inertia_count = pairs.inertia_count;
+  solution.roundoff.resize(pairs.value.size());
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  const SparseMatrix size = softening.cwiseAbs();
+  for (Index j = 0; j < pairs.value.size(); ++j) {
+    const Eigen::VectorXd x = pairs.vector.col(j);
+    const double elastic = strain_roundoff(system, system.T * x) / pairs.value[j];
+    const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs());
+    solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
+  }
   return solution;
 }
 

@@ -18,8 +18,10 @@ struct BucklingOptions {
 struct BucklingSolution {
   Outcome outcome;              ///< singular: the model is a mechanism before any load
   Eigen::VectorXd load_factor;  ///< ascending [-]; empty where the loads compress nothing
-  Eigen::MatrixXd shape;        ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
-  Index inertia_count = 0;      ///< factors below the check shift, by sparse LDL^T
+  /// Estimate of each factor's relative round-off error [-], as in ModalSolution.
+  Eigen::VectorXd roundoff;
+  Eigen::MatrixXd shape;    ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
+  Index inertia_count = 0;  ///< factors below the check shift, by sparse LDL^T
   Counters counters;
 };
 
