@@ -45,7 +45,7 @@ StepResult analyse_buckling(const Cursor& analysis, const Scene& scene, std::siz
   if (!buckling.outcome.solved()) return result;
   for (Index i = 0; i < buckling.load_factor.size(); ++i) {
     const double factor = buckling.load_factor[i];
-    const std::string mode = scene.along_path ? std::to_string(i + 1) : "";
+    const std::string mode = scene.path ? std::to_string(i + 1) : "";
     record.add("load_factor", mode, factor, buckling.roundoff[i]);
     record_forces(analysis, mode.empty() ? "" : "." + mode, factor, buckling.roundoff[i], record);
     if (result.drawing && i < shapes_drawn) {

@@ -44,7 +44,7 @@ StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t
   if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
   if (!modes.outcome.solved()) return result;
   for (Index i = 0; i < modes.frequency.size(); ++i) {
-    const std::string of = scene.along_path ? std::to_string(i + 1) : "";
+    const std::string of = scene.path ? std::to_string(i + 1) : "";
     record.add("frequency_Hz", of, modes.frequency[i], modes.roundoff[i]);
     record.add("frequency_roundoff", of, modes.roundoff[i]);
     if (result.drawing && i < shapes_drawn) {

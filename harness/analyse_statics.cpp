@@ -99,7 +99,7 @@ StepResult analyse_statics(const Cursor& analysis, const Scene& scene, std::size
   const Model& model = system.model;
   record_nodes(model, solution, roundoff, record);
   record_members(model, solution, roundoff, record);
-  if (!scene.along_path) record_bending_stress(model, solution, roundoff, record);
+  if (!scene.path) record_bending_stress(model, solution, roundoff, record);
   record_reactions(model, solution, roundoff, record);
   record_plates(model, solution, roundoff, record);
   record.add("equilibrium_residual_N", "", solution.equilibrium_residual);

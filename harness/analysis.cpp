@@ -21,14 +21,44 @@ StepResult analyse_step(const std::string& kind, const Cursor& analysis, const S
   return analyse_properties(scene, step, draw, record);
 }
 
-void record_path(const Scene& scene, std::size_t step, Recorder& record) {
-  record.add("time_s", "", scene.time[step]);
-  record.add("pose_x_m", "", scene.poses[step].x);
-  record.add("pose_y_m", "", scene.poses[step].y);
-  record.add("pose_phi_rad", "", scene.poses[step].phi);
+/// Step by step along the path; ends where a step has no solution.
+StepResult analyse_steps(const std::string& kind, const Cursor& analysis, const Scene& scene,
+                         bool draw, Recorder& record) {
+  StepResult all;
+  for (std::size_t step = 0; step < scene.steps(); ++step) {
+    record_path(scene, step, record);
+    StepResult found = analyse_step(kind, analysis, scene, step, draw && step == 0, record);
+    add(all.counters, found.counters);
+    if (found.drawing) all.drawing = std::move(found.drawing);
+    if (found.outcome.solved()) continue;
+    all.outcome = at_point(scene, step, found.outcome);
+    break;
+  }
+  return all;
+}
+
+StepResult analyse_scene(const std::string& kind, const Cursor& analysis, const Scene& scene,
+                         bool draw, Recorder& record) {
+  if (kind == "inverse-dynamics") return analyse_inverse_dynamics(analysis, scene, draw, record);
+  if (kind == "forward-dynamics") return analyse_forward_dynamics(analysis, scene, draw, record);
+  return analyse_steps(kind, analysis, scene, draw, record);
 }
 
 }  // namespace
+
+void record_path(const Scene& scene, std::size_t step, Recorder& record) {
+  if (!scene.path) return;
+  const TrajectoryPoint& point = scene.motion[step];
+  record.add("time_s", "", point.time);
+  record.add("pose_x_m", "", point.pose.x);
+  record.add("pose_y_m", "", point.pose.y);
+  record.add("pose_phi_rad", "", point.pose.phi);
+}
+
+Outcome at_point(const Scene& scene, std::size_t step, Outcome outcome) {
+  if (scene.path) outcome.reason.insert(0, "point " + std::to_string(step) + ": ");
+  return outcome;
+}
 
 std::string analysis_kind(const Document& document) {
   return document.value().at("analysis").begin().key();
@@ -54,23 +84,12 @@ AnalysisResult analyse(const Document& document, const References& references,
     throw place.error("expected a model with a manipulator");
   }
   try {
-    for (std::size_t step = 0; step < scene.steps(); ++step) {
-      const bool draw = options.drawing && step == 0;
-      if (scene.along_path) record_path(scene, step, record);
-      StepResult found = analyse_step(kind, place, scene, step, draw, record);
-      add(result.counters, found.counters);
-      if (found.drawing) result.drawing = std::move(found.drawing);
-      if (found.outcome.solved()) continue;
-      result.outcome = found.outcome;
-      if (scene.along_path) {
-        result.outcome.reason = "point " + std::to_string(step) + ": " + result.outcome.reason;
-      }
-      return result;
-    }
+    StepResult found = analyse_scene(kind, place, scene, options.drawing, record);
+    result = {found.outcome, {}, std::move(found.drawing), found.counters};
   } catch (const ModelError& error) {
     throw model_error(document, error);
   }
-  result.quantities = record.take();
+  if (result.outcome.solved()) result.quantities = record.take();
   return result;
 }
 

@@ -4,7 +4,8 @@
 #include "harness/recorder.h"
 #include "harness/scene.h"
 
-/// The analyses, one source each. Each adds what it finds at one step of the scene's path.
+/// The analyses, one source each. Each adds what it finds at one step of the scene's path, or along
+/// the whole of it.
 namespace trammel {
 
 /// What an analysis of one step leaves behind.
@@ -13,6 +14,12 @@ struct StepResult {
   Counters counters;
   std::optional<Drawing> drawing;  ///< on the first step, when asked for
 };
+
+/// Time and pose of a step of the path; nothing where there is none.
+void record_path(const Scene& scene, std::size_t step, Recorder& record);
+
+/// The outcome of a step, its reason naming the point of the path.
+[[nodiscard]] Outcome at_point(const Scene& scene, std::size_t step, Outcome outcome);
 
 /// Natural frequencies, at rest, under the model's loads or in a rotating frame; along a path one
 /// quantity a mode, frequency_Hz:1 ...
@@ -30,6 +37,15 @@ struct StepResult {
 /// Joint angles, closure, distances from singularities, holding torques.
 [[nodiscard]] StepResult analyse_kinematics(const Scene& scene, std::size_t step, bool draw,
                                             Recorder& record);
+
+/// Torques along the whole path, motions of all links, power balance, residuals of the properties
+/// of Eq. 4, 5, work over a turn.
+[[nodiscard]] StepResult analyse_inverse_dynamics(const Cursor& analysis, const Scene& scene,
+                                                  bool draw, Recorder& record);
+
+/// From torques back to the motion: those of the inverse dynamics of the path, or constant ones.
+[[nodiscard]] StepResult analyse_forward_dynamics(const Cursor& analysis, const Scene& scene,
+                                                  bool draw, Recorder& record);
 
 /// Lengths, masses, centres and inertias of the parts and of the whole.
 [[nodiscard]] StepResult analyse_properties(const Scene& scene, std::size_t step, bool draw,

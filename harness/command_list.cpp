@@ -49,10 +49,10 @@ std::string model_words(const Document& document) {
     text = platform.kind == PlatformDesign::Kind::rigid
                ? "3-RRR manipulator with a rigid platform"
                : "3-RRR manipulator with a platform of triangles";
-    const Pose& pose = scene.poses.front();
-    text += scene.along_path ? ", along " + count_of(scene.poses.size(), "pose")
-                             : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
-                                   " m, phi = " + shortest(pose.phi) + " rad";
+    const Pose& pose = scene.motion.front().pose;
+    text += scene.path ? ", along " + count_of(scene.motion.size(), "pose")
+                       : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
+                             " m, phi = " + shortest(pose.phi) + " rad";
   } else {
     text = "planar model";
   }

@@ -128,7 +128,8 @@ Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
   return shape;
 }
 
-Drawing draw_manipulator(const ManipulatorGeometry& geometry, const std::vector<Pose>& poses) {
+Drawing draw_manipulator(const ManipulatorGeometry& geometry,
+                         const std::vector<TrajectoryPoint>& motion) {
   const auto nodes_at = [&](const Pose& pose) {
     const Posture posture = inverse_kinematics(geometry, pose);
     std::vector<Vector2d> nodes(geometry.base.begin(), geometry.base.end());
@@ -138,7 +139,7 @@ Drawing draw_manipulator(const ManipulatorGeometry& geometry, const std::vector<
     return nodes;
   };
   Drawing drawing;
-  drawing.nodes = nodes_at(poses.front());
+  drawing.nodes = nodes_at(motion.front().pose);
   for (std::size_t i = 0; i < 3; ++i) {
     drawing.members.push_back({i, 3 + i});
     drawing.members.push_back({3 + i, 6 + i});
@@ -149,9 +150,9 @@ Drawing draw_manipulator(const ManipulatorGeometry& geometry, const std::vector<
     drawing.joints.push_back({6 + i, "hinged", "C" + limb});
   }
   constexpr std::size_t more = 4;
-  for (std::size_t k = 1; k < more && poses.size() >= more; ++k) {
-    const std::size_t point = k * (poses.size() - 1) / more;
-    drawing.poses.push_back({"point " + std::to_string(point), nodes_at(poses[point])});
+  for (std::size_t k = 1; k < more && motion.size() >= more; ++k) {
+    const std::size_t point = k * (motion.size() - 1) / more;
+    drawing.poses.push_back({"point " + std::to_string(point), nodes_at(motion[point].pose)});
   }
   return drawing;
 }

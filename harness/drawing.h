@@ -7,6 +7,7 @@
 
 #include "solver/kinematics.h"
 #include "solver/system.h"
+#include "solver/trajectory.h"
 
 namespace trammel {
 
@@ -46,8 +47,8 @@ struct Drawing {
 [[nodiscard]] Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& u,
                                           double s);
 
-/// A rigid manipulator at the first pose and at a few more of the path.
+/// A rigid manipulator at the first point and at a few more of the path.
 [[nodiscard]] Drawing draw_manipulator(const ManipulatorGeometry& geometry,
-                                       const std::vector<trammel::Pose>& poses);
+                                       const std::vector<TrajectoryPoint>& motion);
 
 }  // namespace trammel

@@ -1,9 +1,9 @@
 #include "harness/manipulator_reader.h"
 
-#include <cmath>
 #include <map>
 
 #include "harness/material_reader.h"
+#include "harness/trajectory_reader.h"
 #include "harness/words.h"
 
 namespace trammel {
@@ -103,32 +103,18 @@ std::array<Joint<Kind>, 3> read_joints(const Cursor& joints, const char* key,
   return read;
 }
 
-void read_circle(const Cursor& circle, Scene& scene) {
-  const Vector2d center = read_point(circle["center_m"]);
-  const double radius = circle.number("radius_m");
-  const double step = circle.number("step_s");
-  const double speed = circle.get("angular_speed_rad_s", 1.0);
-  const double phi = circle.get("phi_rad", 0.0);
-  for (int i = 0; i < circle["points"].get<int>(); ++i) {
-    const double time = i * step;
-    const double s = speed * time;
-    scene.time.push_back(time);
-    scene.poses.push_back(
-        {center.x() + radius * std::cos(s), center.y() + radius * std::sin(s), phi});
-  }
-  scene.along_path = true;
-}
-
-void read_poses(const Cursor& model, Scene& scene) {
+void read_motion(const Cursor& model, Scene& scene) {
   const bool single = has_first(model, "pose", "trajectory");
   if (single) {
     const Cursor pose = model["pose"];
-    scene.poses = {{pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}};
+    scene.motion = {{0, {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}}};
   } else {
-    read_circle(model["trajectory"]["circle"], scene);
+    Trajectory trajectory = read_trajectory(model["trajectory"]);
+    scene.path = std::move(trajectory.path);
+    scene.motion = std::move(trajectory.motion);
   }
-  for (std::size_t i = 0; i < scene.poses.size(); ++i) {
-    const Posture posture = inverse_kinematics(scene.manipulator->geometry, scene.poses[i]);
+  for (std::size_t i = 0; i < scene.motion.size(); ++i) {
+    const Posture posture = inverse_kinematics(scene.manipulator->geometry, scene.motion[i].pose);
     if (posture.outcome.solved()) continue;
     const std::string point = single ? "" : " at point " + std::to_string(i);
     throw model[single ? "pose" : "trajectory"].error("expected a pose within reach" + point +
@@ -163,7 +149,7 @@ void read_manipulator(const Cursor& model, Scene& scene) {
                                       {"eq25-mean", PlatformJointKind::eq25_mean},
                                       {"eq25-sum", PlatformJointKind::eq25_sum}});
   scene.manipulator = design;
-  read_poses(model, scene);
+  read_motion(model, scene);
 }
 
 }  // namespace trammel

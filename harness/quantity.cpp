@@ -1,5 +1,6 @@
 #include "harness/quantity.h"
 
+#include <set>
 #include <utility>
 
 namespace trammel {
@@ -9,6 +10,7 @@ namespace {
 const std::vector<std::pair<std::string, std::string>>& units() {
   static const std::vector<std::pair<std::string, std::string>> table = {
       {"_N_m_per_rad", "N m/rad"},
+      {"_rad_per_s2", "rad/s^2"},
       {"_rad_per_s", "rad/s"},
       {"_m_per_s2", "m/s^2"},
       {"_N_per_m", "N/m"},
@@ -49,7 +51,10 @@ std::string unit_of(const std::string& name) {
 }
 
 bool is_count(const std::string& name) {
-  return name == "modes_below" || name == "rigid_motions" || name == "degrees_of_freedom";
+  static const std::set<std::string> counts = {"modes_below",        "rigid_motions",
+                                               "degrees_of_freedom", "steps",
+                                               "rejected_steps",     "evaluations"};
+  return counts.count(name) > 0;
 }
 
 }  // namespace trammel

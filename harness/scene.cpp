@@ -29,8 +29,9 @@ Scene read_scene(const Document& document) {
     }
   }
   try {
-    const Model bare =
-        scene.manipulator ? build_manipulator(*scene.manipulator, scene.poses.front()) : Model();
+    const Model bare = scene.manipulator
+                           ? build_manipulator(*scene.manipulator, scene.motion.front().pose)
+                           : Model();
     scene.parts = read_parts(model, bare.nodes);
   } catch (const ModelError& error) {
     throw model_error(document, error);
@@ -40,7 +41,7 @@ Scene read_scene(const Document& document) {
 
 Model build_model(const Scene& scene, std::size_t step) {
   if (!scene.manipulator) return scene.parts;
-  Model model = build_manipulator(*scene.manipulator, scene.poses.at(step));
+  Model model = build_manipulator(*scene.manipulator, scene.motion.at(step).pose);
   const auto plates = static_cast<Index>(model.plates.size());
   for (Triangle triangle : scene.parts.triangles) {
     triangle.plate += plates;

@@ -6,25 +6,25 @@
 #include "harness/cursor.h"
 #include "solver/manipulator.h"
 #include "solver/model.h"
+#include "solver/trajectory.h"
 
 namespace trammel {
 
 /// What the "model" of a case describes, ready to be built at each of its poses.
 struct Scene {
   std::optional<ManipulatorDesign> manipulator;
-  std::vector<Pose> poses;   ///< of the manipulator: one, or those of the path
-  bool along_path = false;   ///< every quantity has one number a pose
-  std::vector<double> time;  ///< of the poses along a path [s]
+  /// Of the platform: one pose at rest, or the points of the path.
+  std::vector<TrajectoryPoint> motion;
+  std::optional<Path> path;  ///< where there is one, every quantity has one number a point
   /// Everything else. Its indices count the manipulator's nodes first, then its own.
   Model parts;
 
-  [[nodiscard]] std::size_t steps() const { return along_path ? poses.size() : 1; }
+  [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
 };
 
 /// @param document  a case with its patches, which has passed the schema
 /// @throws InputError  where names lead nowhere, geometry is impossible, a pose is out of reach or
-/// a
-///                     combination has no meaning.
+///                     a combination has no meaning.
 [[nodiscard]] Scene read_scene(const Document& document);
 
 /// The planar model at a pose of the path (0 where there is none).

@@ -1,5 +1,6 @@
 #include "solver/rigid_dynamics.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
@@ -382,6 +383,18 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
   terms.Ch = terms.W.transpose() * (terms.M * terms.W_dot + terms.C * terms.W);
   terms.Nh = terms.W.transpose() * terms.N;
   return terms;
+}
+
+PropertyResiduals property_residuals(const RigidManipulator& m, const RigidTerms& terms) {
+  constexpr double h = 1e-30;  // so small that no rounding sees it: the step is exact
+  Eigen::Matrix<Complex, 9, 1> q;
+  for (Index i = 0; i < 9; ++i) q(i) = {terms.q(i), h * terms.q_dot(i)};
+  const Matrix3d Mh_dot = reduced_mass<Complex>(m, q).imag() / h;
+  const Matrix3d S = Mh_dot - 2 * terms.Ch;
+  const double scale = Mh_dot.norm() + 2 * terms.Ch.norm();
+  return {(terms.Mh - terms.Mh.transpose()).norm() / terms.Mh.norm(),
+          scale > 0 ? (S + S.transpose()).norm() / scale : 0,
+          Eigen::SelfAdjointEigenSolver<Matrix3d>(terms.Mh).eigenvalues()(0)};
 }
 
 InverseDynamics inverse_dynamics(const RigidManipulator& m, const TrajectoryPoint& motion,

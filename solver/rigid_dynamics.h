@@ -72,6 +72,19 @@ struct RigidTerms {
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,
                                      const Vector3d& velocity);
 
+/// How well the two properties of Eq. 4, 5 hold in one state.
+struct PropertyResiduals {
+  double symmetry = 0;  ///< |Mh - Mh^T| / |Mh| [-]
+  /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch, with Mh. by complex step, which knows nothing
+  /// of C; 0 at a standstill [-]
+  double skewness = 0;
+  double least_eigenvalue = 0;  ///< of Mh [kg m^2]
+};
+
+/// @pre terms.outcome.solved()
+[[nodiscard]] PropertyResiduals property_residuals(const RigidManipulator& manipulator,
+                                                   const RigidTerms& terms);
+
 /// Plane motion of one body; position, velocity and acceleration of its centre of mass.
 struct BodyMotion {
   Vector2d position, velocity, acceleration;

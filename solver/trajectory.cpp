@@ -4,6 +4,7 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trammel {
 
@@ -62,10 +63,15 @@ TrajectoryPoint evaluate(const RestToRest& path, double t) {
                  60 * u * v * (v - u) / (T * T));
 }
 
-TrajectoryPoint evaluate(const Spline& spline, double t) {
+TrajectoryPoint evaluate(const Spline& spline, double time) {
   const auto& times = spline.times;
-  require(times.size() >= 2 && t >= times.front() && t <= times.back(),
+  require(times.size() >= 2, "a table of poses needs at least three points");
+  // A multiple of a step may lie past the end by a rounding: 63 steps of 0.1 s make more than 6.3.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(times.front()), std::abs(times.back()));
+  require(time >= times.front() - rounding && time <= times.back() + rounding,
           "the time lies outside the table of poses");
+  const double t = std::clamp(time, times.front(), times.back());
   const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, t);
   const auto k = static_cast<Index>(next - times.begin());
   const double h = *next - *(next - 1);

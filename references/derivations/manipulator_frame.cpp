@@ -1,44 +1,23 @@
 #include "references/derivations/manipulator_frame.h"
 
+#include "references/derivations/manipulator_shape.h"
+
 namespace trammel::derive {
 
 namespace {
 
-using Point = std::array<Real, 2>;
+using Point = Place<Real>;
 
 struct Limb {
   Point A, B, C;
 };
 
-/// Vertices of an equilateral triangle about `centre`, at 210, 330 and 90 degrees plus `angle`.
-std::array<Point, 3> triangle(const Point& centre, const Real& side, const Real& angle) {
-  const Real radius = side / sqrt(Real(3));
-  std::array<Point, 3> vertices;
-  for (int i = 0; i < 3; ++i) {
-    const Real direction = angle + pi<Real>() * (7 + 4 * i) / 6;
-    vertices[i] = {centre[0] + radius * cos(direction), centre[1] + radius * sin(direction)};
-  }
-  return vertices;
-}
-
-/// The intersection of the circles about A and C; mode -1 lies clockwise of the line A C.
-Point elbow(const Point& A, const Point& C, const Real& proximal, const Real& distal, int mode) {
-  const Real dx = C[0] - A[0];
-  const Real dy = C[1] - A[1];
-  const Real r2 = dx * dx + dy * dy;
-  const Real along = (proximal * proximal - distal * distal + r2) / (2 * r2);  // of A C
-  const Real height2 = proximal * proximal / r2 - along * along;
-  if (height2 < 0) throw DerivationError("a limb cannot reach its platform joint");
-  const Real across = mode * sqrt(height2);
-  return {A[0] + along * dx - across * dy, A[1] + along * dy + across * dx};
-}
-
 std::array<Limb, 3> limbs(const Arguments& manipulator, const Arguments& links,
                           const Arguments& platform, const Arguments& pose) {
   const Real side = manipulator.positive("base_side_m");
-  const auto A = triangle({side / 2, side / (2 * sqrt(Real(3)))}, side, 0);
-  const auto C = triangle({pose.number("x_m"), pose.number("y_m")}, platform.positive("side_m"),
-                          pose.number("phi_rad", 0));
+  const auto A = triangle<Real>({side / 2, side / (2 * sqrt(Real(3)))}, side, 0);
+  const auto C = triangle<Real>({pose.number("x_m"), pose.number("y_m")},
+                                platform.positive("side_m"), pose.number("phi_rad", 0));
   const std::vector<Real> mode = manipulator.has("working_mode")
                                      ? manipulator.numbers("working_mode", 3)
                                      : std::vector<Real>(3, Real(-1));
@@ -46,8 +25,8 @@ std::array<Limb, 3> limbs(const Arguments& manipulator, const Arguments& links,
   for (int i = 0; i < 3; ++i) {
     if (mode[i] != 1 && mode[i] != -1) manipulator.fail("working_mode", "expected 1 or -1");
     result[i] = {A[i],
-                 elbow(A[i], C[i], links.positive("proximal_length_m"),
-                       links.positive("distal_length_m"), static_cast<int>(mode[i])),
+                 elbow<Real>(A[i], C[i], links.positive("proximal_length_m"),
+                             links.positive("distal_length_m"), static_cast<int>(mode[i])),
                  C[i]};
   }
   return result;

@@ -7,6 +7,7 @@
 #include "references/derivations/elastica.h"
 #include "references/derivations/exponential_beam.h"
 #include "references/derivations/expression.h"
+#include "references/derivations/manipulator_torques.h"
 #include "references/derivations/parallelogram_chain.h"
 #include "references/derivations/pendulum.h"
 #include "references/derivations/rotating_beam.h"
@@ -90,6 +91,12 @@ const std::map<std::string, Program>& programs() {
         "model (as in a case file; or manipulator, pose, loads), outputs (displacement_x_m:NODE, "
         "rotation_rad:NODE, reaction_y_N:NODE, bending_moment_N_m:MEMBER.end, ...)",
         frame_statics_program}},
+      {"manipulator-torques",
+       {"torques of the rigid planar 3-RRR along a path [N m], Newton and Euler for each of its "
+        "seven bodies",
+        "manipulator, trajectory (circle | line | rest_to_rest | spline), times_s, force_N, "
+        "moment_N_m, gravity_m_s2; torques at A1 at all times, then A2, then A3",
+        manipulator_torques_program}},
       {"formula",
        {"closed formulas, one value each, in extended precision",
         "formulas (array of texts: + - * / ^, parentheses, sqrt, sin, cos, tan, exp, log, pi), "

@@ -105,6 +105,64 @@ BOOST_AUTO_TEST_CASE(a_load_at_a_corner_of_the_platform_is_carried_to_its_centre
              boost::test_tools::tolerance(1e-9));
 }
 
+BOOST_AUTO_TEST_CASE(the_torques_of_a_slow_motion_hold_the_load) {
+  Json json = on_a_circle(testing::manipulator(), 20);
+  json["model"]["loads"] = {{"a", {{"node", "C2"}, {"force_N", {3, 1}}}}};
+  json["model"]["trajectory"]["circle"]["angular_speed_rad_s"] = 1e-6;
+  json["analysis"] = {{"kinematics", Json::object()}};
+  const AnalysisResult held = result_of(json);
+  json["analysis"] = {{"inverse-dynamics", {{"bodies", true}}}};
+  const AnalysisResult moved = result_of(json);
+  for (const char* joint : {"A1", "A2", "A3"}) {
+    const auto& hold = held.quantities.at(std::string("holding_torque_N_m:") + joint).values;
+    const auto& torque = moved.quantities.at(std::string("torque_N_m:") + joint).values;
+    BOOST_REQUIRE(torque.size() == 20);
+    for (std::size_t i = 0; i < 20; ++i) {
+      BOOST_TEST(torque[i] == hold[i], boost::test_tools::tolerance(1e-9));
+    }
+  }
+  BOOST_TEST(moved.quantities.at("center_velocity_y_m_per_s:platform").values.size() == 20);
+  BOOST_TEST(std::abs(moved.quantities.at("turn_work_residual").values.at(0)) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(the_torques_of_a_path_bring_the_platform_along_it) {
+  Json json = on_a_circle(testing::manipulator(), 11);
+  json["analysis"] = {{"forward-dynamics", {{"tolerance", 1e-9}}}};
+  json["model"]["loads"] = Json::object();
+  const AnalysisResult there = result_of(json);
+  for (const double error : there.quantities.at("position_error_m").values) {
+    BOOST_TEST(error < 1e-11);
+  }
+  json["analysis"]["forward-dynamics"]["torque_N_m"] = {0.01, 0, 0};
+  json["model"]["gravity_m_s2"] = {0, -9.81};
+  const AnalysisResult away = result_of(json);
+  BOOST_TEST(away.quantities.count("position_error_m") == 0U);
+  for (const double residual : away.quantities.at("energy_residual").values) {
+    BOOST_TEST(std::abs(residual) < 1e-8);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rigid_dynamics_refuses_what_it_would_leave_out) {
+  const auto refusal = [](const char* kind, const Json& patch) {
+    Json json = testing::manipulator();
+    json["analysis"] = {{kind, Json::object()}};
+    json["model"].merge_patch(patch);
+    return complaint([&] { (void)result_of(json); });
+  };
+  BOOST_TEST(contains(
+      refusal("inverse-dynamics", {{"point_masses", {{"m", {{"node", "P"}, {"mass_kg", 1}}}}}}),
+      "/model/point_masses: expected nothing beside the manipulator"));
+  BOOST_TEST(contains(
+      refusal("inverse-dynamics", {{"loads", {{"l", {{"node", "B1"}, {"force_N", {1, 0}}}}}}}),
+      "/model/loads/l/node: expected a load on the platform"));
+  BOOST_TEST(contains(refusal("forward-dynamics", Json::object()),
+                      "/analysis/forward-dynamics: expected a model with a trajectory"));
+  Json beam = testing::cantilever();
+  beam["analysis"] = {{"inverse-dynamics", Json::object()}};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(beam); }),
+                      "/analysis/inverse-dynamics: expected a model with a manipulator"));
+}
+
 BOOST_AUTO_TEST_CASE(a_mechanism_is_singular_with_its_motion_in_words) {
   Json json = testing::cantilever();
   json["model"]["supports"] = {{"A", {"x", "y"}}};

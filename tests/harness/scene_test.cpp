@@ -178,11 +178,51 @@ BOOST_AUTO_TEST_CASE(a_circle_runs_through_its_points_in_time) {
                                            {"phi_rad", 0.1}};
   const Scene scene = scene_of(json);
   BOOST_REQUIRE(scene.steps() == 631);
-  BOOST_TEST(scene.time.back() == 6.3, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(scene.poses[0].x == 0.26, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(scene.poses[157].y == 0.144 + 0.01 * std::sin(1.57),
+  BOOST_TEST(scene.motion.back().time == 6.3, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scene.motion[0].pose.x == 0.26, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(scene.motion[157].pose.y == 0.144 + 0.01 * std::sin(1.57),
              boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(scene.poses[630].phi == 0.1);
+  BOOST_TEST(scene.motion[630].pose.phi == 0.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_line_a_motion_from_rest_to_rest_and_a_spline_are_paths_too) {
+  Json json = testing::manipulator();
+  json["model"].erase("pose");
+  const Json from = {{"x_m", 0.25}, {"y_m", 0.144}, {"phi_rad", 0}};
+  const Json to = {{"x_m", 0.27}, {"y_m", 0.144}, {"phi_rad", 0.2}};
+  const Json path = {
+      {"from", from}, {"to", to}, {"duration_s", 2}, {"points", 21}, {"step_s", 0.1}};
+  json["model"]["trajectory"] = {{"line", path}};
+  TrajectoryPoint middle = scene_of(json).motion[10];
+  BOOST_TEST(middle.pose.x == 0.26, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(middle.velocity.z() == 0.1, boost::test_tools::tolerance(1e-14));
+  json["model"]["trajectory"] = {{"rest_to_rest", path}};
+  middle = scene_of(json).motion[10];
+  BOOST_TEST(middle.pose.phi == 0.1, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(middle.velocity.x() == 1.875 * 0.01, boost::test_tools::tolerance(1e-13));
+  const auto knot = [](double time, Json pose) {
+    pose["time_s"] = time;
+    return pose;
+  };
+  json["model"]["trajectory"] = {{"spline",
+                                  {{"knots", {knot(0, from), knot(1, to), knot(2, from)}},
+                                   {"ends", "periodic"},
+                                   {"points", 21},
+                                   {"step_s", 0.1}}}};
+  const Scene scene = scene_of(json);
+  BOOST_TEST(scene.motion[10].pose.x == 0.27, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST((scene.motion[0].velocity - scene.motion[20].velocity).norm() < 1e-14);
+
+  Json& trajectory = json["model"]["trajectory"];
+  trajectory["spline"]["points"] = 22;
+  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }),
+                      "/model/trajectory/spline: expected a path that has a meaning: the time"));
+  trajectory["spline"]["points"] = 21;
+  trajectory["spline"]["knots"][0]["time_s"] = 0.5;
+  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }),
+                      "/model/trajectory/spline/knots/0: expected the first knot at 0 s"));
+  trajectory = {{"line", path}, {"rest_to_rest", path}};
+  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }), "/model/trajectory"));
 }
 
 BOOST_AUTO_TEST_CASE(a_manipulator_carries_what_stands_beside_it) {

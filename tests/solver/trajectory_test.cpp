@@ -131,6 +131,15 @@ BOOST_AUTO_TEST_CASE(a_periodic_spline_approaches_the_circle_with_the_fourth_pow
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_last_step_reaches_the_end_of_a_spline_in_spite_of_its_rounding) {
+  const Spline spline =
+      make_spline({0, 2, 6.3}, {{0.25, 0.14}, {0.26, 0.15}, {0.24, 0.15}}, SplineEnds::natural);
+  BOOST_TEST(63 * 0.1 > 6.3);
+  const std::vector<TrajectoryPoint> points = sample(spline, 64, 0.1);
+  BOOST_TEST(points.back().pose.x == 0.24, boost::test_tools::tolerance(1e-15));
+  BOOST_CHECK_THROW((void)sample(spline, 65, 0.1), ModelError);
+}
+
 BOOST_AUTO_TEST_CASE(a_path_without_meaning_is_refused_with_a_sentence) {
   const double nan = std::nan("");
   BOOST_CHECK_THROW((void)at(Circle{{0, 0}, -1}, 0), ModelError);

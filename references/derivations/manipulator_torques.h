@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "references/derivations/arguments.h"
+
+/// Torques of the planar 3-RRR along a path.
+namespace trammel::derive {
+
+/// Arguments: manipulator (as a case file's; masses and inertias as numbers, or from density),
+/// trajectory (circle | line | rest_to_rest | spline), times_s, force_N and moment_N_m (on the
+/// platform at P; none by default), gravity_m_s2.
+/// Values: the torque at A1 at every time, then at A2, then at A3 [N m].
+[[nodiscard]] std::vector<double> manipulator_torques_program(const Json& arguments);
+
+}  // namespace trammel::derive
