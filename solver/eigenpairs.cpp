@@ -219,7 +219,8 @@ class Solver {
       const VectorXd change = (now - before).cwiseAbs().cwiseQuotient(now.cwiseAbs());
       const VectorXd ratio = now / now[now.size() - 1];
       pairs_.error = change.cwiseProduct(ratio.cwiseAbs2());
-      if (change.head(std::min(count_, now.size())).maxCoeff() < kSettled) return;
+      const Index wanted = std::min(count_, now.size());  // none when rigid motions are all
+      if (wanted == 0 || change.head(wanted).maxCoeff() < kSettled) return;
     }
   }
 

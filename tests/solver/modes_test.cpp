@@ -134,6 +134,19 @@ BOOST_AUTO_TEST_CASE(a_free_beam_has_three_zeros_and_the_clamped_beams_frequenci
   }
 }
 
+BOOST_AUTO_TEST_CASE(as_many_modes_as_rigid_motions_or_fewer_are_zeros) {
+  const Model model = beam(unit_section(1e7), 1, 8);
+  for (const EigenPath path : kPaths) {
+    for (const Index count : {1, 3}) {
+      const ModalSolution m = solve(model, count, path);
+      BOOST_REQUIRE(m.outcome.solved());
+      BOOST_TEST(m.frequency.size() == count);
+      BOOST_TEST(m.frequency.isZero(0));
+      BOOST_TEST(m.rigid_motions == 3);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(frequencies_scale_with_the_square_root_of_E_and_shapes_do_not) {
   const ModalSolution soft = solve(pinned_double_cross(2), 3);
   Model stiff_model = pinned_double_cross(2);
