@@ -1,4 +1,7 @@
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "harness/analysis_kinds.h"
 #include "solver/statics.h"
@@ -57,15 +60,36 @@ void record_members(const Model& model, const StaticSolution& solution, double r
   }
 }
 
+/// Of the supports of one name, which are one or the nodes of an edge, the sum; no moment of edges.
 void record_reactions(const Model& model, const StaticSolution& solution, double roundoff,
                       Recorder& record) {
+  std::map<std::string, std::pair<Eigen::RowVector3d, int>> sums;
   for (std::size_t i = 0; i < model.supports.size(); ++i) {
     const Eigen::RowVector3d reaction = solution.reaction.row(static_cast<Index>(i));
-    const std::string& name = model.supports[i].name;
-    if (name.empty()) continue;  // inside a chain of members
+    if (model.supports[i].name.empty()) continue;  // inside a chain of members
+    const auto [sum, first] = sums.try_emplace(model.supports[i].name, reaction, 1);
+    if (first) continue;
+    sum->second.first += reaction;
+    ++sum->second.second;
+  }
+  for (const auto& [name, sum] : sums) {
+    const auto& [reaction, nodes] = sum;
     record.add("reaction_x_N", name, reaction[0], roundoff);
     record.add("reaction_y_N", name, reaction[1], roundoff);
-    record.add("reaction_moment_N_m", name, reaction[2], roundoff);
+    if (nodes == 1) record.add("reaction_moment_N_m", name, reaction[2], roundoff);
+  }
+}
+
+/// Stresses at named nodes of plates.
+void record_node_stresses(const Model& model, const StaticSolution& solution, double roundoff,
+                          Recorder& record) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const std::string& name = model.nodes[i].name;
+    const Eigen::RowVector3d stress = solution.node_stress.row(static_cast<Index>(i));
+    if (name.empty() || std::isnan(stress[0])) continue;
+    record.add("stress_xx_Pa", name, stress[0], roundoff);
+    record.add("stress_yy_Pa", name, stress[1], roundoff);
+    record.add("stress_xy_Pa", name, stress[2], roundoff);
   }
 }
 
@@ -102,6 +126,9 @@ StepResult analyse_statics(const Cursor& analysis, const Scene& scene, std::size
   if (!scene.path) record_bending_stress(model, solution, roundoff, record);
   record_reactions(model, solution, roundoff, record);
   record_plates(model, solution, roundoff, record);
+  record_node_stresses(model, solution, roundoff, record);
+  // Loads times displacements: twice the strain energy.
+  record.add("compliance_J", "", system.f.dot(solution.q), roundoff);
   record.add("equilibrium_residual_N", "", solution.equilibrium_residual);
   record.add("moment_residual_N_m", "", solution.moment_residual);
   record.add("digits_left", "", solution.digits_left);

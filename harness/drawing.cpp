@@ -6,6 +6,7 @@ namespace trammel {
 namespace {
 
 constexpr std::size_t most_nodes = 4000;
+constexpr std::size_t most_nodes_with_middles = 1500;
 constexpr std::size_t points_a_member = 12;
 
 std::size_t at(Index index) {
@@ -19,36 +20,76 @@ std::size_t pieces(const System& system, const FrameElement& element) {
   return std::max<std::size_t>(1, (points_a_member + elements - 1) / elements);
 }
 
-void draw_members(const System& system, Drawing& drawing) {
+/// Nodes of the mesh in the order in which they are drawn, and back (-1: not drawn).
+struct DrawnNodes {
+  std::vector<std::size_t> mesh;
+  std::vector<Index> number;
+
+  [[nodiscard]] std::size_t of(Index node) const { return at(number[at(node)]); }
+};
+
+DrawnNodes drawn_nodes(const System& system) {
+  DrawnNodes drawn;
+  drawn.number.assign(system.mesh.positions.size(), 0);
+  if (drawn.number.size() > most_nodes_with_middles) {
+    for (const Triangle& triangle : system.model.triangles) {
+      for (std::size_t k = 3; triangle.quadratic() && k < 6; ++k) {
+        const Index middle = triangle.nodes[k];
+        if (system.model.nodes[at(middle)].name.empty()) drawn.number[at(middle)] = -1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < drawn.number.size(); ++i) {
+    if (drawn.number[i] < 0) continue;
+    drawn.number[i] = static_cast<Index>(drawn.mesh.size());
+    drawn.mesh.push_back(i);
+  }
+  return drawn;
+}
+
+void draw_members(const System& system, const DrawnNodes& drawn, Drawing& drawing) {
   for (const FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
     const Vector2d start = system.mesh.positions[at(element.nodes[0])];
     const Vector2d span = system.mesh.positions[at(element.nodes[1])] - start;
-    std::size_t before = at(element.nodes[0]);
+    std::size_t before = drawn.of(element.nodes[0]);
     for (std::size_t k = 1; k < count; ++k) {
       drawing.nodes.emplace_back(start +
                                  span * static_cast<double>(k) / static_cast<double>(count));
       drawing.members.push_back({before, drawing.nodes.size() - 1});
       before = drawing.nodes.size() - 1;
     }
-    drawing.members.push_back({before, at(element.nodes[1])});
+    drawing.members.push_back({before, drawn.of(element.nodes[1])});
+  }
+}
+
+void draw_triangles(const System& system, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const Triangle& triangle : system.model.triangles) {
+    std::vector<std::size_t>& around = drawing.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      around.push_back(drawn.of(triangle.nodes[k]));
+      const Index middle = triangle.nodes[3 + k];
+      if (middle >= 0 && drawn.number[at(middle)] >= 0) around.push_back(drawn.of(middle));
+    }
   }
 }
 
 /// A rigid body is a bar to its one node, or a fan of triangles about its reference.
-void draw_rigid_bodies(const Model& model, Drawing& drawing) {
+void draw_rigid_bodies(const Model& model, const DrawnNodes& drawn, Drawing& drawing) {
   for (const RigidBody& body : model.rigid_bodies) {
+    const std::size_t reference = drawn.of(body.reference);
     const std::size_t count = body.attached.size();
-    if (count == 1) drawing.members.push_back({at(body.reference), at(body.attached.front())});
+    if (count == 1) drawing.members.push_back({reference, drawn.of(body.attached.front())});
     for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k) {
       drawing.triangles.push_back(
-          {at(body.reference), at(body.attached[k]), at(body.attached[(k + 1) % count])});
+          {reference, drawn.of(body.attached[k]), drawn.of(body.attached[(k + 1) % count])});
     }
   }
 }
 
 /// One joint a node; the one that says most wins.
-void draw_joints(const System& system, bool is_manipulator, Drawing& drawing) {
+void draw_joints(const System& system, bool is_manipulator, const DrawnNodes& drawn,
+                 Drawing& drawing) {
   const Model& model = system.model;
   std::vector<std::string> kind(model.nodes.size());
   for (const Member& member : model.members) {
@@ -63,7 +104,8 @@ void draw_joints(const System& system, bool is_manipulator, Drawing& drawing) {
     if (word.empty()) word = "rigid";
   }
   for (const Support& support : model.supports) {
-    if (!support.name.empty()) kind[at(support.node)] = "support";
+    const bool named = !support.name.empty() && !model.nodes[at(support.node)].name.empty();
+    if (named) kind[at(support.node)] = "support";
   }
   if (is_manipulator) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -74,7 +116,8 @@ void draw_joints(const System& system, bool is_manipulator, Drawing& drawing) {
     }
   }
   for (std::size_t i = 0; i < kind.size(); ++i) {
-    if (!kind[i].empty()) drawing.joints.push_back({i, kind[i], model.nodes[i].name});
+    if (kind[i].empty()) continue;
+    drawing.joints.push_back({drawn.of(static_cast<Index>(i)), kind[i], model.nodes[i].name});
   }
 }
 
@@ -98,15 +141,13 @@ Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& 
 
 std::optional<Drawing> draw_model(const System& system, bool is_manipulator) {
   Drawing drawing;
-  if (system.mesh.positions.size() > most_nodes) return std::nullopt;
-  drawing.nodes = system.mesh.positions;
-  draw_members(system, drawing);
-  for (const Triangle& triangle : system.model.triangles) {
-    drawing.triangles.push_back(
-        {at(triangle.nodes[0]), at(triangle.nodes[1]), at(triangle.nodes[2])});
-  }
-  draw_rigid_bodies(system.model, drawing);
-  draw_joints(system, is_manipulator, drawing);
+  const DrawnNodes drawn = drawn_nodes(system);
+  if (drawn.mesh.size() > most_nodes) return std::nullopt;
+  for (const std::size_t node : drawn.mesh) drawing.nodes.push_back(system.mesh.positions[node]);
+  draw_members(system, drawn, drawing);
+  draw_triangles(system, drawn, drawing);
+  draw_rigid_bodies(system.model, drawn, drawing);
+  draw_joints(system, is_manipulator, drawn, drawing);
   if (drawing.nodes.size() > most_nodes) return std::nullopt;
   return drawing;
 }
@@ -115,7 +156,8 @@ Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
                           const std::string& label) {
   const Eigen::VectorXd u = system.T * q;
   Drawing::Shape shape{label, {}};
-  for (const auto& coordinates : system.coordinates.node) {
+  for (const std::size_t node : drawn_nodes(system).mesh) {
+    const auto& coordinates = system.coordinates.node[node];
     shape.displacement.emplace_back(u[coordinates[0]], u[coordinates[1]]);
   }
   for (const FrameElement& element : system.mesh.frame) {

@@ -28,14 +28,15 @@ struct Drawing {
   };
   std::vector<Vector2d> nodes;                      ///< [m]
   std::vector<std::array<std::size_t, 2>> members;  ///< elements
-  std::vector<std::array<std::size_t, 3>> triangles;
+  std::vector<std::vector<std::size_t>> triangles;  ///< round their corners, and middles if drawn
   std::vector<Joint> joints;
   std::vector<Shape> shapes;
   std::vector<Pose> poses;  ///< further poses of the same mechanism
 };
 
-/// The mesh of a model, members smoothed by points inside their elements; nothing where there are
-/// more nodes than a picture can show.
+/// The mesh of a model, members smoothed by points inside their elements. A fine mesh is drawn
+/// without the middles of its six-node triangles; nothing where there still are more nodes than a
+/// picture can show.
 [[nodiscard]] std::optional<Drawing> draw_model(const System& system, bool is_manipulator);
 
 /// Displacements of the drawing's nodes under the free coordinates q: inside elements by the cubic

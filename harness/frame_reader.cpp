@@ -7,37 +7,11 @@
 
 #include "harness/material_reader.h"
 #include "harness/member_chain.h"
-#include "harness/words.h"
+#include "harness/part_names.h"
+#include "harness/plate_reader.h"
 
 namespace trammel {
 namespace {
-
-template <class T>
-std::vector<std::string> names_of(const std::map<std::string, T>& named) {
-  std::vector<std::string> names;
-  for (const auto& item : named) names.push_back(item.first);
-  return names;
-}
-
-template <class T>
-const T& look_up(const std::map<std::string, T>& named, const Cursor& name, const char* what) {
-  const auto word = name.get<std::string>();
-  const auto found = named.find(word);
-  if (found != named.end()) return found->second;
-  throw name.error(std::string("expected the name of a ") + what + " (got '" + printable(word) +
-                   "')" + did_you_mean(word, names_of(named)));
-}
-
-/// What the parts of a model are looked up by.
-struct Names {
-  std::map<std::string, Index> node;
-  std::vector<Vector2d> position;
-  std::map<std::string, Material> material;
-  std::map<std::string, Section> section;
-  Index count_before = 0;  ///< nodes that the manipulator has
-
-  [[nodiscard]] Index find_node(const Cursor& name) const { return look_up(node, name, "node"); }
-};
 
 /// A, I and c of one of the three ways to give a cross-section.
 struct Shape {
@@ -72,7 +46,7 @@ Shape read_shape(const Cursor& section) {
 }
 
 Section read_section(const Cursor& section, const Names& names) {
-  const Material material = look_up(names.material, section["material"], "material");
+  const Material material = look_up(names.material, section["material"], "a material");
   const Shape shape = read_shape(section);
   const double shear_modulus = material.E / (2 * (1 + material.nu));
   Section read;
@@ -95,18 +69,18 @@ MemberEnd read_end(const Cursor& end) {
 }
 
 Member read_member(const std::string& name, const Cursor& place, const Names& names,
-                   Index elements) {
+                   const std::vector<Node>& nodes, Index elements) {
   Member member;
   member.name = name;
   member.nodes = {names.find_node(place["nodes"][0]), names.find_node(place["nodes"][1])};
-  const Vector2d span = names.position[static_cast<std::size_t>(member.nodes[1])] -
-                        names.position[static_cast<std::size_t>(member.nodes[0])];
+  const Vector2d span = nodes[static_cast<std::size_t>(member.nodes[1])].position -
+                        nodes[static_cast<std::size_t>(member.nodes[0])].position;
   if (!(span.norm() > 0)) {
     throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
   }
-  member.section = look_up(names.section, place["section"], "section");
+  member.section = look_up(names.section, place["section"], "a section");
   member.end_section = place.has("end_section")
-                           ? look_up(names.section, place["end_section"], "section")
+                           ? look_up(names.section, place["end_section"], "a section")
                            : member.section;
   member.theory = read_beam_theory(place);
   member.mass = read_mass_matrix(place);
@@ -115,6 +89,15 @@ Member read_member(const std::string& name, const Cursor& place, const Names& na
   if (place.has("ends")) member.ends = {read_end(place["ends"][0]), read_end(place["ends"][1])};
   if (place.has("load_N_per_m")) member.load = read_point(place["load_N_per_m"]);
   return member;
+}
+
+std::array<bool, 3> read_motions(const Cursor& place) {
+  std::array<bool, 3> fixed{};
+  for (const auto& entry : place.entries()) {
+    const auto motion = entry.second.get<std::string>();
+    fixed[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
+  }
+  return fixed;
 }
 
 bool tapers(const Cursor& place) {
@@ -126,67 +109,26 @@ bool tapers(const Cursor& place) {
 MemberChain read_chain(const Cursor& place) {
   MemberChain chain;
   if (const auto center = place.find("arc_center_m")) chain.arc_center = read_point(*center);
-  if (const auto held = place.find("held")) {
-    for (const auto& entry : held->entries()) {
-      const auto motion = entry.second.get<std::string>();
-      chain.held[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
-    }
-  }
+  if (const auto held = place.find("held")) chain.held = read_motions(*held);
   chain.exponential = tapers(place);
   return chain;
 }
 
 void read_members(const Cursor& members, const Names& names, Index elements, Model& parts) {
   for (const auto& [name, place] : members.entries()) {
-    const Member member = read_member(name, place, names, elements);
+    const Member member = read_member(name, place, names, parts.nodes, elements);
     const MemberChain chain = read_chain(place);
     if (!chain.needed()) {
       parts.members.push_back(member);
       continue;
     }
-    const auto at = [&](std::size_t end) {
-      return names.position[static_cast<std::size_t>(member.nodes[end])];
+    const auto at = [&](std::size_t end) -> Vector2d {
+      return parts.nodes[static_cast<std::size_t>(member.nodes[end])].position;
     };
     try {
-      add_chain(member, chain, at(0), at(1), names.count_before + std::ssize(parts.nodes), parts);
+      add_chain(member, chain, at(0), at(1), std::ssize(parts.nodes), parts);
     } catch (const ModelError& error) {
       throw place["arc_center_m"].error(error.what());
-    }
-  }
-}
-
-double twice_area(const Names& names, const Triangle& triangle) {
-  const auto corner = [&](std::size_t i) {
-    return names.position[static_cast<std::size_t>(triangle.nodes[i])];
-  };
-  const Vector2d a = corner(1) - corner(0);
-  const Vector2d b = corner(2) - corner(0);
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-Triangle read_triangle(const Cursor& place, const Names& names, Index plate) {
-  if (place.size() != 3 && place.size() != 6) {
-    throw place.error("expected 3 or 6 names (got " + std::to_string(place.size()) + ")");
-  }
-  Triangle triangle;
-  triangle.plate = plate;
-  for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = names.find_node(place[i]);
-  const double area = twice_area(names, triangle);
-  if (area == 0) throw place.error("expected a triangle with an area (got three points in line)");
-  if (area < 0) {  // clockwise: swap two corners, and the sides with them
-    std::swap(triangle.nodes[1], triangle.nodes[2]);
-    std::swap(triangle.nodes[3], triangle.nodes[5]);
-  }
-  return triangle;
-}
-
-void read_plates(const Cursor& plates, const Names& names, Model& model) {
-  for (const auto& [name, place] : plates.entries()) {
-    const auto plate = static_cast<Index>(model.plates.size());
-    model.plates.push_back({name, look_up(names.material, place["material"], "material"),
-                            place.number("thickness_m")});
-    for (const auto& entry : place["triangles"].entries()) {
-      model.triangles.push_back(read_triangle(entry.second, names, plate));
     }
   }
 }
@@ -224,27 +166,6 @@ Spring read_spring(const std::string& name, const Cursor& place, const Names& na
   return spring;
 }
 
-Support read_support(const std::string& node, const Cursor& place, const Names& names) {
-  const auto found = names.node.find(node);
-  if (found == names.node.end()) {
-    throw place.error("expected the name of a node (got '" + printable(node) + "')" +
-                      did_you_mean(node, names_of(names.node)));
-  }
-  Support support{node, found->second, {}};
-  for (const auto& entry : place.entries()) {
-    const auto motion = entry.second.get<std::string>();
-    support.fixed[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
-  }
-  return support;
-}
-
-NodalLoad read_load(const Cursor& place, const Names& names) {
-  NodalLoad load{names.find_node(place["node"]), Vector3d::Zero()};
-  if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
-  load.force.z() = place.get("moment_N_m", 0.0);
-  return load;
-}
-
 /// Calls `read(name, place)` for every entry of an object that may be missing.
 template <class Read>
 void each(const Cursor& model, const char* key, const Read& read) {
@@ -253,18 +174,60 @@ void each(const Cursor& model, const char* key, const Read& read) {
   for (const auto& [name, place] : places->entries()) read(name, place);
 }
 
-Names read_names(const Cursor& model, const std::vector<Node>& before, Model& parts) {
+/// Every node on an edge; motions that are already taken away are left out.
+void support_edge(const std::string& name, const Cursor& place, const Edge& edge, Model& model) {
+  const std::array<bool, 3> fixed = read_motions(place);
+  if (fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
+  for (const Index node : nodes_of(edge)) {
+    Support support{name, node, fixed};
+    for (const Support& other : model.supports) {
+      if (other.node != node) continue;
+      for (std::size_t k = 0; k < 3; ++k) support.fixed[k] = support.fixed[k] && !other.fixed[k];
+    }
+    model.supports.push_back(support);
+  }
+}
+
+/// Those of nodes first: they keep their reactions where an edge is supported as well.
+void read_supports(const Cursor& model, const Names& names, Model& parts) {
+  each(model, "supports", [&](const std::string& name, const Cursor& place) {
+    if (names.edge.count(name) > 0) return;
+    const char* what = names.edge.empty() ? "a node" : "a node or edge";
+    parts.supports.push_back({name, look_up(names.node, name, place, what), read_motions(place)});
+  });
+  each(model, "supports", [&](const std::string& name, const Cursor& place) {
+    const auto edge = names.edge.find(name);
+    if (edge != names.edge.end()) support_edge(name, place, edge->second, parts);
+  });
+}
+
+void read_load(const Cursor& place, const Names& names, Model& model) {
+  if (place.has("node") == place.has("edge")) {
+    throw place.error("expected exactly one of 'node' and 'edge'");
+  }
+  const bool on_edge = place.has("edge");
+  for (const char* key : {"force_N", "moment_N_m", "traction_Pa", "normal_Pa"}) {
+    const bool of_edge = std::string(key).ends_with("_Pa");
+    if (!place.has(key) || of_edge == on_edge) continue;
+    throw place[key].error(std::string("expected it beside '") + (of_edge ? "edge" : "node") +
+                           "' only");
+  }
+  if (on_edge) return read_edge_load(place, names, model);
+  NodalLoad load{names.find_node(place["node"]), Vector3d::Zero()};
+  if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
+  load.force.z() = place.get("moment_N_m", 0.0);
+  model.loads.push_back(load);
+}
+
+Names read_names(const Cursor& model, Model& parts) {
   Names names;
-  const auto add = [&](const std::string& name, const Vector2d& position) {
-    const bool fresh = names.node.emplace(name, static_cast<Index>(names.position.size())).second;
-    names.position.push_back(position);
-    return fresh;
+  const auto add = [&](std::size_t node) {
+    return names.node.emplace(parts.nodes[node].name, static_cast<Index>(node)).second;
   };
-  names.count_before = std::ssize(before);
-  for (const Node& node : before) add(node.name, node.position);
+  for (std::size_t i = 0; i < parts.nodes.size(); ++i) add(i);
   each(model, "nodes", [&](const std::string& name, const Cursor& place) {
     parts.nodes.push_back({name, read_point(place)});
-    if (!add(name, parts.nodes.back().position)) {
+    if (!add(parts.nodes.size() - 1)) {
       throw place.error("expected another name: the manipulator has a node of that name");
     }
   });
@@ -281,10 +244,11 @@ Names read_names(const Cursor& model, const std::vector<Node>& before, Model& pa
 
 Model read_parts(const Cursor& model, const std::vector<Node>& before) {
   Model parts;
-  const Names names = read_names(model, before, parts);
+  parts.nodes = before;
+  Names names = read_names(model, parts);
   const Index elements = model.get<Index>("elements", 1);
   if (const auto members = model.find("members")) read_members(*members, names, elements, parts);
-  if (const auto plates = model.find("plates")) read_plates(*plates, names, parts);
+  read_plates(model, names, parts);
   each(model, "rigid_bodies", [&](const std::string& name, const Cursor& place) {
     parts.rigid_bodies.push_back(read_rigid_body(name, place, names));
   });
@@ -294,13 +258,12 @@ Model read_parts(const Cursor& model, const std::vector<Node>& before) {
   each(model, "springs", [&](const std::string& name, const Cursor& place) {
     parts.springs.push_back(read_spring(name, place, names));
   });
-  each(model, "supports", [&](const std::string& name, const Cursor& place) {
-    parts.supports.push_back(read_support(name, place, names));
-  });
-  each(model, "loads", [&](const std::string&, const Cursor& place) {
-    parts.loads.push_back(read_load(place, names));
-  });
+  read_supports(model, names, parts);
+  each(model, "loads",
+       [&](const std::string&, const Cursor& place) { read_load(place, names, parts); });
   if (model.has("gravity_m_s2")) parts.gravity = read_point(model["gravity_m_s2"]);
+  check_meshed_nodes(model, before.size(), parts);
+  parts.nodes.erase(parts.nodes.begin(), parts.nodes.begin() + static_cast<Index>(before.size()));
   return parts;
 }
 

@@ -55,6 +55,10 @@ Model build_model(const Scene& scene, std::size_t step) {
   append(model.springs, scene.parts.springs);
   append(model.supports, scene.parts.supports);
   append(model.loads, scene.parts.loads);
+  for (EdgeLoad load : scene.parts.edge_loads) {
+    load.plate += plates;
+    model.edge_loads.push_back(load);
+  }
   model.gravity = scene.parts.gravity;
   return model;
 }
@@ -62,7 +66,8 @@ Model build_model(const Scene& scene, std::size_t step) {
 InputError model_error(const Document& document, const ModelError& error) {
   const std::string text = error.what();
   const Cursor model = Cursor(document)["model"];
-  for (const char* kind : {"members", "rigid_bodies", "supports", "plates", "springs", "nodes"}) {
+  for (const char* kind :
+       {"members", "rigid_bodies", "supports", "plates", "springs", "nodes", "edges"}) {
     const auto parts = model.find(kind);
     if (!parts) continue;
     for (const auto& [name, part] : parts->entries()) {

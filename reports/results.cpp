@@ -149,12 +149,16 @@ Convergence read_convergence(const JsonView& view) {
   return c;
 }
 
-std::vector<std::vector<int>> node_sets(const JsonView& view, int nodes, std::size_t size) {
+/// Sets of one of two sizes.
+std::vector<std::vector<int>> node_sets(const JsonView& view, int nodes, std::size_t size,
+                                        std::size_t other) {
   std::vector<std::vector<int>> out;
   for (const JsonView& entry : view.entries()) {
     std::vector<int> set;
     for (const JsonView& node : entry.entries()) set.push_back(node.integer(nodes));
-    if (set.size() != size) entry.fail(std::to_string(size) + " node numbers");
+    if (set.size() != size && set.size() != other) {
+      entry.fail(std::to_string(size) + " node numbers");
+    }
     out.push_back(std::move(set));
   }
   return out;
@@ -170,8 +174,8 @@ Drawing read_drawing(const JsonView& view) {
   Drawing drawing;
   drawing.nodes = points(view.at("nodes_m"));
   const int nodes = static_cast<int>(drawing.nodes.size());
-  drawing.members = node_sets(view.find("members"), nodes, 2);
-  drawing.triangles = node_sets(view.find("triangles"), nodes, 3);
+  drawing.members = node_sets(view.find("members"), nodes, 2, 2);
+  drawing.triangles = node_sets(view.find("triangles"), nodes, 3, 6);
   for (const JsonView& joint : view.find("joints").entries())
     drawing.joints.push_back(
         {joint.at("node").integer(nodes), joint.at("kind").text(), joint.find("name").text_or("")});

@@ -1,11 +1,50 @@
 #include "solver/block_mesh.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace trammel {
 namespace {
+
+/// How far apart nodes of one place may be.
+double nearness(const std::vector<Vector2d>& points) {
+  Vector2d low = points.front();
+  Vector2d high = low;
+  for (const Vector2d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return 1e-9 * (high - low).norm();
+}
+
+/// Finds the nodes that a model has so far by their place.
+class NodeFinder {
+ public:
+  NodeFinder(const Model& model, double near) : near_(near) {
+    for (const Node& node : model.nodes) {
+      by_x_.emplace(node.position.x(), Place{static_cast<Index>(by_x_.size()), node.position});
+    }
+  }
+
+  /// The first node there, or -1.
+  [[nodiscard]] Index find(const Vector2d& position) const {
+    Index first = -1;
+    auto at = by_x_.lower_bound(position.x() - near_);
+    for (; at != by_x_.end() && at->first <= position.x() + near_; ++at) {
+      const auto& [node, place] = at->second;
+      if ((place - position).norm() < near_ && (first < 0 || node < first)) first = node;
+    }
+    return first;
+  }
+
+ private:
+  using Place = std::pair<Index, Vector2d>;
+  std::multimap<double, Place> by_x_;
+  double near_;
+};
 
 /// A side as a curve over 0 <= s <= 1.
 class Side {
@@ -64,15 +103,11 @@ class Mesher {
  public:
   Mesher(const std::vector<Block>& blocks, bool six_nodes) : blocks_(blocks) {
     mesh_.six_nodes = six_nodes;
-    Vector2d low = blocks.front().corners[0];
-    Vector2d high = low;
+    std::vector<Vector2d> corners;
     for (const Block& block : blocks) {
-      for (const Vector2d& p : block.corners) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-      }
+      corners.insert(corners.end(), block.corners.begin(), block.corners.end());
     }
-    near_ = 1e-9 * (high - low).norm();
+    near_ = nearness(corners);
   }
 
   BlockMesh run() {
@@ -182,29 +217,36 @@ BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
   return Mesher(blocks, six_nodes).run();
 }
 
-Index append(Model& model, Index plate, const BlockMesh& mesh) {
-  const auto first = static_cast<Index>(model.nodes.size());
-  for (const Vector2d& position : mesh.positions) model.nodes.push_back({"", position});
-  for (const std::array<Index, 6>& nodes : mesh.triangles) {
-    Triangle triangle{plate, nodes};
+std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh) {
+  const NodeFinder finder(model, nearness(mesh.positions));
+  std::vector<Index> nodes;
+  for (const Vector2d& position : mesh.positions) {
+    nodes.push_back(finder.find(position));
+    if (nodes.back() >= 0) continue;
+    nodes.back() = static_cast<Index>(model.nodes.size());
+    model.nodes.push_back({"", position});
+  }
+  for (const std::array<Index, 6>& of_mesh : mesh.triangles) {
+    Triangle triangle{plate, of_mesh};
     for (Index& node : triangle.nodes) {
-      if (node >= 0) node += first;
+      if (node >= 0) node = nodes[static_cast<std::size_t>(node)];
     }
     model.triangles.push_back(triangle);
   }
-  return first;
+  return nodes;
 }
 
-std::vector<EdgeLoad> load_side(const BlockMesh& mesh, Index first, Index plate, std::size_t block,
-                                std::size_t side, const Vector2d& traction, double normal) {
-  const std::vector<Index>& nodes = mesh.sides[block][side];
+std::vector<EdgeLoad> load_side(const BlockMesh& mesh, const std::vector<Index>& nodes, Index plate,
+                                std::size_t block, std::size_t side, const Vector2d& traction,
+                                double normal) {
+  const std::vector<Index>& along = mesh.sides[block][side];
+  const auto node = [&](std::size_t i) { return nodes[static_cast<std::size_t>(along[i])]; };
   const std::size_t step = mesh.six_nodes ? 2 : 1;
   std::vector<EdgeLoad> loads;
-  for (std::size_t i = 0; i + step < nodes.size(); i += step) {
+  for (std::size_t i = 0; i + step < along.size(); i += step) {
     EdgeLoad load;
     load.plate = plate;
-    load.nodes = {first + nodes[i], first + nodes[i + step],
-                  mesh.six_nodes ? first + nodes[i + 1] : -1};
+    load.nodes = {node(i), node(i + step), mesh.six_nodes ? node(i + 1) : -1};
     load.traction = traction;
     load.normal = normal;
     loads.push_back(load);

@@ -38,12 +38,15 @@ struct BlockMesh {
 /// @throws ModelError  for a corner that is not on its ellipse, or a block without cells.
 [[nodiscard]] BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes);
 
-/// Adds the nodes, without names, and the triangles; the mesh's node i is node `return value` + i.
-Index append(Model& model, Index plate, const BlockMesh& mesh);
+/// Adds the triangles, and those nodes that do not stand in the model yet, without names: where the
+/// model has a node within 1e-9 of the mesh's size, the mesh is joined to it (the first one).
+/// @returns the model's node of each of the mesh's
+std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh);
 
 /// The loads of one side, as a traction in world axes and one along the outward normal [Pa].
-/// @param first  what `append` returned
-[[nodiscard]] std::vector<EdgeLoad> load_side(const BlockMesh& mesh, Index first, Index plate,
+/// @param nodes  what `append` returned
+[[nodiscard]] std::vector<EdgeLoad> load_side(const BlockMesh& mesh,
+                                              const std::vector<Index>& nodes, Index plate,
                                               std::size_t block, std::size_t side,
                                               const Vector2d& traction, double normal);
 

@@ -14,6 +14,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t coarse_mesh = 12;  ///< triangles up to which every edge can be seen
+constexpr std::size_t fine_mesh = 600;   ///< and up to which thin lines show the mesh
 
 /// 1, 2 or 5 times a power of ten, not below `least`.
 double round_step(double least) {
@@ -29,6 +30,27 @@ bool is_between(const std::vector<double>& from, const Point& p, const Point& to
   const double bx = to.first - p.first, by = to.second - p.second;
   const double lengths = std::hypot(ax, ay) * std::hypot(bx, by);
   return std::abs(ax * by - ay * bx) <= 1e-3 * lengths && ax * bx + ay * by >= 0;
+}
+
+/// A side of a triangle, its middle in between where it is drawn, and how many triangles have it.
+struct Side {
+  std::vector<int> nodes;
+  int uses = 0;
+};
+
+std::map<std::pair<int, int>, Side> sides(const Drawing& drawing) {
+  std::map<std::pair<int, int>, Side> found;
+  for (const auto& t : drawing.triangles) {
+    const std::size_t step = t.size() / 3;
+    for (std::size_t i = 0; i < t.size(); i += step) {
+      const int from = t[i], to = t[(i + step) % t.size()];
+      Side& side = found[std::minmax(from, to)];
+      side.nodes.assign(t.begin() + static_cast<long>(i), t.begin() + static_cast<long>(i + step));
+      side.nodes.push_back(to);
+      ++side.uses;
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -50,13 +72,19 @@ std::vector<std::vector<int>> polylines(const Drawing& drawing) {
 }
 
 std::vector<std::vector<int>> triangle_edges(const Drawing& drawing) {
-  std::map<std::pair<int, int>, int> uses;
-  for (const auto& t : drawing.triangles)
-    for (int i = 0; i < 3; ++i) ++uses[std::minmax(t[i], t[(i + 1) % 3])];
+  const bool all = drawing.triangles.size() <= coarse_mesh;
   std::vector<std::vector<int>> lines;
-  for (const auto& [edge, n] : uses)
-    if (n == 1 || drawing.triangles.size() <= coarse_mesh)
-      lines.push_back({edge.first, edge.second});
+  for (auto& [_, side] : sides(drawing))
+    if (all || side.uses == 1) lines.push_back(std::move(side.nodes));
+  return lines;
+}
+
+std::vector<std::vector<int>> inner_edges(const Drawing& drawing) {
+  std::vector<std::vector<int>> lines;
+  const std::size_t triangles = drawing.triangles.size();
+  if (triangles <= coarse_mesh || triangles > fine_mesh) return lines;
+  for (auto& [_, side] : sides(drawing))
+    if (side.uses > 1) lines.push_back(std::move(side.nodes));
   return lines;
 }
 
@@ -78,7 +106,10 @@ PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
 PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Point>& nodes) {
   std::vector<std::vector<int>> closed;
   closed.reserve(drawing.triangles.size());
-  for (const auto& t : drawing.triangles) closed.push_back({t[0], t[1], t[2], t[0]});
+  for (const auto& t : drawing.triangles) {
+    closed.push_back(t);
+    closed.back().push_back(t.front());
+  }
   return rows_of(closed, nodes);
 }
 

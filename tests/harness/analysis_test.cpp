@@ -48,6 +48,41 @@ BOOST_AUTO_TEST_CASE(a_cantilever_bends_under_its_tip_force_as_beam_theory_says)
   BOOST_TEST(std::abs(only(result, "bending_moment_N_m:AB.start")) == P * L, tolerance);
 }
 
+BOOST_AUTO_TEST_CASE(a_ring_under_pressure_is_stressed_as_lame_says) {
+  Json json = testing::quarter_ring();
+  json["model"]["plates"]["ring"]["divisions"] = 12;
+  const AnalysisResult result = result_of(json);
+  // G. Lame: with radii 1 and 2, s_r = -p (4/3) (1 - 1/r^2), s_t = -p (4/3) (1 + 1/r^2).
+  const double p = 3e5, E = 2e11, nu = 0.3;
+  BOOST_TEST(only(result, "stress_yy_Pa:A") == -p * 8 / 3, boost::test_tools::tolerance(2e-3));
+  BOOST_TEST(only(result, "stress_xx_Pa:D") == -p * 8 / 3, boost::test_tools::tolerance(2e-3));
+  const double u = -p * 2 / (3 * E) * ((1 - nu) * 4 + (1 + nu));
+  BOOST_TEST(only(result, "displacement_x_m:B") == u, boost::test_tools::tolerance(2e-6));
+  BOOST_TEST(only(result, "displacement_y_m:C") == u, boost::test_tools::tolerance(2e-6));
+  const auto tolerance = boost::test_tools::tolerance(1e-9);
+  BOOST_TEST(only(result, "reaction_y_N:bottom") == p * 2 * 0.01, tolerance);
+  BOOST_TEST(only(result, "reaction_x_N:left") == p * 2 * 0.01, tolerance);
+  BOOST_TEST(result.quantities.count("reaction_moment_N_m:left") == 0U);
+  // Pressure times the area that it pushes inwards.
+  BOOST_TEST(only(result, "compliance_J") == -p * u * std::acos(-1.0) * 0.01,
+             boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(only(result, "equilibrium_residual_N") < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(a_fine_mesh_is_drawn_by_its_corners) {
+  Json json = testing::quarter_ring();
+  const AnalysisResult coarse = result_of(json);
+  BOOST_REQUIRE(coarse.drawing.has_value());
+  BOOST_TEST(coarse.drawing->nodes.size() == 45U);
+  BOOST_TEST(coarse.drawing->triangles.at(0).size() == 6U);
+  json["model"]["plates"]["ring"]["divisions"] = 16;
+  const AnalysisResult fine = result_of(json);
+  BOOST_REQUIRE(fine.drawing.has_value());
+  BOOST_TEST(fine.drawing->nodes.size() == 17U * 33);
+  BOOST_TEST(fine.drawing->triangles.at(0).size() == 3U);
+  BOOST_TEST(fine.drawing->shapes.at(0).displacement.size() == 17U * 33);
+}
+
 BOOST_AUTO_TEST_CASE(a_section_without_an_outermost_fibre_has_no_stress) {
   Json json = testing::cantilever();
   json["model"]["sections"]["bar"] = {

@@ -1,5 +1,6 @@
 #include "harness/scene.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -111,6 +112,100 @@ BOOST_AUTO_TEST_CASE(impossible_geometry_is_refused_where_it_stands) {
       {"material", "steel"}, {"thickness_m", 1}, {"triangles", {{"A", "B", "C"}}}};
   BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }),
                       "/model/plates/p/triangles/0: expected a triangle with an area"));
+}
+
+BOOST_AUTO_TEST_CASE(blocks_become_triangles_joined_to_the_named_nodes) {
+  const Model model = build_model(scene_of(testing::quarter_ring()), 0);
+  BOOST_TEST(model.nodes.size() == 5U * 9);  // six-node triangles of 2 x 4 cells
+  BOOST_TEST(model.triangles.size() == 16U);
+  for (const char* name : {"A", "B", "C", "D", "M"}) {
+    const Index node = model.find_node(name);
+    const auto uses = std::count_if(
+        model.triangles.begin(), model.triangles.end(), [&](const Triangle& triangle) {
+          return std::find(triangle.nodes.begin(), triangle.nodes.end(), node) !=
+                 triangle.nodes.end();
+        });
+    BOOST_TEST(uses >= 1, name);
+  }
+  for (const Triangle& triangle : model.triangles) BOOST_TEST(triangle.quadratic());
+  // Every node on the inner edge keeps its radius, middles too.
+  int inner = 0;
+  for (const Node& node : model.nodes) {
+    if (node.position.norm() < 1.01) {
+      BOOST_TEST(node.position.norm() == 1, boost::test_tools::tolerance(1e-14));
+      ++inner;
+    }
+  }
+  BOOST_TEST(inner == 9);
+  BOOST_TEST(model.supports.size() == 10U);
+  BOOST_TEST(model.edge_loads.size() == 4U);
+  BOOST_TEST(model.edge_loads.at(0).normal == -3e5);
+}
+
+BOOST_AUTO_TEST_CASE(two_supported_edges_take_a_motion_of_their_corner_away_once) {
+  Json json = testing::quarter_ring();
+  json["model"]["supports"] = {{"inner", {"x", "y"}}, {"bottom", {"y"}}, {"A", {"y"}}};
+  const Model model = build_model(scene_of(json), 0);
+  const Index a = model.find_node("A");
+  int y = 0;
+  for (const Support& support : model.supports) y += support.node == a && support.fixed[1] ? 1 : 0;
+  BOOST_TEST(y == 1);
+}
+
+BOOST_AUTO_TEST_CASE(an_edge_that_cannot_be_is_refused_where_it_stands) {
+  const Json ring = testing::quarter_ring();
+  BOOST_TEST(contains(fault(ring, "/model/nodes/B", {2.1, 0}),
+                      "/model/edges/outer/nodes/0: expected a node on the edge's curve (got (2.1, "
+                      "0) m, 1.05 times as far from its centre)"));
+  BOOST_TEST(contains(fault(ring, "/model/edges/bottom/nodes", {"A", "C"}),
+                      "/model/edges/bottom/nodes/1: expected the other end of a block's side"));
+  BOOST_TEST(contains(fault(ring, "/model/edges/again", {{"nodes", {"B", "C"}}}),
+                      "expected a piece that no edge has had before"));
+  BOOST_TEST(contains(fault(ring, "/model/edges/A", {{"nodes", {"C", "D"}}}),
+                      "/model/edges/A: expected another name: there is a node of that name"));
+  BOOST_TEST(contains(fault(ring, "/model/edges/bottom/nodes", {"A", "A"}),
+                      "/model/edges/bottom/nodes/1: expected another node than the one before"));
+  BOOST_TEST(contains(
+      fault(ring, "/model/edges/outer/ellipse", {{"center_m", {0, 0}}, {"semi_axes_m", {2, 2}}}),
+      "/model/edges/outer: expected at most one of 'ellipse' and 'circle'"));
+  BOOST_TEST(
+      contains(fault(ring, "/model/supports/innner", {"x"}),
+               "/model/supports/innner: expected the name of a node or edge (got 'innner')"));
+  BOOST_TEST(contains(fault(ring, "/model/supports/left", {"rotation"}),
+                      "/model/supports/left: expected x and y alone"));
+}
+
+BOOST_AUTO_TEST_CASE(a_block_that_cannot_be_is_refused_where_it_stands) {
+  const Json ring = testing::quarter_ring();
+  BOOST_TEST(contains(fault(ring, "/model/plates/ring/blocks/b/corners", {"A", "D", "C", "B"}),
+                      "/model/plates/ring/blocks/b/corners: expected a convex quadrilateral"));
+  BOOST_TEST(contains(fault(ring, "/model/plates/ring/triangles", {{"A", "B", "C"}}),
+                      "/model/plates/ring: expected exactly one of 'triangles' and 'blocks'"));
+  BOOST_TEST(
+      contains(fault(ring, "/model/nodes/M", {1.4, 1.4}),
+               "/model/nodes/M: expected a place where the mesh has a node (got (1.4, 1.4)"));
+  Json two = ring;
+  two["model"]["nodes"]["E"] = {3, 0};
+  two["model"]["nodes"]["F"] = {3, 3};
+  two["model"]["plates"]["ring"]["blocks"]["c"] = {{"corners", {"B", "E", "F", "C"}},
+                                                   {"cells", {1, 3}}};
+  BOOST_TEST(contains(complaint([&] { (void)scene_of(two); }),
+                      "/model/plates/ring/blocks/c: expected the same mesh on both sides"));
+  BOOST_TEST(contains(fault(two, "/model/plates/ring/blocks/c/cells", {1, 2}),
+                      "/model/loads/p/edge: expected an edge with a plate on one side"));
+}
+
+BOOST_AUTO_TEST_CASE(a_load_is_on_a_node_or_on_an_edge) {
+  const Json ring = testing::quarter_ring();
+  BOOST_TEST(contains(fault(ring, "/model/loads/p/node", "A"),
+                      "/model/loads/p: expected exactly one of 'node' and 'edge'"));
+  BOOST_TEST(contains(fault(ring, "/model/loads/p/force_N", {1, 2}),
+                      "/model/loads/p/force_N: expected it beside 'node' only"));
+  BOOST_TEST(contains(fault(ring, "/model/loads/q", {{"node", "A"}, {"normal_Pa", 2}}),
+                      "/model/loads/q/normal_Pa: expected it beside 'edge' only"));
+  BOOST_TEST(contains(fault(ring, "/model/loads/p/edge", "outr"),
+                      "/model/loads/p/edge: expected the name of an edge (got 'outr'); did you "
+                      "mean 'outer'?"));
 }
 
 BOOST_AUTO_TEST_CASE(an_unreachable_pose_is_refused_with_the_limb_and_the_distance) {

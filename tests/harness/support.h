@@ -76,6 +76,27 @@ inline Json cantilever() {
   })");
 }
 
+/// A quarter of a ring between radii 1 m and 2 m, held on its two straight edges, 0.3 MPa outside.
+inline Json quarter_ring() {
+  return Json::parse(R"({
+    "id": "ring", "title": "A quarter of a ring under pressure",
+    "model": {
+      "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}},
+      "nodes": {"A": [1, 0], "B": [2, 0], "C": [0, 2], "D": [0, 1],
+                "M": [1.414213562373095, 1.414213562373095]},
+      "edges": {"inner": {"nodes": ["D", "A"], "circle": {"center_m": [0, 0], "radius_m": 1}},
+                "outer": {"nodes": ["B", "C"], "circle": {"center_m": [0, 0], "radius_m": 2}},
+                "bottom": {"nodes": ["A", "B"]}, "left": {"nodes": ["D", "C"]}},
+      "plates": {"ring": {"material": "steel", "thickness_m": 0.01, "element": "six-node",
+                          "divisions": 2,
+                          "blocks": {"b": {"corners": ["A", "B", "C", "D"], "cells": [1, 2]}}}},
+      "supports": {"bottom": ["y"], "left": ["x"]},
+      "loads": {"p": {"edge": "outer", "normal_Pa": -3e5}}
+    },
+    "analysis": {"statics": {}}
+  })");
+}
+
 /// The manipulator of Table 1 at the centre of its base.
 inline Json manipulator() {
   return Json::parse(R"({

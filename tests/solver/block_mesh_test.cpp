@@ -1,5 +1,6 @@
 #include "solver/block_mesh.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -57,13 +58,13 @@ StaticSolution elliptic_membrane(Index cells, Index& D) {
   Block block = elliptic_quarter(cells);
   block.grading = {6, 12};  // fine at D
   const BlockMesh mesh = mesh_blocks({block}, true);
-  const Index first = append(model, 0, mesh);
-  D = first + mesh.sides[0][0].front();
+  const std::vector<Index> nodes = append(model, 0, mesh);
+  D = nodes[static_cast<std::size_t>(mesh.sides[0][0].front())];
   for (const Index node : mesh.sides[0][0])
-    model.supports.push_back({"", first + node, {false, true, false}});
+    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {false, true, false}});
   for (const Index node : mesh.sides[0][2])
-    model.supports.push_back({"", first + node, {true, false, false}});
-  model.edge_loads = load_side(mesh, first, 0, 0, 1, {0, 0}, 10e6);
+    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, false, false}});
+  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
   return solve_statics(assemble(model));
 }
 
@@ -109,6 +110,23 @@ BOOST_AUTO_TEST_CASE(grading_makes_the_last_cell_that_many_times_the_first) {
   BOOST_TEST((x(5) - x(4)) / (x(1) - x(0)) == 8, tolerance(1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(a_mesh_is_joined_to_the_nodes_that_stand_at_its_places) {
+  Block block;
+  block.corners = {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(0, 1)};
+  block.cells = {2, 2};
+  Model model;
+  model.plates = {{"p", {1, 1, 0}, 1}};
+  model.nodes = {{"elsewhere", {3, 0}}, {"middle", {0.5, 0.5}}, {"corner", {1, 1 + 1e-13}}};
+  const std::vector<Index> nodes = append(model, 0, mesh_blocks({block}, false));
+  BOOST_TEST(model.nodes.size() == 3u + 9 - 2);
+  BOOST_TEST((std::count(nodes.begin(), nodes.end(), 1) == 1));
+  BOOST_TEST((std::count(nodes.begin(), nodes.end(), 2) == 1));
+  // A second plate beside the first shares the three nodes between them.
+  for (Vector2d& corner : block.corners) corner.x() += 1;
+  append(model, 0, mesh_blocks({block}, false));
+  BOOST_TEST(model.nodes.size() == 10u + 9 - 3);
+}
+
 BOOST_AUTO_TEST_CASE(a_corner_off_its_ellipse_is_an_error) {
   Block block = elliptic_quarter(2);
   block.corners[1] = {3, 0};
@@ -119,8 +137,8 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_adds_up_to_its_projection) {
   const BlockMesh mesh = mesh_blocks({elliptic_quarter(4)}, true);
   Model model;
   model.plates = {{"membrane", {210e9, 1, 0.3}, 0.1}};
-  const Index first = append(model, 0, mesh);
-  model.edge_loads = load_side(mesh, first, 0, 0, 1, {0, 0}, 10e6);
+  const std::vector<Index> nodes = append(model, 0, mesh);
+  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
   const System system = assemble(model);
   Vector2d sum = Vector2d::Zero();
   for (const auto& node : system.coordinates.node) {
@@ -148,13 +166,13 @@ BOOST_AUTO_TEST_CASE(cooks_membrane_converges_to_the_extrapolated_value) {
   const BlockMesh mesh = mesh_blocks({block}, true);
   Model model;
   model.plates = {{"membrane", {1, 0, 1 / 3.0}, 1}};
-  const Index first = append(model, 0, mesh);
+  const std::vector<Index> nodes = append(model, 0, mesh);
   for (const Index node : mesh.sides[0][3])
-    model.supports.push_back({"", first + node, {true, true, false}});
-  model.edge_loads = load_side(mesh, first, 0, 0, 1, {0, 1 / 16.0}, 0);
+    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, true, false}});
+  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {0, 1 / 16.0}, 0);
   const StaticSolution r = solve_statics(assemble(model));
   const auto& side = mesh.sides[0][1];
-  const Index middle = first + side[(side.size() - 1) / 2];
+  const Index middle = nodes[static_cast<std::size_t>(side[(side.size() - 1) / 2])];
   BOOST_TEST(r.displacement(middle, 1) == 23.96774, tolerance(5e-4));
   BOOST_TEST(r.displacement(middle, 0) == -10.69536, tolerance(1e-3));
 }

@@ -192,11 +192,11 @@ BOOST_AUTO_TEST_CASE(a_plate_strip_buckles_as_the_column_it_is) {
   const BlockMesh mesh = mesh_blocks({block}, true);
   Model model;
   model.plates = {{"strip", {12 / 8e-6, 0, 0}, 1}};  // E I = 1
-  append(model, 0, mesh);
+  const std::vector<Index> nodes = append(model, 0, mesh);
   for (const Index node : mesh.sides[0][3]) {
-    model.supports.push_back({"", node, {true, true, false}});
+    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, true, false}});
   }
-  model.edge_loads = load_side(mesh, 0, 0, 0, 1, {-50, 0}, 0);  // 1 N in all
+  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {-50, 0}, 0);  // 1 N in all
   BOOST_TEST(first_factor(model) == kPi * kPi / 4, tolerance(2e-3));
 }
 
