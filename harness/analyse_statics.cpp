@@ -126,7 +126,8 @@ StepResult analyse_statics(const Cursor& analysis, const Scene& scene, std::size
   if (!scene.path) record_bending_stress(model, solution, roundoff, record);
   record_reactions(model, solution, roundoff, record);
   record_plates(model, solution, roundoff, record);
-  record_node_stresses(model, solution, roundoff, record);
+  // The pins of a platform are points that no mesh resolves.
+  if (!scene.manipulator) record_node_stresses(model, solution, roundoff, record);
   // Loads times displacements: twice the strain energy.
   record.add("compliance_J", "", system.f.dot(solution.q), roundoff);
   record.add("equilibrium_residual_N", "", solution.equilibrium_residual);
