@@ -14,7 +14,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t coarse_mesh = 12;  ///< triangles up to which every edge can be seen
-constexpr std::size_t fine_mesh = 600;   ///< and up to which thin lines show the mesh
+constexpr std::size_t fine_mesh = 600;  ///< and up to which thin lines show the mesh in one drawing
 
 /// 1, 2 or 5 times a power of ten, not below `least`.
 double round_step(double least) {
@@ -32,7 +32,15 @@ bool is_between(const std::vector<double>& from, const Point& p, const Point& to
   return std::abs(ax * by - ay * bx) <= 1e-3 * lengths && ax * bx + ay * by >= 0;
 }
 
-/// A side of a triangle, its middle in between where it is drawn, and how many triangles have it.
+/// Whether the corners run counterclockwise.
+bool runs_left(const std::vector<int>& triangle, const std::vector<Point>& nodes) {
+  const std::size_t step = triangle.size() / 3;
+  const Point &a = nodes[triangle[0]], &b = nodes[triangle[step]], &c = nodes[triangle[2 * step]];
+  return (b.first - a.first) * (c.second - a.second) > (c.first - a.first) * (b.second - a.second);
+}
+
+/// A side of a triangle, counterclockwise, its middle in between where it is drawn, and how many
+/// triangles have it.
 struct Side {
   std::vector<int> nodes;
   int uses = 0;
@@ -42,15 +50,35 @@ std::map<std::pair<int, int>, Side> sides(const Drawing& drawing) {
   std::map<std::pair<int, int>, Side> found;
   for (const auto& t : drawing.triangles) {
     const std::size_t step = t.size() / 3;
+    const bool left = runs_left(t, drawing.nodes);
     for (std::size_t i = 0; i < t.size(); i += step) {
       const int from = t[i], to = t[(i + step) % t.size()];
       Side& side = found[std::minmax(from, to)];
       side.nodes.assign(t.begin() + static_cast<long>(i), t.begin() + static_cast<long>(i + step));
       side.nodes.push_back(to);
+      if (!left) std::ranges::reverse(side.nodes);
       ++side.uses;
     }
   }
   return found;
+}
+
+/// The sides that one triangle alone has, joined end to end into closed loops: around the plate to
+/// the left, around a hole to the right.
+std::vector<std::vector<int>> outline(const Drawing& drawing) {
+  std::multimap<int, std::vector<int>> from;
+  for (auto& [_, side] : sides(drawing))
+    if (side.uses == 1) from.emplace(side.nodes.front(), std::move(side.nodes));
+  std::vector<std::vector<int>> loops;
+  while (!from.empty()) {
+    std::vector<int> loop = {from.begin()->first};
+    for (auto next = from.begin(); next != from.end(); next = from.find(loop.back())) {
+      loop.insert(loop.end(), next->second.begin() + 1, next->second.end());
+      from.erase(next);
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
 }
 
 }  // namespace
@@ -72,17 +100,16 @@ std::vector<std::vector<int>> polylines(const Drawing& drawing) {
 }
 
 std::vector<std::vector<int>> triangle_edges(const Drawing& drawing) {
-  const bool all = drawing.triangles.size() <= coarse_mesh;
+  if (drawing.triangles.size() > coarse_mesh) return outline(drawing);
   std::vector<std::vector<int>> lines;
-  for (auto& [_, side] : sides(drawing))
-    if (all || side.uses == 1) lines.push_back(std::move(side.nodes));
+  for (auto& [_, side] : sides(drawing)) lines.push_back(std::move(side.nodes));
   return lines;
 }
 
-std::vector<std::vector<int>> inner_edges(const Drawing& drawing) {
+std::vector<std::vector<int>> inner_edges(const Drawing& drawing, std::size_t panels) {
   std::vector<std::vector<int>> lines;
   const std::size_t triangles = drawing.triangles.size();
-  if (triangles <= coarse_mesh || triangles > fine_mesh) return lines;
+  if (triangles <= coarse_mesh || panels * triangles > fine_mesh) return lines;
   for (auto& [_, side] : sides(drawing))
     if (side.uses > 1) lines.push_back(std::move(side.nodes));
   return lines;
@@ -105,10 +132,21 @@ PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
 
 PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Point>& nodes) {
   std::vector<std::vector<int>> closed;
-  closed.reserve(drawing.triangles.size());
-  for (const auto& t : drawing.triangles) {
-    closed.push_back(t);
-    closed.back().push_back(t.front());
+  if (drawing.triangles.size() <= coarse_mesh) {
+    for (const auto& t : drawing.triangles) {
+      closed.push_back(t);
+      closed.back().push_back(t.front());
+    }
+    return rows_of(closed, nodes);
+  }
+  // One polygon through all loops, there and back: what runs to the right stays empty.
+  for (const auto& loop : outline(drawing)) {
+    if (closed.empty()) {
+      closed.push_back(loop);
+    } else {
+      closed.front().insert(closed.front().end(), loop.begin(), loop.end());
+      closed.front().push_back(closed.front().front());
+    }
   }
   return rows_of(closed, nodes);
 }

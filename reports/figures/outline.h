@@ -15,14 +15,16 @@ namespace trammel::reports {
 /// Edges to draw of the triangles: all of a coarse mesh, the outline of a fine one.
 [[nodiscard]] std::vector<std::vector<int>> triangle_edges(const Drawing& drawing);
 
-/// The other edges, for thin lines: none of a coarse mesh, and none of one too fine to be seen.
-[[nodiscard]] std::vector<std::vector<int>> inner_edges(const Drawing& drawing);
+/// The other edges, for thin lines: none of a coarse mesh, and none of one too fine to be seen
+/// where a figure has so many panels.
+[[nodiscard]] std::vector<std::vector<int>> inner_edges(const Drawing& drawing,
+                                                        std::size_t panels = 1);
 
 /// Rows of (x, y), polylines apart by an empty row.
 [[nodiscard]] PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
                                        const std::vector<Point>& nodes);
 
-/// Triangles as closed polygons, for filling.
+/// Triangles as closed polygons, or their outline as one, for filling.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
                                                 const std::vector<Point>& nodes);
 

@@ -21,7 +21,7 @@ double factor_for(const Shape& shape, double side) {
 }
 
 void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Point>& moved,
-                const std::string& label) {
+                const std::string& label, std::size_t panels) {
   script.command("unset label");
   script.label(
       label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::ink) + "'");
@@ -32,7 +32,7 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
   script.curve(rows_of(edges, drawing.nodes), "with lines lw 1" + grey);
   script.curve(rows_of(lines, drawing.nodes), "with lines lw 1.2" + grey);
   script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::plate));
-  script.curve(rows_of(inner_edges(drawing), moved), "with lines lw 0.4" + blue);
+  script.curve(rows_of(inner_edges(drawing, panels), moved), "with lines lw 0.4" + blue);
   script.curve(rows_of(edges, moved), "with lines lw 1.2" + blue);
   script.curve(rows_of(lines, moved), "with lines lw 2.2" + blue);
   script.plot();
@@ -73,7 +73,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   script.command("unset border; unset tics; unset grid; unset key");
   script.command("set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns));
   for (std::size_t s = 0; s < n; ++s)
-    draw_panel(script, drawing, moved[s], drawing.shapes[s].label);
+    draw_panel(script, drawing, moved[s], drawing.shapes[s].label, n);
   script.command("unset multiplot");
 
   figure.id = slug(info.id + "-" + run.variant + "-shapes");

@@ -142,14 +142,26 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
   Drawing drawing;
   drawing.members = {{0, 1}, {1, 2}, {5, 6}};
   BOOST_TEST(polylines(drawing).size() == 2U);
-  const int n = 4;  // a square of 4 x 4 cells, two triangles each
+  const int n = 5;  // a square of 5 x 5 cells without the middle one, two triangles each
+  std::vector<Point> nodes;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) nodes.emplace_back(j, i);
+  drawing.nodes = nodes;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
+      if (i == 2 && j == 2) continue;
       const int a = i * (n + 1) + j;
       drawing.triangles.push_back({a, a + 1, a + n + 1});
-      drawing.triangles.push_back({a + 1, a + n + 2, a + n + 1});
+      drawing.triangles.push_back({a + 1, a + n + 1, a + n + 2});  // the other way round
     }
-  BOOST_TEST(triangle_edges(drawing).size() == 4U * n);
+  const auto loops = triangle_edges(drawing);
+  BOOST_REQUIRE(loops.size() == 2U);
+  for (const auto& loop : loops) BOOST_TEST(loop.front() == loop.back());
+  BOOST_TEST(loops[0].size() + loops[1].size() == 4U * n + 1 + 5);
+  // One polygon: 4 + 1 corners of the square, 4 + 1 of the hole, and back to where it began.
+  BOOST_TEST(filled_triangles(drawing, nodes).size() == 11U);
+  BOOST_TEST(inner_edges(drawing).size() == (3U * 48 - 24) / 2);
+  BOOST_TEST(inner_edges(drawing, 20).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()
