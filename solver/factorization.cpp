@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>  // MetisSupport needs it
+#include <mutex>
 
 // after <iostream>
 #include <Eigen/MetisSupport>
@@ -19,6 +20,9 @@ void FillReducingOrdering::operator()(const Eigen::SparseMatrix<double>& matrix,
   if (matrix.rows() < kSmall) {
     Eigen::AMDOrdering<int>()(matrix, permutation);
   } else {
+    // METIS seeds and draws from the one random sequence of the process.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
     Eigen::MetisOrdering<int>()(matrix, permutation);
   }
 }
