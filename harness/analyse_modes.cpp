@@ -47,6 +47,10 @@ StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t
     const std::string of = scene.path ? std::to_string(i + 1) : "";
     record.add("frequency_Hz", of, modes.frequency[i], modes.roundoff[i]);
     record.add("frequency_roundoff", of, modes.roundoff[i]);
+    if (i > 0) {
+      record.add("frequency_gap", of,
+                 (modes.frequency[i] - modes.frequency[i - 1]) / modes.frequency[i]);
+    }
     if (result.drawing && i < shapes_drawn) {
       result.drawing->shapes.push_back(
           draw_shape(system, modes.shape.col(i), label(i, modes.frequency[i])));

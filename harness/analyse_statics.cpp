@@ -54,7 +54,7 @@ void record_members(const Model& model, const StaticSolution& solution, double r
       record.add("bending_moment_N_m", of, resultants[end][2], roundoff);
     }
     // Not finite where the section does not say how far its outermost fibre is.
-    if (std::isfinite(solution.member_stress[row])) {
+    if (row < solution.member_stress.size() && std::isfinite(solution.member_stress[row])) {
       record.add("stress_Pa", name, solution.member_stress[row], roundoff);
     }
   }
@@ -96,6 +96,7 @@ void record_node_stresses(const Model& model, const StaticSolution& solution, do
 /// Largest von Mises stress of each plate's triangles.
 void record_plates(const Model& model, const StaticSolution& solution, double roundoff,
                    Recorder& record) {
+  if (solution.triangle_stress.rows() == 0) return;
   std::vector<double> largest(model.plates.size(), 0);
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
     const Eigen::RowVector3d s = solution.triangle_stress.row(static_cast<Index>(i));
@@ -111,6 +112,14 @@ void record_plates(const Model& model, const StaticSolution& solution, double ro
 
 }  // namespace
 
+void record_solution(const Model& model, const StaticSolution& solution, double roundoff,
+                     Recorder& record) {
+  record_nodes(model, solution, roundoff, record);
+  record_members(model, solution, roundoff, record);
+  record_reactions(model, solution, roundoff, record);
+  record_plates(model, solution, roundoff, record);
+}
+
 StepResult analyse_statics(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
                            Recorder& record) {
   const System system = assemble(build_model(scene, step));
@@ -121,11 +130,8 @@ StepResult analyse_statics(const Cursor& analysis, const Scene& scene, std::size
   if (!solution.outcome.solved()) return result;
   const double roundoff = std::pow(10.0, -solution.digits_left);
   const Model& model = system.model;
-  record_nodes(model, solution, roundoff, record);
-  record_members(model, solution, roundoff, record);
+  record_solution(model, solution, roundoff, record);
   if (!scene.path) record_bending_stress(model, solution, roundoff, record);
-  record_reactions(model, solution, roundoff, record);
-  record_plates(model, solution, roundoff, record);
   // The pins of a platform are points that no mesh resolves.
   if (!scene.manipulator) record_node_stresses(model, solution, roundoff, record);
   // Loads times displacements: twice the strain energy.

@@ -17,6 +17,7 @@ StepResult analyse_step(const std::string& kind, const Cursor& analysis, const S
   if (kind == "modes") return analyse_modes(analysis, scene, step, draw, record);
   if (kind == "statics") return analyse_statics(analysis, scene, step, draw, record);
   if (kind == "buckling") return analyse_buckling(analysis, scene, step, draw, record);
+  if (kind == "large-statics") return analyse_large_statics(analysis, scene, step, draw, record);
   if (kind == "kinematics") return analyse_kinematics(scene, step, draw, record);
   return analyse_properties(scene, step, draw, record);
 }
@@ -41,6 +42,7 @@ StepResult analyse_scene(const std::string& kind, const Cursor& analysis, const 
                          bool draw, Recorder& record) {
   if (kind == "inverse-dynamics") return analyse_inverse_dynamics(analysis, scene, draw, record);
   if (kind == "forward-dynamics") return analyse_forward_dynamics(analysis, scene, draw, record);
+  if (kind == "large-motion") return analyse_large_motion(analysis, scene, draw, record);
   return analyse_steps(kind, analysis, scene, draw, record);
 }
 
@@ -74,6 +76,10 @@ AnalysisResult analyse(const Document& document, const References& references,
     compare_references(place, references, record);
     result.quantities = record.take();
     return result;
+  }
+  if (kind == "study") {
+    StepResult found = analyse_study(document, references, options.drawing, record);
+    return {found.outcome, record.take(), std::move(found.drawing), found.counters};
   }
   if (kind == "manufactured") {
     StepResult found = analyse_manufactured(place, options.drawing, record);

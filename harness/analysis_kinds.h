@@ -3,6 +3,7 @@
 #include "harness/analysis.h"
 #include "harness/recorder.h"
 #include "harness/scene.h"
+#include "solver/statics.h"
 
 /// The analyses, one source each. Each adds what it finds at one step of the scene's path, or along
 /// the whole of it.
@@ -34,6 +35,19 @@ void record_path(const Scene& scene, std::size_t step, Recorder& record);
 [[nodiscard]] StepResult analyse_buckling(const Cursor& analysis, const Scene& scene,
                                           std::size_t step, bool draw, Recorder& record);
 
+/// The same in large motion, at each load factor or along the whole path: geometrically exact.
+[[nodiscard]] StepResult analyse_large_statics(const Cursor& analysis, const Scene& scene,
+                                               std::size_t step, bool draw, Recorder& record);
+
+/// Motion in time of a geometrically exact model: one number an output time.
+[[nodiscard]] StepResult analyse_large_motion(const Cursor& analysis, const Scene& scene, bool draw,
+                                              Recorder& record);
+
+/// Adds what a solution says of nodes, members, supports and plates.
+/// @param roundoff  relative; negative: not known
+void record_solution(const Model& model, const StaticSolution& solution, double roundoff,
+                     Recorder& record);
+
 /// Joint angles, closure, distances from singularities, holding torques.
 [[nodiscard]] StepResult analyse_kinematics(const Scene& scene, std::size_t step, bool draw,
                                             Recorder& record);
@@ -54,6 +68,10 @@ void record_path(const Scene& scene, std::size_t step, Recorder& record);
 /// Relative error norms of a manufactured solution on one mesh; needs no scene.
 [[nodiscard]] StepResult analyse_manufactured(const Cursor& manufactured, bool draw,
                                               Recorder& record);
+
+/// Another analysis at each value of a parameter: every quantity kept has one number a value.
+[[nodiscard]] StepResult analyse_study(const Document& document, const References& references,
+                                       bool draw, Recorder& record);
 
 /// relative_difference and difference_percent of references from each other, by name.
 void compare_references(const Cursor& comparison, const References& references, Recorder& record);

@@ -151,7 +151,10 @@ Json patch_at(const Json& document, const std::string& pointer, const Json& valu
 }
 
 std::vector<Level> levels(const Document& variant, const std::string& sweep_name) {
-  const Cursor sweep = Cursor(variant)["sweeps"][sweep_name];
+  return levels(variant, Cursor(variant)["sweeps"][sweep_name]);
+}
+
+std::vector<Level> levels(const Document& variant, const Cursor& sweep) {
   const Cursor values = sweep["values"];
   const bool by_patches = sweep.has("patches");
   if (by_patches == sweep.has("pointers")) {

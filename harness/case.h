@@ -49,5 +49,7 @@ struct Level {
 /// @param variant  what `patched` returned
 /// @throws InputError  where a pointer leads nowhere or a patched level breaks the schema.
 [[nodiscard]] std::vector<Level> levels(const Document& variant, const std::string& sweep);
+/// The same of any place with values, and pointers or patches.
+[[nodiscard]] std::vector<Level> levels(const Document& variant, const Cursor& sweep);
 
 }  // namespace trammel

@@ -40,9 +40,10 @@ std::string count_of(std::size_t count, const char* what) {
 std::string model_words(const Document& document) {
   const std::string kind = analysis_kind(document);
   if (kind == "comparison") return "no model: references against each other";
+  if (kind == "study" && !document.value().contains("model")) return "made by the analysis";
   if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
   const Scene scene = read_scene(document);
-  const Model model = build_model(scene, 0);
+  const Model model = build_bare_model(scene, 0);
   std::string text;
   if (scene.manipulator) {
     const auto& platform = scene.manipulator->platform;
@@ -64,6 +65,9 @@ std::string model_words(const Document& document) {
   if (!model.triangles.empty()) text += ", " + count_of(model.triangles.size(), "triangle");
   if (!model.masses.empty()) text += ", " + count_of(model.masses.size(), "point mass");
   if (!model.springs.empty()) text += ", " + count_of(model.springs.size(), "spring");
+  const large::Scenario& more = scene.mechanism;
+  if (!more.line_springs.empty()) text += ", " + count_of(more.line_springs.size(), "line spring");
+  if (!more.sliders.empty()) text += ", " + count_of(more.sliders.size(), "slider");
   if (!model.loads.empty()) text += ", " + count_of(model.loads.size(), "load");
   return text;
 }

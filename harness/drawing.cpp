@@ -5,7 +5,6 @@
 namespace trammel {
 namespace {
 
-constexpr std::size_t most_nodes = 4000;
 constexpr std::size_t most_nodes_with_middles = 1500;
 constexpr std::size_t points_a_member = 12;
 
@@ -63,8 +62,8 @@ void draw_members(const System& system, const DrawnNodes& drawn, Drawing& drawin
   }
 }
 
-void draw_triangles(const System& system, const DrawnNodes& drawn, Drawing& drawing) {
-  for (const Triangle& triangle : system.model.triangles) {
+void draw_triangles(const Model& model, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const Triangle& triangle : model.triangles) {
     std::vector<std::size_t>& around = drawing.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       around.push_back(drawn.of(triangle.nodes[k]));
@@ -88,9 +87,8 @@ void draw_rigid_bodies(const Model& model, const DrawnNodes& drawn, Drawing& dra
 }
 
 /// One joint a node; the one that says most wins.
-void draw_joints(const System& system, bool is_manipulator, const DrawnNodes& drawn,
+void draw_joints(const Model& model, bool is_manipulator, const DrawnNodes& drawn,
                  Drawing& drawing) {
-  const Model& model = system.model;
   std::vector<std::string> kind(model.nodes.size());
   for (const Member& member : model.members) {
     for (std::size_t end = 0; end < 2; ++end) {
@@ -121,7 +119,23 @@ void draw_joints(const System& system, bool is_manipulator, const DrawnNodes& dr
   }
 }
 
+void draw_parts(const Model& model, bool is_manipulator, const DrawnNodes& drawn,
+                Drawing& drawing) {
+  draw_triangles(model, drawn, drawing);
+  draw_rigid_bodies(model, drawn, drawing);
+  draw_joints(model, is_manipulator, drawn, drawing);
+}
+
 }  // namespace
+
+void draw_parts(const Model& model, bool is_manipulator, Drawing& drawing) {
+  DrawnNodes all;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    all.mesh.push_back(i);
+    all.number.push_back(static_cast<Index>(i));
+  }
+  draw_parts(model, is_manipulator, all, drawing);
+}
 
 Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& u, double s) {
   const auto value = [&](std::size_t k) {
@@ -142,13 +156,11 @@ Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& 
 std::optional<Drawing> draw_model(const System& system, bool is_manipulator) {
   Drawing drawing;
   const DrawnNodes drawn = drawn_nodes(system);
-  if (drawn.mesh.size() > most_nodes) return std::nullopt;
+  if (drawn.mesh.size() > most_drawn_nodes) return std::nullopt;
   for (const std::size_t node : drawn.mesh) drawing.nodes.push_back(system.mesh.positions[node]);
   draw_members(system, drawn, drawing);
-  draw_triangles(system, drawn, drawing);
-  draw_rigid_bodies(system.model, drawn, drawing);
-  draw_joints(system, is_manipulator, drawn, drawing);
-  if (drawing.nodes.size() > most_nodes) return std::nullopt;
+  draw_parts(system.model, is_manipulator, drawn, drawing);
+  if (drawing.nodes.size() > most_drawn_nodes) return std::nullopt;
   return drawing;
 }
 

@@ -34,6 +34,12 @@ struct Drawing {
   std::vector<Pose> poses;  ///< further poses of the same mechanism
 };
 
+/// What a picture can show.
+inline constexpr std::size_t most_drawn_nodes = 4000;
+
+/// Adds triangles, rigid bodies and joints of a drawing that begins with all nodes of the model.
+void draw_parts(const Model& model, bool is_manipulator, Drawing& drawing);
+
 /// The mesh of a model, members smoothed by points inside their elements. A fine mesh is drawn
 /// without the middles of its six-node triangles; nothing where there still are more nodes than a
 /// picture can show.

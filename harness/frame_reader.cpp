@@ -9,6 +9,7 @@
 #include "harness/member_chain.h"
 #include "harness/part_names.h"
 #include "harness/plate_reader.h"
+#include "solver/large_motion/linear_joints.h"
 
 namespace trammel {
 namespace {
@@ -166,6 +167,19 @@ Spring read_spring(const std::string& name, const Cursor& place, const Names& na
   return spring;
 }
 
+void read_pin(const std::string& name, const Cursor& place, const Names& names, Model& model) {
+  std::array<Index, 2> nodes{};
+  for (std::size_t i = 0; i < 2; ++i) nodes[i] = names.find_node(place["nodes"][i]);
+  const double apart = (model.nodes[static_cast<std::size_t>(nodes[0])].position -
+                        model.nodes[static_cast<std::size_t>(nodes[1])].position)
+                           .norm();
+  if (apart > 1e-12) {
+    throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
+                               " m between them)");
+  }
+  add_pin(model, name, nodes);
+}
+
 /// Calls `read(name, place)` for every entry of an object that may be missing.
 template <class Read>
 void each(const Cursor& model, const char* key, const Read& read) {
@@ -259,6 +273,8 @@ Model read_parts(const Cursor& model, const std::vector<Node>& before) {
     parts.springs.push_back(read_spring(name, place, names));
   });
   read_supports(model, names, parts);
+  each(model, "pins",
+       [&](const std::string& name, const Cursor& place) { read_pin(name, place, names, parts); });
   each(model, "loads",
        [&](const std::string&, const Cursor& place) { read_load(place, names, parts); });
   if (model.has("gravity_m_s2")) parts.gravity = read_point(model["gravity_m_s2"]);

@@ -51,9 +51,9 @@ std::string unit_of(const std::string& name) {
 }
 
 bool is_count(const std::string& name) {
-  static const std::set<std::string> counts = {"modes_below",        "rigid_motions",
-                                               "degrees_of_freedom", "steps",
-                                               "rejected_steps",     "evaluations"};
+  static const std::set<std::string> counts = {
+      "modes_below",    "rigid_motions", "degrees_of_freedom", "steps",
+      "rejected_steps", "evaluations",   "newton_iterations",  "unstable_directions"};
   return counts.count(name) > 0;
 }
 

@@ -2,6 +2,8 @@
 
 #include "harness/frame_reader.h"
 #include "harness/manipulator_reader.h"
+#include "harness/mechanism_reader.h"
+#include "solver/large_motion/linear_joints.h"
 
 namespace trammel {
 namespace {
@@ -33,6 +35,7 @@ Scene read_scene(const Document& document) {
                            ? build_manipulator(*scene.manipulator, scene.motion.front().pose)
                            : Model();
     scene.parts = read_parts(model, bare.nodes);
+    scene.mechanism = read_mechanism(model, build_bare_model(scene, 0));
   } catch (const ModelError& error) {
     throw model_error(document, error);
   }
@@ -40,6 +43,17 @@ Scene read_scene(const Document& document) {
 }
 
 Model build_model(const Scene& scene, std::size_t step) {
+  Model model = build_bare_model(scene, step);
+  for (const large::Slider& slider : scene.mechanism.sliders) add_linear_slider(model, slider);
+  const bool only_large =
+      !scene.mechanism.line_springs.empty() || !scene.mechanism.follower_loads.empty();
+  if (only_large) {
+    throw ModelError("line springs and follower loads need large-statics or large-motion");
+  }
+  return model;
+}
+
+Model build_bare_model(const Scene& scene, std::size_t step) {
   if (!scene.manipulator) return scene.parts;
   Model model = build_manipulator(*scene.manipulator, scene.motion.at(step).pose);
   const auto plates = static_cast<Index>(model.plates.size());
@@ -54,6 +68,7 @@ Model build_model(const Scene& scene, std::size_t step) {
   append(model.masses, scene.parts.masses);
   append(model.springs, scene.parts.springs);
   append(model.supports, scene.parts.supports);
+  append(model.constraints, scene.parts.constraints);
   append(model.loads, scene.parts.loads);
   for (EdgeLoad load : scene.parts.edge_loads) {
     load.plate += plates;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "harness/cursor.h"
+#include "solver/large_motion/scenario.h"
 #include "solver/manipulator.h"
 #include "solver/model.h"
 #include "solver/trajectory.h"
@@ -18,6 +19,8 @@ struct Scene {
   std::optional<Path> path;  ///< where there is one, every quantity has one number a point
   /// Everything else. Its indices count the manipulator's nodes first, then its own.
   Model parts;
+  /// Sliders, line springs and follower loads, which the linear tiers know only in part.
+  large::Scenario mechanism;
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
 };
@@ -27,8 +30,13 @@ struct Scene {
 ///                     a combination has no meaning.
 [[nodiscard]] Scene read_scene(const Document& document);
 
-/// The planar model at a pose of the path (0 where there is none).
+/// The planar model at a pose of the path (0 where there is none), for the linear tiers: sliders
+/// are linear constraints.
+/// @throws ModelError  where the scene has line springs or follower loads.
 [[nodiscard]] Model build_model(const Scene& scene, std::size_t step);
+
+/// The same for large motion, which takes the mechanism by itself.
+[[nodiscard]] Model build_bare_model(const Scene& scene, std::size_t step);
 
 /// The error of a model that the solver refused, at the part that its message names.
 [[nodiscard]] InputError model_error(const Document& document, const ModelError& error);

@@ -235,6 +235,9 @@ CaseInfo read_case(const std::string& id, const JsonView& view) {
     request.y = texts(plot.at("y"));
     request.variants = texts(plot.find("variants"));
     request.caption = plot.find("caption").text_or("");
+    for (const std::string& axis : texts(plot.find("log"))) {
+      (axis == "x" ? request.log_x : request.log_y) = true;
+    }
     info.figures.push_back(std::move(request));
   }
   for (const auto& [variant, value] : view.find("variants").members())

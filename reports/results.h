@@ -101,6 +101,7 @@ struct Run {
 struct PlotRequest {
   std::string id, title, x, caption;
   std::vector<std::string> y, variants;
+  bool log_x = false, log_y = false;  ///< a logarithmic scale, of magnitudes
 };
 
 struct CaseInfo {

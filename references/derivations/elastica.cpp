@@ -1,5 +1,7 @@
 #include "references/derivations/elastica.h"
 
+#include <algorithm>
+#include <array>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 
@@ -27,10 +29,28 @@ Real load_parameter(const Real& tip_angle) {
   return root * root;
 }
 
+/// The columns of the table that are asked for: one with its length, or all of them without.
+std::vector<double> columns(const Arguments& arguments, const std::vector<Real>& table,
+                            const std::array<const char*, 3>& names,
+                            const std::array<bool, 3>& is_length) {
+  const std::string output =
+      arguments.choice("output", "all", {"all", names[0], names[1], names[2]});
+  if (output == "all") {
+    if (arguments.has("length_m")) arguments.fail("length_m", "expected an output beside it");
+    return rounded(table);
+  }
+  const auto column =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), output) - names.begin());
+  const Real unit = is_length.at(column) ? arguments.positive("length_m") : Real(1);
+  std::vector<Real> chosen;
+  for (std::size_t i = column; i < table.size(); i += 3) chosen.push_back(unit * table[i]);
+  return rounded(chosen);
+}
+
 }  // namespace
 
 std::vector<double> elastica_tip_force_program(const Json& json) {
-  const Arguments arguments(json, "", {"load_parameter"});
+  const Arguments arguments(json, "", {"load_parameter", "output", "length_m"});
   std::vector<Real> values;
   for (const Real& load : arguments.numbers("load_parameter")) {
     if (!(load > 0)) arguments.fail("load_parameter", "expected positive numbers");
@@ -42,11 +62,11 @@ std::vector<double> elastica_tip_force_program(const Json& json) {
     values.push_back(1 - sqrt(2 * sin(angle) / load));
     values.push_back(angle);
   }
-  return rounded(values);
+  return columns(arguments, values, {"transverse", "shortening", "angle"}, {true, true, false});
 }
 
 std::vector<double> elastica_column_program(const Json& json) {
-  const Arguments arguments(json, "", {"tip_angle_deg"});
+  const Arguments arguments(json, "", {"tip_angle_deg", "output", "length_m"});
   std::vector<Real> values;
   for (const Real& degrees : arguments.numbers("tip_angle_deg")) {
     if (!(degrees > 0 && degrees < 180)) {
@@ -58,7 +78,7 @@ std::vector<double> elastica_column_program(const Json& json) {
     values.push_back(2 * k / K);
     values.push_back(2 * ellint_2(k) / K - 2);
   }
-  return rounded(values);
+  return columns(arguments, values, {"load", "lateral", "axial"}, {false, true, true});
 }
 
 }  // namespace trammel::derive

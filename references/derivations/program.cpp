@@ -11,6 +11,7 @@
 #include "references/derivations/parallelogram_chain.h"
 #include "references/derivations/pendulum.h"
 #include "references/derivations/rotating_beam.h"
+#include "references/derivations/swept.h"
 #include "references/derivations/unit_load.h"
 #include "references/derivations/wittrick_williams.h"
 
@@ -34,10 +35,13 @@ const std::map<std::string, Program>& programs() {
         deep_beam_program}},
       {"elastica-column",
        {"cantilever column beyond buckling: F/Fcr, lateral and axial displacement over L",
-        "tip_angle_deg (array)", elastica_column_program}},
+        "tip_angle_deg (array), output (all | load | lateral | axial), length_m",
+        elastica_column_program}},
       {"elastica-tip-force",
        {"cantilever under a transverse dead load: v/L, u/L, tip angle (Bisshopp and Drucker 1945)",
-        "load_parameter (array of P L^2/EI)", elastica_tip_force_program}},
+        "load_parameter (array of P L^2/EI), output (all | transverse | shortening | angle), "
+        "length_m",
+        elastica_tip_force_program}},
       {"exponential-beam",
        {"frequencies of a clamped-clamped beam of exponential width [Hz]",
         "length_m, thickness_m, width_rate_1_m, E_Pa, rho_kg_m3, count, beam; for timoshenko nu, "
@@ -49,7 +53,8 @@ const std::map<std::string, Program>& programs() {
         parallelogram_chain_program}},
       {"pendulum",
        {"plane pendulum of any amplitude by elliptic functions: period [s] or x, y [m]",
-        "length_m, gravity_m_s2, start_angle_deg, output (period | position), times_s",
+        "length_m, gravity_m_s2, start_angle_deg, output (period | position | tension of 1 kg), "
+        "times_s",
         pendulum_program}},
       {"rotating-beam-frequencies",
        {"a steadily rotating cantilever's bending frequencies [Hz] by power series",
@@ -102,6 +107,9 @@ const std::map<std::string, Program>& programs() {
         "formulas (array of texts: + - * / ^, parentheses, sqrt, sin, cos, tan, exp, log, pi), "
         "values (object of numbers by name)",
         formula_program}},
+      {"swept",
+       {"another program at each of several values: the truth of a parameter study",
+        "program, arguments, pointers (into the arguments) and values, or patches", swept_program}},
   };
   return table;
 }

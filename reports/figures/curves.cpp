@@ -47,12 +47,20 @@ PlotScript::Rows thinned(const PlotScript::Rows& rows) {
   return out;
 }
 
-PlotScript::Rows rows_of(const Numbers* x, const Numbers& y, double x_factor, double y_factor) {
+/// What a logarithmic axis shows of a number: its magnitude, and nothing of zero.
+Number shown(const Number& value, bool log) {
+  if (!value || !log) return value;
+  return *value == 0 ? Number() : Number(std::abs(*value));
+}
+
+PlotScript::Rows rows_of(const Numbers* x, const Numbers& y, std::pair<double, double> factors,
+                         const PlotRequest& request) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < y.size(); ++i) {
-    const Number at = x ? (*x)[i] : Number(static_cast<double>(i + 1));
-    if (at && y[i]) {
-      rows.push_back({x_factor * *at, y_factor * *y[i]});
+    const Number at = shown(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.log_x);
+    const Number value = shown(y[i], request.log_y);
+    if (at && value) {
+      rows.push_back({factors.first * *at, factors.second * *value});
     } else if (!rows.empty() && !rows.back().empty()) {
       rows.emplace_back();
     }
@@ -150,6 +158,19 @@ void x_range(PlotScript& script, const Numbers& values, double factor) {
   if (low < high) script.range("x", low, high);
 }
 
+void log_range(PlotScript& script, const std::string& axis,
+               const std::vector<const Numbers*>& curves) {
+  double low = 1e300, high = 0;
+  for (const Numbers* values : curves) {
+    for (const Number& value : *values) {
+      if (!value || *value == 0) continue;
+      low = std::min(low, std::abs(*value));
+      high = std::max(high, std::abs(*value));
+    }
+  }
+  if (high > 0) script.log_axis(axis, low, high > low ? high : 10 * high);
+}
+
 /// "Largest magnitude: 8.13 mm (base), 8.10 mm (rigid platform)."; of more than two curves the
 /// smallest and the largest.
 std::string measured(const std::vector<Series>& series, const Scale& scale) {
@@ -208,7 +229,7 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
   }
   for (const Series& s : series) {
     const Numbers* at = run_of(runs, s.variant)->quantity(request.x);
-    const auto rows = rows_of(at, *s.values, factors.first, factors.second);
+    const auto rows = rows_of(at, *s.values, factors, request);
     const std::string style = dashed(s.dash) + lc(palette::color(s.color));
     const std::string marks = rows.size() <= 40 ? "linespoints pt 7 ps 0.6" : "lines";
     script.curve(rows, "with " + marks + " lw 2.2" + style);
@@ -238,16 +259,26 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   double largest = 0;
   for (const Series& s : series) largest = std::max(largest, s.largest);
   const Numbers* x_values = run_of(runs, series.front().variant)->quantity(request.x);
-  const Scale y_scale = readable_scale(y.unit, largest);
-  const Scale x_scale =
-      x.unit == "s" || !x_values ? Scale{1, x.unit} : readable_scale(x.unit, largest_of(*x_values));
+  const Scale y_scale = request.log_y ? Scale{1, y.unit} : readable_scale(y.unit, largest);
+  const Scale x_scale = x.unit == "s" || !x_values || request.log_x
+                            ? Scale{1, x.unit}
+                            : readable_scale(x.unit, largest_of(*x_values));
 
   PlotScript script;
   script.axis_label("x", request.x.empty() ? "number" : axis_label(in_words(x), x_scale.unit));
   const std::string words = common_words(request.y);
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
-  if (x_values) x_range(script, *x_values, x_scale.factor);
+  if (request.log_y && largest > 0) {
+    std::vector<const Numbers*> all;
+    for (const Series& s : series) all.push_back(s.values);
+    log_range(script, "y", all);
+  }
+  if (x_values && request.log_x) {
+    log_range(script, "x", {x_values});
+  } else if (x_values) {
+    x_range(script, *x_values, x_scale.factor);
+  }
   const int key_height =
       draw_series(script, series, info, request, variants, {x_scale.factor, y_scale.factor}, runs);
   script.plot();

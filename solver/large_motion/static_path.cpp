@@ -132,8 +132,12 @@ class Follower {
     PathPoint point;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return give_up("no step is small enough");
-      if (crosses_target(from) && finish(from, point)) break;
-      if (corrector(from, direction_, arc_, point) && equilibrium_.factor(point.state)) break;
+      // A step over the target would leave it behind for good: it ends there, or is cut.
+      const bool reached = crosses_target(from) ? finish(from, point)
+                                                : corrector(from, direction_, arc_, point) &&
+                                                      !passed_target(from, point.state) &&
+                                                      equilibrium_.factor(point.state);
+      if (reached) break;
       arc_ /= 2;
     }
     ++counted_;
@@ -158,6 +162,10 @@ class Follower {
   bool crosses_target(const State& from) const {
     const double ahead = from.load + arc_ * direction_.load;
     return (from.load - options_.target) * (ahead - options_.target) <= 0 && direction_.load != 0;
+  }
+
+  bool passed_target(const State& from, const State& to) const {
+    return (from.load - options_.target) * (to.load - options_.target) < 0;
   }
 
   /// The last step ends on the target itself.

@@ -41,6 +41,19 @@ BOOST_AUTO_TEST_CASE(the_elastica_agrees_with_values_computed_elsewhere) {
               1e-11);
 }
 
+BOOST_AUTO_TEST_CASE(one_column_of_the_elastica_table_comes_with_its_length) {
+  const auto all = run("elastica-tip-force", R"({"load_parameter": [1, 10]})");
+  check_equal(run("elastica-tip-force",
+                  R"({"load_parameter": [1, 10], "output": "shortening", "length_m": 3})"),
+              {3 * all[1], 3 * all[4]}, 4e-16);
+  check_equal(run("elastica-tip-force", R"({"load_parameter": [1, 10], "output": "angle"})"),
+              {all[2], all[5]}, 4e-16);
+  const auto column = run("elastica-column", R"({"tip_angle_deg": [60, 120]})");
+  check_equal(
+      run("elastica-column", R"({"tip_angle_deg": [60, 120], "output": "axial", "length_m": 2})"),
+      {2 * column[2], 2 * column[5]}, 4e-16);
+}
+
 BOOST_AUTO_TEST_CASE(a_small_load_bends_the_elastica_like_the_linear_beam) {
   const auto small = run("elastica-tip-force", R"({"load_parameter": [1e-6]})");
   check_equal({small[0], small[2]}, {1e-6 / 3, 1e-6 / 2}, 1e-11);

@@ -92,6 +92,17 @@ BOOST_AUTO_TEST_CASE(a_column_follows_its_buckled_branch_as_the_elastica_does) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_path_does_not_step_over_its_target) {
+  // Newton on the target itself may fail from far away; the step must then be cut, not taken.
+  const LargeSystem system(column(24));
+  StaticPathOptions options;
+  options.target = kPi * kPi / 2;
+  options.switch_branch = true;
+  const StaticPath path = follow_static_path(system, options);
+  BOOST_REQUIRE(path.outcome.solved());
+  BOOST_TEST(path.points.back().state.load == options.target);
+}
+
 BOOST_AUTO_TEST_CASE(a_shallow_truss_snaps_through_its_limit_points) {
   const double B = 1, H = 0.2, EA = 100;
   const double L = std::hypot(B, H);

@@ -1,0 +1,144 @@
+#include <cmath>
+#include <limits>
+
+#include "harness/analysis_kinds.h"
+#include "harness/case.h"
+#include "harness/cursor.h"
+#include "harness/judge.h"
+
+namespace trammel {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The case with the inner analysis in place of the study.
+Document with_inner_analysis(Document document) {
+  const Json inner = document.value().at("analysis").at("study").at("of");
+  const Origin written = document.origin("/analysis/study/of");
+  document.lay(written.file, written.pointer, {{"analysis", {{"study", nullptr}}}});
+  document.lay(written.file, written.pointer, {{"analysis", inner}});
+  return document;
+}
+
+double status_code(Status status) {
+  return status == Status::solved ? 0 : status == Status::singular ? 1 : 2;
+}
+
+/// A number and its round-off error as far as it is known (else negative).
+struct Kept {
+  double value = nothing, roundoff = -1;
+};
+
+/// The one number of a quantity that is kept. @throws InputError  where there is none.
+Kept number_of(const Quantities& quantities, const std::string& name, const Cursor& keep) {
+  const auto found = quantities.find(name);
+  if (found == quantities.end()) {
+    std::string some;
+    for (const auto& item : quantities) some += (some.empty() ? "" : ", ") + item.first;
+    throw keep.error("expected the name of a quantity of the analysis, one of " + some);
+  }
+  const std::vector<double>& values = found->second.values;
+  const std::vector<double>& roundoff = found->second.roundoff;
+  if (keep.has("statistic")) {
+    return {statistic_of(keep.text("statistic"), values),
+            roundoff.empty() ? -1 : statistic_of("max", roundoff)};
+  }
+  const auto index = keep.get<std::size_t>("index", 0);
+  if (!keep.has("index") && values.size() != 1) {
+    throw keep.error("expected 'index' or 'statistic' for a quantity of " +
+                     std::to_string(values.size()) + " numbers");
+  }
+  if (index >= values.size()) return {};
+  return {values[index], index < roundoff.size() ? roundoff[index] : -1};
+}
+
+std::vector<double> truth_of(const std::vector<Kept>& kept, const Cursor& keep,
+                             const References& references) {
+  if (!keep.has("reference")) {
+    const Kept& one = keep.text("against") == "first" ? kept.front() : kept.back();
+    return std::vector<double>(kept.size(), one.value);
+  }
+  const Reference& reference = references.get(keep["reference"]);
+  if (reference.values.size() != kept.size()) {
+    throw keep["reference"].error("expected a reference of " + std::to_string(kept.size()) +
+                                  " values (got " + std::to_string(reference.values.size()) + ")");
+  }
+  return reference.values;
+}
+
+/// Errors, and what share of the round-off that the solver promised they are.
+void record_errors(const std::string& name, const std::vector<Kept>& kept, const Cursor& keep,
+                   const References& references, Recorder& record) {
+  if (!keep.has("reference") && !keep.has("against")) return;
+  const std::vector<double> truth = truth_of(kept, keep, references);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const double error = std::abs(kept[i].value - truth[i]) / std::abs(truth[i]);
+    record.add("relative_error", name, error);
+    if (kept[i].roundoff >= 0) {
+      record.add("roundoff", name, kept[i].roundoff);
+      record.add("error_over_roundoff", name, error / kept[i].roundoff);
+    } else if (std::isnan(kept[i].value)) {
+      record.add("roundoff", name, nothing);
+      record.add("error_over_roundoff", name, nothing);
+    }
+  }
+}
+
+/// A level for each point of the model's trajectory; its parameter is the time.
+std::vector<Level> trajectory_levels(const Document& document, const Cursor& study) {
+  const Scene scene = read_scene(document);
+  if (!scene.path) throw study["trajectory"].error("expected a model with a trajectory");
+  const Origin written = document.origin("/model/trajectory");
+  std::vector<Level> found;
+  for (const TrajectoryPoint& point : scene.motion) {
+    const Pose& pose = point.pose;
+    const Json place = {{"x_m", pose.x}, {"y_m", pose.y}, {"phi_rad", pose.phi}};
+    found.push_back({point.time, document});
+    found.back().document.lay(written.file, written.pointer,
+                              {{"model", {{"trajectory", nullptr}, {"pose", place}}}});
+  }
+  return found;
+}
+
+std::vector<Level> study_levels(const Document& document, const Cursor& study) {
+  const bool along = study.get("trajectory", false);
+  if (along == study.has("values")) {
+    throw study.error("expected either 'values' or 'trajectory'");
+  }
+  return along ? trajectory_levels(document, study) : levels(document, study);
+}
+
+}  // namespace
+
+StepResult analyse_study(const Document& document, const References& references, bool draw,
+                         Recorder& record) {
+  const Cursor study = Cursor(document)["analysis"]["study"];
+  if (study["of"].has("study")) throw study["of"].error("expected another analysis than a study");
+  const auto kept_places = study.find("keep");
+  const auto keep =
+      kept_places ? kept_places->entries() : std::vector<std::pair<std::string, Cursor>>{};
+  std::vector<std::vector<Kept>> kept(keep.size());
+  StepResult result;
+  for (const Level& level : study_levels(document, study)) {
+    AnalysisResult found =
+        analyse(with_inner_analysis(level.document), references, {draw && !result.drawing});
+    record.add(study.get<std::string>("parameter", "parameter"), "", level.parameter);
+    record.add("status", "", status_code(found.outcome.status));
+    for (std::size_t k = 0; k < keep.size(); ++k) {
+      const auto& [name, place] = keep[k];
+      kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place) : Kept{});
+    }
+    result.counters.element_evaluations += found.counters.element_evaluations;
+    result.counters.factorizations += found.counters.factorizations;
+    result.counters.solves += found.counters.solves;
+    if (found.drawing) result.drawing = std::move(found.drawing);
+  }
+  for (std::size_t k = 0; k < keep.size(); ++k) {
+    const auto& [name, place] = keep[k];
+    for (const Kept& one : kept[k]) record.add(name, "", one.value);
+    record_errors(name, kept[k], place, references, record);
+  }
+  return result;
+}
+
+}  // namespace trammel

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "harness/cursor.h"
+#include "solver/large_motion/scenario.h"
+#include "solver/model.h"
+
+namespace trammel {
+
+/// Reads /model/sliders, line_springs and follower_loads.
+/// @param model  the place /model
+/// @param built  what the names of nodes are looked up in
+/// @throws InputError  where a name leads nowhere.
+[[nodiscard]] large::Scenario read_mechanism(const Cursor& model, const Model& built);
+
+/// Adds the drives of a large-statics or large-motion analysis, and of the second its damping, its
+/// history of the loads and its start.
+/// @throws InputError  where a name leads nowhere.
+void read_drives(const Cursor& analysis, const Model& built, large::Scenario& scenario);
+void read_history(const Cursor& analysis, const Model& built, large::Scenario& scenario);
+
+/// The node of that name. @throws InputError  where there is none.
+[[nodiscard]] Index find_node(const Cursor& name, const Model& built);
+
+}  // namespace trammel
