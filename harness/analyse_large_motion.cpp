@@ -241,7 +241,7 @@ StepResult analyse_large_motion(const Cursor& analysis, const Scene& scene, bool
     if (!result.drawing || state.t < options.end_time * poses / most_poses) return;
     ++poses;
     result.drawing->poses.push_back(
-        draw_large_pose(system, state.q, shortest(float(state.t)) + " s"));
+        draw_large_pose(system, state.q, rounded(state.t, 3) + " s"));
   };
   const large::IntegrationSummary summary =
       move(system, scene, tracking, options, extrapolated, look);

@@ -74,7 +74,7 @@ void draw_poses(const LargeSystem& system, const std::vector<PathPoint>& points,
     const std::size_t last_first = points.size() - 1 - i;
     const large::State& state = points[last_first].state;
     drawing.poses.push_back(
-        draw_large_pose(system, state.q, "load factor " + shortest(float(state.load))));
+        draw_large_pose(system, state.q, "load factor " + rounded(state.load, 3)));
   }
   std::reverse(drawing.poses.begin(), drawing.poses.end());
 }

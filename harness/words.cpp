@@ -66,6 +66,13 @@ std::string shortest(double value) {
   return {std::begin(buffer), result.ptr};
 }
 
+std::string rounded(double value, int digits) {
+  char buffer[32];
+  const auto result = std::to_chars(std::begin(buffer), std::end(buffer), value,
+                                    std::chars_format::general, digits);
+  return {std::begin(buffer), result.ptr};
+}
+
 std::string printable(std::string text, std::size_t length) {
   if (text.size() > length) text = text.substr(0, length - 3) + "...";
   std::replace_if(
