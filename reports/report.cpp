@@ -19,8 +19,9 @@ constexpr const char* generator = R"(<meta name="generator" content="trammel">)"
 
 Data page_data(const Results& results, const std::vector<Family>& families) {
   Data page = object();
-  for (const char* name : {"summary", "family", "case", "figure", "checks", "matrix", "cost",
-                           "references", "counts", "rows", "head", "matrix_row", "cell"})
+  for (const char* name :
+       {"summary", "family", "case", "figure", "checks", "matrix", "cost", "targets", "orders",
+        "noise", "references", "counts", "rows", "head", "matrix_row", "cell"})
     page.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -31,6 +32,9 @@ Data page_data(const Results& results, const std::vector<Family>& families) {
   Data family_list = list();
   for (const Family& family : families) family_list.push_back(family_section(family, results));
   page.set("families", family_list);
+  page.set("targets", targets_section(results, families));
+  page.set("orders", orders_section(results, families));
+  page.set("noise", noise_section(results, families));
   page.set("cost", cost_section(results, families));
   page.set("references", references_section(results));
   return page;

@@ -142,6 +142,12 @@ Convergence read_convergence(const JsonView& view) {
   for (const JsonView& level : view.find("in_asymptotic_range").entries())
     c.in_asymptotic_range.push_back(!level.null() && level.boolean());
   c.in_asymptotic_range.resize(levels, false);
+  for (const JsonView& level : view.find("at_roundoff_floor").entries())
+    c.at_roundoff_floor.push_back(!level.null() && level.boolean());
+  c.at_roundoff_floor.resize(levels, false);
+  c.lower_order = view.find("lower_order").maybe_number();
+  if (!view.find("two_term").null())
+    c.law_within = view.at("two_term").find("worst").maybe_number();
   c.exact = view.find("exact").maybe_number();
   c.theory_order = view.find("theory_order").maybe_number();
   c.fitted_order = view.find("fitted_order").maybe_number();
@@ -203,6 +209,41 @@ Cost read_cost(const JsonView& view) {
   return cost;
 }
 
+Comparison read_comparison(const JsonView& view) {
+  Comparison c;
+  c.check = view.at("check").text();
+  c.quantity = view.at("quantity").text();
+  c.index = view.at("index").integer(any_index);
+  c.reference = view.at("reference").text();
+  c.simulation = view.find("simulation").maybe_number();
+  c.expected = view.find("expected").maybe_number();
+  c.difference = view.find("difference").maybe_number();
+  c.u_num = view.find("u_num").maybe_number();
+  c.u_input = view.find("u_input").maybe_number();
+  c.u_reference = view.find("u_reference").maybe_number();
+  c.u_val = view.find("u_val").maybe_number();
+  c.dominant_input = view.find("dominant_input").text_or("");
+  c.dominant_share = view.find("dominant_share").maybe_number();
+  c.verdict = view.at("verdict").text();
+  c.words = view.find("words").text_or("");
+  if (!view.find("literal").null()) {
+    c.literal_u_val = view.at("literal").find("u_val").maybe_number();
+    c.literal_words = view.at("literal").find("words").text_or("");
+  }
+  return c;
+}
+
+Bands read_bands(const JsonView& view) {
+  Bands bands;
+  bands.levels = view.at("levels").integer(any_index);
+  bands.hits = view.at("hits").integer(any_index);
+  bands.least_hit_rate = view.find("least_hit_rate").maybe_number();
+  bands.median_ratio = view.find("median_ratio").maybe_number();
+  bands.largest_median_ratio = view.find("largest_median_ratio").maybe_number();
+  bands.holds = view.at("holds").boolean();
+  return bands;
+}
+
 Run read_run(const JsonView& view) {
   Run run;
   run.case_id = view.at("case").text();
@@ -215,6 +256,9 @@ Run read_run(const JsonView& view) {
     run.checks.push_back(read_check(check));
   for (const JsonView& sweep : view.find("convergence").entries())
     run.convergence.push_back(read_convergence(sweep));
+  if (!view.find("uncertainty").null())
+    for (const JsonView& entry : view.at("uncertainty").find("comparisons").entries())
+      run.comparisons.push_back(read_comparison(entry));
   if (!view.find("drawing").null()) run.drawing = read_drawing(view.at("drawing"));
   run.cost = read_cost(view.find("cost"));
   return run;
@@ -293,6 +337,7 @@ Results read_all(const JsonView& root) {
   for (const auto& [id, view] : root.find("references").members())
     results.references.push_back(read_reference(id, view));
   for (const JsonView& run : root.at("runs").entries()) results.runs.push_back(read_run(run));
+  if (!root.find("bands").null()) results.bands = read_bands(root.at("bands"));
   check_cases(root.at("runs"), results);
   return results;
 }

@@ -42,8 +42,26 @@ struct Convergence {
   int index = 0;
   std::vector<double> parameter;
   Numbers values, error, roundoff, order, band;
-  std::vector<bool> in_asymptotic_range;
+  std::vector<bool> in_asymptotic_range, at_roundoff_floor;
   Number exact, theory_order, fitted_order, richardson;
+  Number lower_order;  ///< where two orders mix
+  Number law_within;   ///< largest |law of two orders / error - 1|
+};
+
+/// One entry against the paper after ASME V&V 20: E = S - D and what it stands against. Standard
+/// uncertainties, all in the quantity's unit.
+struct Comparison {
+  std::string check, quantity, reference, dominant_input, verdict, words, literal_words;
+  int index = 0;
+  Number simulation, expected, difference, u_num, u_input, u_reference, u_val, literal_u_val;
+  Number dominant_share;  ///< of u_input squared
+};
+
+/// How good the bands of numerical uncertainty are, over all refinements with exact values.
+struct Bands {
+  int levels = 0, hits = 0;
+  Number least_hit_rate, median_ratio, largest_median_ratio;
+  bool holds = false;
 };
 
 using Point = std::pair<double, double>;  ///< (x, y) [m]
@@ -90,6 +108,7 @@ struct Run {
   std::vector<std::pair<std::string, Numbers>> quantities;
   std::vector<Check> checks;
   std::vector<Convergence> convergence;
+  std::vector<Comparison> comparisons;
   std::optional<Drawing> drawing;
   Cost cost;
 
@@ -125,6 +144,7 @@ struct Results {
   std::vector<CaseInfo> cases;
   std::vector<Reference> references;
   std::vector<Run> runs;
+  std::optional<Bands> bands;
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
   /// @returns nullptr for an unknown or empty id.

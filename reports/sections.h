@@ -31,6 +31,16 @@ namespace trammel::reports {
 [[nodiscard]] std::string comparison_conclusion(const Family& family, const Results& results,
                                                 const std::string& reference);
 
+/// Published targets beside better values and what comes out; empty rows where no case is labelled
+/// as a benchmark.
+[[nodiscard]] Data targets_section(const Results& results, const std::vector<Family>& families);
+
+/// Observed orders beside those of theory, and how good the bands of numerical uncertainty are.
+[[nodiscard]] Data orders_section(const Results& results, const std::vector<Family>& families);
+
+/// Differences from the paper beside the noise that they stand against, after ASME V&V 20.
+[[nodiscard]] Data noise_section(const Results& results, const std::vector<Family>& families);
+
 /// Wall time and counters of every case.
 [[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families);
 
