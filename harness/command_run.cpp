@@ -9,6 +9,7 @@
 #include "harness/progress.h"
 #include "harness/results.h"
 #include "harness/table.h"
+#include "harness/words.h"
 
 namespace trammel {
 namespace {

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "harness/table.h"
+#include "harness/words.h"
 
 namespace trammel {
 namespace {

@@ -1,8 +1,6 @@
 #include "harness/table.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <ostream>
 #include <sstream>
 
@@ -47,13 +45,6 @@ void Table::print(std::ostream& out, const std::string& indent) const {
   };
   line(heads_);
   for (const auto& row : rows_) line(row);
-}
-
-std::string rounded(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
 }
 
 std::string wrapped(const std::string& text, const std::string& indent, std::size_t width) {

@@ -21,9 +21,6 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// "%.*g" of a number; "-" where it is not finite.
-[[nodiscard]] std::string rounded(double value, int digits = 6);
-
 /// Text broken at spaces to a width, each line indented.
 [[nodiscard]] std::string wrapped(const std::string& text, const std::string& indent,
                                   std::size_t width = 96);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace trammel {
@@ -67,10 +68,10 @@ std::string shortest(double value) {
 }
 
 std::string rounded(double value, int digits) {
-  char buffer[32];
-  const auto result = std::to_chars(std::begin(buffer), std::end(buffer), value,
-                                    std::chars_format::general, digits);
-  return {std::begin(buffer), result.ptr};
+  if (!std::isfinite(value)) return "-";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
 }
 
 std::string printable(std::string text, std::size_t length) {

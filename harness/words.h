@@ -28,8 +28,8 @@ namespace trammel {
 /// The shortest decimal that reads back the same double.
 [[nodiscard]] std::string shortest(double value);
 
-/// With at most so many significant digits, for labels.
-[[nodiscard]] std::string rounded(double value, int digits);
+/// "%.*g" of a number; "-" where it is not finite.
+[[nodiscard]] std::string rounded(double value, int digits = 6);
 
 /// Bytes that a terminal or a line cannot hold become '?', long text is cut.
 [[nodiscard]] std::string printable(std::string text, std::size_t length = 60);
