@@ -141,6 +141,9 @@ class Log {
       const auto row = static_cast<Index>(i);
       if (support.fixed[0]) record_.add("reaction_x_N", support.name, reaction(row, 0));
       if (support.fixed[1]) record_.add("reaction_y_N", support.name, reaction(row, 1));
+      if (support.fixed[0] && support.fixed[1]) {
+        record_.add("reaction_N", support.name, std::hypot(reaction(row, 0), reaction(row, 1)));
+      }
       if (support.fixed[2]) record_.add("reaction_moment_N_m", support.name, reaction(row, 2));
     }
     for (std::size_t i = 0; i < system_.scenario().drives.size(); ++i) {

@@ -21,6 +21,7 @@ class Journey {
 
   IntegrationSummary run(State& state) {
     begin_ = state.t;
+    limit_steps();
     stepper_.begin(state);
     look();
     double h = options_.step;
@@ -40,6 +41,17 @@ class Journey {
  private:
   double state_time() const { return stepper_.state().t; }
 
+  /// Where steps fail again and again equal steps have become tiny: that must come to an end.
+  void limit_steps() {
+    most_steps_ = options_.steps;
+    if (options_.adaptive) return;
+    const double equal = (options_.end_time - begin_) / options_.step;
+    const double enough = 1000 + 10 * equal;
+    if (enough >= static_cast<double>(most_steps_)) return;
+    most_steps_ = static_cast<std::int64_t>(enough);
+    why_enough_ = "steps keep failing, ten times as many as asked for are spent";
+  }
+
   /// Where the next observation is: on the grid of outputs, or after one step.
   double next_target(std::int64_t leg, double h) const {
     const double end = options_.end_time;
@@ -55,8 +67,7 @@ class Journey {
     int failures = 0;
     double tried = 0;
     while (state_time() < target) {
-      if (summary_.steps + summary_.rejected >= options_.steps)
-        return fail("too many steps", h, {});
+      if (summary_.steps + summary_.rejected >= most_steps_) return fail(why_enough_, h, {});
       const double left = target - state_time();
       // Equal steps up to the target, so that none is tiny.
       const double count = std::ceil(left / h * (1 - 1e-9));
@@ -126,6 +137,8 @@ class Journey {
   const Observer& observe_;
   IntegrationSummary summary_;
   double begin_ = 0;
+  std::int64_t most_steps_ = 0;
+  const char* why_enough_ = "too many steps";
   VectorXd gap_, rate_;
 };
 
