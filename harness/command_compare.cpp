@@ -4,6 +4,7 @@
 
 #include "harness/catalogue.h"
 #include "harness/commands.h"
+#include "harness/cost_results.h"
 #include "harness/errors.h"
 #include "harness/json_file.h"
 #include "harness/mode_match.h"
@@ -164,6 +165,43 @@ std::pair<Named, Named> differing(const Named& a, const Named& b) {
   return left;
 }
 
+/// The points of a study by the titles of its settings.
+std::vector<CostPoint> named_points(const Json& study, std::vector<std::string>& titles) {
+  std::vector<CostPoint> points = cost_points(study);
+  for (CostPoint& point : points) {
+    const auto title = study.at("settings").at(point.setting).at("title").get<std::string>();
+    const auto known = std::find(titles.begin(), titles.end(), title);
+    point.setting = static_cast<std::size_t>(known - titles.begin());
+    if (known == titles.end()) titles.push_back(title);
+  }
+  return points;
+}
+
+/// How near two measurements of the same studies come.
+void compare_costs(const Json& a, const Json& b) {
+  if (!a.contains("cost") || !b.contains("cost")) return;
+  Table table({"study", ">on both fronts", ">of", ">same cheapest", ">of", ">median", ">largest"});
+  for (const Json& study : a.at("cost").at("studies")) {
+    const Json& others = b.at("cost").at("studies");
+    const auto other = std::find_if(others.begin(), others.end(), [&](const Json& candidate) {
+      return candidate.at("id") == study.at("id");
+    });
+    if (other == others.end()) continue;
+    std::vector<std::string> titles;
+    const std::vector<CostPoint> ours = named_points(study, titles);
+    const FrontAgreement both = compare_fronts(ours, named_points(*other, titles));
+    table.add({study.at("id").get<std::string>(), std::to_string(both.shared),
+               std::to_string(both.either), std::to_string(both.same_cheapest),
+               std::to_string(both.asked), rounded(100 * both.median_difference, 2) + " % apart",
+               rounded(100 * both.largest_difference, 2) + " %"});
+  }
+  if (table.empty()) return;
+  std::cout
+      << "what accuracy costs: settings on the efficient fronts, the cheapest setting for each\n"
+         "error asked for, and how far what an accuracy costs is apart\n";
+  table.print(std::cout, "  ");
+}
+
 int compare_results(const std::string& file_a, const std::string& file_b) {
   const auto runs_a = read_runs(file_a), runs_b = read_runs(file_b);
   std::size_t same = 0, different = 0;
@@ -186,6 +224,7 @@ int compare_results(const std::string& file_a, const std::string& file_b) {
     if (runs_a.count(item.first) == 0) std::cout << item.first << ": only in " << file_b << '\n';
   }
   std::cout << same << " runs are the same bit for bit, " << different << " differ\n";
+  compare_costs(read_json(file_a), read_json(file_b));
   return 0;
 }
 

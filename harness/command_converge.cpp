@@ -55,12 +55,6 @@ void print(const Convergence& found) {
   std::cout << wrapped(last, "    ") << '\n';
 }
 
-void print_cost(const Sweep& sweep) {
-  std::cout << "  time a level [s]:";
-  for (const SweepLevel& level : sweep.levels) std::cout << ' ' << rounded(level.wall_s, 2);
-  std::cout << "\n\n";
-}
-
 }  // namespace
 
 int converge_command(const std::string& name, const std::string& variant, unsigned jobs) {
@@ -77,7 +71,6 @@ int converge_command(const std::string& name, const std::string& variant, unsign
       return run.trouble == Run::Trouble::input ? 2 : 3;
     }
     std::cout << run.case_id << ":" << run.variant << "\n\n";
-    for (const Sweep& sweep : run.sweeps) print_cost(sweep);
     for (const Convergence& found : run.convergence) print(found);
   }
   print_bands(bands_of(runs), std::cout);

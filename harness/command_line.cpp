@@ -30,6 +30,7 @@ Examples:
   trammel run ~/my-robot.json               a case file of your own
   trammel compare manipulator-modes manipulator-modes:rigid-platform
   trammel converge beam-cantilever          orders, extrapolation, uncertainty bands
+  trammel cost modes                        what accuracy costs in time
   trammel report                            the whole catalogue as a page
 
 Exit status: 0 every gate holds, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
@@ -47,6 +48,7 @@ class CommandLine {
     define_run();
     define_compare();
     define_converge();
+    define_cost();
     define_report();
   }
 
@@ -142,6 +144,29 @@ class CommandLine {
     sub->callback(
         [this] { command_ = [this] { return converge_command(name_, run_.variant, run_.jobs); }; });
   }
+  void define_cost() {
+    CLI::App* sub =
+        add("cost", "What accuracy costs in time: error, time and the efficient front",
+            "\nStudies stand in cases/cost; a case of your own is studied by its sweeps.\n"
+            "Settings are run in shuffled order, one at a time: leave the machine to it.\n\n"
+            "Examples:\n  trammel cost\n  trammel cost modes statics --quick\n"
+            "  trammel cost beam-cantilever --sweep elements\n"
+            "  trammel cost my-study.json --repeats 15 --out cost");
+    sub->add_option("what", cost_.what,
+                    "Families or studies of the catalogue, cases, or files of either; every study "
+                    "by default");
+    sub->add_option("--sweep", cost_.sweeps, "Sweeps of the cases named; all of them by default");
+    sub->add_option("--variant", cost_.variant,
+                    "Of the cases named; 'base', the default, is the case unpatched");
+    sub->add_flag("--quick", cost_.quick, "Few values of each study, as the report shows them");
+    sub->add_option("--repeats", cost_.repeats, "Measurements of each setting")
+        ->check(CLI::Range(7, 10000))
+        ->capture_default_str();
+    sub->add_option("--seed", cost_.seed, "Of the order")->capture_default_str();
+    sub->add_option("-o,--out", cost_.out, "Folder for results.json, the page, figures and data")
+        ->capture_default_str();
+    sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
+  }
   void define_report() {
     CLI::App* sub = add("report", "Run the whole catalogue and write the page",
                         "\nExample:\n  trammel report --out report --jobs 4");
@@ -154,6 +179,7 @@ class CommandLine {
   const Renderers& renderers_;
   CLI::App app_{about};
   RunCommand run_{{}, {}, "", std::max(1U, std::thread::hardware_concurrency()), "trammel-results"};
+  CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   std::string name_, other_;
   bool json_ = false;
   std::function<int()> command_;

@@ -153,10 +153,9 @@ void print_trouble(const std::vector<Run>& runs) {
   }
 }
 
-std::filesystem::path write_all(const std::vector<Run>& runs, const Selection& selection,
-                                const References& references, const std::string& out,
+std::filesystem::path write_all(const Json& json, const std::string& out,
                                 const Renderers& renderers) {
-  const auto results = write_results(results_of(runs, selection.cases, references), out);
+  const auto results = write_results(json, out);
   if (renderers.junit) renderers.junit(results, std::filesystem::path(out) / "junit.xml");
   return results;
 }
@@ -185,7 +184,8 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
     print_run(run);
     if (runs.size() == 1) print_validation(run, std::cout);
   }
-  const auto results = write_all(runs, selection, references, command.out, renderers);
+  const auto results =
+      write_all(results_of(runs, selection.cases, references), command.out, renderers);
   print_summary(runs);
   std::cout << "results in " << results.string() << std::endl;
   print_trouble(runs);
@@ -202,12 +202,17 @@ int report_command(const std::string& out, unsigned jobs, const Renderers& rende
                                     [](const Judgement& one) { return breaks_gate(one.verdict); });
     if (broken && run.trouble == Run::Trouble::none) print_run(run);
   }
-  const auto results = write_all(runs, selection, references, out, renderers);
+  std::vector<std::string> troubles;
+  const Json cost = quick_cost(references, troubles);
+  Json json = results_of(runs, selection.cases, references);
+  json["cost"] = cost;
+  const auto results = write_all(json, out, renderers);
   const auto page = renderers.report ? renderers.report(results, out) : results;
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
   print_trouble(runs);
-  return exit_status(runs);
+  for (const std::string& trouble : troubles) std::cerr << trouble << '\n';
+  return std::max(exit_status(runs), troubles.empty() ? 0 : 2);
 }
 
 }  // namespace trammel

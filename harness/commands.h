@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "harness/command_line.h"
+#include "harness/json.h"
+#include "harness/reference_library.h"
 
 /// The commands behind the words. Each returns the exit status, and throws InputError.
 namespace trammel {
@@ -16,11 +19,26 @@ struct RunCommand {
   std::string out;
 };
 
+struct CostCommand {
+  std::vector<std::string> what;    ///< families, studies, cases or files; empty: every study
+  std::vector<std::string> sweeps;  ///< of the cases; empty: all
+  std::string variant;              ///< of the cases
+  bool quick = false;
+  int repeats = 7;
+  std::uint64_t seed = 1;
+  std::string out;
+};
+
 int list_cases(const std::vector<std::string>& labels, bool json);
 int describe_case(const std::string& name, bool json);
 int run_command(const RunCommand& command, const Renderers& renderers);
 int compare_command(const std::string& a, const std::string& b);
 int converge_command(const std::string& name, const std::string& variant, unsigned jobs);
+int cost_command(const CostCommand& command, const Renderers& renderers);
 int report_command(const std::string& out, unsigned jobs, const Renderers& renderers);
+
+/// The quick sweep of every study of the catalogue, as results.json has it.
+/// @param troubles  gets a line for each study that could not be measured
+[[nodiscard]] Json quick_cost(const References& references, std::vector<std::string>& troubles);
 
 }  // namespace trammel

@@ -20,6 +20,13 @@ void compose(Json& patch, const Json& later) {
 
 }  // namespace
 
+Document Document::as_it_stands(const std::string& file, const Json& json) {
+  Document document;
+  document.value_ = json;
+  document.layers_.push_back({file, "", json, false});
+  return document;
+}
+
 void Document::lay(const std::string& file, const std::string& origin, const Json& patch) {
   // Variants are patches themselves, whose nulls mean something later.
   Json variants = value_.value("variants", Json());

@@ -18,6 +18,9 @@ struct Origin {
 /// which file said what, so that a message points to where the user wrote it.
 class Document {
  public:
+  /// A document that nothing is laid over: its nulls are kept.
+  [[nodiscard]] static Document as_it_stands(const std::string& file, const Json& json);
+
   /// A null removes a key, except inside "variants", which are patches for later.
   /// @param origin  pointer in `file` where the patch stands; empty: the whole file
   void lay(const std::string& file, const std::string& origin, const Json& patch);

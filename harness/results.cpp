@@ -189,18 +189,6 @@ Json cost(const Run& run) {
                  {"factorizations", counters.factorizations},
                  {"solves", counters.solves}}}};
   if (!run.uncertainty.empty()) json["uncertainty_wall_s"] = run.uncertainty_wall_s;
-  if (run.sweeps.empty()) return json;
-  // What accuracy costs in time.
-  Json& sweeps = json["sweeps"] = Json::object();
-  for (const Sweep& sweep : run.sweeps) {
-    Json& its = sweeps[sweep.name] = {
-        {"parameter", Json::array()}, {"wall_s", Json::array()}, {"cpu_s", Json::array()}};
-    for (const SweepLevel& level : sweep.levels) {
-      its["parameter"].push_back(level.parameter);
-      its["wall_s"].push_back(level.wall_s);
-      its["cpu_s"].push_back(level.cpu_s);
-    }
-  }
   return json;
 }
 

@@ -15,7 +15,7 @@ struct Fault {
 };
 
 /// The deepest fault of a document, empty when it obeys the schema.
-/// @param schema  "case", "reference" or "results"
+/// @param schema  "case", "cost", "reference" or "results"
 [[nodiscard]] std::optional<Fault> find_fault(const Json& document, const std::string& schema);
 
 }  // namespace trammel

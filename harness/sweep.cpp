@@ -6,7 +6,6 @@
 
 #include "harness/case.h"
 #include "harness/judge.h"
-#include "harness/stopwatch.h"
 
 namespace trammel {
 namespace {
@@ -184,11 +183,7 @@ std::vector<Sweep> run_sweeps(const Document& document, const References& refere
     const std::vector<Level> found = levels(document, name);
     check_levels(place, found);
     for (const Level& level : found) {
-      const Stopwatch watch;
-      SweepLevel run{level.parameter, analyse(level.document, references, {false}), 0, 0};
-      run.wall_s = watch.wall_s();
-      run.cpu_s = watch.cpu_s();
-      sweep.levels.push_back(std::move(run));
+      sweep.levels.push_back({level.parameter, analyse(level.document, references, {false})});
     }
     sweeps.push_back(std::move(sweep));
   }

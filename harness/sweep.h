@@ -13,7 +13,6 @@ namespace trammel {
 struct SweepLevel {
   double parameter = 0;
   AnalysisResult result;
-  double wall_s = 0, cpu_s = 0;
 };
 
 struct Sweep {

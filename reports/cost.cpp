@@ -7,8 +7,6 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t most_open = 12;
-
 struct CaseCost {
   const CaseInfo* info;
   std::size_t runs = 0;
@@ -44,28 +42,6 @@ std::vector<CaseCost> costs(const std::vector<Family>& families) {
   return out;
 }
 
-/// 1 240 000 with thin spaces.
-std::string grouped(double n) {
-  std::string digits = shortest(n);
-  if (digits.find_first_not_of("0123456789") != std::string::npos) return trimmed(n, 4);
-  std::string out;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) out += "\u202f";
-    out += digits[i];
-  }
-  return out;
-}
-
-std::string counters_text(const CaseCost& cost) {
-  std::string text;
-  for (const auto& [name, n] : cost.counters) {
-    std::string words = name;
-    std::replace(words.begin(), words.end(), '_', ' ');
-    text += (text.empty() ? "" : ", ") + grouped(n) + " " + words;
-  }
-  return text;
-}
-
 Data row_of(const CaseCost& cost, double longest) {
   Data row = object();
   row.set("case_title", cost.info->title);
@@ -74,35 +50,128 @@ Data row_of(const CaseCost& cost, double longest) {
   row.set("wall", duration(cost.wall_s));
   row.set("cpu", duration(cost.cpu_s));
   row.set("percent", trimmed(longest > 0 ? 100 * cost.wall_s / longest : 0, 3));
-  set_text(row, "counters", counters_text(cost));
+  set_text(row, "counters", counters_text(cost.counters));
   return row;
 }
 
-}  // namespace
-
-Data cost_section(const Results&, const std::vector<Family>& families) {
+/// Where the time of the runs went.
+void set_runs(Data& section, const std::vector<Family>& families) {
   const std::vector<CaseCost> all = costs(families);
   double wall = 0, cpu = 0;
   for (const CaseCost& cost : all) wall += cost.wall_s, cpu += cost.cpu_s;
-  Data section = object();
   std::string words = "All runs together took " + duration(wall) + " one after another (" +
                       duration(cpu) + " of processor time)";
   if (!all.empty() && wall > 0)
     words += "; the longest case, " + all.front().info->title + ", has " +
              relative(all.front().wall_s / wall, 2, false) + " of it";
-  section.set("words", words + ".");
-  Data open = list();
-  Data folded = list();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool shown = i < most_open || all.size() <= most_open + 3;
-    (shown ? open : folded).push_back(row_of(all[i], all.front().wall_s));
+  section.set("runs_words", words + ".");
+  Data rows = list();
+  for (const CaseCost& cost : all) rows.push_back(row_of(cost, all.front().wall_s));
+  section.set("rows", rows);
+  set_flag(section, "has_runs", !all.empty());
+}
+
+/// "2.4 ×".
+std::string times(const std::optional<double>& factor) {
+  return factor ? trimmed(*factor, *factor < 10 ? 2 : 3) + "\u202f×" : "–";
+}
+
+std::string within(double error) {
+  return error < 1e-4 ? power_of_ten(-6) : trimmed(100 * error, 2) + "\u202f%";
+}
+
+Data cheapest_row(const CostStudy& study, double error, std::optional<std::size_t> number) {
+  Data row = object();
+  row.set("within", within(error));
+  set_flag(row, "found", number.has_value());
+  if (!number) return row;
+  const CostSetting& setting = study.settings[*number];
+  row.set("setting", setting.title);
+  row.set("error", setting.error ? relative(*setting.error, 2, false) : "–");
+  row.set("times", times(setting.relative));
+  row.set("cpu", duration(setting.cpu_s));
+  row.set("work", counters_text(setting.counters));
+  return row;
+}
+
+std::string standing_words(const CostSetting& setting) {
+  if (setting.standing == "wide")
+    return "spread of " + relative(setting.spread.value_or(0), 2, false) + ", not used";
+  if (setting.standing == "timed-out") return "out of time";
+  return setting.standing == "diverged" ? "diverged" : "no solution";
+}
+
+Data left_out(const CostStudy& study) {
+  Data rows = list();
+  for (const CostSetting& setting : study.settings) {
+    if (!setting.outside() && setting.standing != "wide") continue;
+    Data row = object();
+    row.set("setting", setting.title);
+    row.set("standing", standing_words(setting));
+    set_text(row, "reason", setting.reason);
+    rows.push_back(row);
   }
-  section.set("rows", open);
-  set_flag(section, "has_folded", folded.is_non_empty_list());
-  section.set("folded_title", folded.is_non_empty_list()
-                                  ? count(folded.list_value().size(), "quicker case")
-                                  : std::string());
-  section.set("folded", folded);
+  return rows;
+}
+
+std::string measured_words(const CostStudy& study) {
+  const CostSetting& baseline = study.settings[study.baseline];
+  std::string norm = study.norm == "max"   ? "The largest error"
+                     : study.norm == "rms" ? "The root mean square of the errors"
+                                           : "The mean error";
+  return norm + " against " + study.truth + ", " + study.scale + ". Times are relative to '" +
+         baseline.title + "', which takes " + duration(baseline.cpu_s) +
+         ". Taken by themselves, odd and even repeats put " + std::to_string(study.shared) +
+         " of " + std::to_string(study.either) +
+         " settings on the front both, and what an accuracy costs differs by at most " +
+         relative(study.largest_difference, 2, false) + " between them.";
+}
+
+Data study_data(const CostPanel& panel) {
+  const CostStudy& study = *panel.study;
+  Data data = object();
+  data.set("anchor", "cost-" + slug(study.id));
+  data.set("study_title", study.title);
+  set_text(data, "description", study.description);
+  data.set("measured", measured_words(study));
+  data.set("words", study.words);
+  data.set("figure", figure_data(panel.figure));
+  Data rows = list();
+  for (const auto& [error, setting] : study.cheapest)
+    rows.push_back(cheapest_row(study, error, setting));
+  data.set("cheapest", rows);
+  const Data lost = left_out(study);
+  set_flag(data, "has_left_out", lost.is_non_empty_list());
+  data.set("left_out", lost);
+  return data;
+}
+
+}  // namespace
+
+std::vector<CostPanel> plan_cost(const Results& results, int figures_before) {
+  std::vector<CostPanel> panels;
+  if (!results.cost) return panels;
+  for (const CostStudy& study : results.cost->studies) {
+    panels.push_back({&study, cost_figure(study)});
+    panels.back().figure.number = ++figures_before;
+  }
+  return panels;
+}
+
+Data cost_section(const Results& results, const std::vector<Family>& families,
+                  const std::vector<CostPanel>& panels) {
+  Data section = object();
+  set_runs(section, families);
+  set_flag(section, "has_studies", !panels.empty());
+  if (panels.empty()) return section;
+  const CostStudies& cost = *results.cost;
+  section.set("sweep", cost.quick ? "the quick sweep" : "the full sweep");
+  set_flag(section, "quick", cost.quick);
+  section.set("repeats", std::to_string(cost.repeats));
+  section.set("widest", relative(cost.widest_spread, 2, false));
+  Data studies = list();
+  for (const CostPanel& panel : panels) studies.push_back(study_data(panel));
+  section.set("studies", studies);
   return section;
 }
 

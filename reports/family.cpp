@@ -5,8 +5,6 @@
 
 namespace trammel::reports {
 
-namespace {
-
 Data figure_data(const Figure& figure) {
   Data data = object();
   data.set("id", "fig-" + figure.id);
@@ -17,6 +15,8 @@ Data figure_data(const Figure& figure) {
   data.set("file", "figures/" + figure.id);
   return data;
 }
+
+namespace {
 
 Data figures_data(const std::vector<Figure>& figures) {
   Data out = list();

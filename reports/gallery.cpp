@@ -149,10 +149,10 @@ std::vector<Family> plan_families(const Results& results) {
     family->runs.insert(family->runs.end(), runs.begin(), runs.end());
     family->galleries[info.id] = gallery_of(info, results, runs);
   }
-  for (Family& family : families)
-    for (const auto& make : {tolerance_figure, accuracy_figure})
-      if (auto figure = make(family.id, short_titles(family), family.runs))
-        family.overview.push_back(*figure);
+  for (Family& family : families) {
+    if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))
+      family.overview.push_back(*figure);
+  }
   number_figures(families);
   return families;
 }

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* generator = R"(<meta name="generator" content="trammel">)";
 
-Data page_data(const Results& results, const std::vector<Family>& families) {
+Data page_data(const Results& results, const std::vector<Family>& families,
+               const std::vector<CostPanel>& panels) {
   Data page = object();
   for (const char* name :
        {"summary", "family", "case", "figure", "checks", "matrix", "cost", "targets", "orders",
@@ -35,7 +36,9 @@ Data page_data(const Results& results, const std::vector<Family>& families) {
   page.set("targets", targets_section(results, families));
   page.set("orders", orders_section(results, families));
   page.set("noise", noise_section(results, families));
-  page.set("cost", cost_section(results, families));
+  page.set("cost", cost_section(results, families, panels));
+  set_flag(page, "has_runs", !results.runs.empty() || panels.empty());
+  set_flag(page, "has_references", !results.references.empty());
   page.set("references", references_section(results));
   return page;
 }
@@ -77,10 +80,13 @@ fs::path write_report(const fs::path& results_json, const fs::path& out) {
   const Results results = read_results(results_json);
   std::vector<Family> families = plan_families(results);
   remove_earlier(out);
-  draw(all_figures(families), fs::absolute(out) / "figures");
+  std::vector<Figure*> figures = all_figures(families);
+  std::vector<CostPanel> panels = plan_cost(results, static_cast<int>(figures.size()));
+  for (CostPanel& panel : panels) figures.push_back(&panel.figure);
+  draw(figures, fs::absolute(out) / "figures");
   write_checks(families, out / "checks");
   const fs::path page = out / "index.html";
-  write_file(page, render(page_data(results, families)));
+  write_file(page, render(page_data(results, families, panels)));
   return page;
 }
 

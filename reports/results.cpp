@@ -201,11 +201,6 @@ Cost read_cost(const JsonView& view) {
   cost.cpu_s = view.find("cpu_s").maybe_number().value_or(0);
   for (const auto& [name, count] : view.find("counters").members())
     cost.counters.emplace_back(name, count.number());
-  for (const auto& [name, sweep] : view.find("sweeps").members()) {
-    SweepCost levels{name, read_levels(sweep.at("parameter")), numbers(sweep.at("cpu_s"))};
-    levels.cpu_s.resize(levels.parameter.size());
-    cost.sweeps.push_back(std::move(levels));
-  }
   return cost;
 }
 
@@ -339,6 +334,7 @@ Results read_all(const JsonView& root) {
   for (const JsonView& run : root.at("runs").entries()) results.runs.push_back(read_run(run));
   if (!root.find("bands").null()) results.bands = read_bands(root.at("bands"));
   check_cases(root.at("runs"), results);
+  if (const JsonView cost = root.find("cost"); !cost.null()) results.cost = read_cost_studies(cost);
   return results;
 }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "reports/cost_study.h"
+
 namespace trammel::reports {
 
 /// What results.json says, as plain values in its own order. The schema stands in
@@ -89,16 +91,8 @@ struct Drawing {
   std::vector<Pose> poses;  ///< further poses of the same mechanism
 };
 
-/// Processor time of each level of a sweep.
-struct SweepCost {
-  std::string sweep;
-  std::vector<double> parameter;
-  Numbers cpu_s;
-};
-
 struct Cost {
   double wall_s = 0, cpu_s = 0;
-  std::vector<SweepCost> sweeps;
   std::vector<std::pair<std::string, double>> counters;
 };
 
@@ -145,6 +139,7 @@ struct Results {
   std::vector<Reference> references;
   std::vector<Run> runs;
   std::optional<Bands> bands;
+  std::optional<CostStudies> cost;  ///< what accuracy costs in time, where it was measured
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
   /// @returns nullptr for an unknown or empty id.

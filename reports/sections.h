@@ -41,8 +41,21 @@ namespace trammel::reports {
 /// Differences from the paper beside the noise that they stand against, after ASME V&V 20.
 [[nodiscard]] Data noise_section(const Results& results, const std::vector<Family>& families);
 
-/// Wall time and counters of every case.
-[[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families);
+/// A study of what accuracy costs with its figure.
+struct CostPanel {
+  const CostStudy* study = nullptr;
+  Figure figure;
+};
+
+/// A panel for each study, its figure numbered after those before it and not yet drawn.
+[[nodiscard]] std::vector<CostPanel> plan_cost(const Results& results, int figures_before);
+
+/// What accuracy costs in time, study by study, and where the time of the runs went.
+[[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families,
+                                const std::vector<CostPanel>& panels);
+
+/// A drawn figure for its template.
+[[nodiscard]] Data figure_data(const Figure& figure);
 
 /// The passports of all references used.
 [[nodiscard]] Data references_section(const Results& results);

@@ -39,13 +39,6 @@ namespace trammel::reports {
     const std::string& family, const std::map<std::string, std::string>& titles,
     const std::vector<const Run*>& runs);
 
-/// Error against processor time over the refinement sweeps of a family: the worst entry of each
-/// level.
-/// @param titles  of the cases, by id.
-[[nodiscard]] std::optional<Figure> accuracy_figure(
-    const std::string& family, const std::map<std::string, std::string>& titles,
-    const std::vector<const Run*>& runs);
-
 /// Differences that are known, with the band expected of each: one figure a check name.
 [[nodiscard]] std::vector<Figure> discrepancy_figures(const CaseInfo& info, const Results& results,
                                                       const std::vector<const Run*>& runs);

@@ -240,4 +240,40 @@ BOOST_AUTO_TEST_CASE(the_noise_of_a_validation_is_told_where_one_variant_is_run)
   BOOST_TEST(contains(one.out, "comparisons with the paper (ASME V&V 20)"));
 }
 
+BOOST_AUTO_TEST_CASE(the_sweep_of_one_s_own_case_is_measured_and_written) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},
+                                {"values", {1, 2, 4}},
+                                {"quantities", {{"frequency_Hz", {{"index", {0, 1}}}}}}};
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "cost cantilever.json --sweep elements --out mine");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "elements 2"));
+  const Json results = read_json(folder.path() / "mine/results.json");
+  const auto fault = find_fault(results, "results");
+  BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
+  BOOST_TEST(results["cost"]["sweep"] == "full");
+  BOOST_TEST(results["cost"]["studies"][0]["settings"].size() == 3U);
+  BOOST_TEST(std::filesystem::exists(folder.path() / "mine/index.html"));
+  BOOST_TEST(std::filesystem::exists(folder.path() / "mine/figures/cost-cantilever.csv"));
+  const Outcome same = run(folder, "compare mine/results.json mine/results.json");
+  BOOST_TEST(same.status == 0, same.err);
+  BOOST_TEST(contains(same.out, "0 % apart"));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_measured_is_bad_usage) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  for (const char* words :
+       {"cost nonesuch", "cost cantilever.json", "cost modes --sweep elements",
+        "cost modes --repeats 6", "cost none.json", "cost cantilever.json --sweep none"}) {
+    const Outcome outcome = run(folder, words);
+    BOOST_TEST(outcome.status == 2, words);
+    BOOST_TEST(lines(outcome.err) == 1, words << ": " << outcome.err);
+  }
+  BOOST_TEST(contains(run(folder, "cost mods").err, "did you mean 'modes'"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(an_analysis_is_exactly_one) {
 }
 
 BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
-  for (const char* name : {"case", "reference", "results"}) {
+  for (const char* name : {"case", "cost", "reference", "results"}) {
     const Json text = read_json(home() / "cases" / "schema" / (std::string(name) + ".schema.json"));
     BOOST_TEST(text.contains("description"), name);
     for (const auto& item : text.at("properties").items()) {

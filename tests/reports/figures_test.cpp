@@ -106,17 +106,6 @@ BOOST_AUTO_TEST_CASE(tolerance_caption_names_what_is_nearest_to_its_limit_or_bey
   BOOST_TEST(contains(figure->caption, "1 of 3 checks not within tolerance; see beyond."));
 }
 
-BOOST_AUTO_TEST_CASE(accuracy_costs_what_the_first_level_below_the_error_takes) {
-  Run run = run_with({sweep(0, 4)});
-  SweepCost cost{"elements", run.convergence[0].parameter, {}};
-  for (const double n : cost.parameter) cost.cpu_s.emplace_back(1e-3 * n);
-  run.cost.sweeps = {cost};
-  const auto figure = accuracy_figure("beams", {{"beam", "A beam"}}, {&run});
-  BOOST_TEST_REQUIRE(figure.has_value());
-  // 0.1 / 32^4 = 9.5e-8 is the first error below 1e-6: 16 elements leave 1.5e-6.
-  BOOST_TEST(contains(figure->caption, "below 10⁻⁶ in every entry takes 32 ms"));
-}
-
 BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
   Run run = run_with({});
   run.quantities = {{"time_s", {0.0, 1.0}}, {"force_N:A", {1.0, 2.0}}, {"length_m:A", {1.0}}};

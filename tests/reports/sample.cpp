@@ -120,17 +120,6 @@ Json beam_sweep(double beta_length, double exact, int mode) {
   return sweep;
 }
 
-/// Time grows with the number of elements.
-Json sweep_cost() {
-  Json cost;
-  for (double n = 1; n <= 128; n *= 2) {
-    cost["parameter"].push_back(n);
-    cost["wall_s"].push_back(5e-5 + 1e-5 * n);
-    cost["cpu_s"].push_back(4e-5 + 1e-5 * n);
-  }
-  return cost;
-}
-
 Json beam_drawing(const std::vector<double>& beta_lengths, const std::vector<double>& frequencies) {
   Json drawing;
   for (int i = 0; i <= 16; ++i) drawing["nodes_m"].push_back({i / 16.0, 0.0});
@@ -206,7 +195,6 @@ void add_beams(Json& results) {
                             17.9, "Hz", "cantilever-printed", "validation", 0, ""),
                       0.004, 0.006, "chart read"));
     }
-    beam["cost"]["sweeps"]["elements"] = sweep_cost();
     beam["drawing"] = beam_drawing(roots, exact);
     results["runs"].push_back(beam);
   }
@@ -535,6 +523,82 @@ void add_audit(Json& results) {
   results["runs"].push_back(broken);
 }
 
+// ---- what accuracy costs --------------------------------------------------------------------
+
+Json cost_setting(const std::string& curve, double value, double error, double time) {
+  const std::string title = curve + ", " + std::to_string(static_cast<int>(value)) + " elements";
+  return {
+      {"curve", curve},
+      {"curve_title", curve},
+      {"title", title},
+      {"value", value},
+      {"standing", "measured"},
+      {"reason", ""},
+      {"error", {{"max", error}, {"rms", error / 2}, {"mean", error / 3}}},
+      {"cpu_s", 1e-3 * time},
+      {"relative_time", time},
+      {"time",
+       {{"cpu_s", {1e-3 * time, 1.1e-3 * time, 0.9e-3 * time}},
+        {"lower_quartile_s", 0.95e-3 * time},
+        {"upper_quartile_s", 1.05e-3 * time},
+        {"spread", 0.1},
+        {"wall_median_s", 1e-3 * time},
+        {"runs_each", 2}}},
+      {"counters", {{"element_evaluations", 12 * value}, {"factorizations", 2}, {"solves", 20}}},
+      {"on_front", curve == "sparse"}};
+}
+
+Json without_answer(Json setting, const std::string& standing, const std::string& reason) {
+  setting["standing"] = standing;
+  setting["reason"] = reason;
+  setting["on_front"] = false;
+  if (standing != "wide") setting["time"] = nullptr;
+  if (standing == "failed" || standing == "timed-out") setting["error"] = nullptr;
+  return setting;
+}
+
+void add_cost(Json& results) {
+  Json settings = Json::array();
+  for (double n = 1; n <= 64; n *= 2) {
+    settings.push_back(cost_setting("sparse", n, 0.1 * std::pow(n, -4), 0.5 + n / 4));
+  }
+  for (double n = 1; n <= 32; n *= 2) {
+    settings.push_back(cost_setting("dense", n, 0.1 * std::pow(n, -4), 0.6 + n * n * n / 30));
+  }
+  settings.push_back(without_answer(cost_setting("sparse", 3, 2e-3, 1.2), "wide", ""));
+  settings.push_back(without_answer(cost_setting("dense", 64, 1, 6e4), "timed-out",
+                                    "not done after 60 s of processor time"));
+  settings.push_back(
+      without_answer(cost_setting("dense", 128, 1, 0.3), "failed", "six modes of <three>"));
+  Json study = {{"id", "sample-modes"},
+                {"family", "modes"},
+                {"title", "Frequencies of a sample"},
+                {"description", "Made up, with everything that can happen."},
+                {"truth", "the exact values"},
+                {"scale", "relative to each true value"},
+                {"norm", "max"},
+                {"baseline", 2},
+                {"wall_s", 3.2},
+                {"settings", settings},
+                {"cheapest", Json::array()},
+                {"repeatability",
+                 {{"shared", 6},
+                  {"either", 7},
+                  {"same_cheapest", 4},
+                  {"asked", 4},
+                  {"median_difference", 0.01},
+                  {"largest_difference", 0.034}}},
+                {"words", "Within 1 %, 'sparse, 2 elements' is cheapest."}};
+  const std::vector<std::pair<double, Json>> cheapest = {
+      {0.05, 1}, {0.01, 1}, {1e-3, 2}, {1e-6, nullptr}};
+  for (const auto& [error, setting] : cheapest)
+    study["cheapest"].push_back({{"error", error}, {"setting", setting}});
+  results["cost"] = {{"sweep", "quick"},     {"seed", 1},
+                     {"repeats", 7},         {"widest_spread", 0.25},
+                     {"equal_within", 0.05}, {"diverged_above", 10},
+                     {"studies", {study}}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json sample_results() {
@@ -557,6 +621,7 @@ nlohmann::ordered_json sample_results() {
   add_circle(results);
   add_beams(results);
   add_audit(results);
+  add_cost(results);
   return results;
 }
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+/// Measuring how long computations take, so that what is compared is measured alike.
+namespace trammel {
+
+struct TimingOptions {
+  int repeats = 7;         ///< at least this many are needed for quartiles that mean something
+  std::uint64_t seed = 1;  ///< of the order
+  /// A measurement is the mean of so many computations that it takes at least this long [s].
+  double shortest_s = 2e-3;
+};
+
+/// Processor time of one computation. Medians and quartiles over the repeats.
+struct Timing {
+  std::vector<double> cpu_s;  ///< by repeat
+  double median_s = 0, lower_quartile_s = 0, upper_quartile_s = 0;
+  double wall_median_s = 0;
+  int runs_each = 1;  ///< computations in a measurement
+
+  /// Distance of the quartiles over the median.
+  [[nodiscard]] double spread() const;
+};
+
+/// A spread above this leaves the median of seven uncertain by more than about 9 % (standard error
+/// 1.25 s / sqrt(7), where s = quartile distance / 1.35): more than neighbours on a front differ
+/// by.
+inline constexpr double widest_spread = 0.25;
+
+/// Runs every work once to warm up, then in each repeat all of them once, in an order shuffled
+/// anew: what the machine does meanwhile meets all alike.
+/// @param done  called after each repeat
+[[nodiscard]] std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
+                                                   const TimingOptions& options,
+                                                   const std::function<void()>& done);
+
+/// By linear interpolation between the sorted values; share 0.5 is the median.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
+/// 0 ... n - 1 in an order that is the same on every machine.
+[[nodiscard]] std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t& state);
+
+}  // namespace trammel
