@@ -13,6 +13,7 @@
 #include "references/derivations/rotating_beam.h"
 #include "references/derivations/swept.h"
 #include "references/derivations/unit_load.h"
+#include "references/derivations/wedge.h"
 #include "references/derivations/wittrick_williams.h"
 
 namespace trammel::derive {
@@ -102,6 +103,12 @@ const std::map<std::string, Program>& programs() {
         "manipulator, trajectory (circle | line | rest_to_rest | spline), times_s, force_N, "
         "moment_N_m, gravity_m_s2; torques at A1 at all times, then A2, then A3",
         manipulator_torques_program}},
+      {"wedge-exponent",
+       {"the power of the distance with which displacements grow from a corner between a clamped "
+        "and "
+        "a free side (Williams 1952)",
+        "clamped_side, free_side (directions from the corner), nu, plane (stress | strain)",
+        wedge_exponent_program}},
       {"formula",
        {"closed formulas, one value each, in extended precision",
         "formulas (array of texts: + - * / ^, parentheses, sqrt, sin, cos, tan, exp, log, pi), "

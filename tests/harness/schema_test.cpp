@@ -1,6 +1,7 @@
 #include "harness/schema.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "harness/home.h"
 #include "harness/json_file.h"
@@ -104,6 +105,24 @@ BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
     ++seen;
   }
   BOOST_TEST(seen > 10);
+}
+
+BOOST_AUTO_TEST_CASE(orders_of_singular_corners_are_twice_the_stored_exponents) {
+  const auto exponent = [](const std::string& of) {
+    const std::string name = of + "-corner-exponent.json";
+    return read_json(home() / "references" / "values" / name)["values"][0].get<double>();
+  };
+  const auto sweep = [](const std::string& of, const std::string& variant) {
+    const Json json = read_json(home() / "cases" / (of + ".json"));
+    return (variant.empty() ? json : json["variants"][variant])["sweeps"]["divisions"];
+  };
+  const auto check = [](const Json& order, double exponent_at_corner) {
+    BOOST_TEST(std::abs(order.get<double>() - 2 * exponent_at_corner) < 5e-4);
+  };
+  check(sweep("cooks-membrane", "even")["theory_order"], exponent("cook"));
+  check(sweep("cooks-membrane", "three-node")["lower_order"], exponent("cook"));
+  check(sweep("nafems-fv32", "")["lower_order"], exponent("nafems-fv32"));
+  check(sweep("macneal-harder-beam", "fine")["lower_order"], exponent("macneal-harder"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

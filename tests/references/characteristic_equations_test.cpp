@@ -30,6 +30,20 @@ void check_equal(const std::vector<double>& a, const std::vector<double>& b, dou
 
 BOOST_AUTO_TEST_SUITE(characteristic_equations)
 
+BOOST_AUTO_TEST_CASE(a_clamped_corner_is_as_singular_as_is_known) {
+  // B. A. Szabo, I. Babuska, Finite Element Analysis, 1991: 0.71117 for a square, nu = 0.3.
+  const auto square = run("wedge-exponent", R"({"clamped_side": [0, -1], "free_side": [1, 0],
+                                                "nu": 0.3, "plane": "strain"})");
+  BOOST_TEST(std::abs(square.at(0) - 0.71117) < 1e-5);
+  // Without Poisson's ratio there is nothing to hold back, turned and mirrored or not.
+  for (const char* plane : {"stress", "strain"}) {
+    const std::string arguments =
+        R"({"clamped_side": [3, 0], "free_side": [0, 2], "nu": 0, "plane": ")" +
+        std::string(plane) + "\"}";
+    check_equal(run("wedge-exponent", arguments.c_str()), {1}, 1e-15);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_elastica_agrees_with_values_computed_elsewhere) {
   check_equal(run("elastica-tip-force", R"({"load_parameter": [1, 10]})"),
               {0.301720773799814, 0.0564332362833769, 0.461351949711879, 0.810609024880296,
