@@ -4,6 +4,7 @@
 #include "harness/eigen_path.h"
 #include "solver/modes.h"
 #include "solver/prestressed_modes.h"
+#include "solver/reduction.h"
 
 namespace trammel {
 namespace {
@@ -27,6 +28,16 @@ void refuse_count_below(const Cursor& analysis, const char* beside) {
                                          "': it counts the modes of the unloaded model");
 }
 
+/// The system in the coordinates that the analysis asks for.
+System reduced(const Cursor& analysis, System system) {
+  if (!analysis.has("reduction")) return system;
+  refuse_count_below(analysis, "reduction");
+  if (analysis.get("prestressed", false)) {
+    throw analysis["reduction"].error("expected it without 'prestressed'");
+  }
+  return reduce_members(system, analysis["reduction"]["modes_of_a_member"].get<Index>());
+}
+
 ModalSolution modes_of(const Cursor& analysis, const System& system) {
   const ModesOptions options = read_options(analysis);
   if (!analysis.get("prestressed", false)) return solve_modes(system, options);
@@ -38,7 +49,7 @@ ModalSolution modes_of(const Cursor& analysis, const System& system) {
 
 StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
                          Recorder& record) {
-  const System system = assemble(build_model(scene, step));
+  const System system = reduced(analysis, assemble(build_model(scene, step)));
   const ModalSolution modes = modes_of(analysis, system);
   StepResult result{modes.outcome, modes.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "harness/words.h"
 #include "harness/timing.h"
+#include "harness/words.h"
 
 namespace trammel {
 namespace {
@@ -69,7 +69,9 @@ FrontAgreement compare_fronts(const std::vector<CostPoint>& a, const std::vector
   agreement.shared = in_a.size() + in_b.size() - either.size();
   std::vector<double> differences;
   const auto look = [&](double error) {
-    const auto at_a = cheapest(front_a, error), at_b = cheapest(front_b, error);
+    // Settings whose errors differ in the last digits are not told apart.
+    const double within = (1 + equal_within) * error;
+    const auto at_a = cheapest(front_a, within), at_b = cheapest(front_b, within);
     if (at_a && at_b) differences.push_back(std::abs(std::log(at_a->time / at_b->time)));
   };
   for (const CostPoint& point : front_a) look(point.error);

@@ -281,4 +281,22 @@ BOOST_AUTO_TEST_CASE(a_wrong_model_for_the_analysis_is_refused) {
   BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "expected the key 'model'"));
 }
 
+BOOST_AUTO_TEST_CASE(
+    a_reduced_robot_has_few_degrees_of_freedom_and_the_frequencies_of_the_full_one) {
+  Json json = testing::manipulator();
+  json["model"]["manipulator"]["links"]["elements"] = 8;
+  const AnalysisResult full = result_of(json);
+  json["analysis"]["modes"]["reduction"]["modes_of_a_member"] = 3;
+  const AnalysisResult few = result_of(json);
+  // 6 links, 7 inner nodes each of 3 coordinates: 18 modes take the place of 126.
+  BOOST_TEST(only(full, "degrees_of_freedom") - only(few, "degrees_of_freedom") == 126 - 18);
+  for (std::size_t i = 0; i < 6; ++i) {
+    BOOST_TEST(
+        few.quantities.at("frequency_Hz").values[i] == full.quantities.at("frequency_Hz").values[i],
+        boost::test_tools::tolerance(1e-4));
+  }
+  json["analysis"]["modes"]["count_below_Hz"] = 100;
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "without 'reduction'"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
