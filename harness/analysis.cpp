@@ -43,7 +43,16 @@ StepResult analyse_scene(const std::string& kind, const Cursor& analysis, const 
   if (kind == "inverse-dynamics") return analyse_inverse_dynamics(analysis, scene, draw, record);
   if (kind == "forward-dynamics") return analyse_forward_dynamics(analysis, scene, draw, record);
   if (kind == "large-motion") return analyse_large_motion(analysis, scene, draw, record);
+  if (kind == "grnn") return analyse_grnn(analysis, scene, draw, record);
   return analyse_steps(kind, analysis, scene, draw, record);
+}
+
+/// What was recorded counts where a solution was found.
+AnalysisResult result_of(StepResult found, Recorder& record) {
+  AnalysisResult result{
+      found.outcome, {}, std::move(found.drawing), found.counters, std::move(found.timings)};
+  if (result.outcome.solved()) result.quantities = record.take();
+  return result;
 }
 
 }  // namespace
@@ -70,33 +79,29 @@ AnalysisResult analyse(const Document& document, const References& references,
                        const AnalysisOptions& options) {
   const std::string kind = analysis_kind(document);
   const Cursor place = Cursor(document)["analysis"][kind];
-  AnalysisResult result;
   Recorder record;
   if (kind == "comparison") {
     compare_references(place, references, record);
-    result.quantities = record.take();
-    return result;
+    return result_of({}, record);
   }
   if (kind == "study") {
-    StepResult found = analyse_study(document, references, options.drawing, record);
-    return {found.outcome, record.take(), std::move(found.drawing), found.counters};
+    return result_of(analyse_study(document, references, options.drawing, record), record);
   }
   if (kind == "manufactured") {
-    StepResult found = analyse_manufactured(place, options.drawing, record);
-    return {found.outcome, record.take(), std::move(found.drawing), found.counters};
+    return result_of(analyse_manufactured(place, options.drawing, record), record);
+  }
+  if (kind == "grnn" && place.has("samples")) {
+    return result_of(analyse_grnn(place, std::nullopt, options.drawing, record), record);
   }
   const Scene scene = read_scene(document);
   if (kind == "kinematics" && !scene.manipulator) {
     throw place.error("expected a model with a manipulator");
   }
   try {
-    StepResult found = analyse_scene(kind, place, scene, options.drawing, record);
-    result = {found.outcome, {}, std::move(found.drawing), found.counters};
+    return result_of(analyse_scene(kind, place, scene, options.drawing, record), record);
   } catch (const ModelError& error) {
     throw model_error(document, error);
   }
-  if (result.outcome.solved()) result.quantities = record.take();
-  return result;
 }
 
 }  // namespace trammel

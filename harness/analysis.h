@@ -17,11 +17,19 @@ struct AnalysisOptions {
   bool drawing = true;  ///< nodes, members and shapes, for the report
 };
 
+/// What one evaluation of something takes, measured; never judged.
+struct EvaluationTime {
+  std::string name;             ///< with words joined by '_'
+  double wall_s = 0;            ///< of one evaluation
+  std::size_t evaluations = 0;  ///< over which it was averaged
+};
+
 struct AnalysisResult {
   Outcome outcome;
   Quantities quantities;
   std::optional<Drawing> drawing;
   Counters counters;
+  std::vector<EvaluationTime> timings = {};
 };
 
 /// @throws InputError  where the model has no meaning.

@@ -14,6 +14,7 @@ struct StepResult {
   Outcome outcome;
   Counters counters;
   std::optional<Drawing> drawing;  ///< on the first step, when asked for
+  std::vector<EvaluationTime> timings = {};
 };
 
 /// Time and pose of a step of the path; nothing where there is none.
@@ -60,6 +61,11 @@ void record_solution(const Model& model, const StaticSolution& solution, double 
 /// From torques back to the motion: those of the inverse dynamics of the path, or constant ones.
 [[nodiscard]] StepResult analyse_forward_dynamics(const Cursor& analysis, const Scene& scene,
                                                   bool draw, Recorder& record);
+
+/// A general regression neural network, on samples of its own or on those of the inverse dynamics
+/// along the scene's path (where `scene` is one): smoothing, predictions, errors, skill, times.
+[[nodiscard]] StepResult analyse_grnn(const Cursor& analysis, const std::optional<Scene>& scene,
+                                      bool draw, Recorder& record);
 
 /// Lengths, masses, centres and inertias of the parts and of the whole.
 [[nodiscard]] StepResult analyse_properties(const Scene& scene, std::size_t step, bool draw,

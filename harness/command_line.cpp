@@ -31,6 +31,7 @@ Examples:
   trammel compare manipulator-modes manipulator-modes:rigid-platform
   trammel converge beam-cantilever          orders, extrapolation, uncertainty bands
   trammel cost modes                        what accuracy costs in time
+  trammel ledger                            the paper's claims, and a verdict for each
   trammel report                            the whole catalogue as a page
 
 Exit status: 0 every gate holds, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
@@ -49,6 +50,7 @@ class CommandLine {
     define_compare();
     define_converge();
     define_cost();
+    define_ledger();
     define_report();
   }
 
@@ -166,6 +168,15 @@ class CommandLine {
     sub->add_option("-o,--out", cost_.out, "Folder for results.json, the page, figures and data")
         ->capture_default_str();
     sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
+  }
+  void define_ledger() {
+    CLI::App* sub =
+        add("ledger", "The paper's claims, and what the results say of each",
+            "\nRuns the cases that the claims rest on. Exit status 1 where a verdict is "
+            "not the recorded one.\n\nExample:\n  trammel ledger");
+    add_jobs(sub);
+    sub->add_flag("--json", json_, "As JSON, with every number");
+    sub->callback([this] { command_ = [this] { return ledger_command(run_.jobs, json_); }; });
   }
   void define_report() {
     CLI::App* sub = add("report", "Run the whole catalogue and write the page",

@@ -42,6 +42,7 @@ std::string model_words(const Document& document) {
   if (kind == "comparison") return "no model: references against each other";
   if (kind == "study" && !document.value().contains("model")) return "made by the analysis";
   if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
+  if (kind == "grnn" && !document.value().contains("model")) return "none: samples of its own";
   const Scene scene = read_scene(document);
   const Model model = build_bare_model(scene, 0);
   std::string text;

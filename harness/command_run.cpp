@@ -5,6 +5,7 @@
 #include "harness/catalogue.h"
 #include "harness/commands.h"
 #include "harness/errors.h"
+#include "harness/ledger.h"
 #include "harness/print_uncertainty.h"
 #include "harness/progress.h"
 #include "harness/results.h"
@@ -206,13 +207,20 @@ int report_command(const std::string& out, unsigned jobs, const Renderers& rende
   const Json cost = quick_cost(references, troubles);
   Json json = results_of(runs, selection.cases, references);
   json["cost"] = cost;
+  const Ledger ledger = judge_ledger(load_ledger(), runs);
+  json["ledger"] = to_json(ledger);
   const auto results = write_all(json, out, renderers);
   const auto page = renderers.report ? renderers.report(results, out) : results;
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
   print_trouble(runs);
   for (const std::string& trouble : troubles) std::cerr << trouble << '\n';
-  return std::max(exit_status(runs), troubles.empty() ? 0 : 2);
+  for (const LedgerClaim& claim : ledger.claims) {
+    if (claim.follows()) continue;
+    std::cerr << "claim " << claim.id << ": expected the recorded verdict, "
+              << in_words(claim.expected) << " (got " << in_words(claim.verdict) << ")\n";
+  }
+  return std::max({exit_status(runs), troubles.empty() ? 0 : 2, ledger.follows() ? 0 : 1});
 }
 
 }  // namespace trammel

@@ -35,6 +35,7 @@ int run_command(const RunCommand& command, const Renderers& renderers);
 int compare_command(const std::string& a, const std::string& b);
 int converge_command(const std::string& name, const std::string& variant, unsigned jobs);
 int cost_command(const CostCommand& command, const Renderers& renderers);
+int ledger_command(unsigned jobs, bool json);
 int report_command(const std::string& out, unsigned jobs, const Renderers& renderers);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.

@@ -189,6 +189,9 @@ Json cost(const Run& run) {
                  {"factorizations", counters.factorizations},
                  {"solves", counters.solves}}}};
   if (!run.uncertainty.empty()) json["uncertainty_wall_s"] = run.uncertainty_wall_s;
+  for (const EvaluationTime& timing : run.result.timings) {
+    json["timings"][timing.name] = {{"each_s", timing.wall_s}, {"evaluations", timing.evaluations}};
+  }
   return json;
 }
 
@@ -212,7 +215,7 @@ Json run_json(const Run& run) {
 Json case_json(const Case& given) {
   const Json& document = given.document.value();
   Json json = {{"title", given.title()}};
-  for (const char* key : {"description", "family", "labels", "figures"}) {
+  for (const char* key : {"description", "family", "labels", "figures", "tables"}) {
     if (document.contains(key)) json[key] = document.at(key);
   }
   json["analysis"] = analysis_kind(given.document);

@@ -89,6 +89,7 @@ Data case_data(const CaseInfo& info, const Family& family, const Results& result
            gallery.folded.empty() ? "" : count(gallery.folded.size(), "further figure"));
   data.set("folded_figures", figures_data(gallery.folded));
   data.set("tables", case_tables(info, runs, results));
+  data.set("variant_tables", variant_tables(info, runs));
   data.set("csv", "checks/" + slug(info.id) + ".csv");
   return data;
 }

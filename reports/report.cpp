@@ -21,8 +21,8 @@ Data page_data(const Results& results, const std::vector<Family>& families,
                const std::vector<CostPanel>& panels) {
   Data page = object();
   for (const char* name :
-       {"summary", "family", "case", "figure", "checks", "matrix", "cost", "targets", "orders",
-        "noise", "references", "counts", "rows", "head", "matrix_row", "cell"})
+       {"summary", "claims", "family", "case", "variants", "figure", "checks", "matrix", "cost",
+        "targets", "orders", "noise", "references", "counts", "rows", "head", "matrix_row", "cell"})
     page.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -30,6 +30,8 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   page.set("script", template_text("page.js"));
   page.set("environment", environment_section(results));
   page.set("summary", summary_section(results, families));
+  page.set("claims", claims_section(results));
+  set_flag(page, "has_claims", results.ledger.has_value());
   Data family_list = list();
   for (const Family& family : families) family_list.push_back(family_section(family, results));
   page.set("families", family_list);

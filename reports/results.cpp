@@ -201,6 +201,8 @@ Cost read_cost(const JsonView& view) {
   cost.cpu_s = view.find("cpu_s").maybe_number().value_or(0);
   for (const auto& [name, count] : view.find("counters").members())
     cost.counters.emplace_back(name, count.number());
+  for (const auto& [name, timing] : view.find("timings").members())
+    cost.timings.emplace_back(name, timing.at("each_s").number());
   return cost;
 }
 
@@ -259,6 +261,46 @@ Run read_run(const JsonView& view) {
   return run;
 }
 
+TableRequest read_table(const std::string& id, const JsonView& view) {
+  TableRequest table;
+  table.title = view.find("title").text_or(id.c_str());
+  table.caption = view.find("caption").text_or("");
+  table.variants = texts(view.find("variants"));
+  for (const auto& [name, column] : view.at("columns").members())
+    table.columns.push_back(
+        {column.find("title").text_or(name.c_str()), column.find("quantity").text_or(""),
+         column.find("statistic").text_or("first"), column.find("timing").text_or(""),
+         column.find("over_timing").text_or("")});
+  return table;
+}
+
+ClaimReading read_reading(const JsonView& view) {
+  ClaimReading reading{view.at("what").text(),
+                       view.at("take").text(),
+                       view.at("unit").text(),
+                       view.at("verdict").text(),
+                       {}};
+  for (const JsonView& entry : view.at("entries").entries())
+    reading.entries.push_back(
+        {entry.at("case").text(), entry.at("variant").text(), entry.at("value").number()});
+  return reading;
+}
+
+Claims read_claims(const JsonView& view) {
+  Claims claims;
+  claims.title = view.at("title").text();
+  for (const JsonView& one : view.at("claims").entries()) {
+    Claim claim{one.at("id").text(),          one.at("claim").text(),
+                one.at("place").text(),       one.at("verdict").text(),
+                one.at("expected").text(),    one.at("conclusion").text(),
+                one.at("undecidable").text(), {}};
+    for (const JsonView& reading : one.at("readings").entries())
+      claim.readings.push_back(read_reading(reading));
+    claims.claims.push_back(std::move(claim));
+  }
+  return claims;
+}
+
 CaseInfo read_case(const std::string& id, const JsonView& view) {
   CaseInfo info;
   info.id = id;
@@ -279,6 +321,8 @@ CaseInfo read_case(const std::string& id, const JsonView& view) {
     }
     info.figures.push_back(std::move(request));
   }
+  for (const auto& [table, value] : view.find("tables").members())
+    info.tables.push_back(read_table(table, value));
   for (const auto& [variant, value] : view.find("variants").members())
     info.variants.emplace_back(variant, value.find("title").text_or(variant.c_str()));
   return info;
@@ -335,6 +379,8 @@ Results read_all(const JsonView& root) {
   if (!root.find("bands").null()) results.bands = read_bands(root.at("bands"));
   check_cases(root.at("runs"), results);
   if (const JsonView cost = root.find("cost"); !cost.null()) results.cost = read_cost_studies(cost);
+  if (const JsonView ledger = root.find("ledger"); !ledger.null())
+    results.ledger = read_claims(ledger);
   return results;
 }
 

@@ -93,6 +93,7 @@ struct Drawing {
 
 struct Cost {
   double wall_s = 0, cpu_s = 0;
+  std::vector<std::pair<std::string, double>> timings;  ///< of one evaluation [s]
   std::vector<std::pair<std::string, double>> counters;
 };
 
@@ -117,10 +118,24 @@ struct PlotRequest {
   bool log_x = false, log_y = false;  ///< a logarithmic scale, of magnitudes
 };
 
+/// A column of a table that a case asks for: a statistic of a quantity, or one timing (over
+/// another).
+struct ColumnRequest {
+  std::string title, quantity, statistic, timing, over_timing;
+};
+
+/// A number of each variant (all where none is named) in each column.
+struct TableRequest {
+  std::string title, caption;
+  std::vector<ColumnRequest> columns;
+  std::vector<std::string> variants;
+};
+
 struct CaseInfo {
   std::string id, title, description, family;
   std::vector<std::string> labels;
   std::vector<PlotRequest> figures;
+  std::vector<TableRequest> tables;
   std::vector<std::pair<std::string, std::string>> variants;  ///< id, title
 
   [[nodiscard]] std::string variant_title(const std::string& variant) const;
@@ -132,6 +147,28 @@ struct Reference {
   std::vector<std::string> printed, errata;
 };
 
+/// One number that a reading of a claim rests on.
+struct ClaimEntry {
+  std::string case_id, variant;
+  double value = 0;
+};
+
+struct ClaimReading {
+  std::string what, take, unit, verdict;
+  std::vector<ClaimEntry> entries;
+};
+
+/// A claim of the publication under examination; verdicts in words.
+struct Claim {
+  std::string id, claim, place, verdict, expected, conclusion, undecidable;
+  std::vector<ClaimReading> readings;
+};
+
+struct Claims {
+  std::string title;
+  std::vector<Claim> claims;
+};
+
 struct Results {
   std::map<std::string, std::string> environment;
   std::vector<std::pair<std::string, std::string>> libraries;
@@ -140,6 +177,7 @@ struct Results {
   std::vector<Run> runs;
   std::optional<Bands> bands;
   std::optional<CostStudies> cost;  ///< what accuracy costs in time, where it was measured
+  std::optional<Claims> ledger;
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
   /// @returns nullptr for an unknown or empty id.

@@ -15,6 +15,13 @@ namespace trammel::reports {
 /// What holds, what fails, what is known not to agree and why.
 [[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
 
+/// The claims of the publication under examination, each with what was measured and a verdict;
+/// empty where the results have no ledger.
+[[nodiscard]] Data claims_section(const Results& results);
+
+/// The tables that a case asks for: variants down, quantities and timings across.
+[[nodiscard]] Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs);
+
 /// One family with its cases, tables and (drawn) figures.
 [[nodiscard]] Data family_section(const Family& family, const Results& results);
 

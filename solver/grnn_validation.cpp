@@ -57,6 +57,20 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
   return place;
 }
 
+std::vector<bool> training_part(Index samples, Index train, Split split, std::uint64_t seed) {
+  require(train >= 1 && train <= samples, "expected to train with at least one and at most all");
+  std::vector<Index> order(static_cast<std::size_t>(samples));
+  std::iota(order.begin(), order.end(), Index{0});
+  if (split == Split::shuffled) shuffle(order, seed);
+  std::vector<bool> trains(order.size(), false);
+  for (Index k = 0; k < train; ++k) {
+    // The middle of the k-th of `train` equal pieces.
+    const Index place = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
+    trains[static_cast<std::size_t>(order[static_cast<std::size_t>(place)])] = true;
+  }
+  return trains;
+}
+
 Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorXd& sigmas,
                                        const CrossValidation& validation) {
   check_sigmas(sigmas);

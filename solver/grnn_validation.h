@@ -23,6 +23,18 @@ struct CrossValidation {
 /// @throws ModelError  where there are fewer than two folds, or fewer samples than folds.
 [[nodiscard]] std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validation);
 
+/// Which samples train a network when the others are held out.
+enum class Split {
+  first,        ///< the first ones in time, as in the paper: what is held out is extrapolated
+  interleaved,  ///< spread evenly over all
+  shuffled      ///< drawn with `seed`, the same on every machine
+};
+
+/// @return  for each sample whether it trains, `train` of them
+/// @throws ModelError  unless 1 <= train <= samples.
+[[nodiscard]] std::vector<bool> training_part(Index samples, Index train, Split split,
+                                              std::uint64_t seed = 1);
+
 /// Root mean square of what the network without a sample's fold predicts wrongly for it, one row a
 /// sigma: each output divided by its standard deviation over all samples (by 1 where constant), so
 /// that the mean of all samples has an error near 1.

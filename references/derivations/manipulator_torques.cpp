@@ -58,9 +58,7 @@ PlaneManipulator read_manipulator(const Arguments& manipulator) {
 
 }  // namespace
 
-std::vector<double> manipulator_torques_program(const Json& json) {
-  const Arguments arguments(
-      json, "", {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m", "gravity_m_s2"});
+PlaneManipulator read_plane_manipulator(const Arguments& arguments) {
   PlaneManipulator manipulator =
       read_manipulator(Arguments(arguments["manipulator"], "/manipulator",
                                  {"base_side_m", "links", "platform", "material", "working_mode"}));
@@ -68,6 +66,10 @@ std::vector<double> manipulator_torques_program(const Json& json) {
     const std::vector<Real> g = arguments.numbers("gravity_m_s2", 2);
     manipulator.gravity = {g[0], g[1]};
   }
+  return manipulator;
+}
+
+PlaneWrench read_wrench(const Arguments& arguments) {
   PlaneWrench wrench;
   if (arguments.has("force_N")) {
     const std::vector<Real> force = arguments.numbers("force_N", 2);
@@ -75,6 +77,14 @@ std::vector<double> manipulator_torques_program(const Json& json) {
     wrench.y = force[1];
   }
   wrench.moment = arguments.number("moment_N_m", 0);
+  return wrench;
+}
+
+std::vector<double> manipulator_torques_program(const Json& json) {
+  const Arguments arguments(
+      json, "", {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m", "gravity_m_s2"});
+  const PlaneManipulator manipulator = read_plane_manipulator(arguments);
+  const PlaneWrench wrench = read_wrench(arguments);
   const Arguments trajectory(arguments["trajectory"], "/trajectory",
                              {"circle", "line", "rest_to_rest", "spline"});
   const std::vector<Real> times = arguments.numbers("times_s");

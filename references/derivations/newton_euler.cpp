@@ -65,6 +65,13 @@ class Body {
 
 }  // namespace
 
+std::array<Moving, 3> limb_joints(const LimbBodies& limb, const std::array<Jet, 3>& motion) {
+  const Moving foot = {limb.base[0], limb.base[1]};
+  const Moving corner = rotated(limb.corner, motion[2]);
+  const Moving C = {motion[0] + corner[0], motion[1] + corner[1]};
+  return {foot, elbow<Jet>(foot, C, limb.proximal_length, limb.distal_length, limb.mode), C};
+}
+
 std::array<Real, 3> newton_euler_torques(const PlaneManipulator& m,
                                          const std::array<Jet, 3>& motion,
                                          const PlaneWrench& wrench) {
@@ -77,10 +84,7 @@ std::array<Real, 3> newton_euler_torques(const PlaneManipulator& m,
   platform.load(wrench, P);
   for (std::size_t i = 0; i < 3; ++i) {
     const LimbBodies& limb = m.limbs[i];
-    const Moving foot = {limb.base[0], limb.base[1]};
-    const Moving corner = rotated(limb.corner, motion[2]);
-    const Moving C = {P[0] + corner[0], P[1] + corner[1]};
-    const Moving B = elbow<Jet>(foot, C, limb.proximal_length, limb.distal_length, limb.mode);
+    const auto [foot, B, C] = limb_joints(limb, motion);
     const std::size_t first = per_limb * i;
     Body proximal(A, b, 6 * i, between(foot, B, limb.proximal.center, limb.proximal_length));
     proximal.joint(first + at_A, foot, 1);

@@ -8,6 +8,7 @@
 #include "references/derivations/exponential_beam.h"
 #include "references/derivations/expression.h"
 #include "references/derivations/manipulator_torques.h"
+#include "references/derivations/nadaraya_watson.h"
 #include "references/derivations/parallelogram_chain.h"
 #include "references/derivations/pendulum.h"
 #include "references/derivations/rotating_beam.h"
@@ -97,6 +98,19 @@ const std::map<std::string, Program>& programs() {
         "model (as in a case file; or manipulator, pose, loads), outputs (displacement_x_m:NODE, "
         "rotation_rad:NODE, reaction_y_N:NODE, bending_moment_N_m:MEMBER.end, ...)",
         frame_statics_program}},
+      {"grnn",
+       {"general regression neural network by its printed formula (Specht 1991; paper Eq. 36, 37)",
+        "inputs, outputs, queries (arrays of rows), sigma or spread (MATLAB's newgrnn); the "
+        "outputs at the first query, then at the next",
+        grnn_program}},
+      {"manipulator-grnn",
+       {"the same, trained with the torques along a path as inputs and the angles and velocities "
+        "of "
+        "the active joints as outputs",
+        "manipulator, trajectory, step_s, train (points, from the first), sigma, queries (points), "
+        "output (angles | velocities), force_N, moment_N_m, gravity_m_s2; at A1 at every query, at "
+        "A2, at A3",
+        manipulator_grnn_program}},
       {"manipulator-torques",
        {"torques of the rigid planar 3-RRR along a path [N m], Newton and Euler for each of its "
         "seven bodies",

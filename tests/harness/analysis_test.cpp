@@ -177,6 +177,54 @@ BOOST_AUTO_TEST_CASE(the_torques_of_a_path_bring_the_platform_along_it) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_network_on_the_path_tells_training_from_what_was_held_out) {
+  Json json = on_a_circle(testing::manipulator(), 100);
+  json["model"]["trajectory"]["circle"]["step_s"] = 0.0628;
+  json["analysis"] = {{"grnn", {{"train", 60}, {"split", "first"}}}};
+  const AnalysisResult first = result_of(json);
+  const auto& q = first.quantities;
+  BOOST_TEST(q.at("training_angle_error_rad:A2").values.size() == 60);
+  BOOST_TEST(q.at("held_out_velocity_error_rad_per_s:A3").values.size() == 40);
+  BOOST_TEST(q.at("predicted_angle_rad:A1").values.size() == 100);
+  BOOST_TEST(only(first, "held_out_rms_error") > 10 * only(first, "training_rms_error"));
+  BOOST_TEST(only(first, "held_out_rms_error:mean") > only(first, "held_out_rms_error"));
+  BOOST_TEST(first.timings.size() == 4);
+  for (const EvaluationTime& timing : first.timings) BOOST_TEST(timing.wall_s > 0, timing.name);
+  json["analysis"]["grnn"]["split"] = "interleaved";
+  BOOST_TEST(only(result_of(json), "held_out_rms_error") < only(first, "held_out_rms_error") / 10);
+}
+
+BOOST_AUTO_TEST_CASE(a_network_of_its_own_samples_needs_no_model_and_its_rows_must_fit) {
+  Json json = {{"id", "net"},
+               {"title", "Net"},
+               {"analysis",
+                {{"grnn",
+                  {{"samples", {{"inputs", {{1}, {2}}}, {"outputs", {{3}, {5}}}}},
+                   {"queries", {{1.5}, {-1e6}}},
+                   {"sigma", 1e-300}}}}}};
+  const AnalysisResult result = result_of(json);
+  BOOST_TEST(result.quantities.at("prediction:1").values[0] == 4);
+  BOOST_TEST(result.quantities.at("prediction:1").values[1] == 3);
+  const auto refusal = [&](const char* pointer, const Json& value) {
+    Json changed = json;
+    changed[Json::json_pointer(pointer)] = value;
+    return complaint([&] { (void)result_of(changed); });
+  };
+  BOOST_TEST(contains(refusal("/analysis/grnn/queries", {{1, 2}}),
+                      "/analysis/grnn/queries: expected rows as long as the inputs', 1"));
+  BOOST_TEST(contains(refusal("/analysis/grnn/samples/outputs", {{1}}),
+                      "/analysis/grnn/samples/outputs: expected as many rows as inputs have, 2"));
+  BOOST_TEST(contains(refusal("/analysis/grnn/samples/inputs", {{1}, {2, 3}}),
+                      "/analysis/grnn/samples/inputs/1: expected 1 numbers"));
+  BOOST_TEST(contains(refusal("/analysis/grnn/spread", 1), "expected either 'sigma' or 'spread'"));
+  BOOST_TEST(contains(refusal("/analysis/grnn/sigma", 1e-320),
+                      "/analysis/grnn: expected a network that has a meaning: the sigma"));
+  Json path = on_a_circle(testing::manipulator(), 10);
+  path["analysis"] = {{"grnn", {{"train", 11}}}};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(path); }),
+                      "/analysis/grnn/train: expected no more samples than the path has points"));
+}
+
 BOOST_AUTO_TEST_CASE(rigid_dynamics_refuses_what_it_would_leave_out) {
   const auto refusal = [](const char* kind, const Json& patch) {
     Json json = testing::manipulator();

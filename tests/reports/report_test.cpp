@@ -104,6 +104,21 @@ BOOST_AUTO_TEST_CASE(summary_counts_what_the_results_hold) {
   BOOST_TEST(says("/model/nodes/B: a member of length 0"));
 }
 
+BOOST_AUTO_TEST_CASE(claims_stand_with_their_verdict_and_what_it_rests_on) {
+  BOOST_TEST(says("3 claims: 1 contradicted, 1 cannot be decided, 1 not measured."));
+  BOOST_TEST(says("<strong>× 1 to × 1.5</strong>"));
+  BOOST_TEST(says("(recorded: confirmed)"));
+  BOOST_TEST(says("Nothing is published."));
+  BOOST_TEST(says("What &lt;b&gt;follows&lt;/b&gt; &amp; why."));
+  BOOST_TEST(says("<li><a href=\"#claims\">The paper's claims</a></li>"));
+}
+
+BOOST_AUTO_TEST_CASE(a_table_of_variants_has_a_number_or_a_dash_in_each_cell) {
+  BOOST_TEST(says("Largest displacement &amp; time"));
+  BOOST_TEST(says("<td class=\"number\">20 µs</td><td class=\"number\">× 2</td>"));
+  BOOST_TEST(says("<td class=\"number\">–</td>"));
+}
+
 BOOST_AUTO_TEST_CASE(how_a_run_ends_is_judged_like_any_other_check) {
   BOOST_TEST(says("The free mechanism has no stiffness"));
   BOOST_TEST(says("<td class=\"number\" data-label=\"Computed\">singular</td>"));

@@ -599,6 +599,60 @@ void add_cost(Json& results) {
                      {"studies", {study}}};
 }
 
+// ---- claims, and a table of variants ----------------------------------------------------------
+
+Json claim(const char* id, const char* text, const char* verdict, const char* expected,
+           const Json& readings) {
+  return {{"id", id},
+          {"claim", text},
+          {"place", "Abstract"},
+          {"verdict", verdict},
+          {"expected", expected},
+          {"conclusion", "What <b>follows</b> & why."},
+          {"undecidable", readings.empty() ? "Nothing is published." : ""},
+          {"readings", readings}};
+}
+
+void add_claims(Json& results) {
+  const Json ratio = {
+      {"what", "flexible over rigid"},
+      {"take", "ratio"},
+      {"unit", "1"},
+      {"verdict", "contradicts"},
+      {"entries",
+       {{{"case", "circle-load"}, {"variant", "base"}, {"name", "claim-3"}, {"value", 1.0001}},
+        {{"case", "circle-load"}, {"variant", "base"}, {"name", "claim-3"}, {"value", 1.5}}}}};
+  const Json unmeasured = {{"what", "sensitivity"},
+                           {"take", "relative"},
+                           {"unit", "1"},
+                           {"verdict", "not measured"},
+                           {"entries", Json::array()}};
+  results["ledger"] = {
+      {"title", "Three claims"},
+      {"follows", false},
+      {"claims",
+       {claim("3", "Displacements are small.", "contradicted", "contradicted",
+              Json::array({ratio})),
+        claim("7", "The sensitivity rises.", "not measured", "confirmed",
+              Json::array({unmeasured})),
+        claim("10", "It matches.", "cannot be decided", "cannot be decided", Json::array())}}};
+  results["cases"]["circle-load"]["tables"] = {
+      {"side-by-side",
+       {{"title", "Largest displacement & time"},
+        {"caption", "What to conclude."},
+        {"columns",
+         {{"x", {{"title", "x [m]"}, {"quantity", "displacement_x_m:P"}, {"statistic", "max_abs"}}},
+          {"none", {{"title", "nothing"}, {"quantity", "no_such_m"}}},
+          {"time", {{"title", "one solve"}, {"timing", "solve"}}},
+          {"ratio",
+           {{"title", "over a guess"}, {"timing", "solve"}, {"over_timing", "guess"}}}}}}}};
+  for (Json& one : results["runs"]) {
+    if (one["case"] != "circle-load") continue;
+    one["cost"]["timings"] = {{"solve", {{"each_s", 2e-5}, {"evaluations", 631}}},
+                              {"guess", {{"each_s", 1e-5}, {"evaluations", 631}}}};
+  }
+}
+
 }  // namespace
 
 nlohmann::ordered_json sample_results() {
@@ -622,6 +676,7 @@ nlohmann::ordered_json sample_results() {
   add_beams(results);
   add_audit(results);
   add_cost(results);
+  add_claims(results);
   return results;
 }
 
