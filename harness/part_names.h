@@ -14,6 +14,7 @@ namespace trammel {
 template <class T>
 [[nodiscard]] std::vector<std::string> names_of(const std::map<std::string, T>& named) {
   std::vector<std::string> names;
+  names.reserve(named.size());
   for (const auto& item : named) names.push_back(item.first);
   return names;
 }

@@ -220,6 +220,7 @@ BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh) {
   const NodeFinder finder(model, nearness(mesh.positions));
   std::vector<Index> nodes;
+  nodes.reserve(mesh.positions.size());
   for (const Vector2d& position : mesh.positions) {
     nodes.push_back(finder.find(position));
     if (nodes.back() >= 0) continue;
