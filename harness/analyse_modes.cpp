@@ -2,6 +2,7 @@
 
 #include "harness/analysis_kinds.h"
 #include "harness/eigen_path.h"
+#include "harness/rotating_state.h"
 #include "solver/modes.h"
 #include "solver/prestressed_modes.h"
 #include "solver/reduction.h"
@@ -21,17 +22,16 @@ std::string label(Index mode, double frequency) {
   return text;
 }
 
-/// What stands beside the modes of a state that loads or rotation make.
-void refuse_count_below(const Cursor& analysis, const char* beside) {
-  if (!analysis.has("count_below_Hz")) return;
-  throw analysis["count_below_Hz"].error(std::string("expected it without '") + beside +
-                                         "': it counts the modes of the unloaded model");
+/// What cannot stand beside the modes of a state that loads or rotation make.
+void refuse(const Cursor& analysis, const char* key, const char* beside, const char* reason) {
+  if (!analysis.has(key) || analysis[key].json() == false) return;
+  throw analysis[key].error(std::string("expected it without '") + beside + "': " + reason);
 }
 
 /// The system in the coordinates that the analysis asks for.
 System reduced(const Cursor& analysis, System system) {
   if (!analysis.has("reduction")) return system;
-  refuse_count_below(analysis, "reduction");
+  refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the whole model");
   if (analysis.get("prestressed", false)) {
     throw analysis["reduction"].error("expected it without 'prestressed'");
   }
@@ -41,7 +41,7 @@ System reduced(const Cursor& analysis, System system) {
 ModalSolution modes_of(const Cursor& analysis, const System& system) {
   const ModesOptions options = read_options(analysis);
   if (!analysis.get("prestressed", false)) return solve_modes(system, options);
-  refuse_count_below(analysis, "prestressed");
+  refuse(analysis, "count_below_Hz", "prestressed", "it counts the modes of the unloaded model");
   return solve_prestressed_modes(system, options).modes;
 }
 
@@ -50,6 +50,13 @@ ModalSolution modes_of(const Cursor& analysis, const System& system) {
 StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
                          Recorder& record) {
   const System system = reduced(analysis, assemble(build_model(scene, step)));
+  if (analysis.has("rotating")) {
+    refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
+    refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
+    refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
+    if (scene.path) throw analysis["rotating"].error("expected a model at one place");
+    return analyse_rotating(analysis, system, draw, record);
+  }
   const ModalSolution modes = modes_of(analysis, system);
   StepResult result{modes.outcome, modes.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());

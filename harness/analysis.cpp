@@ -18,6 +18,8 @@ StepResult analyse_step(const std::string& kind, const Cursor& analysis, const S
   if (kind == "statics") return analyse_statics(analysis, scene, step, draw, record);
   if (kind == "buckling") return analyse_buckling(analysis, scene, step, draw, record);
   if (kind == "large-statics") return analyse_large_statics(analysis, scene, step, draw, record);
+  if (kind == "harmonic") return analyse_harmonic(analysis, scene, step, draw, record);
+  if (kind == "transient") return analyse_transient(analysis, scene, step, draw, record);
   if (kind == "kinematics") return analyse_kinematics(scene, step, draw, record);
   return analyse_properties(scene, step, draw, record);
 }

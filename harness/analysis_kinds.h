@@ -49,6 +49,14 @@ void record_path(const Scene& scene, std::size_t step, Recorder& record);
 void record_solution(const Model& model, const StaticSolution& solution, double roundoff,
                      Recorder& record);
 
+/// Amplitudes of the outputs over frequency, and their peaks.
+[[nodiscard]] StepResult analyse_harmonic(const Cursor& analysis, const Scene& scene,
+                                          std::size_t step, bool draw, Recorder& record);
+
+/// The outputs over time, and their peaks.
+[[nodiscard]] StepResult analyse_transient(const Cursor& analysis, const Scene& scene,
+                                           std::size_t step, bool draw, Recorder& record);
+
 /// Joint angles, closure, distances from singularities, holding torques.
 [[nodiscard]] StepResult analyse_kinematics(const Scene& scene, std::size_t step, bool draw,
                                             Recorder& record);

@@ -19,6 +19,7 @@ const std::vector<std::pair<std::string, std::string>>& units() {
       {"_kg_m2", "kg m^2"},
       {"_kg_m3", "kg/m^3"},
       {"_rad_s", "rad/s"},
+      {"_per_s", "1/s"},
       {"_m_s2", "m/s^2"},
       {"_N_m", "N m"},
       {"_rad", "rad"},

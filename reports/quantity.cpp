@@ -12,7 +12,7 @@ namespace trammel::reports {
 namespace {
 
 /// Longest first, so that N_m is not read as m.
-constexpr std::array<std::pair<const char*, const char*>, 25> units = {{
+constexpr std::array<std::pair<const char*, const char*>, 27> units = {{
     {"N_m_per_rad", "N·m/rad"},
     {"rad_per_s2", "rad/s²"},
     {"rad_per_s", "rad/s"},
@@ -23,6 +23,8 @@ constexpr std::array<std::pair<const char*, const char*>, 25> units = {{
     {"m_per_N", "m/N"},
     {"Hz_per_m", "Hz/m"},
     {"kg_per_m3", "kg/m³"},
+    {"rad_s", "rad/s"},
+    {"per_s", "1/s"},
     {"kg_m2", "kg·m²"},
     {"percent", "%"},
     {"N_m", "N·m"},

@@ -17,12 +17,13 @@ using Eigen::VectorXd;
 /// The steady state and K + K_G - W^2 S in it.
 class SteadyState {
  public:
-  SteadyState(const System& system, const Spin& spin, Counters& counters)
+  SteadyState(const System& system, const RotatingOptions& options, Counters& counters)
       : system_(system),
-        spin_(spin),
+        spin_(options.spin),
+        deformed_(options.deformed_tension),
         counters_(counters),
-        body_(body_forces(system, spin)),
-        softening_(-spin.speed * spin.speed * spin_softening(system)),
+        body_(body_forces(system, spin_)),
+        softening_(-spin_.speed * spin_.speed * spin_softening(system, spin_.axis)),
         elastic_(stiffness_operator(system)),
         q(VectorXd::Zero(system.K.rows())) {}
 
@@ -33,21 +34,21 @@ class SteadyState {
         system_.f + system_.T.transpose() *
                         centrifugal_forces(system_, spin_, VectorXd::Zero(system_.T.rows()));
     added_ = softening_;
+    if (!deformed_) {
+      if (!solve(SparseMatrix(system_.K.rows(), system_.K.rows()), right)) return false;
+      update(VectorXd::Zero(system_.T.rows()));
+      return solve(added_, right);
+    }
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kSteps; ++step) {
-      factorization.compute(shifted(system_.K, added_, -1));
-      ++counters_.factorizations;
-      if (!factorization.exists()) return false;
-      const Operator A = [this](const VectorXd& x) -> VectorXd { return elastic_(x) + added_ * x; };
-      const Refined refined = refined_solve(A, factorization, right, counters_);
-      if (!refined.converged()) return false;
-      const double change = (refined.x - q).norm();
-      q = refined.x;
+      const VectorXd before = q;
+      if (!solve(added_, right)) return false;
+      const double change = (q - before).norm();
       const bool settled =
           change <= 1e-13 * q.norm() || (change <= 1e-8 * q.norm() && change >= 0.5 * last);
       if (settled && step > 0) return true;
       last = change;
-      update();
+      update(system_.T * q);
     }
     return false;
   }
@@ -61,10 +62,22 @@ class SteadyState {
   }
 
  private:
-  void update() {
+  /// (K + added) q = right.
+  bool solve(const SparseMatrix& added, const VectorXd& right) {
+    factorization.compute(shifted(system_.K, added, -1));
+    ++counters_.factorizations;
+    if (!factorization.exists()) return false;
+    const Operator A = [&](const VectorXd& x) -> VectorXd { return elastic_(x) + added * x; };
+    const Refined refined = refined_solve(A, factorization, right, counters_);
+    q = refined.x;
+    return refined.converged();
+  }
+
+  /// K_G of the forces in the state q, which the centrifugal forces of a shape u hold.
+  void update(const VectorXd& shape) {
     const VectorXd u = system_.T * q;
     VectorXd force =
-        internal_forces(system_, u) - system_.load - centrifugal_forces(system_, spin_, u);
+        internal_forces(system_, u) - system_.load - centrifugal_forces(system_, spin_, shape);
     if (geometric_.axial.size() > 0) force += turning_forces(system_, geometric_, u);
     geometric_ = prestress(system_, u, system_.constraints.multipliers(force), body_);
     added_ = softening_ + geometric_stiffness(system_, geometric_);
@@ -72,6 +85,7 @@ class SteadyState {
 
   const System& system_;
   Spin spin_;
+  bool deformed_;
   Counters& counters_;
   BodyForces body_;
   SparseMatrix softening_;
@@ -101,14 +115,15 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
       return result;
     }
   }
-  SteadyState steady(system, options.spin, result.counters);
+  SteadyState steady(system, options, result.counters);
   if (!steady.run()) {
     result.outcome = {Status::not_converged, "the steady state of the rotating frame is not found"};
     return result;
   }
   result.q = steady.q;
-  const GyroscopicPencil pencil{steady.tangent(), 2 * options.spin.speed * coriolis_matrix(system),
-                                system.M,
+  const bool turns = options.coriolis && options.spin.axis == SpinAxis::normal;
+  const SparseMatrix C = (turns ? 2 * options.spin.speed : 0.0) * coriolis_matrix(system);
+  const GyroscopicPencil pencil{steady.tangent(), C, system.M,
                                 [&steady](const VectorXd& x) { return steady.energy(x); }};
   GyroscopicModes modes;
   if (steady.factorization.smallest_pivot() > 0) {

@@ -13,13 +13,19 @@
 /// point masses feels neither term.
 namespace trammel {
 
+/// About the normal of the plane, or about an axis in it: then the centrifugal forces pull away
+/// from that axis alone, motion along the axis (the flapping of a blade) is not softened, and the
+/// Coriolis forces point out of the plane, where nothing moves.
+enum class SpinAxis { normal, x, y };
+
 struct Spin {
   double speed = 0;                    ///< W [rad/s]
-  Vector2d centre = Vector2d::Zero();  ///< c [m]
+  Vector2d centre = Vector2d::Zero();  ///< c, a point of the axis [m]
+  SpinAxis axis = SpinAxis::normal;
 };
 
-/// S: the mass of the translations, q x q.
-[[nodiscard]] SparseMatrix spin_softening(const System& system);
+/// S: the mass of the translations away from the axis, q x q.
+[[nodiscard]] SparseMatrix spin_softening(const System& system, SpinAxis axis = SpinAxis::normal);
 
 /// G = integral rho N^T J N dV, q x q; skew.   Source: Coriolis force on the interpolation.
 [[nodiscard]] SparseMatrix coriolis_matrix(const System& system);

@@ -106,6 +106,10 @@ std::optional<Figure> mechanism_figure(
     const std::vector<std::pair<std::string, const Drawing*>>& further) {
   if (!run.drawing || run.drawing->nodes.empty()) return std::nullopt;
   const Drawing& drawing = *run.drawing;
+  // Points alone, as of a mass on springs, are no picture.
+  if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty()) {
+    return std::nullopt;
+  }
   std::vector<std::vector<Point>> sets = {drawing.nodes};
   for (const Pose& pose : drawing.poses) sets.push_back(pose.nodes);
   for (const auto& [_, other] : further) sets.push_back(other->nodes);

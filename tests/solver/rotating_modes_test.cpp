@@ -112,6 +112,49 @@ BOOST_AUTO_TEST_CASE(the_blade_of_vm54_is_that_of_beam_theory) {
   BOOST_TEST(flexible / 51.7079 - 1 > -3e-4);
 }
 
+BOOST_AUTO_TEST_CASE(a_rotating_blade_flaps_as_wright_says) {
+  // About an axis in the plane and across the blade, which flaps along that axis.
+  struct Row {
+    double hub, eta, flap;
+  };
+  for (const Row& row : {Row{0, 2, 4.13731957303}, Row{0, 10, 11.2023277622},
+                         Row{1, 2, 4.83368887153}, Row{1, 10, 16.6063628422}}) {
+    for (const SpinAxis axis : {SpinAxis::x, SpinAxis::y}) {
+      for (const bool rigid : {true, false}) {
+        Model model = blade(row.hub, 24, axis == SpinAxis::y ? 0 : kPi / 2);
+        model.members[0].axially_flexible = !rigid;
+        const RotatingModes r = solve_rotating_modes(assemble(model), {{row.eta, {0, 0}, axis}, 1});
+        BOOST_REQUIRE(r.outcome.solved());
+        BOOST_TEST(2 * kPi * r.frequency[0] == row.flap, tolerance(rigid ? 3e-6 : 2e-5));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_flaps_is_not_softened_and_what_lags_is_by_the_square_of_the_speed) {
+  for (const MassMatrix mass : {MassMatrix::consistent, MassMatrix::lumped}) {
+    Model model = blade(0.5, 12, 0);
+    model.members[0].axially_flexible = false;
+    model.members[0].mass = mass;
+    const System system = assemble(model);
+    const double W = 3;
+    const RotatingModes lag = solve_rotating_modes(system, {{W, {0, 0}}, 3});
+    const RotatingModes flap = solve_rotating_modes(system, {{W, {0, 0}, SpinAxis::y}, 3});
+    for (Index i = 0; i < 3; ++i) {
+      const double square = std::pow(2 * kPi * flap.frequency[i], 2);
+      BOOST_TEST(std::pow(2 * kPi * lag.frequency[i], 2) == square - W * W, tolerance(1e-9));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(without_the_coriolis_coupling_the_blade_is_faster) {
+  const System system = assemble(blade(1, 24));
+  RotatingOptions options{{10, {0, 0}}, 1};
+  const double coupled = solve_rotating_modes(system, options).frequency[0];
+  options.coriolis = false;
+  BOOST_TEST(solve_rotating_modes(system, options).frequency[0] > coupled);
+}
+
 BOOST_AUTO_TEST_CASE(the_rotating_bar_stretches_by_the_tangent) {
   // u(L) = tan(k L) / k - L with k = W sqrt(rho A / E A).
   const double k = 6 * std::sqrt(1.2 / 2.8e7);
