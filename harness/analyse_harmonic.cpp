@@ -62,7 +62,7 @@ class Response {
 
 StepResult analyse_harmonic(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
                             Recorder& record) {
-  if (scene.along_path) throw analysis.error("expected a model at one place");
+  if (scene.path) throw analysis.error("expected a model at one place");
   const double low = analysis.number("from_Hz");
   const double high = analysis.number("to_Hz");
   if (!(high > low)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");

@@ -45,7 +45,7 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
 
 StepResult analyse_transient(const Cursor& analysis, const Scene& scene, std::size_t step,
                              bool draw, Recorder& record) {
-  if (scene.along_path) throw analysis.error("expected a model at one place");
+  if (scene.path) throw analysis.error("expected a model at one place");
   const System system = assemble(build_model(scene, step));
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const MotionHistory motion = compute_motion(analysis, system);

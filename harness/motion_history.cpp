@@ -96,7 +96,9 @@ std::vector<double> sample_times(const Cursor& transient) {
     throw transient["step_s"].error("expected at most ten million steps (got " +
                                     std::to_string(steps) + ")");
   }
-  const auto count = transient.get<std::size_t>("samples", static_cast<std::size_t>(steps));
+  constexpr double most_samples = 10000;
+  const auto count = transient.get<std::size_t>(
+      "samples", static_cast<std::size_t>(std::clamp(steps, 1.0, most_samples)));
   std::vector<double> times;
   for (std::size_t i = 0; i <= count; ++i) {
     times.push_back(duration * static_cast<double>(i) / static_cast<double>(count));

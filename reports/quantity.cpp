@@ -87,6 +87,11 @@ Quantity parse_quantity(const std::string& name) {
   const std::size_t colon = name.find(':');
   std::string base = name.substr(0, colon);
   if (colon != std::string::npos) quantity.subject = name.substr(colon + 1);
+  // frequency_Hz:1 along a path or over a range of speeds.
+  if (quantity.subject.find_first_not_of("0123456789") == std::string::npos &&
+      !quantity.subject.empty()) {
+    quantity.subject.insert(0, "mode ");
+  }
   for (const auto& [key, people] : units) {
     if (!ends_with(base, std::string("_") + key)) continue;
     quantity.unit = people;

@@ -4,7 +4,8 @@
 
 namespace trammel::reports {
 
-/// A quantity's name taken apart: displacement_x_m:P is the "x displacement" of "P" in "m".
+/// A quantity's name taken apart: displacement_x_m:P is the "x displacement" of "P" in "m",
+/// frequency_Hz:1 the "frequency" of "mode 1".
 struct Quantity {
   std::string label, subject, unit;  ///< unit for people: N·m, rad/s; empty if dimensionless
 };

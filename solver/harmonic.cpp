@@ -156,7 +156,7 @@ HarmonicPeak harmonic_peak(const HarmonicResponse& response, double low, double 
   double x2 = a + golden * (b - a);
   double f1 = size(x1);
   double f2 = size(x2);
-  while (b - a > 1e-9 * b) {
+  while (b - a > std::max(1e-9 * b, 1e-12 * (high - low))) {
     if (f1 > f2) {
       b = x2;
       x2 = x1;

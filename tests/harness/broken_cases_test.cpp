@@ -48,7 +48,32 @@ std::vector<Json> sound_cases() {
   statics["model"].erase("pose");
   statics["model"]["trajectory"]["circle"] = {
       {"center_m", {0.25, 0.144}}, {"radius_m", 0.01}, {"points", 3}, {"step_s", 0.5}};
-  return {frame, robot, statics};
+  Json motion = testing::cantilever();
+  motion["analysis"]["transient"] = {
+      {"duration_s", 0.01},
+      {"step_s", 0.001},
+      {"method", {{"newmark", {{"beta", 0.25}, {"gamma", 0.5}}}}},
+      {"damping", {{"modal", {{"ratio", 0.02}, {"modes", 3}}}}},
+      {"load_history", {{"time_s", {0, 0.002, 0.002}}, {"factor", {0, 1, 0}}}},
+      {"initial", {{"velocity_m_per_s", {0, 1}}}},
+      {"outputs", {"displacement_y_m:B", "bending_moment_N_m:AB.start"}}};
+  motion["analysis"].erase("statics");
+  Json response = testing::cantilever();
+  response["analysis"] = {
+      {"harmonic",
+       {{"from_Hz", 1},
+        {"to_Hz", 40},
+        {"points", 5},
+        {"damping", {{"rayleigh", {{"mass_1_per_s", 1}, {"stiffness_s", 0.001}}}}},
+        {"outputs", {"stress_Pa:AB"}}}}};
+  response["model"]["members"]["AB"]["arc_center_m"] = {1, -3};
+  response["model"]["members"]["AB"]["nodes"] = {"B", "A"};
+  response["analysis"]["harmonic"]["outputs"] = {"stress_Pa:AB.1"};
+  Json rotor = testing::cantilever();
+  rotor["analysis"] = {
+      {"modes",
+       {{"count", 2}, {"rotating", {{"angular_speed_rad_s", {0, 10}}, {"axis", "normal"}}}}}};
+  return {frame, robot, statics, motion, response, rotor};
 }
 
 std::vector<JsonPointer> places(const Json& json, bool (*wanted)(const Json&)) {
@@ -84,21 +109,37 @@ void erase(Json& json, const JsonPointer& at) {
   json.at(at.parent_pointer()).erase(at.back());
 }
 
-const std::vector<std::string> required = {
-    "id",          "title",   "analysis", "links",     "material", "joints", "platform",
-    "thickness_m", "width_m", "E_Pa",     "rho_kg_m3", "nu",       "kind",   "proximal_length_m",
-    "x_m",         "y_m",     "phi_rad",  "section",   "mass_kg",  "role",   "quantity",
-    "why",         "values",  "points",   "center_m",  "radius_m", "step_s"};
+const std::vector<std::string> required = {"id",        "title",
+                                           "analysis",  "links",
+                                           "material",  "joints",
+                                           "platform",  "thickness_m",
+                                           "width_m",   "E_Pa",
+                                           "rho_kg_m3", "nu",
+                                           "kind",      "proximal_length_m",
+                                           "x_m",       "y_m",
+                                           "phi_rad",   "section",
+                                           "mass_kg",   "role",
+                                           "quantity",  "why",
+                                           "values",    "points",
+                                           "center_m",  "radius_m",
+                                           "step_s",    "duration_s",
+                                           "outputs",   "from_Hz",
+                                           "to_Hz",     "angular_speed_rad_s",
+                                           "time_s",    "factor",
+                                           "ratio",     "velocity_m_per_s",
+                                           "beta"};
 const std::vector<std::string> positive = {
     "thickness_m", "width_m",  "E_Pa",   "elements", "side_m",
-    "count",       "radius_m", "points", "step_s",   "proximal_length_m"};
+    "count",       "radius_m", "points", "step_s",   "proximal_length_m",
+    "duration_s",  "to_Hz",    "modes"};
 /// Keys of the format itself; names of nodes and the like may be anything.
 const std::vector<std::string> fixed_keys = {
-    "id",        "title",    "model",        "analysis", "manipulator", "links",    "platform",
-    "material",  "joints",   "thickness_m",  "width_m",  "E_Pa",        "nu",       "elements",
-    "materials", "sections", "nodes",        "members",  "supports",    "loads",    "springs",
-    "checks",    "sweeps",   "variants",     "pose",     "trajectory",  "circle",   "role",
-    "bound",     "pointers", "theory_order", "count",    "force_N",     "rectangle"};
+    "id",        "title",    "model",        "analysis", "manipulator", "links",     "platform",
+    "material",  "joints",   "thickness_m",  "width_m",  "E_Pa",        "nu",        "elements",
+    "materials", "sections", "nodes",        "members",  "supports",    "loads",     "springs",
+    "checks",    "sweeps",   "variants",     "pose",     "trajectory",  "circle",    "role",
+    "bound",     "pointers", "theory_order", "count",    "force_N",     "rectangle", "transient",
+    "harmonic",  "rotating", "damping",      "outputs",  "duration_s"};
 
 /// Text that is invalid by construction, and in what way.
 std::string broken(Random& random, Json json, std::string& how) {
@@ -109,7 +150,8 @@ std::string broken(Random& random, Json json, std::string& how) {
         const std::string text = at.to_string();
         const bool optional =
             testing::contains(text, "/variants/") || testing::contains(text, "/joints/") ||
-            testing::contains(text, "/platform/mass_kg") || testing::contains(text, "/links/mass");
+            testing::contains(text, "/platform/mass_kg") ||
+            testing::contains(text, "/links/mass") || testing::contains(text, "/harmonic/points");
         if (!optional) needed.push_back(at);
       }
       const JsonPointer at = any_of(random, needed);
