@@ -102,6 +102,7 @@ StepResult analyse_large_statics(const Cursor& analysis, const Scene& scene, std
   for (const double factor : factors) {
     options.target = factor;
     path = follow_static_path(system, options);
+    result.counters.element_evaluations = system.element_evaluations();
     result.counters.factorizations += path.counters.factorizations;
     result.counters.solves += path.counters.solves;
     result.outcome = path.outcome;

@@ -15,8 +15,11 @@ std::string percent(double error) {
   return error < 1e-4 ? rounded(error, 2) : rounded(100 * error, 2) + " %";
 }
 
+/// "1.7", "43", "7900".
 std::string times(double factor) {
-  return rounded(factor, factor < 10 ? 2 : 3);
+  if (factor < 100) return rounded(factor, 2);
+  const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
+  return std::to_string(std::llround(std::round(factor / unit) * unit));
 }
 
 std::set<std::size_t> settings_of(const std::vector<CostPoint>& points) {

@@ -445,7 +445,13 @@ void LargeSystem::add_point_masses(const Weights& weights, KktMatrix& matrix) co
   }
 }
 
+void LargeSystem::count_elements() const {
+  element_evaluations_ +=
+      static_cast<std::int64_t>(layout_.elements.size() + model_.triangles.size());
+}
+
 void LargeSystem::tangent(const State& state, const Weights& weights, KktMatrix& matrix) const {
+  count_elements();
   const Weights damped = with_damping(weights);
   for (const std::unique_ptr<Term>& term : terms_) {
     term->tangent(state, scenario_.strain_rate_damping, damped, matrix);
@@ -455,6 +461,7 @@ void LargeSystem::tangent(const State& state, const Weights& weights, KktMatrix&
 
 void LargeSystem::secant_tangent(const State& from, const State& to, const State& middle,
                                  const Weights& weights, KktMatrix& matrix) const {
+  count_elements();
   const Weights damped = with_damping(weights);
   for (const std::unique_ptr<Term>& term : terms_) {
     term->secant_tangent(from, to, middle, scenario_.strain_rate_damping, damped, matrix);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -60,6 +61,8 @@ class LargeSystem final : public ConservativeSystem {
     return element_row_[static_cast<std::size_t>(element)];
   }
   [[nodiscard]] int order() const { return order_; }
+  /// Element tangents filled so far: of members and triangles.
+  [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
  private:
@@ -80,6 +83,7 @@ class LargeSystem final : public ConservativeSystem {
   void finish();
   void join_scales();
   [[nodiscard]] Weights with_damping(Weights weights) const;
+  void count_elements() const;
   void add_point_masses(const Weights& weights, KktMatrix& matrix) const;
 
   Model model_;
@@ -98,6 +102,7 @@ class LargeSystem final : public ConservativeSystem {
   Eigen::SparseMatrix<double> mass_;                  ///< total x total
   VectorXd gravity_, loads_;                          ///< total
   mutable VectorXd padded_, product_;
+  mutable std::int64_t element_evaluations_ = 0;
 };
 
 }  // namespace trammel::large

@@ -72,6 +72,11 @@ BOOST_AUTO_TEST_CASE(the_sentence_does_not_compare_the_baseline_with_itself) {
   BOOST_TEST(contains(front_in_words({{1, 1e-3, 1.02}}, titles, 0), "as quick as 'coarse'"));
 }
 
+BOOST_AUTO_TEST_CASE(the_sentence_has_no_more_digits_than_were_measured) {
+  const std::string words = front_in_words({{0, 1e-3, 1}, {4, 1e-7, 7917.3}}, titles, 0);
+  BOOST_TEST(contains(words, "and 7900 times as long"));
+}
+
 BOOST_AUTO_TEST_CASE(the_sentence_says_what_is_not_reached) {
   std::vector<CostPoint> points = sample();
   points.pop_back();
