@@ -70,6 +70,9 @@ std::string model_words(const Document& document) {
   if (!more.line_springs.empty()) text += ", " + count_of(more.line_springs.size(), "line spring");
   if (!more.sliders.empty()) text += ", " + count_of(more.sliders.size(), "slider");
   if (!model.loads.empty()) text += ", " + count_of(model.loads.size(), "load");
+  if (!model.edge_loads.empty()) {
+    text += ", " + count_of(model.edge_loads.size(), "loaded side") + " of triangles";
+  }
   return text;
 }
 
