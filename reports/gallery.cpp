@@ -12,6 +12,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t most_poses = 4;
+constexpr std::size_t most_drawn = 24;  ///< variants of one case whose shapes the page carries
 
 /// Joints of one name stand in one place.
 bool same_geometry(const Drawing& a, const Drawing& b) {
@@ -55,12 +56,16 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     const auto poses = further_poses(info, runs, *(*drawn)->drawing);
     if (auto figure = mechanism_figure(info, **drawn, poses)) gallery.shown.push_back(*figure);
   }
-  bool first = true;
+  std::size_t variants = 0;
   for (const Run* run : runs) {
-    auto shapes = shapes_figure(info, *run);
-    if (shapes) (first ? gallery.shown : gallery.folded).push_back(*shapes);
-    first = first && !shapes;
+    if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= most_drawn)
+      (variants == 1 ? gallery.shown : gallery.folded).push_back(*shapes);
   }
+  if (variants > most_drawn)
+    gallery.problems.push_back("The page draws the shapes of the first " +
+                               std::to_string(most_drawn) + " variants; those of " +
+                               std::to_string(variants - most_drawn) +
+                               " more stand in results.json.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     if (auto figure = curves_figure(info, request, runs, problem)) {
@@ -70,7 +75,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     }
   }
   append(gallery.shown, discrepancy_figures(info, results, runs));
-  first = true;
+  bool first = true;
   for (const Run* run : runs) {
     auto figures = convergence_figures(info, *run);
     const bool any = !figures.empty();
