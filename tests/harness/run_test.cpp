@@ -132,7 +132,6 @@ BOOST_AUTO_TEST_CASE(results_obey_their_schema) {
   const auto fault = find_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST(results["references"].contains("exact"));
-  BOOST_TEST(results["runs"][0]["cost"]["sweeps"]["elements"]["wall_s"].size() == 5U);
 }
 
 BOOST_AUTO_TEST_CASE(a_singular_model_holds_where_it_is_expected_and_fails_where_not) {
