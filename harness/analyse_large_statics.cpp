@@ -6,6 +6,7 @@
 #include "harness/words.h"
 #include "solver/large_motion/readings.h"
 #include "solver/large_motion/static_path.h"
+#include "solver/large_statics.h"
 
 namespace trammel {
 namespace {
@@ -26,21 +27,9 @@ large::StaticPathOptions read_options(const Cursor& analysis) {
   return options;
 }
 
-/// What linear statics would say, of a state in large motion.
-StaticSolution solution_of(const LargeSystem& system, const large::State& state) {
-  StaticSolution solution;
-  solution.displacement = node_motion(system, state.q);
-  solution.end_rotation = end_rotations(system, state.q);
-  large::Resultants resultants = member_resultants(system, state);
-  solution.resultant_start = std::move(resultants.start);
-  solution.resultant_end = std::move(resultants.end);
-  solution.reaction = reactions(system, state);
-  return solution;
-}
-
 void record_point(const LargeSystem& system, const PathPoint& point, Recorder& record) {
   record.add("load_factor", "", point.state.load);
-  record_solution(system.model(), solution_of(system, point.state), -1, record);
+  record_solution(system.model(), static_solution(system, point.state), -1, record);
   for (std::size_t i = 0; i < system.scenario().drives.size(); ++i) {
     const large::Drive& drive = system.scenario().drives[i];
     record.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,

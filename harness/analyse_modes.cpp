@@ -29,19 +29,20 @@ void refuse(const Cursor& analysis, const char* key, const char* beside, const c
 }
 
 /// The system in the coordinates that the analysis asks for.
-System reduced(const Cursor& analysis, System system) {
+System condensed(const Cursor& analysis, const Scene& scene, System system) {
   if (!analysis.has("reduction")) return system;
   refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the whole model");
-  if (analysis.get("prestressed", false)) {
-    throw analysis["reduction"].error("expected it without 'prestressed'");
+  if (scene.effects.has(Effect::geometric_stiffening)) {
+    throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
   }
   return reduce_members(system, analysis["reduction"]["modes_of_a_member"].get<Index>());
 }
 
-ModalSolution modes_of(const Cursor& analysis, const System& system) {
+ModalSolution modes_of(const Cursor& analysis, const Scene& scene, const System& system) {
   const ModesOptions options = read_options(analysis);
-  if (!analysis.get("prestressed", false)) return solve_modes(system, options);
-  refuse(analysis, "count_below_Hz", "prestressed", "it counts the modes of the unloaded model");
+  if (!scene.effects.has(Effect::geometric_stiffening)) return solve_modes(system, options);
+  refuse(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
+         "it counts the modes of the unloaded model");
   return solve_prestressed_modes(system, options).modes;
 }
 
@@ -49,15 +50,16 @@ ModalSolution modes_of(const Cursor& analysis, const System& system) {
 
 StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
                          Recorder& record) {
-  const System system = reduced(analysis, assemble(build_model(scene, step)));
   if (analysis.has("rotating")) {
     refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
     refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
     if (scene.path) throw analysis["rotating"].error("expected a model at one place");
-    return analyse_rotating(analysis, system, draw, record);
+    return analyse_rotating(analysis, assemble(build_model(scene, step)), draw, record);
   }
-  const ModalSolution modes = modes_of(analysis, system);
+  const System system =
+      condensed(analysis, scene, assemble(build_model(scene, step), scene.effects));
+  const ModalSolution modes = modes_of(analysis, scene, system);
   StepResult result{modes.outcome, modes.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
   if (!modes.outcome.solved()) return result;

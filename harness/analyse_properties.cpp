@@ -30,7 +30,7 @@ Body body_of(const Model& model, const Member& member) {
   const Vector2d end = model.nodes[static_cast<std::size_t>(member.nodes[1])].position;
   const auto count = static_cast<double>(member.elements);
   const double length = (end - start).norm() / count;
-  const bool rotary = member.theory == BeamTheory::timoshenko;
+  const bool rotary = has_rotary_inertia(member.theory);
   Body whole;
   for (Index e = 0; e < member.elements; ++e) {
     const double s = (static_cast<double>(e) + 0.5) / count;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "harness/analysis_kinds.h"
+#include "solver/large_statics.h"
 #include "solver/statics.h"
 
 namespace trammel {
@@ -110,6 +111,18 @@ void record_plates(const Model& model, const StaticSolution& solution, double ro
   }
 }
 
+/// With large displacement: in the geometrically exact tier.
+StepResult analyse_exactly(const Scene& scene, std::size_t step, bool draw, Recorder& record) {
+  const Model model = build_bare_model(scene, step);
+  const StaticSolution solution = solve_large_statics(model, scene.mechanism);
+  StepResult result{solution.outcome, solution.counters, std::nullopt};
+  if (draw) {
+    result.drawing = draw_model(assemble(build_model(scene, step)), scene.manipulator.has_value());
+  }
+  if (solution.outcome.solved()) record_solution(model, solution, -1, record);
+  return result;
+}
+
 }  // namespace
 
 void record_solution(const Model& model, const StaticSolution& solution, double roundoff,
@@ -120,11 +133,13 @@ void record_solution(const Model& model, const StaticSolution& solution, double 
   record_plates(model, solution, roundoff, record);
 }
 
-StepResult analyse_statics(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
-                           Recorder& record) {
-  const System system = assemble(build_model(scene, step));
+StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw, Recorder& record) {
+  if (scene.effects.has(Effect::large_displacement)) {
+    return analyse_exactly(scene, step, draw, record);
+  }
+  const System system = assemble(build_model(scene, step), scene.effects);
   const StaticSolution solution =
-      solve_statics(system, {.second_order = analysis.get("second_order", false)});
+      solve_statics(system, {.second_order = scene.effects.has(Effect::geometric_stiffening)});
   StepResult result{solution.outcome, solution.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
   if (!solution.outcome.solved()) return result;

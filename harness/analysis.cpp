@@ -6,16 +6,10 @@
 namespace trammel {
 namespace {
 
-void add(Counters& total, const Counters& more) {
-  total.element_evaluations += more.element_evaluations;
-  total.factorizations += more.factorizations;
-  total.solves += more.solves;
-}
-
 StepResult analyse_step(const std::string& kind, const Cursor& analysis, const Scene& scene,
                         std::size_t step, bool draw, Recorder& record) {
   if (kind == "modes") return analyse_modes(analysis, scene, step, draw, record);
-  if (kind == "statics") return analyse_statics(analysis, scene, step, draw, record);
+  if (kind == "statics") return analyse_statics(scene, step, draw, record);
   if (kind == "buckling") return analyse_buckling(analysis, scene, step, draw, record);
   if (kind == "large-statics") return analyse_large_statics(analysis, scene, step, draw, record);
   if (kind == "harmonic") return analyse_harmonic(analysis, scene, step, draw, record);
@@ -31,7 +25,7 @@ StepResult analyse_steps(const std::string& kind, const Cursor& analysis, const 
   for (std::size_t step = 0; step < scene.steps(); ++step) {
     record_path(scene, step, record);
     StepResult found = analyse_step(kind, analysis, scene, step, draw && step == 0, record);
-    add(all.counters, found.counters);
+    all.counters += found.counters;
     if (found.drawing) all.drawing = std::move(found.drawing);
     if (found.outcome.solved()) continue;
     all.outcome = at_point(scene, step, found.outcome);
@@ -51,8 +45,11 @@ StepResult analyse_scene(const std::string& kind, const Cursor& analysis, const 
 
 /// What was recorded counts where a solution was found.
 AnalysisResult result_of(StepResult found, Recorder& record) {
-  AnalysisResult result{
-      found.outcome, {}, std::move(found.drawing), found.counters, std::move(found.timings)};
+  AnalysisResult result;
+  result.outcome = std::move(found.outcome);
+  result.drawing = std::move(found.drawing);
+  result.counters = found.counters;
+  result.timings = std::move(found.timings);
   if (result.outcome.solved()) result.quantities = record.take();
   return result;
 }
@@ -95,12 +92,18 @@ AnalysisResult analyse(const Document& document, const References& references,
   if (kind == "grnn" && place.has("samples")) {
     return result_of(analyse_grnn(place, std::nullopt, options.drawing, record), record);
   }
-  const Scene scene = read_scene(document);
+  Scene scene = read_scene(document);
   if (kind == "kinematics" && !scene.manipulator) {
     throw place.error("expected a model with a manipulator");
   }
   try {
-    return result_of(analyse_scene(kind, place, scene, options.drawing, record), record);
+    EffectChoice choice = choose_effects(document, scene);
+    scene.effects = choice.chosen;
+    AnalysisResult result =
+        result_of(analyse_scene(kind, place, scene, options.drawing, record), record);
+    result.analysis = kind;
+    result.effects = std::move(choice.reasons);
+    return result;
   } catch (const ModelError& error) {
     throw model_error(document, error);
   }

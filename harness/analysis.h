@@ -7,6 +7,7 @@
 #include "harness/drawing.h"
 #include "harness/quantity.h"
 #include "harness/reference_library.h"
+#include "harness/scene_effects.h"
 #include "solver/system.h"
 
 /// One computation: a case with its patches in, numbers out.
@@ -30,6 +31,8 @@ struct AnalysisResult {
   std::optional<Drawing> drawing;
   Counters counters;
   std::vector<EvaluationTime> timings = {};
+  std::string analysis;               ///< its kind
+  std::vector<EffectReason> effects;  ///< what the computation had, and why
 };
 
 /// @throws InputError  where the model has no meaning.

@@ -29,8 +29,8 @@ void record_path(const Scene& scene, std::size_t step, Recorder& record);
                                        bool draw, Recorder& record);
 
 /// Displacements, end rotations, reactions, section forces, stresses, residuals.
-[[nodiscard]] StepResult analyse_statics(const Cursor& analysis, const Scene& scene,
-                                         std::size_t step, bool draw, Recorder& record);
+[[nodiscard]] StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw,
+                                         Recorder& record);
 
 /// Multiples of all loads together at which the model buckles, and what they make of each force.
 [[nodiscard]] StepResult analyse_buckling(const Cursor& analysis, const Scene& scene,

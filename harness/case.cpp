@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 /// What one case takes from another: how things are computed, not what is judged.
 Json inherited(const Json& base) {
   Json kept = Json::object();
-  for (const char* key : {"model", "analysis", "variants", "sweeps", "uncertainty"}) {
+  for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {
     if (base.contains(key)) kept[key] = base.at(key);
   }
   if (!kept.contains("variants") || !kept["variants"].is_object()) return kept;

@@ -32,6 +32,7 @@ Examples:
   trammel converge beam-cantilever          orders, extrapolation, uncertainty bands
   trammel cost modes                        what accuracy costs in time
   trammel ledger                            the paper's claims, and a verdict for each
+  trammel effects scene-soft-platform       what each effect is worth in a scene
   trammel report                            the whole catalogue as a page
 
 Exit status: 0 every gate holds, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
@@ -51,6 +52,7 @@ class CommandLine {
     define_converge();
     define_cost();
     define_ledger();
+    define_effects();
     define_report();
   }
 
@@ -178,6 +180,38 @@ class CommandLine {
     sub->add_flag("--json", json_, "As JSON, with every number");
     sub->callback([this] { command_ = [this] { return ledger_command(run_.jobs, json_); }; });
   }
+  void define_effects() {
+    CLI::App* sub = add("effects", "What each effect is worth in a scene, estimated and measured",
+                        "\nThe whole scene against itself without each effect, without pairs, and "
+                        "with only those\nthat its tolerance calls for.\n\nExamples:\n"
+                        "  trammel effects scene-soft-platform\n"
+                        "  trammel effects my-robot.json --tolerance 0.001\n"
+                        "  trammel effects --random 200 --seed 1      hit rate on random scenes\n"
+                        "  trammel effects --seed 1 --scene 17        one of them");
+    sub->add_option("case", name_, "Name or file of a case with statics or modes");
+    sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
+    sub->add_option("--tolerance", effects_.tolerance,
+                    "Relative, where the case's effects are not automatic")
+        ->check(CLI::Range(1e-12, 1.0))
+        ->capture_default_str();
+    sub->add_option("--repeats", effects_.repeats, "Measurements of time")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    auto* random = sub->add_option("--random", effects_.random, "So many random scenes instead")
+                       ->check(CLI::Range(1, 100000));
+    auto* scene = sub->add_option("--scene", effects_.scene, "This one of the random scenes");
+    sub->add_option("--seed", effects_.seed, "Of random scenes")->capture_default_str();
+    sub->callback([this, random, scene] {
+      const bool many = random->count() > 0, one = scene->count() > 0;
+      if (int(many) + int(one) + int(!name_.empty()) != 1) {
+        throw CLI::RequiredError("exactly one of a case, --random and --scene");
+      }
+      effects_.name = name_;
+      command_ = [this, many] {
+        return many ? random_effects_command(effects_) : effects_command(effects_);
+      };
+    });
+  }
   void define_report() {
     CLI::App* sub = add("report", "Run the whole catalogue and write the page",
                         "\nExample:\n  trammel report --out report --jobs 4");
@@ -191,6 +225,7 @@ class CommandLine {
   CLI::App app_{about};
   RunCommand run_{{}, {}, "", std::max(1U, std::thread::hardware_concurrency()), "trammel-results"};
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
+  EffectsCommand effects_;
   std::string name_, other_;
   bool json_ = false;
   std::function<int()> command_;

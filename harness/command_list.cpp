@@ -6,8 +6,10 @@
 #include "harness/commands.h"
 #include "harness/cursor.h"
 #include "harness/json_file.h"
+#include "harness/print_effects.h"
 #include "harness/reference_library.h"
 #include "harness/scene.h"
+#include "harness/scene_effects.h"
 #include "harness/table.h"
 #include "harness/validation_uncertainty.h"
 #include "harness/words.h"
@@ -109,6 +111,12 @@ std::string check_words(const Check& check) {
   text += windows_in_words(check);
   if (check.expectation == Expectation::known_discrepancy) text += " (a known discrepancy)";
   return text;
+}
+
+void describe_effects(const Case& given) {
+  const Document base = patched(given, base_variant);
+  if (!knows_effects(base)) return;
+  print_effects(choose_effects(base, read_scene(base)), analysis_kind(base));
 }
 
 void describe_checks(const Case& given, const References& references) {
@@ -213,6 +221,7 @@ int describe_case(const std::string& name, bool json) {
       std::cout << '\n';
     }
   }
+  describe_effects(given);
   describe_inputs(given, references);
   describe_checks(given, references);
   describe_references(references);

@@ -29,6 +29,15 @@ struct CostCommand {
   std::string out;
 };
 
+struct EffectsCommand {
+  std::string name, variant;  ///< of a case; or
+  std::uint64_t seed = 1;     ///< of random scenes:
+  std::uint64_t random = 0;   ///< so many of them,
+  std::uint64_t scene = 0;    ///< or this one
+  double tolerance = 0.01;    ///< where the case does not give one
+  int repeats = 7;            ///< of each measurement of time
+};
+
 int list_cases(const std::vector<std::string>& labels, bool json);
 int describe_case(const std::string& name, bool json);
 int run_command(const RunCommand& command, const Renderers& renderers);
@@ -36,6 +45,9 @@ int compare_command(const std::string& a, const std::string& b);
 int converge_command(const std::string& name, const std::string& variant, unsigned jobs);
 int cost_command(const CostCommand& command, const Renderers& renderers);
 int ledger_command(unsigned jobs, bool json);
+int effects_command(const EffectsCommand& command);
+/// Hit rate of automatic effects: 1 below 99 % within tolerance or 90 % minimal.
+int random_effects_command(const EffectsCommand& command);
 int report_command(const std::string& out, unsigned jobs, const Renderers& renderers);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.

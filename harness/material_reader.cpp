@@ -12,7 +12,8 @@ Material read_material(const Cursor& material) {
 
 BeamTheory read_beam_theory(const Cursor& part) {
   const std::string word = part.get<std::string>("beam", "euler-bernoulli");
-  return word == "timoshenko" ? BeamTheory::timoshenko : BeamTheory::euler_bernoulli;
+  return beam_theory(word == "timoshenko" || word == "shear",
+                     word == "timoshenko" || word == "rayleigh");
 }
 
 MassMatrix read_mass_matrix(const Cursor& part) {

@@ -7,6 +7,7 @@
 
 #include "harness/drawing.h"
 #include "harness/scene.h"
+#include "harness/scene_effects.h"
 #include "solver/modes.h"
 
 namespace trammel {
@@ -49,7 +50,9 @@ void see_members(const System& system, const Eigen::VectorXd& u, Places& places)
 std::pair<std::vector<double>, Places> see(const Document& document) {
   const Cursor analysis = Cursor(document)["analysis"];
   if (!analysis.has("modes")) throw analysis.error("expected 'modes', to match modes by shape");
-  const System system = assemble(build_model(read_scene(document), 0));
+  Scene scene = read_scene(document);
+  scene.effects = choose_effects(document, scene).chosen;
+  const System system = assemble(build_model(scene, 0), scene.effects);
   ModesOptions options;
   options.count = std::min(system.K.rows(), analysis["modes"]["count"].get<Index>() + beyond);
   const ModalSolution modes = solve_modes(system, options);

@@ -195,6 +195,25 @@ Json cost(const Run& run) {
   return json;
 }
 
+/// What the computation had, why, and how often it was evaluated.
+Json effects(const Run& run) {
+  Json list = Json::array();
+  for (const EffectReason& one : run.result.effects) {
+    Json json = {{"effect", std::string(name_of(one.effect))},
+                 {"admitted", one.admitted},
+                 {"on", one.on},
+                 {"why", one.why},
+                 {"evaluations", run.result.counters.of(one.effect)}};
+    if (one.number) {
+      json["number"] = number(one.number);
+      json["number_of"] = number_words(one.effect, run.result.analysis);
+    }
+    if (one.change) json["change"] = number(one.change);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json run_json(const Run& run) {
   Json json = {{"case", run.case_id},  {"variant", run.variant},       {"status", run.status},
                {"reason", run.reason}, {"quantities", Json::object()}, {"checks", Json::array()}};
@@ -207,6 +226,7 @@ Json run_json(const Run& run) {
     json["convergence"].push_back(convergence(found));
   }
   if (!run.uncertainty.empty()) json["uncertainty"] = uncertainty(run.uncertainty);
+  if (!run.result.effects.empty()) json["effects"] = effects(run);
   if (run.result.drawing) json["drawing"] = drawing(*run.result.drawing);
   json["cost"] = cost(run);
   return json;

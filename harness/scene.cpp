@@ -54,8 +54,9 @@ Model build_model(const Scene& scene, std::size_t step) {
 }
 
 Model build_bare_model(const Scene& scene, std::size_t step) {
-  if (!scene.manipulator) return scene.parts;
-  Model model = build_manipulator(*scene.manipulator, scene.motion.at(step).pose);
+  if (!scene.manipulator) return reduced(scene.parts, scene.effects);
+  Model model =
+      build_manipulator(reduced(*scene.manipulator, scene.effects), scene.motion.at(step).pose);
   const auto plates = static_cast<Index>(model.plates.size());
   for (Triangle triangle : scene.parts.triangles) {
     triangle.plate += plates;
@@ -75,7 +76,7 @@ Model build_bare_model(const Scene& scene, std::size_t step) {
     model.edge_loads.push_back(load);
   }
   model.gravity = scene.parts.gravity;
-  return model;
+  return reduced(std::move(model), scene.effects);
 }
 
 InputError model_error(const Document& document, const ModelError& error) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "harness/cursor.h"
+#include "solver/effects.h"
 #include "solver/large_motion/scenario.h"
 #include "solver/manipulator.h"
 #include "solver/model.h"
@@ -21,6 +22,7 @@ struct Scene {
   Model parts;
   /// Sliders, line springs and follower loads, which the linear tiers know only in part.
   large::Scenario mechanism;
+  Effects effects = Effects::all();  ///< what `build_model` keeps
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
 };
@@ -30,8 +32,8 @@ struct Scene {
 ///                     a combination has no meaning.
 [[nodiscard]] Scene read_scene(const Document& document);
 
-/// The planar model at a pose of the path (0 where there is none), for the linear tiers: sliders
-/// are linear constraints.
+/// The planar model at a pose of the path (0 where there is none), with the scene's effects, for the
+/// linear tiers: sliders are linear constraints.
 /// @throws ModelError  where the scene has line springs or follower loads.
 [[nodiscard]] Model build_model(const Scene& scene, std::size_t step);
 

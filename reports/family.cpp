@@ -82,6 +82,7 @@ Data case_data(const CaseInfo& info, const Family& family, const Results& result
   data.set("counts", counts_list(counts_of(runs)));
   set_standing(data, overall(runs));
   data.set("endings", endings(info, runs));
+  set_effects(data, runs);
   data.set("problems", texts(gallery.problems));
   set_flag(data, "has_figures", !gallery.shown.empty());
   data.set("figures", figures_data(gallery.shown));

@@ -241,6 +241,16 @@ Bands read_bands(const JsonView& view) {
   return bands;
 }
 
+EffectRow read_effect(const JsonView& view) {
+  return {view.at("effect").text(),
+          view.find("number_of").text_or(""),
+          view.at("why").text(),
+          view.at("admitted").boolean(),
+          view.at("on").boolean(),
+          view.find("number").maybe_number(),
+          view.find("change").maybe_number()};
+}
+
 Run read_run(const JsonView& view) {
   Run run;
   run.case_id = view.at("case").text();
@@ -257,6 +267,8 @@ Run read_run(const JsonView& view) {
     for (const JsonView& entry : view.at("uncertainty").find("comparisons").entries())
       run.comparisons.push_back(read_comparison(entry));
   if (!view.find("drawing").null()) run.drawing = read_drawing(view.at("drawing"));
+  for (const JsonView& effect : view.find("effects").entries())
+    run.effects.push_back(read_effect(effect));
   run.cost = read_cost(view.find("cost"));
   return run;
 }

@@ -97,6 +97,13 @@ struct Cost {
   std::vector<std::pair<std::string, double>> counters;
 };
 
+/// One effect in a run, and why it is there or not.
+struct EffectRow {
+  std::string name, number_of, why;
+  bool admitted = false, on = false;
+  Number number, change;
+};
+
 struct Run {
   std::string case_id, variant, reason;
   Status status = Status::error;
@@ -105,6 +112,7 @@ struct Run {
   std::vector<Convergence> convergence;
   std::vector<Comparison> comparisons;
   std::optional<Drawing> drawing;
+  std::vector<EffectRow> effects;
   Cost cost;
 
   /// @returns nullptr when the run has no such quantity.

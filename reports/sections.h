@@ -30,6 +30,10 @@ namespace trammel::reports {
 [[nodiscard]] Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                                const Results& results);
 
+/// The effects of the first run that chose its own: a row each, and a title that names those on.
+/// Nothing where no run did.
+void set_effects(Data& data, const std::vector<const Run*>& runs);
+
 /// For every reference that validation checks of many variants compare one quantity with: variants
 /// down, entries across, nearest first. @returns a list, empty where there is none.
 [[nodiscard]] Data comparison_matrices(const Family& family, const Results& results);

@@ -42,20 +42,20 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
 
 class Assembler {
  public:
-  explicit Assembler(const Model& model) {
+  Assembler(Model model, Effects kept) : kept_(kept) {
     validate(model);
-    system_.model = model;
     Discretisation discretisation = discretise(model);
     system_.constraints = constrain(model, discretisation);
     system_.mesh = std::move(discretisation.mesh);
     system_.coordinates = std::move(discretisation.coordinates);
     system_.springs = spring_elements(model, system_.coordinates);
+    system_.model = std::move(model);
     system_.T = system_.constraints.T;
   }
 
   System run() {
     stiffness();
-    mass();
+    if (kept_.has(Effect::inertia)) mass();
     loads();
     return std::move(system_);
   }
@@ -78,6 +78,24 @@ class Assembler {
       ++system_.counters.element_evaluations;
     });
     system_.K = builder.build();
+    count_stiffness();
+  }
+
+  void count_stiffness() {
+    Counters& counters = system_.counters;
+    for (const FrameElement& e : system_.mesh.frame) {
+      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
+      if (e.is_bar()) continue;
+      if (member.axially_flexible) counters.count(Effect::axial_flexibility, 1);
+      if (shears(member.theory)) counters.count(Effect::shear, 1);
+    }
+    for (const Member& member : system_.model.members) {
+      for (const MemberEnd& end : member.ends) {
+        if (end.fixity == EndFixity::sprung) counters.count(Effect::joint_compliance, 1);
+      }
+    }
+    counters.count(Effect::platform_flexibility,
+                   static_cast<std::int64_t>(system_.model.triangles.size()));
   }
 
   void mass() {
@@ -90,10 +108,14 @@ class Assembler {
       if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
       projection.add(e.coordinates, world_mass(e, member));
       ++system_.counters.element_evaluations;
+      system_.counters.count(Effect::link_mass, 1);
+      const bool rotary = has_rotary_inertia(member.theory) && e.section.inertia_per_length > 0;
+      if (rotary) system_.counters.count(Effect::rotary_inertia, 1);
     }
     triangle_masses(projection);
     lumps(projection);
     system_.M = builder.build();
+    system_.counters.count(Effect::inertia, 1);
   }
 
   void triangle_masses(Projection& projection) {
@@ -141,7 +163,12 @@ class Assembler {
     }
     for (const FrameElement& e : system_.mesh.frame) {
       const Member& member = model.members[static_cast<std::size_t>(e.member)];
-      const Vector2d q = member.load + e.section.mass_per_length * model.gravity;
+      const Vector2d weight = e.section.mass_per_length * model.gravity;
+      if (!weight.isZero(0)) {
+        system_.counters.count(Effect::gravity, 1);
+        system_.counters.count(Effect::link_mass, 1);
+      }
+      const Vector2d q = member.load + weight;
       if (!q.isZero(0)) add_load(e.coordinates, element_load(e, q));
     }
     edge_loads();
@@ -162,6 +189,8 @@ class Assembler {
 
   void weights() {
     const Model& model = system_.model;
+    system_.counters.count(Effect::gravity,
+                           static_cast<std::int64_t>(model.triangles.size() + model.masses.size()));
     for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
       Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
       for (Index i = 0; i < fall.size(); ++i) fall[i] = model.gravity[i % 2];
@@ -175,6 +204,7 @@ class Assembler {
     }
   }
 
+  Effects kept_;
   System system_;
 };
 
@@ -190,8 +220,16 @@ Vector6d element_load(const FrameElement& element, const Vector2d& load) {
   return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * load, element.length);
 }
 
-System assemble(const Model& model) {
-  return Assembler(model).run();
+System assemble(const Model& model, Effects kept) {
+  return Assembler(reduced(model, kept), kept).run();
+}
+
+Counters& Counters::operator+=(const Counters& more) {
+  element_evaluations += more.element_evaluations;
+  factorizations += more.factorizations;
+  solves += more.solves;
+  for (std::size_t i = 0; i < effect_count; ++i) effects[i] += more.effects[i];
+  return *this;
 }
 
 Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {

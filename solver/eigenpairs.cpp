@@ -96,7 +96,7 @@ class Search {
   MatrixXd lanczos(const Factorization& factorization, Index count, const MatrixXd& X) {
     const Index room = size() - X.cols();
     const Index wanted = std::min(count, room - 1);
-    if (wanted < 1) return MatrixXd(size(), 0);
+    if (wanted < 1 || pencil_.B->norm() == 0) return MatrixXd(size(), 0);
     MatrixXd known(size(), X.cols());  // in Lanczos' coordinates y = F^T x, where they are F^-1 A x
     for (Index j = 0; j < X.cols(); ++j) {
       known.col(j) =

@@ -91,9 +91,9 @@ class FrameField {
             -2 * forces_[2] / length_,
             forces_[1] + (2 * xi - 1) * forces_[2]};
   }
-  /// Shear compliance [1/N]; 0 for Euler-Bernoulli.
+  /// Shear compliance [1/N]; 0 for a theory without shear.
   [[nodiscard]] double shear_compliance(const Section& section) const {
-    return theory_ == BeamTheory::timoshenko ? 1 / section.kappa_GA : 0;
+    return shears(theory_) ? 1 / section.kappa_GA : 0;
   }
 
  private:

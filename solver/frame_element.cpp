@@ -19,7 +19,7 @@ constexpr std::array<QuadraturePoint, 4> kGauss = {{
 }};
 
 double rotary_inertia(const Section& section, BeamTheory theory) {
-  return theory == BeamTheory::timoshenko ? section.inertia_per_length : 0.0;
+  return has_rotary_inertia(theory) ? section.inertia_per_length : 0.0;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ Section interpolate(const Section& first, const Section& second, double at) {
 }
 
 double shear_ratio(const Section& section, BeamTheory theory, double length) {
-  if (theory == BeamTheory::euler_bernoulli) return 0;
+  if (!shears(theory)) return 0;
   return 12 * section.EI / (section.kappa_GA * length * length);
 }
 

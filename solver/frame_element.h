@@ -7,9 +7,9 @@
 /// The two-node planar frame element, as pure functions. Element axes: x from the first node to the
 /// second, y to its left; dofs (u1 v1 θ1 u2 v2 θ2) [m, m, rad].
 ///
-/// Both beam theories share one interpolation, exact for a prismatic beam loaded at its ends, with
+/// All beam theories share one interpolation, exact for a prismatic beam loaded at its ends, with
 /// Phi = 12 EI / (kappa GA L^2) (Przemieniecki 1968; Friedman & Kosmatka 1993); Phi = 0 gives the
-/// Hermite cubics of Euler-Bernoulli. It cannot lock in shear.
+/// Hermite cubics of Euler-Bernoulli and Rayleigh. It cannot lock in shear.
 ///
 /// The stiffness is written in the three motions that deform the element, d = B u:
 ///   elongation u2 - u1, symmetric bending θ2 - θ1, antisymmetric bending θ1 + θ2 - 2 (v2 - v1) /
@@ -27,7 +27,7 @@ using FrameInterpolation = Eigen::Matrix<double, 3, 6>;
 /// Section at the fraction 0 <= at <= 1 between two others, each property linear.
 [[nodiscard]] Section interpolate(const Section& first, const Section& second, double at);
 
-/// Phi = 12 EI / (kappa GA L^2) [-]; 0 for Euler-Bernoulli.
+/// Phi = 12 EI / (kappa GA L^2) [-]; 0 for a theory without shear.
 [[nodiscard]] double shear_ratio(const Section& section, BeamTheory theory, double length);
 
 /// B of the element along `direction` (unit vector, world axes): world dofs -> d [m, rad, rad].
@@ -44,16 +44,16 @@ using FrameInterpolation = Eigen::Matrix<double, 3, 6>;
 /// 0 <= xi <= 1 of the length, for each dof in element axes. Source: Friedman & Kosmatka (1993).
 [[nodiscard]] FrameInterpolation frame_interpolation(double shear_ratio, double length, double xi);
 
-/// Mass in element axes. Consistent: integral of rho A (u^2 + v^2) and, for Timoshenko, rho I θ^2
-/// over the interpolation. Lumped: half of each at either node, so that Euler-Bernoulli rotations
-/// carry none.   Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
+/// Mass in element axes. Consistent: integral of rho A (u^2 + v^2) and, with rotary inertia, rho I θ^2
+/// over the interpolation. Lumped: half of each at either node, so that rotations carry none
+/// without rotary inertia.   Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
 [[nodiscard]] Matrix6d frame_mass(const Section& section, BeamTheory theory, MassMatrix mass,
                                   double length);
 
 /// Mass of a bar that does not bend (E I = 0), linear in both directions; rotations carry none.
 [[nodiscard]] Matrix6d bar_mass(const Section& section, MassMatrix mass, double length);
 
-/// Nodal forces of a uniform load (qx, qy) [N/m] in element axes; the same for both theories.
+/// Nodal forces of a uniform load (qx, qy) [N/m] in element axes; the same for all theories.
 [[nodiscard]] Vector6d frame_uniform_load(const Vector2d& load, double length);
 
 /// T_s: world dofs -> element dofs.   Source: paper Eq. (10).

@@ -25,16 +25,29 @@ struct Material {
 
 /// What the cross-section of a frame member contributes per unit length.
 struct Section {
-  double EA = 0;               ///< axial stiffness [N]
-  double EI = 0;               ///< in-plane bending stiffness [N m^2]
-  double kappa_GA = 0;         ///< shear stiffness with its correction factor [N]; Timoshenko only
-  double mass_per_length = 0;  ///< rho A [kg/m]
-  double inertia_per_length = 0;  ///< rho I [kg m]; the rotary inertia of a Timoshenko member
+  double EA = 0;        ///< axial stiffness [N]
+  double EI = 0;        ///< in-plane bending stiffness [N m^2]
+  double kappa_GA = 0;  ///< shear stiffness with its correction factor [N]; where the theory has it
+  double mass_per_length = 0;     ///< rho A [kg/m]
+  double inertia_per_length = 0;  ///< rho I [kg m]; rotary inertia, where the theory has it
   double area = 0;                ///< A [m^2], for stresses
   double section_modulus = 0;     ///< I / c [m^3], for bending stresses
 };
 
-enum class BeamTheory { euler_bernoulli, timoshenko };
+/// What a member has beyond bending: shear, the rotary inertia of its sections, or both. The names
+/// are those of S. M. Han, H. Benaroya, T. Wei, Journal of Sound and Vibration 225 (1999).
+enum class BeamTheory { euler_bernoulli, rayleigh, shear, timoshenko };
+
+[[nodiscard]] constexpr bool shears(BeamTheory theory) {
+  return theory == BeamTheory::shear || theory == BeamTheory::timoshenko;
+}
+[[nodiscard]] constexpr bool has_rotary_inertia(BeamTheory theory) {
+  return theory == BeamTheory::rayleigh || theory == BeamTheory::timoshenko;
+}
+[[nodiscard]] constexpr BeamTheory beam_theory(bool shear, bool rotary_inertia) {
+  if (shear) return rotary_inertia ? BeamTheory::timoshenko : BeamTheory::shear;
+  return rotary_inertia ? BeamTheory::rayleigh : BeamTheory::euler_bernoulli;
+}
 enum class MassMatrix { consistent, lumped };
 
 /// How a member's end is joined to the rotation of its node.

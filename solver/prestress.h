@@ -40,7 +40,7 @@ struct BodyForces {
                                            const Eigen::VectorXd& multipliers);
 
 /// Rows, in world dofs: rotation psi = (v2 - v1) / L of the chord, symmetric and antisymmetric
-/// bending s, a of frame_element.h. Over the interpolation of both beam theories
+/// bending s, a of frame_element.h. Over the interpolation of all beam theories
 ///   integral N v'^2 dx = L d^T H d,  H = [N, n/12, 0; n/12, N/12, g n/60; 0, g n/60, g^2 N/20]
 /// with g = 1 / (1 + Phi), N the mean force and n its growth along the element, linear.
 [[nodiscard]] FrameDeformation frame_turning(const Vector2d& direction, double length);

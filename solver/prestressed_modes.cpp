@@ -69,8 +69,10 @@ PrestressedModes solve_prestressed_modes(const System& system, const ModesOption
   const VectorXd second = constraint_forces(system, state);
   const Prestress settled = prestress(system, state.u, second, body_forces(system));
   result.modes = solve_modes_with(system, geometric_stiffness(system, settled), options);
-  result.modes.counters.factorizations += result.state.counters.factorizations;
-  result.modes.counters.solves += result.state.counters.solves;
+  const auto solved = result.modes.counters;
+  result.modes.counters = result.state.counters;
+  result.modes.counters.factorizations += solved.factorizations;
+  result.modes.counters.solves += solved.solves;
   return result;
 }
 

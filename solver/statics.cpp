@@ -50,6 +50,9 @@ Prestress solve_second_order(const System& system, StaticSolution& solution) {
   double last_change = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kSteps; ++step) {
     const SparseMatrix K_G = geometric_stiffness(system, latest);
+    solution.counters.count(Effect::geometric_stiffening,
+                            static_cast<std::int64_t>(system.mesh.frame.size()) +
+                                static_cast<std::int64_t>(system.model.triangles.size()));
     factorization.compute(system.K + K_G);
     ++solution.counters.factorizations;
     if (!factorization.exists() || factorization.smallest_pivot() <= 0) {

@@ -8,6 +8,7 @@
 
 #include "solver/constraints.h"
 #include "solver/coordinates.h"
+#include "solver/effects.h"
 #include "solver/model.h"
 
 namespace trammel {
@@ -19,6 +20,15 @@ struct Counters {
   std::int64_t element_evaluations = 0;  ///< element matrices
   std::int64_t factorizations = 0;
   std::int64_t solves = 0;  ///< right-hand sides, refinement included
+  EffectCounts effects{};   ///< by effect
+
+  void count(Effect effect, std::int64_t evaluations) {
+    effects[static_cast<std::size_t>(effect)] += evaluations;
+  }
+  [[nodiscard]] std::int64_t of(Effect effect) const {
+    return effects[static_cast<std::size_t>(effect)];
+  }
+  Counters& operator+=(const Counters& more);
 };
 
 /// A linear spring between two unconstrained coordinates, or from one to the ground (-1).
@@ -39,15 +49,16 @@ struct System {
 
   SparseMatrix T;        ///< u x q
   SparseMatrix K;        ///< stiffness, q x q [SI]; symmetric, stored whole
-  SparseMatrix M;        ///< mass, q x q [SI]; symmetric, stored whole
+  SparseMatrix M;        ///< mass, q x q [SI]; symmetric, stored whole; 0 x 0 without inertia
   Eigen::VectorXd f;     ///< loads on q [SI]
   Eigen::VectorXd load;  ///< loads on u [SI]; f = T^T load
   Counters counters;
 };
 
-/// Builds K, M, f of the free coordinates (paper Eq. 7-11).
+/// Builds K, M, f of the free coordinates (paper Eq. 7-11) of the model without the effects that
+/// are not kept; without inertia there is no M.
 /// @throws ModelError  where the model has no meaning.
-[[nodiscard]] System assemble(const Model& model);
+[[nodiscard]] System assemble(const Model& model, Effects kept = Effects::all());
 
 /// Node motions of free coordinates q: model node x (ux [m], uy [m], rotation [rad]); NaN rotation
 /// where a node has none.

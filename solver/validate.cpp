@@ -100,8 +100,8 @@ class Validator {
     require(is_amount(section.mass_per_length), part, "has a negative mass");
     require(is_amount(section.inertia_per_length), part, "has a negative rotary inertia");
     if (section.EI > 0) {
-      require(member.theory == BeamTheory::euler_bernoulli || is_positive(section.kappa_GA), part,
-              "is a Timoshenko beam and must have a positive shear stiffness kappa G A");
+      require(!shears(member.theory) || is_positive(section.kappa_GA), part,
+              "has shear and must have a positive shear stiffness kappa G A");
       return;
     }
     const bool pinned = std::all_of(member.ends.begin(), member.ends.end(), [](const auto& end) {

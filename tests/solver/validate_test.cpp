@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(each_meaningless_thing_is_told_in_one_sentence) {
        [](Model& m) { m.members[0].section.EA = m.members[0].end_section.EA = kNaN; });
   says("member AB has no bending stiffness E I, so it must be one element hinged at both ends",
        [](Model& m) { m.members[0].section.EI = m.members[0].end_section.EI = 0; });
-  says("member AB is a Timoshenko beam and must have a positive shear stiffness kappa G A",
+  says("member AB has shear and must have a positive shear stiffness kappa G A",
        [](Model& m) { m.members[0].theory = BeamTheory::timoshenko; });
   says("triangle 0 (node A, node B, node C) has no area", [](Model& m) {
     m.nodes[2].position = {2, 0};
