@@ -16,7 +16,7 @@ using large::PathEvent;
 using large::PathPoint;
 using large::StaticPath;
 
-constexpr std::size_t most_poses = 12;
+constexpr std::size_t most_poses = 6;
 
 large::StaticPathOptions read_options(const Cursor& analysis) {
   large::StaticPathOptions options;

@@ -32,9 +32,10 @@ large::TimeFunction actuator(const RigidManipulator& rigid, const Path& path, st
   };
 }
 
-Index member_of(const Model& model, const std::string& name) {
+Index member_between(const Model& model, Index first, Index second) {
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    if (model.members[m].name == name) return static_cast<Index>(m);
+    const std::array<Index, 2>& nodes = model.members[m].nodes;
+    if (nodes[0] == first && nodes[1] == second) return static_cast<Index>(m);
   }
   return -1;
 }
@@ -81,8 +82,8 @@ large::GivenVelocities tracking_start(const Scene& scene, const large::LargeSyst
                          model.nodes[static_cast<std::size_t>(a)].position;
     node.row(a) << 0, 0, motion.q_dot[i];
     node.row(b) << turn(motion.q_dot[i], arm).transpose(), motion.q_dot[i];
-    member[member_of(model, "A" + limb + "-B" + limb)] = motion.q_dot[i];
-    member[member_of(model, "B" + limb + "-C" + limb)] = motion.q_dot[3 + i];
+    member[member_between(model, a, b)] = motion.q_dot[i];
+    member[member_between(model, b, model.find_node("C" + limb))] = motion.q_dot[3 + i];
   }
   return rigid_start(system, node, member);
 }

@@ -23,6 +23,8 @@ class Term {
   virtual void append_blocks(std::vector<std::vector<Index>>& blocks) = 0;
   /// Adds -f + G^T lambda, with strain-rate damping tau.
   virtual void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const = 0;
+  // Ref is a view.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
   virtual void gaps(const State&, Eigen::Ref<VectorXd>, Eigen::Ref<VectorXd>) const {}
   virtual void tangent(const State& state, double tau, const Weights& weights,
                        KktMatrix& matrix) const = 0;
