@@ -14,17 +14,16 @@ namespace {
 
 constexpr const char* ledger_file = "varalakshmi-2017.json";
 
-/// Which values a window holds; "otherwise" is what no window says.
+/// Which values a window holds; one side may take all that the other's window does not.
 struct Rule {
   std::optional<Window> confirms, contradicts;
-  bool otherwise = false;
+  ReadingVerdict otherwise = ReadingVerdict::undecided;
+  bool jointly = false;  ///< the entries of one check count as one
 
   [[nodiscard]] ReadingVerdict of(double value) const {
     if (confirms && confirms->contains(value)) return ReadingVerdict::confirms;
-    if (otherwise || (contradicts && contradicts->contains(value))) {
-      return ReadingVerdict::contradicts;
-    }
-    return ReadingVerdict::undecided;
+    if (contradicts && contradicts->contains(value)) return ReadingVerdict::contradicts;
+    return otherwise;
   }
 };
 
@@ -38,14 +37,19 @@ Window read_window(const Cursor& interval) {
 
 Rule read_rule(const Cursor& reading) {
   Rule rule;
-  if (reading.has("confirms")) rule.confirms = read_window(reading["confirms"]);
-  if (reading.has("contradicts")) {
-    const Cursor contradicts = reading["contradicts"];
-    rule.otherwise = contradicts.json().is_string();
-    if (!rule.otherwise) rule.contradicts = read_window(contradicts);
-  }
+  rule.jointly = reading.get("jointly", false);
+  const auto read = [&](const char* key, std::optional<Window>& window, ReadingVerdict verdict) {
+    if (!reading.has(key)) return;
+    if (!reading[key].json().is_string()) {
+      window = read_window(reading[key]);
+    } else {
+      rule.otherwise = verdict;
+    }
+  };
+  read("confirms", rule.confirms, ReadingVerdict::confirms);
+  read("contradicts", rule.contradicts, ReadingVerdict::contradicts);
   if (!rule.confirms && !rule.contradicts) {
-    throw reading.error("expected 'confirms' or 'contradicts', or both");
+    throw reading.error("expected a window in 'confirms' or 'contradicts'");
   }
   if (rule.confirms && rule.contradicts && rule.confirms->low < rule.contradicts->high &&
       rule.contradicts->low < rule.confirms->high) {
@@ -121,9 +125,29 @@ void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
   }
 }
 
+/// One verdict for each entry, or for each check: it confirms where all its entries do, and
+/// contradicts where one does.
+std::vector<ReadingVerdict> verdicts_of(const Rule& rule, const std::vector<LedgerEntry>& entries) {
+  std::vector<ReadingVerdict> verdicts;
+  const LedgerEntry* before = nullptr;
+  for (const LedgerEntry& entry : entries) {
+    const ReadingVerdict verdict = rule.of(entry.value);
+    const bool same = rule.jointly && before && before->case_id == entry.case_id &&
+                      before->variant == entry.variant && before->name == entry.name;
+    before = &entry;
+    if (!same) {
+      verdicts.push_back(verdict);
+    } else if (verdicts.back() != ReadingVerdict::contradicts &&
+               verdict != ReadingVerdict::confirms) {
+      verdicts.back() = verdict;
+    }
+  }
+  return verdicts;
+}
+
 ReadingVerdict verdict_of(const Rule& rule, const std::vector<LedgerEntry>& entries) {
-  std::set<ReadingVerdict> verdicts;
-  for (const LedgerEntry& entry : entries) verdicts.insert(rule.of(entry.value));
+  const std::vector<ReadingVerdict> each = verdicts_of(rule, entries);
+  const std::set<ReadingVerdict> verdicts(each.begin(), each.end());
   if (verdicts.empty()) return ReadingVerdict::not_measured;
   if (verdicts.size() == 1) return *verdicts.begin();
   if (verdicts.count(ReadingVerdict::confirms) > 0) return ReadingVerdict::in_part;
@@ -191,6 +215,7 @@ LedgerClaim judge_claim(const std::string& id, const Cursor& claim, const std::v
   found.place = claim.text("place");
   found.conclusion = claim.text("conclusion");
   found.expected = read_verdict(claim.text("expected"));
+  found.awaited = claim.get("awaited", false);
   if (claim.has("readings") == claim.has("undecidable")) {
     throw claim.error("expected either 'readings' or why it is 'undecidable'");
   }

@@ -39,7 +39,10 @@ struct LedgerClaim {
   std::vector<LedgerReading> readings;
   ClaimVerdict verdict = ClaimVerdict::not_measured;
   ClaimVerdict expected = ClaimVerdict::not_measured;
-  [[nodiscard]] bool follows() const { return verdict == expected; }
+  bool awaited = false;  ///< nothing in the catalogue need measure it yet
+  [[nodiscard]] bool follows() const {
+    return verdict == expected || (awaited && verdict == ClaimVerdict::not_measured);
+  }
 };
 
 struct Ledger {

@@ -81,7 +81,9 @@ Data claim_data(const Claim& claim, const Results& results) {
   data.set("conclusion", claim.conclusion);
   set_text(data, "undecidable", claim.undecidable);
   set_mark(data, claim.verdict);
-  set_text(data, "differs", claim.verdict == claim.expected ? "" : claim.expected);
+  set_text(
+      data, "differs",
+      claim.verdict == claim.expected || claim.verdict == "not measured" ? "" : claim.expected);
   Data readings = list();
   for (const ClaimReading& reading : claim.readings)
     readings.push_back(reading_data(reading, results));

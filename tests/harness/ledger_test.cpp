@@ -111,6 +111,27 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm
                  .entries.size() == 3U);
 }
 
+BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
+  Json jointly = ratio;
+  jointly["jointly"] = true;
+  jointly["contradicts"] = "otherwise";
+  const Document document = ledger_of({{"r", jointly}}, "confirmed");
+  BOOST_TEST((verdict(document, {bend(1, 1)}) == ClaimVerdict::confirmed));
+  BOOST_TEST((verdict(document, {bend(1, 3)}) == ClaimVerdict::contradicted));
+  BOOST_TEST((verdict(document, {bend(3, 1)}) == ClaimVerdict::contradicted));
+}
+
+BOOST_AUTO_TEST_CASE(a_claim_that_is_awaited_may_be_unmeasured_but_not_otherwise_wrong) {
+  Json away = ratio;
+  away["confirms"] = "otherwise";
+  away["contradicts"] = {-1, 1};
+  Document document = ledger_of({{"r", away}}, "confirmed");
+  document.lay("ledger.json", "", {{"claims", {{"1", {{"awaited", true}}}}}});
+  BOOST_TEST(judge_ledger(document, {}).follows());
+  BOOST_TEST(judge_ledger(document, {bend(-3, 2)}).follows());
+  BOOST_TEST(!judge_ledger(document, {bend(0.5, 0.5)}).follows());
+}
+
 BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
   const Json grows = {{"what", "growth"},           {"case", "bend"},
                       {"quantity", "frequency_Hz"}, {"take", "steps"},
