@@ -78,7 +78,8 @@ Data claim_data(const Claim& claim, const Results& results) {
   data.set("id", claim.id);
   data.set("claim", claim.claim);
   data.set("place", claim.place);
-  data.set("conclusion", claim.conclusion);
+  data.set("conclusion", claim.verdict == "not measured" ? "No case of these results measures it."
+                                                         : claim.conclusion);
   set_text(data, "undecidable", claim.undecidable);
   set_mark(data, claim.verdict);
   set_text(

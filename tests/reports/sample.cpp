@@ -631,8 +631,7 @@ void add_claims(Json& results) {
       {"title", "Three claims"},
       {"follows", false},
       {"claims",
-       {claim("3", "Displacements are small.", "contradicted", "contradicted",
-              Json::array({ratio})),
+       {claim("3", "Displacements are small.", "contradicted", "confirmed", Json::array({ratio})),
         claim("7", "The sensitivity rises.", "not measured", "confirmed",
               Json::array({unmeasured})),
         claim("10", "It matches.", "cannot be decided", "cannot be decided", Json::array())}}};
