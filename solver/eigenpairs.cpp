@@ -151,18 +151,12 @@ class Solver {
 
   Eigenpairs run() {
     constexpr int kRounds = 40;
-    if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) {
-      pairs_.outcome = {Status::not_converged, kIllConditioned};
-      return pairs_;
-    }
+    if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return nothing();
     const Index guard = 3 + count_ / 4;
     add(search_.first(factorization_, count_ + guard, null_));
     for (int round = 0; round < kRounds; ++round) {
       improve_until_settled();
-      if (lost_) {
-        pairs_.outcome = {Status::not_converged, kIllConditioned};
-        return pairs_;
-      }
+      if (lost_) return nothing();
       const Index expected = check();
       if (expected == checked_) break;
       if (expected < checked_ || round + 1 == kRounds) return give_up(expected);
@@ -312,6 +306,14 @@ class Solver {
       if (gap(k) > kClearGap) break;
     }
     return cut < p && gap(cut) < 1e-7 ? p : cut;
+  }
+
+  /// No pair at all, also where values stood already.
+  Eigenpairs nothing() {
+    pairs_ = {};
+    pairs_.outcome = {Status::not_converged, kIllConditioned};
+    pairs_.vector.resize(pencil_.K->rows(), 0);
+    return pairs_;
   }
 
   Eigenpairs give_up(Index expected) {

@@ -30,6 +30,20 @@ bool orthonormalise(const SparseMatrix& M, MatrixXd& Z) {
   return true;
 }
 
+VectorXd random_vector(Index size) {
+  std::mt19937_64 engine(20170204);
+  return VectorXd::NullaryExpr(
+      size, [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
+}
+
+/// Whether a motion beyond the free ones moves mass: otherwise there is nothing that swings.
+bool swings(const SparseMatrix& M, const MatrixXd& Z) {
+  VectorXd x = random_vector(M.rows());
+  const double whole = x.dot(M * x);
+  for (int twice = 0; twice < 2; ++twice) x -= Z * (Z.transpose() * (M * x));
+  return x.dot(M * x) > 1e-24 * whole;  // rounding of a motion squared: 1e-32
+}
+
 /// A shift s < 0 of the size of the lowest elastic eigenvalue, for models that float: K - s M is
 /// then as well-conditioned as the elastic part of K.
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
@@ -43,9 +57,7 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
   Factorization factorization;
   factorization.compute(shifted);
   ++counters.factorizations;
-  std::mt19937_64 engine(20170204);
-  VectorXd x = VectorXd::NullaryExpr(
-      system.K.rows(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
+  VectorXd x = random_vector(system.K.rows());
   double quotient = 0;
   for (int step = 0; step < 8; ++step) {
     x -= Z * (Z.transpose() * (system.M * x));
@@ -94,6 +106,11 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   if (!orthonormalise(system.M, free.basis)) {
     solution.outcome = {Status::singular,
                         "a part without mass moves freely: " + solution.rigid_motion_words};
+    return solution;
+  }
+  if (free.count() > 0 && !swings(system.M, free.basis)) {
+    solution.inertia_count = free.count();
+    fill(system, {}, free.basis, options.count, solution);
     return solution;
   }
   Pencil pencil;

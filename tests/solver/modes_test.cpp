@@ -204,6 +204,23 @@ BOOST_AUTO_TEST_CASE(a_massless_beam_with_a_tip_mass_is_an_oscillator) {
   }
 }
 
+/// A body on a massless beam that floats: its three motions carry all the mass there is.
+BOOST_AUTO_TEST_CASE(where_free_motions_carry_all_the_mass_nothing_swings) {
+  Section section = unit_section();
+  section.mass_per_length = 0;
+  for (const Index elements : {2, 16, 64}) {
+    Model model = beam(section, 1, elements);
+    model.masses = {{1, 2, 0.5, {0, 0}}};
+    for (const EigenPath path : kPaths) {
+      const ModalSolution m = solve(model, 6, path);
+      BOOST_TEST(m.outcome.solved(), m.outcome.reason);
+      BOOST_TEST(m.rigid_motions == 3);
+      BOOST_TEST(m.frequency.size() == 3);
+      BOOST_TEST(m.frequency.isZero(0));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(condensing_massless_coordinates_changes_no_frequency) {
   Model model = cantilever(unit_section(), 1, 6);
   model.members[0].mass = MassMatrix::lumped;
