@@ -40,6 +40,9 @@ StepResult analyse_scene(const std::string& kind, const Cursor& analysis, const 
   if (kind == "forward-dynamics") return analyse_forward_dynamics(analysis, scene, draw, record);
   if (kind == "large-motion") return analyse_large_motion(analysis, scene, draw, record);
   if (kind == "grnn") return analyse_grnn(analysis, scene, draw, record);
+  if (kind == "elastodynamics") return analyse_elastodynamics(analysis, scene, draw, record);
+  if (kind == "sensitivity") return analyse_sensitivity(analysis, scene, draw, record);
+  if (kind == "sensitivity-map") return analyse_sensitivity_map(analysis, scene, record);
   return analyse_steps(kind, analysis, scene, draw, record);
 }
 

@@ -66,6 +66,19 @@ void record_solution(const Model& model, const StaticSolution& solution, double 
 [[nodiscard]] StepResult analyse_inverse_dynamics(const Cursor& analysis, const Scene& scene,
                                                   bool draw, Recorder& record);
 
+/// Elastic vibration about the nominal motion along the path: deflection and error of P, joint
+/// rotations, section forces, stresses, reactions, torques beside those of rigid links, energies.
+[[nodiscard]] StepResult analyse_elastodynamics(const Cursor& analysis, const Scene& scene,
+                                                bool draw, Recorder& record);
+
+/// Derivatives of the natural frequencies with respect to the design, at one pose.
+[[nodiscard]] StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool draw,
+                                             Recorder& record);
+
+/// The first elastic frequency and its derivative over the workspace, for some orientations.
+[[nodiscard]] StepResult analyse_sensitivity_map(const Cursor& analysis, const Scene& scene,
+                                                 Recorder& record);
+
 /// From torques back to the motion: those of the inverse dynamics of the path, or constant ones.
 [[nodiscard]] StepResult analyse_forward_dynamics(const Cursor& analysis, const Scene& scene,
                                                   bool draw, Recorder& record);

@@ -9,11 +9,14 @@ namespace {
 /// Longest first, so that "_N_m" is not read as "_m".
 const std::vector<std::pair<std::string, std::string>>& units() {
   static const std::vector<std::pair<std::string, std::string>> table = {
+      {"_Hz_m3_per_kg", "Hz m^3/kg"},
       {"_N_m_per_rad", "N m/rad"},
       {"_rad_per_s2", "rad/s^2"},
       {"_rad_per_s", "rad/s"},
       {"_m_per_s2", "m/s^2"},
       {"_N_per_m", "N/m"},
+      {"_Hz_per_Pa", "Hz/Pa"},
+      {"_Hz_per_m", "Hz/m"},
       {"_percent", "%"},
       {"_m_per_s", "m/s"},
       {"_kg_m2", "kg m^2"},

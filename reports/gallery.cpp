@@ -68,7 +68,8 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
                                " more stand in results.json.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
-    if (auto figure = curves_figure(info, request, runs, problem)) {
+    const auto draw = request.value.empty() ? curves_figure : map_figure;
+    if (auto figure = draw(info, request, runs, problem)) {
       gallery.shown.push_back(*figure);
     } else {
       gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");

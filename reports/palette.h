@@ -20,6 +20,9 @@ inline constexpr const char* plate = "#dde6f0";
 
 inline constexpr std::array<const char*, 7> series = {"#1f5fa8", "#c8500a", "#16806a", "#a3478f",
                                                       "#4a9fd4", "#b0830a", "#5b6470"};
+/// Classes of a map, from low to high: light to dark blue.
+inline constexpr std::array<const char*, 7> sequence = {"#e3edf7", "#c3d9ee", "#98bfe1", "#6a9fd0",
+                                                        "#437eb8", "#265c96", "#123b6b"};
 /// Point types of gnuplot that go with them: disc, square, triangle, diamond, ...
 inline constexpr std::array<int, 7> filled_point = {7, 5, 9, 13, 11, 15, 7};
 inline constexpr std::array<int, 7> open_point = {6, 4, 8, 12, 10, 14, 6};

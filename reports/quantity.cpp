@@ -12,7 +12,8 @@ namespace trammel::reports {
 namespace {
 
 /// Longest first, so that N_m is not read as m.
-constexpr std::array<std::pair<const char*, const char*>, 27> units = {{
+constexpr std::array<std::pair<const char*, const char*>, 29> units = {{
+    {"Hz_m3_per_kg", "Hz·m³/kg"},
     {"N_m_per_rad", "N·m/rad"},
     {"rad_per_s2", "rad/s²"},
     {"rad_per_s", "rad/s"},
@@ -21,6 +22,7 @@ constexpr std::array<std::pair<const char*, const char*>, 27> units = {{
     {"m_per_s2", "m/s²"},
     {"m_per_s", "m/s"},
     {"m_per_N", "m/N"},
+    {"Hz_per_Pa", "Hz/Pa"},
     {"Hz_per_m", "Hz/m"},
     {"kg_per_m3", "kg/m³"},
     {"rad_s", "rad/s"},

@@ -327,6 +327,10 @@ CaseInfo read_case(const std::string& id, const JsonView& view) {
     request.x = plot.find("x").text_or("");
     request.y = texts(plot.at("y"));
     request.variants = texts(plot.find("variants"));
+    request.value = plot.find("value").text_or("");
+    for (const auto& [title, line] : plot.find("lines").members()) {
+      request.lines.push_back({title, line.find("x").text_or(""), line.find("y").text_or("")});
+    }
     request.caption = plot.find("caption").text_or("");
     for (const std::string& axis : texts(plot.find("log"))) {
       (axis == "x" ? request.log_x : request.log_y) = true;

@@ -121,6 +121,11 @@ struct Run {
 
 /// A plot that a case asks for: quantities `y` over the quantity `x`, for some of its variants.
 struct PlotRequest {
+  struct Line {
+    std::string title, x, y;
+  };
+  std::string value;        ///< in colours over x and the one y: a map; empty: curves
+  std::vector<Line> lines;  ///< on a map
   std::string id, title, x, caption;
   std::vector<std::string> y, variants;
   bool log_x = false, log_y = false;  ///< a logarithmic scale, of magnitudes

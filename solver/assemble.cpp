@@ -3,6 +3,7 @@
 
 #include "solver/edge_load.h"
 #include "solver/element_mass.h"
+#include "solver/inertia.h"
 #include "solver/projection.h"
 #include "solver/strain.h"
 #include "solver/symmetric_builder.h"
@@ -103,45 +104,22 @@ class Assembler {
     builder.reserve(entries() + static_cast<std::size_t>(free_count()));
     reserve_diagonal(builder, free_count());
     Projection projection(system_.constraints, builder);
-    for (const FrameElement& e : system_.mesh.frame) {
-      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
-      if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
-      projection.add(e.coordinates, world_mass(e, member));
-      ++system_.counters.element_evaluations;
-      system_.counters.count(Effect::link_mass, 1);
-      const bool rotary = has_rotary_inertia(member.theory) && e.section.inertia_per_length > 0;
-      if (rotary) system_.counters.count(Effect::rotary_inertia, 1);
-    }
-    triangle_masses(projection);
-    lumps(projection);
+    for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
+      projection.add(coordinates, m);
+      if (coordinates.size() >= 6) ++system_.counters.element_evaluations;
+    });
+    count_link_inertia();
     system_.M = builder.build();
     system_.counters.count(Effect::inertia, 1);
   }
 
-  void triangle_masses(Projection& projection) {
-    for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
-      projection.add(coordinates, m);
-      ++system_.counters.element_evaluations;
-    });
-  }
-
-  void lumps(Projection& projection) {
-    for (const PointMass& lump : system_.model.masses) {
-      Eigen::Matrix3d m;
-      const double m_dx = lump.mass * lump.offset.x();
-      const double m_dy = lump.mass * lump.offset.y();
-      m << lump.mass, 0, -m_dy,  //
-          0, lump.mass, m_dx,    //
-          -m_dy, m_dx, lump.mass * lump.offset.squaredNorm() + lump.inertia;
-      projection.add(system_.coordinates.node[static_cast<std::size_t>(lump.node)], m);
-    }
-    for (std::size_t i = 0; i < system_.model.members.size(); ++i) {
-      for (std::size_t end = 0; end < 2; ++end) {
-        const double inertia = system_.model.members[i].ends[end].inertia;
-        if (inertia == 0) continue;
-        projection.add(std::array<Index, 1>{system_.coordinates.member_end[i][end]},
-                       Eigen::Matrix<double, 1, 1>(inertia));
-      }
+  void count_link_inertia() {
+    for (const FrameElement& e : system_.mesh.frame) {
+      if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
+      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
+      system_.counters.count(Effect::link_mass, 1);
+      const bool rotary = has_rotary_inertia(member.theory) && e.section.inertia_per_length > 0;
+      if (rotary) system_.counters.count(Effect::rotary_inertia, 1);
     }
   }
 

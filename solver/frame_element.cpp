@@ -18,8 +18,9 @@ constexpr std::array<QuadraturePoint, 4> kGauss = {{
     {0.930568155797026287611973244446405, 0.173927422568726928686531974610999},
 }};
 
-double rotary_inertia(const Section& section, BeamTheory theory) {
-  return has_rotary_inertia(theory) ? section.inertia_per_length : 0.0;
+template <Real T>
+T rotary_inertia(const SectionOf<T>& section, BeamTheory theory) {
+  return has_rotary_inertia(theory) ? section.inertia_per_length : T(0);
 }
 
 }  // namespace
@@ -37,39 +38,56 @@ Section interpolate(const Section& first, const Section& second, double at) {
   return section;
 }
 
-double shear_ratio(const Section& section, BeamTheory theory, double length) {
-  if (!shears(theory)) return 0;
+template <Real T>
+T shear_ratio(const SectionOf<T>& section, BeamTheory theory,
+              const std::type_identity_t<T>& length) {
+  if (!shears(theory)) return T(0);
   return 12 * section.EI / (section.kappa_GA * length * length);
 }
 
-FrameDeformation frame_deformation(const Vector2d& direction, double length) {
-  const double c = direction.x();
-  const double s = direction.y();
-  const double r = 2 / length;
-  FrameDeformation B;
-  B << -c, -s, 0, c, s, 0,  //
-      0, 0, -1, 0, 0, 1,    //
-      -r * s, r * c, 1, r * s, -r * c, 1;
+template <Real T>
+Matrix36<T> frame_deformation(const Eigen::Vector2<T>& direction,
+                              const std::type_identity_t<T>& length) {
+  const T c = direction.x();
+  const T s = direction.y();
+  const T rs = 2 / length * s;
+  const T rc = 2 / length * c;
+  Matrix36<T> B = Matrix36<T>::Zero();
+  B(0, 3) = c;
+  B(0, 4) = s;
+  B(0, 0) = -c;
+  B(0, 1) = -s;
+  B(1, 2) = -1;
+  B(1, 5) = 1;
+  B(2, 0) = -rs;
+  B(2, 1) = rc;
+  B(2, 3) = rs;
+  B(2, 4) = -rc;
+  B(2, 2) = B(2, 5) = 1;
   return B;
 }
 
-Vector3d frame_rigidity(const Section& section, BeamTheory theory, double length) {
-  const double phi = shear_ratio(section, theory, length);
+template <Real T>
+Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
+                                 const std::type_identity_t<T>& length) {
+  const T phi = shear_ratio(section, theory, length);
   return {section.EA / length, section.EI / length, 3 * section.EI / (length * (1 + phi))};
 }
 
 Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length) {
-  const FrameDeformation B = frame_deformation(Vector2d::UnitX(), length);
+  const FrameDeformation B = frame_deformation<double>(Vector2d::UnitX(), length);
   return B.transpose() * frame_rigidity(section, theory, length).asDiagonal() * B;
 }
 
-FrameInterpolation frame_interpolation(double shear_ratio, double length, double xi) {
+template <Real T>
+Matrix36<T> frame_interpolation(const T& shear_ratio, const std::type_identity_t<T>& length,
+                                double xi) {
   const double x2 = xi * xi;
   const double x3 = x2 * xi;
-  const double phi = shear_ratio;
-  const double g = 1 / (1 + phi);
-  const double h = 0.5 * phi * (xi - x2);
-  FrameInterpolation N = FrameInterpolation::Zero();
+  const T phi = shear_ratio;
+  const T g = 1 / (1 + phi);
+  const T h = 0.5 * phi * (xi - x2);
+  Matrix36<T> N = Matrix36<T>::Zero();
   N(0, 0) = 1 - xi;
   N(0, 3) = xi;
   N(1, 1) = g * (1 - 3 * x2 + 2 * x3 + phi * (1 - xi));
@@ -83,20 +101,24 @@ FrameInterpolation frame_interpolation(double shear_ratio, double length, double
   return N;
 }
 
-Matrix6d frame_mass(const Section& section, BeamTheory theory, MassMatrix mass, double length) {
-  const double m = section.mass_per_length * length;
-  const double J = rotary_inertia(section, theory) * length;
-  Matrix6d M = Matrix6d::Zero();
+template <Real T>
+Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix mass,
+                      const std::type_identity_t<T>& length) {
+  const T m = section.mass_per_length * length;
+  const T J = rotary_inertia(section, theory) * length;
+  Matrix6<T> M = Matrix6<T>::Zero();
   if (mass == MassMatrix::lumped) {
-    M.diagonal() << m / 2, m / 2, J / 2, m / 2, m / 2, J / 2;
+    M(0, 0) = M(1, 1) = M(3, 3) = M(4, 4) = m / 2;
+    M(2, 2) = M(5, 5) = J / 2;
     return M;
   }
-  const double phi = shear_ratio(section, theory, length);
+  const T phi = shear_ratio(section, theory, length);
   for (const QuadraturePoint& point : kGauss) {
-    const FrameInterpolation N = frame_interpolation(phi, length, point.at);
-    M += N.transpose() * (point.weight * Vector3d(m, m, J)).asDiagonal() * N;
+    const Matrix36<T> N = frame_interpolation(phi, length, point.at);
+    const T w(point.weight);
+    M += N.transpose() * Eigen::Vector3<T>(w * m, w * m, w * J).asDiagonal() * N;
   }
-  return (M + M.transpose()) / 2;
+  return (M + M.transpose().eval()) * T(0.5);
 }
 
 Matrix6d bar_mass(const Section& section, MassMatrix mass, double length) {
@@ -118,8 +140,9 @@ Vector6d frame_uniform_load(const Vector2d& load, double length) {
   return f;
 }
 
-Matrix6d frame_rotation(const Vector2d& direction) {
-  Matrix6d R = Matrix6d::Zero();
+template <Real T>
+Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
+  Matrix6<T> R = Matrix6<T>::Zero();
   for (const Index node : {Index{0}, Index{3}}) {
     R(node, node) = R(node + 1, node + 1) = direction.x();
     R(node, node + 1) = direction.y();
@@ -128,5 +151,19 @@ Matrix6d frame_rotation(const Vector2d& direction) {
   }
   return R;
 }
+
+template double shear_ratio(const SectionOf<double>&, BeamTheory, const double&);
+template Dual shear_ratio(const SectionOf<Dual>&, BeamTheory, const Dual&);
+template Matrix36<double> frame_deformation(const Eigen::Vector2<double>&, const double&);
+template Matrix36<Dual> frame_deformation(const Eigen::Vector2<Dual>&, const Dual&);
+template Eigen::Vector3<double> frame_rigidity(const SectionOf<double>&, BeamTheory, const double&);
+template Eigen::Vector3<Dual> frame_rigidity(const SectionOf<Dual>&, BeamTheory, const Dual&);
+template Matrix36<double> frame_interpolation(const double&, const double&, double);
+template Matrix36<Dual> frame_interpolation(const Dual&, const Dual&, double);
+template Matrix6<double> frame_mass(const SectionOf<double>&, BeamTheory, MassMatrix,
+                                    const double&);
+template Matrix6<Dual> frame_mass(const SectionOf<Dual>&, BeamTheory, MassMatrix, const Dual&);
+template Matrix6<double> frame_rotation(const Eigen::Vector2<double>&);
+template Matrix6<Dual> frame_rotation(const Eigen::Vector2<Dual>&);
 
 }  // namespace trammel

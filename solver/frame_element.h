@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <type_traits>
 
+#include "solver/dual.h"
 #include "solver/model.h"
 
 /// The two-node planar frame element, as pure functions. Element axes: x from the first node to the
@@ -17,24 +19,36 @@
 /// in which it is diagonal: k = B^T diag(EA/L, EI/L, 3 EI / (L (1 + Phi))) B. Energies and forces
 /// taken from d keep the digits of bending beside a much stiffer axial part; the entries of k in
 /// world axes do not.
+///
+/// Functions of T exist for double and for Dual.
 namespace trammel {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using FrameDeformation = Eigen::Matrix<double, 3, 6>;
-using FrameInterpolation = Eigen::Matrix<double, 3, 6>;
+template <class T>
+using Matrix6 = Eigen::Matrix<T, 6, 6>;
+template <class T>
+using Matrix36 = Eigen::Matrix<T, 3, 6>;
+using FrameDeformation = Matrix36<double>;
+using FrameInterpolation = Matrix36<double>;
 
 /// Section at the fraction 0 <= at <= 1 between two others, each property linear.
 [[nodiscard]] Section interpolate(const Section& first, const Section& second, double at);
 
 /// Phi = 12 EI / (kappa GA L^2) [-]; 0 for a theory without shear.
-[[nodiscard]] double shear_ratio(const Section& section, BeamTheory theory, double length);
+template <Real T>
+[[nodiscard]] T shear_ratio(const SectionOf<T>& section, BeamTheory theory,
+                            const std::type_identity_t<T>& length);
 
 /// B of the element along `direction` (unit vector, world axes): world dofs -> d [m, rad, rad].
-[[nodiscard]] FrameDeformation frame_deformation(const Vector2d& direction, double length);
+template <Real T = double>
+[[nodiscard]] Matrix36<T> frame_deformation(const Eigen::Vector2<T>& direction,
+                                            const std::type_identity_t<T>& length);
 
 /// Diagonal stiffness of the three deformations [N/m, N m, N m].
-[[nodiscard]] Vector3d frame_rigidity(const Section& section, BeamTheory theory, double length);
+template <Real T>
+[[nodiscard]] Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
+                                               const std::type_identity_t<T>& length);
 
 /// Stiffness in element axes.
 /// @param length  L > 0 [m].   Source: paper Eq. (7); Przemieniecki (1968) with shear.
@@ -42,13 +56,16 @@ using FrameInterpolation = Eigen::Matrix<double, 3, 6>;
 
 /// Rows (axial displacement, transverse displacement, rotation of the section) at the fraction
 /// 0 <= xi <= 1 of the length, for each dof in element axes. Source: Friedman & Kosmatka (1993).
-[[nodiscard]] FrameInterpolation frame_interpolation(double shear_ratio, double length, double xi);
+template <Real T>
+[[nodiscard]] Matrix36<T> frame_interpolation(const T& shear_ratio,
+                                              const std::type_identity_t<T>& length, double xi);
 
 /// Mass in element axes. Consistent: integral of rho A (u^2 + v^2) and, with rotary inertia, rho I θ^2
 /// over the interpolation. Lumped: half of each at either node, so that rotations carry none
 /// without rotary inertia.   Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
-[[nodiscard]] Matrix6d frame_mass(const Section& section, BeamTheory theory, MassMatrix mass,
-                                  double length);
+template <Real T>
+[[nodiscard]] Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix mass,
+                                    const std::type_identity_t<T>& length);
 
 /// Mass of a bar that does not bend (E I = 0), linear in both directions; rotations carry none.
 [[nodiscard]] Matrix6d bar_mass(const Section& section, MassMatrix mass, double length);
@@ -57,6 +74,7 @@ using FrameInterpolation = Eigen::Matrix<double, 3, 6>;
 [[nodiscard]] Vector6d frame_uniform_load(const Vector2d& load, double length);
 
 /// T_s: world dofs -> element dofs.   Source: paper Eq. (10).
-[[nodiscard]] Matrix6d frame_rotation(const Vector2d& direction);
+template <Real T = double>
+[[nodiscard]] Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction);
 
 }  // namespace trammel

@@ -28,8 +28,11 @@ Vector2d rotated(const Vector2d& v, double phi) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-Vector2d unit(double angle) {
-  return {std::cos(angle), std::sin(angle)};
+template <Real T>
+Eigen::Vector2<T> unit(const T& angle) {
+  using std::cos;
+  using std::sin;
+  return {cos(angle), sin(angle)};
 }
 
 double wrapped(double angle) {
@@ -43,19 +46,36 @@ std::string limb_name(std::size_t i) {
 }
 
 /// The triangle A_i B_i C_i from its sides: a = |A B|, b = |B C|, r = |A C|.
+template <Real T>
 struct Limb {
-  double angle_at_A = 0;
-  double elbow_sine = 0;  ///< not signed
+  T angle_at_A;
+  T elbow_sine;  ///< not signed
 };
 
-Limb solve_limb(double a, double b, double r) {
-  // A side rounded just beyond the reach makes a factor slightly negative: a straight limb.
-  const double stretch = std::max(0.0, (a + b) - r);
-  const double fold_out = std::max(0.0, (b - a) + r);
-  const double fold_in = std::max(0.0, (a - b) + r);
-  const double sum = a + b + r;
-  return {2 * std::atan2(std::sqrt(fold_out * stretch), std::sqrt(sum * fold_in)),
-          std::sqrt(sum * stretch) * std::sqrt(fold_out * fold_in) / (2 * a * b)};
+/// A side rounded just beyond the reach makes a factor slightly negative: a straight limb.
+template <Real T>
+T not_negative(const T& x) {
+  return x > 0 ? x : T(0);
+}
+
+template <Real T>
+Limb<T> solve_limb(const T& a, const T& b, double r) {
+  using std::atan2;
+  using std::sqrt;
+  const T stretch = not_negative<T>((a + b) - r);
+  const T fold_out = not_negative<T>((b - a) + r);
+  const T fold_in = not_negative<T>((a - b) + r);
+  const T sum = a + b + r;
+  const T opposite = sqrt(T(fold_out * stretch));
+  const T adjacent = sqrt(T(sum * fold_in));
+  const T angle = atan2(opposite, adjacent);
+  return {2 * angle, sqrt(T(sum * stretch)) * sqrt(T(fold_out * fold_in)) / (2 * a * b)};
+}
+
+/// theta_a, not wrapped.
+template <Real T>
+T active_angle(const Vector2d& p_AC, const Limb<T>& limb, int working_mode) {
+  return std::atan2(p_AC.y(), p_AC.x()) + working_mode * limb.angle_at_A;
 }
 
 /// Why the limb cannot reach, or empty.
@@ -137,9 +157,9 @@ Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
       posture.active[i] = posture.passive[i] = posture.elbow_sine[i] = kNaN;
       continue;
     }
-    const Limb limb = solve_limb(g.proximal[i], g.distal[i], r);
+    const Limb<double> limb = solve_limb(g.proximal[i], g.distal[i], r);
     const int mode = g.working_mode[i];
-    posture.active[i] = wrapped(std::atan2(p_AC.y(), p_AC.x()) + mode * limb.angle_at_A);
+    posture.active[i] = wrapped(active_angle(p_AC, limb, mode));
     posture.B[i] = g.base[i] + g.proximal[i] * unit(posture.active[i]);
     const Vector2d d = posture.C[i] - posture.B[i];
     posture.passive[i] = wrapped(std::atan2(d.y(), d.x()));
@@ -150,6 +170,20 @@ Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
   if (!posture.outcome.solved()) posture.closure_error = kNaN;
   return posture;
 }
+
+template <Real T>
+Eigen::Vector2<T> elbow_position(const Vector2d& A, const Vector2d& C, const T& proximal,
+                                 const T& distal, int working_mode) {
+  const Vector2d p_AC = C - A;
+  const Limb<T> limb = solve_limb(proximal, distal, std::hypot(p_AC.x(), p_AC.y()));
+  const T angle = active_angle(p_AC, limb, working_mode);
+  return A.cast<T>() + proximal * unit(angle);
+}
+
+template Eigen::Vector2<double> elbow_position(const Vector2d&, const Vector2d&, const double&,
+                                               const double&, int);
+template Eigen::Vector2<Dual> elbow_position(const Vector2d&, const Vector2d&, const Dual&,
+                                             const Dual&, int);
 
 ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
                                      const std::array<double, 3>& active, const Pose& start) {

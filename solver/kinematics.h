@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "solver/dual.h"
 #include "solver/model.h"
 #include "solver/outcome.h"
 
@@ -52,6 +53,13 @@ struct Posture {
 /// full stretch. A limb short by no more than round-off counts as straight.
 /// @throws ModelError  as `check_geometry`, or where the pose is not finite.
 [[nodiscard]] Posture inverse_kinematics(const ManipulatorGeometry& geometry, const Pose& pose);
+
+/// B_i of a limb within reach, by the same formulas. Over Dual (dual.h) it carries the derivative
+/// with respect to a link length, the pose held; infinite where the limb is straight or folded.
+template <Real T>
+[[nodiscard]] Eigen::Vector2<T> elbow_position(const Vector2d& A, const Vector2d& C,
+                                               const T& proximal, const T& distal,
+                                               int working_mode);
 
 /// The assembly mode nearest to `start`, by Newton's method on |C_i - B_i|^2 = distal_i^2.
 struct ForwardKinematics {

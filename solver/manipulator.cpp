@@ -26,8 +26,9 @@ void require(bool holds, const std::string& sentence) {
   if (!holds) throw ModelError(sentence);
 }
 
-bool positive(double value) {
-  return value > 0 && std::isfinite(value);
+template <Real T>
+bool positive(const T& number) {
+  return value(number) > 0 && std::isfinite(value(number));
 }
 
 double cross(const Vector2d& a, const Vector2d& b) {
@@ -228,11 +229,14 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
 
 }  // namespace
 
-double link_mass(const LinkDesign& link, double length) {
-  return link.mass.value_or(link.material.rho * link.thickness * link.width * length);
+template <Real T>
+T link_mass(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length) {
+  if (link.mass) return T(*link.mass);
+  return link.material.rho * link.thickness * link.width * length;
 }
 
-Section link_section(const LinkDesign& link, double length) {
+template <Real T>
+SectionOf<T> link_section(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length) {
   require(positive(length), "a link's length must be positive");
   require(positive(link.thickness), "a link's thickness must be positive");
   require(positive(link.width), "a link's width must be positive");
@@ -241,15 +245,15 @@ Section link_section(const LinkDesign& link, double length) {
           "a link's Poisson's ratio must lie between -1 and 0.5");
   require(link.elements >= 1, "a link needs at least one element");
   require(positive(link.shear_coefficient), "a link's shear coefficient must be positive");
-  const double mass = link_mass(link, length);
-  require(mass >= 0 && std::isfinite(mass), "a link's mass must not be negative");
+  const T mass = link_mass(link, length);
+  require(mass >= 0 && std::isfinite(value(mass)), "a link's mass must not be negative");
   require(link.inertia.value_or(0) >= 0 && std::isfinite(link.inertia.value_or(0)),
           "a link's inertia must not be negative");
 
-  const double area = link.thickness * link.width;
-  const double second_moment = link.width * std::pow(link.thickness, 3) / 12;
-  const double G = link.material.E / (2 * (1 + link.material.nu));
-  Section section;
+  const T area = link.thickness * link.width;
+  const T second_moment = area * link.thickness * link.thickness / 12;
+  const T G = link.material.E / (2 * (1 + link.material.nu));
+  SectionOf<T> section;
   section.EA = link.material.E * area;
   section.EI = link.material.E * second_moment;
   section.kappa_GA = link.shear_coefficient * G * area;
@@ -260,23 +264,23 @@ Section link_section(const LinkDesign& link, double length) {
   return section;
 }
 
-PlatformMass platform_mass(const ManipulatorDesign& design) {
-  const PlatformDesign& platform = design.platform;
-  const auto& c = design.geometry.platform;
-  PlatformMass result;
+template <Real T>
+PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
+                                const std::array<Vector2d, 3>& c) {
+  PlatformMassOf<T> result;
   result.center = (c[0] + c[1] + c[2]) / 3;
   if (platform.mass) {
-    result.mass = *platform.mass;
+    result.mass = T(*platform.mass);
   } else {
     require(has_area(c), "the platform's triangle C1 C2 C3 has no area: give its mass instead");
     require(positive(platform.thickness), "the platform's thickness must be positive");
     result.mass = platform.material.rho * platform.thickness * platform_area(c);
   }
-  require(result.mass >= 0 && std::isfinite(result.mass),
+  require(result.mass >= 0 && std::isfinite(value(result.mass)),
           "the platform's mass must not be negative");
   if (platform.inertia) {
     result.inertia = *platform.inertia - result.mass * result.center.squaredNorm();
-    require(result.inertia >= 0 && std::isfinite(result.inertia),
+    require(result.inertia >= 0 && std::isfinite(value(result.inertia)),
             "the platform's inertia about P must be at least its mass times the square of the "
             "distance from P to its centre of mass");
   } else {
@@ -286,6 +290,19 @@ PlatformMass platform_mass(const ManipulatorDesign& design) {
   }
   return result;
 }
+
+PlatformMass platform_mass(const ManipulatorDesign& design) {
+  return platform_mass(design.platform, design.geometry.platform);
+}
+
+template double link_mass(const LinkDesignOf<double>&, const double&);
+template Dual link_mass(const LinkDesignOf<Dual>&, const Dual&);
+template SectionOf<double> link_section(const LinkDesignOf<double>&, const double&);
+template SectionOf<Dual> link_section(const LinkDesignOf<Dual>&, const Dual&);
+template PlatformMassOf<double> platform_mass(const PlatformDesignOf<double>&,
+                                              const std::array<Vector2d, 3>&);
+template PlatformMassOf<Dual> platform_mass(const PlatformDesignOf<Dual>&,
+                                            const std::array<Vector2d, 3>&);
 
 Model build_manipulator(const ManipulatorDesign& design, const Pose& pose) {
   const Posture posture = inverse_kinematics(design.geometry, pose);

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <optional>
+#include <type_traits>
 
+#include "solver/dual.h"
 #include "solver/kinematics.h"
 #include "solver/model.h"
 
@@ -30,11 +32,12 @@ using ActiveJoint = Joint<ActiveKind>;
 using ElbowJoint = Joint<ElbowKind>;
 using PlatformJoint = Joint<PlatformJointKind>;
 
-/// A straight link of rectangular section.
-struct LinkDesign {
-  double thickness = 0;  ///< in the plane [m]
-  double width = 0;      ///< out of the plane [m]
-  Material material;
+/// A straight link of rectangular section. Over Dual (dual.h) it carries a derivative.
+template <class T>
+struct LinkDesignOf {
+  T thickness = T(0);  ///< in the plane [m]
+  T width = T(0);      ///< out of the plane [m]
+  MaterialOf<T> material;
   double shear_coefficient = 5.0 / 6.0;  ///< Timoshenko only
   BeamTheory theory = BeamTheory::euler_bernoulli;
   MassMatrix mass_matrix = MassMatrix::consistent;
@@ -45,12 +48,16 @@ struct LinkDesign {
   /// the inertia that the mass has by its spread. Empty: that of the mass alone.
   std::optional<double> inertia;
 };
+using LinkDesign = LinkDesignOf<double>;
 
-struct PlatformDesign {
-  enum class Kind { rigid, triangles };
+enum class PlatformKind { rigid, triangles };
+
+template <class T>
+struct PlatformDesignOf {
+  using Kind = PlatformKind;
   Kind kind = Kind::triangles;
-  double thickness = 0;  ///< [m]
-  Material material;
+  T thickness = T(0);  ///< [m]
+  MaterialOf<T> material;
   /// Triangles only. 0: the paper's C1 C2 P, C2 C3 P, C3 C1 P; each step splits every triangle in
   /// four.
   int refinements = 0;
@@ -64,6 +71,7 @@ struct PlatformDesign {
   /// centre of mass is the triangle's centroid either way, wherever P is.
   std::optional<double> inertia;
 };
+using PlatformDesign = PlatformDesignOf<double>;
 
 struct ManipulatorDesign {
   ManipulatorGeometry geometry;
@@ -75,19 +83,27 @@ struct ManipulatorDesign {
 };
 
 /// The uniform triangle C1 C2 C3, or what is printed instead.
-struct PlatformMass {
-  double mass = 0;                     ///< [kg]
-  double inertia = 0;                  ///< about the centre of mass [kg m^2]
+template <class T>
+struct PlatformMassOf {
+  T mass = T(0);                       ///< [kg]
+  T inertia = T(0);                    ///< about the centre of mass [kg m^2]
   Vector2d center = Vector2d::Zero();  ///< of mass, from P in platform axes [m]
 };
+using PlatformMass = PlatformMassOf<double>;
 
 /// @throws ModelError  where the triangle has no area or the printed inertia is less than its mass
 ///                     has about P by being off P.
+template <Real T>
+[[nodiscard]] PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
+                                              const std::array<Vector2d, 3>& vertices);
 [[nodiscard]] PlatformMass platform_mass(const ManipulatorDesign& design);
 /// Total mass of a link [kg].
-[[nodiscard]] double link_mass(const LinkDesign& link, double length);
+template <Real T>
+[[nodiscard]] T link_mass(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length);
 /// @throws ModelError  where a dimension or a constant has no meaning.
-[[nodiscard]] Section link_section(const LinkDesign& link, double length);
+template <Real T>
+[[nodiscard]] SectionOf<T> link_section(const LinkDesignOf<T>& link,
+                                        const std::type_identity_t<T>& length);
 
 /// Builds the planar model of a pose: nodes "A1".."A3", "B1".., "C1".., "P" (then the plate's);
 /// members "A1-B1".., "B1-C1"..; supports "A1".."A3"; rigid body or plate "platform"; constraints

@@ -16,23 +16,27 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Index = Eigen::Index;
 
-/// Isotropic linear elastic material.
-struct Material {
-  double E = 0;    ///< Young's modulus [Pa]
-  double rho = 0;  ///< density [kg/m^3]
-  double nu = 0;   ///< Poisson's ratio [-]
+/// Isotropic linear elastic material. Over Dual (dual.h) it carries a derivative.
+template <class T>
+struct MaterialOf {
+  T E = T(0);    ///< Young's modulus [Pa]
+  T rho = T(0);  ///< density [kg/m^3]
+  T nu = T(0);   ///< Poisson's ratio [-]
 };
+using Material = MaterialOf<double>;
 
 /// What the cross-section of a frame member contributes per unit length.
-struct Section {
-  double EA = 0;        ///< axial stiffness [N]
-  double EI = 0;        ///< in-plane bending stiffness [N m^2]
-  double kappa_GA = 0;  ///< shear stiffness with its correction factor [N]; where the theory has it
-  double mass_per_length = 0;     ///< rho A [kg/m]
-  double inertia_per_length = 0;  ///< rho I [kg m]; rotary inertia, where the theory has it
-  double area = 0;                ///< A [m^2], for stresses
-  double section_modulus = 0;     ///< I / c [m^3], for bending stresses
+template <class T>
+struct SectionOf {
+  T EA = T(0);                  ///< axial stiffness [N]
+  T EI = T(0);                  ///< in-plane bending stiffness [N m^2]
+  T kappa_GA = T(0);            ///< shear stiffness with its correction factor [N]; where the theory has it
+  T mass_per_length = T(0);     ///< rho A [kg/m]
+  T inertia_per_length = T(0);  ///< rho I [kg m]; rotary inertia, where the theory has it
+  T area = T(0);                ///< A [m^2], for stresses
+  T section_modulus = T(0);     ///< I / c [m^3], for bending stresses
 };
+using Section = SectionOf<double>;
 
 /// What a member has beyond bending: shear, the rotary inertia of its sections, or both. The names
 /// are those of S. M. Han, H. Benaroya, T. Wei, Journal of Sound and Vibration 225 (1999).

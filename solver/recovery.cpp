@@ -141,7 +141,7 @@ class Recovery {
     Vector3d s = frame_rigidity(e.section, member.theory, e.length)
                      .cwiseProduct(frame_deformation(e.direction, e.length) * u);
     s[0] = axial_[index];
-    Vector6d force = frame_deformation(Vector2d::UnitX(), e.length).transpose() * s;
+    Vector6d force = frame_deformation(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
     if (state_.prestress) {
       const Prestress& state = *state_.prestress;
       force += turning_forces(e, member.theory, state.axial[index], state.growth[index], u);

@@ -7,6 +7,7 @@
 #include "references/derivations/elastica.h"
 #include "references/derivations/exponential_beam.h"
 #include "references/derivations/expression.h"
+#include "references/derivations/frame_sensitivity.h"
 #include "references/derivations/manipulator_torques.h"
 #include "references/derivations/nadaraya_watson.h"
 #include "references/derivations/parallelogram_chain.h"
@@ -93,6 +94,12 @@ const std::map<std::string, Program>& programs() {
         "and "
         "the count of Wittrick and Williams (1971)",
         "model (as in a case file; or manipulator, pose), count", frame_frequencies_program}},
+      {"frame-frequency-sensitivity",
+       {"derivatives of a planar frame's exact natural frequencies with respect to its numbers, by "
+        "extrapolated differences in 50 digits",
+        "model (as in a case file; or manipulator, pose), pointers (to numbers that change "
+        "together), step, count",
+        frame_sensitivity_program}},
       {"frame-statics",
        {"exact statics of a planar frame by the unit-load method",
         "model (as in a case file; or manipulator, pose, loads), outputs (displacement_x_m:NODE, "

@@ -30,6 +30,12 @@ namespace trammel::reports {
                                                   const std::vector<const Run*>& runs,
                                                   std::string& problem);
 
+/// The same for an entry with a "value": a quantity in classes of colour over positions, one
+/// variant, with lines on it.
+[[nodiscard]] std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
+                                               const std::vector<const Run*>& runs,
+                                               std::string& problem);
+
 /// Log-log error over one sweep of one quantity, all its indices together.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 

@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures/figures.h"
+#include "reports/number.h"
+#include "reports/palette.h"
+#include "reports/plot_script.h"
+#include "reports/quantity.h"
+
+namespace trammel::reports {
+
+namespace {
+
+struct Cell {
+  double x, y, value;
+  std::size_t color = 0;
+};
+
+struct Field {
+  std::vector<Cell> cells;  ///< row by row, each from left to right
+  double dx = 0, dy = 0;
+};
+
+/// The smallest distance between two different coordinates.
+double spacing(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const double whole = values.back() - values.front();
+  double least = whole;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double gap = values[i] - values[i - 1];
+    if (gap > 1e-9 * whole) least = std::min(least, gap);
+  }
+  return least;
+}
+
+Field read_field(const Numbers& x, const Numbers& y, const Numbers& value, double factor) {
+  Field field;
+  std::vector<double> xs, ys;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!x[i] || !y[i] || !value[i]) continue;
+    field.cells.push_back({*x[i], *y[i], factor * *value[i]});
+    xs.push_back(*x[i]);
+    ys.push_back(*y[i]);
+  }
+  if (field.cells.empty()) return field;
+  field.dx = spacing(xs);
+  field.dy = spacing(ys);
+  std::sort(field.cells.begin(), field.cells.end(), [&](const Cell& a, const Cell& b) {
+    return std::abs(a.y - b.y) > 0.5 * field.dy ? a.y < b.y : a.x < b.x;
+  });
+  return field;
+}
+
+/// Limits between classes that hold about as many cells each, in two digits.
+std::vector<double> class_limits(const Field& field) {
+  std::vector<double> sorted;
+  for (const Cell& cell : field.cells) sorted.push_back(cell.value);
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t classes = palette::sequence.size();
+  std::vector<double> limits;
+  for (std::size_t k = 1; k < classes; ++k) {
+    const double limit = sorted[k * sorted.size() / classes];
+    const double unit =
+        limit == 0 ? 1 : std::pow(10.0, std::floor(std::log10(std::abs(limit))) - 1);
+    const double rounded = std::round(limit / unit) * unit;
+    if (limits.empty() || rounded > limits.back()) limits.push_back(rounded);
+  }
+  return limits;
+}
+
+/// Neighbours of one colour in a row are drawn as one box: centre, then its sides.
+std::vector<PlotScript::Rows> boxes(const Field& field) {
+  std::vector<PlotScript::Rows> by_color(palette::sequence.size());
+  for (std::size_t from = 0; from < field.cells.size();) {
+    const Cell& first = field.cells[from];
+    std::size_t to = from + 1;
+    while (to < field.cells.size() && field.cells[to].color == first.color &&
+           std::abs(field.cells[to].y - first.y) < 0.5 * field.dy &&
+           field.cells[to].x - field.cells[to - 1].x < 1.5 * field.dx) {
+      ++to;
+    }
+    const double left = first.x - 0.5 * field.dx;
+    const double right = field.cells[to - 1].x + 0.5 * field.dx;
+    by_color[first.color].push_back({0.5 * (left + right), first.y, left, right,
+                                     first.y - 0.5 * field.dy, first.y + 0.5 * field.dy});
+    from = to;
+  }
+  return by_color;
+}
+
+std::string class_name(const std::vector<double>& limits, std::size_t k) {
+  if (limits.empty()) return "all";
+  if (k == 0) return "below " + trimmed(limits.front(), 2);
+  if (k == limits.size()) return "above " + trimmed(limits.back(), 2);
+  return trimmed(limits[k - 1], 2) + " to " + trimmed(limits[k], 2);
+}
+
+const Run* run_for(const PlotRequest& request, const std::vector<const Run*>& runs) {
+  const std::string variant = request.variants.empty() ? "base" : request.variants.front();
+  for (const Run* run : runs)
+    if (run->variant == variant) return run;
+  return nullptr;
+}
+
+PlotScript::Rows line_rows(const Numbers& x, const Numbers& y) {
+  PlotScript::Rows rows;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
+    if (x[i] && y[i]) {
+      rows.push_back({*x[i], *y[i]});
+    } else if (!rows.empty() && !rows.back().empty()) {
+      rows.emplace_back();
+    }
+  }
+  return rows;
+}
+
+void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
+                std::vector<std::string>& titles) {
+  for (std::size_t i = 0; i < request.lines.size(); ++i) {
+    const PlotRequest::Line& line = request.lines[i];
+    const Numbers* x = run.quantity(line.x);
+    const Numbers* y = run.quantity(line.y);
+    if (!x || !y) continue;  // there is none at this orientation
+    const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::ink : palette::color(i));
+    script.curve(line_rows(*x, *y), style);
+    script.key_entry(style, line.title);
+    titles.push_back(line.title);
+  }
+}
+
+Table table_of(const Field& field, const PlotRequest& request, double factor) {
+  Table table;
+  table.heads = {request.x, request.y.front(), request.value};
+  for (const Cell& cell : field.cells) {
+    table.rows.push_back({cell.x, cell.y, cell.value / factor});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
+                                 const std::vector<const Run*>& runs, std::string& problem) {
+  const Run* run = run_for(request, runs);
+  const Numbers* x = run ? run->quantity(request.x) : nullptr;
+  const Numbers* y = run ? run->quantity(request.y.front()) : nullptr;
+  const Numbers* value = run ? run->quantity(request.value) : nullptr;
+  if (!x || !y || !value || x->size() != value->size() || y->size() != value->size()) {
+    problem = "there is no " + request.value + " over " + request.x + " and " + request.y.front();
+    return std::nullopt;
+  }
+  double largest = 0;
+  for (const Number& number : *value)
+    if (number) largest = std::max(largest, std::abs(*number));
+  const Quantity quantity = parse_quantity(request.value);
+  const Scale scale{1, quantity.unit};
+  Field field = read_field(*x, *y, *value, scale.factor);
+  if (field.cells.empty()) {
+    problem = request.value + " has no numbers";
+    return std::nullopt;
+  }
+  const std::vector<double> limits = class_limits(field);
+  for (Cell& cell : field.cells) {
+    const auto above = std::upper_bound(limits.begin(), limits.end(), cell.value);
+    cell.color = static_cast<std::size_t>(above - limits.begin());
+  }
+  PlotScript script;
+  script.command("set size ratio -1");
+  script.axis_label("x", axis_label(in_words(parse_quantity(request.x)), "m"));
+  script.axis_label("y", axis_label(in_words(parse_quantity(request.y.front())), "m"));
+  const auto by_color = boxes(field);
+  std::vector<std::string> titles;
+  for (std::size_t k = 0; k < by_color.size(); ++k) {
+    const std::string color = lc(palette::sequence[k]);
+    script.curve(by_color[k], "using 1:2:3:4:5:6 with boxxyerror fs solid noborder" + color);
+    if (by_color[k].empty()) continue;
+    titles.push_back(class_name(limits, k));
+    script.key_entry("with points pt 5 ps 1.6" + color, titles.back());
+  }
+  draw_lines(script, request, *run, titles);
+  const int key_height = script.key_below(titles);
+  script.plot();
+
+  Figure figure;
+  figure.id = slug(info.id + "-" + request.id);
+  figure.title = request.title;
+  figure.caption = request.caption + (request.caption.empty() ? "" : " ") +
+                   "Colours: " + quantity.label + (scale.unit.empty() ? "" : " in " + scale.unit) +
+                   ", in classes of about as many positions each.";
+  figure.alt = "Map of " + in_words(quantity) + " over positions; the largest magnitude is " +
+               trimmed(scale.factor * largest, 3) + " " + scale.unit + ".";
+  figure.height = 420 + key_height;
+  figure.commands = script.commands();
+  figure.data = table_of(field, request, scale.factor);
+  return figure;
+}
+
+}  // namespace trammel::reports
