@@ -124,11 +124,11 @@ struct PlotRequest {
   struct Line {
     std::string title, x, y;
   };
-  std::string value;        ///< in colours over x and the one y: a map; empty: curves
-  std::vector<Line> lines;  ///< on a map
   std::string id, title, x, caption;
   std::vector<std::string> y, variants;
   bool log_x = false, log_y = false;  ///< a logarithmic scale, of magnitudes
+  std::string value = {};             ///< in colours over x and the one y: a map; empty: curves
+  std::vector<Line> lines = {};       ///< on a map
 };
 
 /// A column of a table that a case asks for: a statistic of a quantity, or one timing (over

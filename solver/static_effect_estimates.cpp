@@ -102,7 +102,7 @@ class LinearState {
     return force;
   }
   [[nodiscard]] static Vector6d end_forces(const FrameElement& e, const Vector3d& of_deformations) {
-    return frame_deformation(Vector2d::UnitX(), e.length).transpose() * of_deformations;
+    return frame_deformation<double>(Vector2d::UnitX(), e.length).transpose() * of_deformations;
   }
   [[nodiscard]] double energy() const { return u.dot(internal_forces(system, u)); }
   [[nodiscard]] Readings read(const VectorXd& motion, const std::vector<Vector6d>& force) const;

@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -60,6 +62,19 @@ double determinant(const ManipulatorGeometry& geometry, const Pose& pose) {
   return jacobians(geometry, pose, posture).parallel.determinant();
 }
 
+/// det J_x = 0 between two places where its signs, `a` and `b`, differ.
+Vector2d crossing(const ManipulatorGeometry& geometry, double phi, const Vector2d& from,
+                  const Vector2d& to, double a, double b) {
+  std::uintmax_t evaluations = 100;
+  const auto along = [&](double t) {
+    const Vector2d P = from + t * (to - from);
+    return determinant(geometry, {P.x(), P.y(), phi});
+  };
+  const auto ends = boost::math::tools::toms748_solve(
+      along, 0.0, 1.0, a, b, boost::math::tools::eps_tolerance<double>(), evaluations);
+  return from + (ends.first + ends.second) / 2 * (to - from);
+}
+
 }  // namespace
 
 std::vector<Polyline> reach_boundary(const ManipulatorGeometry& geometry, double phi,
@@ -100,7 +115,8 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
         const double b = value(j + dj[next], i + di[next]);
         if (!((a < 0 && b >= 0) || (a >= 0 && b < 0))) continue;
         const Vector2d from = at(i + di[k], j + dj[k]);
-        crossings.push_back(from + a / (a - b) * (at(i + di[next], j + dj[next]) - from));
+        const Vector2d to = at(i + di[next], j + dj[next]);
+        crossings.push_back(crossing(geometry, grid.phi, from, to, a, b));
       }
       for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
         segments.push_back({crossings[k], crossings[k + 1]});

@@ -15,8 +15,9 @@ using Polyline = std::vector<Vector2d>;  ///< (x, y) of P [m]
 [[nodiscard]] std::vector<Polyline> reach_boundary(const ManipulatorGeometry& geometry, double phi,
                                                    Index points);
 
-/// Where det J_x = 0 within reach, as a segment a cell of the grid: its sign at the corners,
-/// linear in between. Only cells that are within reach as a whole.
+/// Where det J_x = 0 within reach, as a segment a cell of the grid, from one side of the cell to
+/// another; the ends are exact, and the curve is straight in between. Only sides with both ends
+/// within reach.
 [[nodiscard]] std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry,
                                                            const PoseGrid& grid);
 
