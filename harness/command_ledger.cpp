@@ -26,7 +26,6 @@ std::string measured(const LedgerReading& reading) {
 
 void print_claim(const LedgerClaim& claim) {
   std::cout << claim.id << ". " << in_words(claim.verdict);
-  if (claim.awaited && claim.verdict == ClaimVerdict::not_measured) std::cout << " yet";
   if (!claim.follows()) std::cout << "  ** recorded: " << in_words(claim.expected) << " **";
   std::cout << '\n' << wrapped(claim.claim, "   ");
   for (const LedgerReading& reading : claim.readings) {

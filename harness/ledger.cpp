@@ -215,7 +215,6 @@ LedgerClaim judge_claim(const std::string& id, const Cursor& claim, const std::v
   found.place = claim.text("place");
   found.conclusion = claim.text("conclusion");
   found.expected = read_verdict(claim.text("expected"));
-  found.awaited = claim.get("awaited", false);
   if (claim.has("readings") == claim.has("undecidable")) {
     throw claim.error("expected either 'readings' or why it is 'undecidable'");
   }

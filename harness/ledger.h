@@ -39,10 +39,7 @@ struct LedgerClaim {
   std::vector<LedgerReading> readings;
   ClaimVerdict verdict = ClaimVerdict::not_measured;
   ClaimVerdict expected = ClaimVerdict::not_measured;
-  bool awaited = false;  ///< nothing in the catalogue need measure it yet
-  [[nodiscard]] bool follows() const {
-    return verdict == expected || (awaited && verdict == ClaimVerdict::not_measured);
-  }
+  [[nodiscard]] bool follows() const { return verdict == expected; }
 };
 
 struct Ledger {

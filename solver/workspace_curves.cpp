@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace trammel {
 namespace {
@@ -62,16 +63,21 @@ double determinant(const ManipulatorGeometry& geometry, const Pose& pose) {
   return jacobians(geometry, pose, posture).parallel.determinant();
 }
 
-/// det J_x = 0 between two places where its signs, `a` and `b`, differ.
-Vector2d crossing(const ManipulatorGeometry& geometry, double phi, const Vector2d& from,
-                  const Vector2d& to, double a, double b) {
+/// det J_x = 0 between two places where its signs, `a` and `b`, differ; nothing where the way from
+/// one to the other leaves the reach.
+std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi,
+                                 const Vector2d& from, const Vector2d& to, double a, double b) {
   std::uintmax_t evaluations = 100;
+  bool left = false;
   const auto along = [&](double t) {
     const Vector2d P = from + t * (to - from);
-    return determinant(geometry, {P.x(), P.y(), phi});
+    const double value = determinant(geometry, {P.x(), P.y(), phi});
+    left = left || std::isnan(value);
+    return left ? 0.0 : value;  // 0 ends the search
   };
   const auto ends = boost::math::tools::toms748_solve(
       along, 0.0, 1.0, a, b, boost::math::tools::eps_tolerance<double>(), evaluations);
+  if (left) return std::nullopt;
   return from + (ends.first + ends.second) / 2 * (to - from);
 }
 
@@ -116,7 +122,8 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
         if (!((a < 0 && b >= 0) || (a >= 0 && b < 0))) continue;
         const Vector2d from = at(i + di[k], j + dj[k]);
         const Vector2d to = at(i + di[next], j + dj[next]);
-        crossings.push_back(crossing(geometry, grid.phi, from, to, a, b));
+        const std::optional<Vector2d> zero = crossing(geometry, grid.phi, from, to, a, b);
+        if (zero) crossings.push_back(*zero);
       }
       for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
         segments.push_back({crossings[k], crossings[k + 1]});

@@ -16,7 +16,7 @@ using Polyline = std::vector<Vector2d>;  ///< (x, y) of P [m]
                                                    Index points);
 
 /// Where det J_x = 0 within reach, as a segment a cell of the grid, from one side of the cell to
-/// another; the ends are exact, and the curve is straight in between. Only sides with both ends
+/// another; the ends are exact, and the curve is straight in between. Only sides that lie
 /// within reach.
 [[nodiscard]] std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry,
                                                            const PoseGrid& grid);
