@@ -243,8 +243,7 @@ StepResult analyse_large_motion(const Cursor& analysis, const Scene& scene, bool
     if (tracking) record_deflection(system, state, *scene.path, record);
     if (!result.drawing || state.t < options.end_time * poses / most_poses) return;
     ++poses;
-    result.drawing->poses.push_back(
-        draw_large_pose(system, state.q, rounded(state.t, 3) + " s"));
+    result.drawing->poses.push_back(draw_large_pose(system, state.q, rounded(state.t, 3) + " s"));
   };
   const large::IntegrationSummary summary =
       move(system, scene, tracking, options, extrapolated, look);

@@ -20,9 +20,9 @@ std::string note(const Convergence& found, std::size_t k) {
 /// The two-term law of the relative error in words.
 std::string law(const Convergence& found) {
   const auto& [a, b] = found.two_term->coefficient;
-  return "error = " + rounded(a, 4) + " h^" + rounded(*found.series.theory) + " + " + rounded(b, 4) +
-         " h^" + rounded(*found.series.lower) + " within " + rounded(100 * found.two_term->worst, 2) +
-         " %";
+  return "error = " + rounded(a, 4) + " h^" + rounded(*found.series.theory) + " + " +
+         rounded(b, 4) + " h^" + rounded(*found.series.lower) + " within " +
+         rounded(100 * found.two_term->worst, 2) + " %";
 }
 
 void print(const Convergence& found) {

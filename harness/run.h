@@ -46,7 +46,8 @@ struct Run {
 /// The bands of all refinements of the runs against the exact values, where there are any.
 [[nodiscard]] BandSummary bands_of(const std::vector<Run>& runs);
 
-/// 0: every gate holds, 1: a check failed, or the bands do not hold, 2: bad input, 3: our own fault.
+/// 0: every gate holds, 1: a check failed, or the bands do not hold, 2: bad input, 3: our own
+/// fault.
 [[nodiscard]] int exit_status(const std::vector<Run>& runs);
 
 }  // namespace trammel

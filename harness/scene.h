@@ -32,8 +32,8 @@ struct Scene {
 ///                     a combination has no meaning.
 [[nodiscard]] Scene read_scene(const Document& document);
 
-/// The planar model at a pose of the path (0 where there is none), with the scene's effects, for the
-/// linear tiers: sliders are linear constraints.
+/// The planar model at a pose of the path (0 where there is none), with the scene's effects, for
+/// the linear tiers: sliders are linear constraints.
 /// @throws ModelError  where the scene has line springs or follower loads.
 [[nodiscard]] Model build_model(const Scene& scene, std::size_t step);
 

@@ -60,8 +60,8 @@ template <Real T>
 [[nodiscard]] Matrix36<T> frame_interpolation(const T& shear_ratio,
                                               const std::type_identity_t<T>& length, double xi);
 
-/// Mass in element axes. Consistent: integral of rho A (u^2 + v^2) and, with rotary inertia, rho I θ^2
-/// over the interpolation. Lumped: half of each at either node, so that rotations carry none
+/// Mass in element axes. Consistent: integral of rho A (u^2 + v^2) and, with rotary inertia, rho I
+/// θ^2 over the interpolation. Lumped: half of each at either node, so that rotations carry none
 /// without rotary inertia.   Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
 template <Real T>
 [[nodiscard]] Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix mass,

@@ -28,9 +28,9 @@ using Material = MaterialOf<double>;
 /// What the cross-section of a frame member contributes per unit length.
 template <class T>
 struct SectionOf {
-  T EA = T(0);                  ///< axial stiffness [N]
-  T EI = T(0);                  ///< in-plane bending stiffness [N m^2]
-  T kappa_GA = T(0);            ///< shear stiffness with its correction factor [N]; where the theory has it
+  T EA = T(0);        ///< axial stiffness [N]
+  T EI = T(0);        ///< in-plane bending stiffness [N m^2]
+  T kappa_GA = T(0);  ///< shear stiffness with its correction factor [N]; where the theory has it
   T mass_per_length = T(0);     ///< rho A [kg/m]
   T inertia_per_length = T(0);  ///< rho I [kg m]; rotary inertia, where the theory has it
   T area = T(0);                ///< A [m^2], for stresses

@@ -67,8 +67,7 @@ Turning turning_of(const FrameElement& e, const Member& member) {
   Turning result;
   if (e.is_bar() || member.mass == MassMatrix::lumped) return result;  // W does not turn
   const double phi = shear_ratio(e.section, member.theory, e.length);
-  const double rotary =
-      has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
+  const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
   const Matrix6d T = frame_rotation(e.direction);
   for (const LineQuadraturePoint& point : line_quadrature()) {
     const double w = point.weight * e.length;
