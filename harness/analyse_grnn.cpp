@@ -199,6 +199,20 @@ void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predi
   for (const bool trains_here : trains) record.add("trains", "", trains_here ? 1 : 0);
 }
 
+/// Where the platform would be with the predicted angles of the active joints, by forward
+/// kinematics from its true pose; NaN where it cannot be assembled.
+void record_positions(const ManipulatorGeometry& geometry, const Scene& scene,
+                      const Eigen::MatrixXd& predicted, Recorder& record) {
+  for (std::size_t k = 0; k < scene.motion.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    const std::array<double, 3> active = {predicted(row, 0), predicted(row, 1), predicted(row, 2)};
+    const ForwardKinematics found = forward_kinematics(geometry, active, scene.motion[k].pose);
+    const bool solved = found.outcome.solved();
+    record.add("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
+    record.add("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
+  }
+}
+
 /// Samples of the case's own: predictions at its queries.
 StepResult predict_own(const Cursor& analysis, Recorder& record) {
   const GrnnSamples samples = read_samples(analysis["samples"]);
@@ -253,6 +267,7 @@ StepResult analyse_grnn(const Cursor& analysis, const std::optional<Scene>& scen
     record_path(*scene, step, record);
   }
   record_predictions(samples, predicted, trains, record);
+  record_positions(manipulator.geometry, *scene, predicted, record);
   record_part("training", parts.training, samples, error, scales, record);
   record_part("held_out", parts.held_out, samples, error, scales, record);
   if (!parts.held_out.empty()) {
