@@ -127,10 +127,14 @@ std::string measured_words(const CostStudy& study) {
          relative(study.largest_difference, 2, false) + " between them.";
 }
 
+std::string study_anchor(const CostStudy& study) {
+  return "cost-" + slug(study.id);
+}
+
 Data study_data(const CostPanel& panel) {
   const CostStudy& study = *panel.study;
   Data data = object();
-  data.set("anchor", "cost-" + slug(study.id));
+  data.set("anchor", study_anchor(study));
   data.set("study_title", study.title);
   set_text(data, "description", study.description);
   data.set("measured", measured_words(study));
@@ -146,15 +150,36 @@ Data study_data(const CostPanel& panel) {
   return data;
 }
 
+/// All studies in one table: the cheapest setting for each accuracy.
+void set_overview(Data& section, const std::vector<CostPanel>& panels) {
+  Data heads = list();
+  for (const auto& [error, setting] : panels.front().study->cheapest) {
+    Data head = object();
+    head.set("within", within(error));
+    heads.push_back(head);
+  }
+  Data rows = list();
+  for (const CostPanel& panel : panels) {
+    Data row = object();
+    row.set("anchor", study_anchor(*panel.study));
+    row.set("study_title", panel.study->title);
+    Data cells = list();
+    for (const auto& [error, setting] : panel.study->cheapest)
+      cells.push_back(cheapest_row(*panel.study, error, setting));
+    row.set("cells", cells);
+    rows.push_back(row);
+  }
+  section.set("overview_heads", heads);
+  section.set("overview_rows", rows);
+}
+
 }  // namespace
 
-std::vector<CostPanel> plan_cost(const Results& results, int figures_before) {
+std::vector<CostPanel> plan_cost(const Results& results) {
   std::vector<CostPanel> panels;
   if (!results.cost) return panels;
-  for (const CostStudy& study : results.cost->studies) {
+  for (const CostStudy& study : results.cost->studies)
     panels.push_back({&study, cost_figure(study)});
-    panels.back().figure.number = ++figures_before;
-  }
   return panels;
 }
 
@@ -171,6 +196,11 @@ Data cost_section(const Results& results, const std::vector<Family>& families,
   section.set("widest", relative(cost.widest_spread, 2, false));
   Data studies = list();
   for (const CostPanel& panel : panels) studies.push_back(study_data(panel));
+  const std::string studies_count = count(panels.size(), "study", "studies");
+  section.set("studies_count", studies_count);
+  const CostStudy& first = *panels.front().study;
+  section.set("words", studies_count + ". " + first.title + ": " + first.words);
+  set_overview(section, panels);
   section.set("studies", studies);
   return section;
 }

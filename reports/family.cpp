@@ -101,8 +101,9 @@ Data family_section(const Family& family, const Results& results) {
   Data data = object();
   data.set("anchor", family_anchor(family.id));
   data.set("family_title", family.title);
-  data.set("extent", count(family.cases.size(), "case") + ", " +
-                         count(total(counts_of(family.runs)), "check"));
+  const std::string cases_count = count(family.cases.size(), "case");
+  data.set("cases_count", cases_count);
+  data.set("extent", cases_count + ", " + count(total(counts_of(family.runs)), "check"));
   data.set("counts", counts_list(counts_of(family.runs)));
   set_standing(data, overall(family.runs));
   set_flag(data, "has_overview", !family.overview.empty());

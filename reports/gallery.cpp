@@ -101,17 +101,6 @@ std::map<std::string, std::string> short_titles(const Family& family) {
   return titles;
 }
 
-void number_figures(std::vector<Family>& families) {
-  std::set<std::string> used;
-  int number = 0;
-  for (Figure* figure : all_figures(families)) {
-    const std::string wanted = figure->id;
-    for (int copy = 2; !used.insert(figure->id).second; ++copy)
-      figure->id = wanted + "-" + std::to_string(copy);
-    figure->number = ++number;
-  }
-}
-
 }  // namespace
 
 std::string Family::short_title(const CaseInfo& info) const {
@@ -159,7 +148,6 @@ std::vector<Family> plan_families(const Results& results) {
     if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))
       family.overview.push_back(*figure);
   }
-  number_figures(families);
   return families;
 }
 
@@ -177,6 +165,17 @@ std::vector<Figure*> all_figures(std::vector<Family>& families) {
     }
   }
   return figures;
+}
+
+void number_figures(const std::vector<Figure*>& figures) {
+  std::set<std::string> used;
+  int number = 0;
+  for (Figure* figure : figures) {
+    const std::string wanted = figure->id;
+    for (int copy = 2; !used.insert(figure->id).second; ++copy)
+      figure->id = wanted + "-" + std::to_string(copy);
+    figure->number = ++number;
+  }
 }
 
 }  // namespace trammel::reports

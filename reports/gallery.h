@@ -30,11 +30,14 @@ struct Family {
   [[nodiscard]] std::vector<const Run*> runs_of(const std::string& case_id) const;
 };
 
-/// All families in the order of their first case; figures planned, numbered, not yet drawn. Cases
-/// that were not run are left out.
+/// All families in the order of their first case; figures planned, neither numbered nor drawn.
+/// Cases that were not run are left out.
 [[nodiscard]] std::vector<Family> plan_families(const Results& results);
 
 /// Every figure of all families in the order of the page.
 [[nodiscard]] std::vector<Figure*> all_figures(std::vector<Family>& families);
+
+/// Numbers figures in this order and makes their names unique.
+void number_figures(const std::vector<Figure*>& figures);
 
 }  // namespace trammel::reports

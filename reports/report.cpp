@@ -29,16 +29,34 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   page.set("style", template_text("style.css"));
   page.set("script", template_text("page.js"));
   page.set("environment", environment_section(results));
-  page.set("summary", summary_section(results, families));
-  page.set("claims", claims_section(results));
+  const Data claims = claims_section(results);
+  const Data cost = cost_section(results, families, panels);
+  const Data targets = targets_section(results, families);
+  const Data orders = orders_section(results, families);
+  const Data noise = noise_section(results, families);
+  std::vector<Answer> answers;
+  const auto answer = [&](const std::string& title, const std::string& anchor, const Data& section,
+                          const char* key) {
+    const Data* words = section.get(key);
+    const Data* rows = section.get("has_rows");
+    if (words != nullptr && words->is_string() && (rows == nullptr || rows->is_true()))
+      answers.push_back({title, anchor, words->string_value()});
+  };
+  answer("The paper's claims", "claims", claims, "overview");
+  answer("What accuracy costs", "cost", cost, "words");
+  answer("Published targets", "targets", targets, "words");
+  answer("Orders and bands", "orders", orders, "words");
+  answer("Difference and noise", "noise", noise, "words");
+  page.set("summary", summary_section(results, families, answers));
+  page.set("claims", claims);
   set_flag(page, "has_claims", results.ledger.has_value());
+  page.set("cost", cost);
+  page.set("targets", targets);
+  page.set("orders", orders);
+  page.set("noise", noise);
   Data family_list = list();
   for (const Family& family : families) family_list.push_back(family_section(family, results));
   page.set("families", family_list);
-  page.set("targets", targets_section(results, families));
-  page.set("orders", orders_section(results, families));
-  page.set("noise", noise_section(results, families));
-  page.set("cost", cost_section(results, families, panels));
   set_flag(page, "has_runs", !results.runs.empty() || panels.empty());
   set_flag(page, "has_references", !results.references.empty());
   page.set("references", references_section(results));
@@ -82,9 +100,11 @@ fs::path write_report(const fs::path& results_json, const fs::path& out) {
   const Results results = read_results(results_json);
   std::vector<Family> families = plan_families(results);
   remove_earlier(out);
-  std::vector<Figure*> figures = all_figures(families);
-  std::vector<CostPanel> panels = plan_cost(results, static_cast<int>(figures.size()));
+  std::vector<CostPanel> panels = plan_cost(results);
+  std::vector<Figure*> figures;
   for (CostPanel& panel : panels) figures.push_back(&panel.figure);
+  for (Figure* figure : all_figures(families)) figures.push_back(figure);
+  number_figures(figures);
   draw(figures, fs::absolute(out) / "figures");
   write_checks(families, out / "checks");
   const fs::path page = out / "index.html";

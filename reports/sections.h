@@ -12,8 +12,14 @@ namespace trammel::reports {
 
 /// The parts of the page as data for their templates, each in a source file of its own name.
 
-/// What holds, what fails, what is known not to agree and why.
-[[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
+/// What a section of the page comes to, in a sentence.
+struct Answer {
+  std::string title, anchor, words;
+};
+
+/// What holds, what fails, the answers in short, what is known not to agree and why.
+[[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families,
+                                   const std::vector<Answer>& answers);
 
 /// The claims of the publication under examination, each with what was measured and a verdict;
 /// empty where the results have no ledger.
@@ -58,8 +64,8 @@ struct CostPanel {
   Figure figure;
 };
 
-/// A panel for each study, its figure numbered after those before it and not yet drawn.
-[[nodiscard]] std::vector<CostPanel> plan_cost(const Results& results, int figures_before);
+/// A panel for each study, its figure neither numbered nor drawn.
+[[nodiscard]] std::vector<CostPanel> plan_cost(const Results& results);
 
 /// What accuracy costs in time, study by study, and where the time of the runs went.
 [[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families,

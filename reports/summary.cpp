@@ -225,10 +225,36 @@ Data known_data(const Known& known, const Results& results) {
   return data;
 }
 
-Data known_list(const Results& results, const std::vector<Family>& families) {
+/// Families with known discrepancies, each with its list.
+Data known_by_family(const Results& results, const std::vector<Family>& families) {
+  const std::vector<Known> all = known_discrepancies(results, families);
   Data out = list();
-  for (const Known& known : known_discrepancies(results, families))
-    out.push_back(known_data(known, results));
+  for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+    std::size_t checks = 0;
+    Data entries = list();
+    for (to = from; to < all.size() && all[to].family == all[from].family; ++to) {
+      checks += all[to].checks;
+      entries.push_back(known_data(all[to], results));
+    }
+    Data family = object();
+    family.set("family_title", all[from].family->title);
+    family.set("extent",
+               count(to - from, "discrepancy", "discrepancies") + " in " + count(checks, "check"));
+    family.set("known", entries);
+    out.push_back(family);
+  }
+  return out;
+}
+
+Data answers_list(const std::vector<Answer>& answers) {
+  Data out = list();
+  for (const Answer& answer : answers) {
+    Data data = object();
+    data.set("title", answer.title);
+    data.set("anchor", answer.anchor);
+    data.set("words", answer.words);
+    out.push_back(data);
+  }
   return out;
 }
 
@@ -267,7 +293,8 @@ std::string overview_words(const Results& results, const std::vector<Family>& fa
 
 }  // namespace
 
-Data summary_section(const Results& results, const std::vector<Family>& families) {
+Data summary_section(const Results& results, const std::vector<Family>& families,
+                     const std::vector<Answer>& answers) {
   const Counts counts = counts_of(results, "");
   std::size_t runs_without = 0;
   Data summary = object();
@@ -280,9 +307,11 @@ Data summary_section(const Results& results, const std::vector<Family>& families
   summary.set("roles", role_table(results));
   set_flag(summary, "has_troubles", trouble_list.is_non_empty_list());
   summary.set("troubles", trouble_list);
-  const Data known = known_list(results, families);
+  set_flag(summary, "has_answers", !answers.empty());
+  summary.set("answers", answers_list(answers));
+  const Data known = known_by_family(results, families);
   set_flag(summary, "has_known", known.is_non_empty_list());
-  summary.set("known", known);
+  summary.set("known_families", known);
   Data heads = list();
   for (const Standing which : role_columns(counts)) {
     Data head = object();

@@ -127,7 +127,7 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs,
   struct Worst {
     const Check* check;
     const Run* run;
-    std::size_t entries, variants;
+    std::size_t entries;
   };
   std::vector<Worst> worst;
   for (const Run* run : runs) {
@@ -137,22 +137,21 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs,
         return known.check->name == check.name && known.check->quantity == check.quantity;
       });
       if (same == worst.end()) {
-        worst.push_back({&check, run, group.checks.size(), 1});
+        worst.push_back({&check, run, group.checks.size()});
         continue;
       }
       same->entries += group.checks.size();
-      ++same->variants;
       if (worse(check, *same->check)) same->check = &check, same->run = run;
     }
   }
   Data groups = list();
   for (const Worst& w : worst) {
-    std::string entry = "worst of " + std::to_string(w.entries);
-    const std::string which = entry_text(*w.check, w.entries);
-    if (!which.empty()) entry += ": " + which;
-    if (w.variants > 1) entry += ", " + info.variant_title(w.run->variant);
+    std::string entry = entry_text(*w.check, w.entries);
+    if (w.entries > 1)
+      entry = "worst of " + std::to_string(w.entries) + (entry.empty() ? "" : ": " + entry);
+    if (runs.size() > 1) entry += (entry.empty() ? "" : ", ") + info.variant_title(w.run->variant);
     Data rows = list();
-    rows.push_back(row_of(*w.check, w.entries > 1 ? entry : which));
+    rows.push_back(row_of(*w.check, entry));
     groups.push_back(group_of(*w.check, results, rows, 1));
   }
   Data run = object();

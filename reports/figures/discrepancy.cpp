@@ -24,7 +24,9 @@ std::vector<Subject> subjects(const std::vector<const Run*>& runs) {
   for (const Run* run : runs) {
     for (CheckGroup& group : group_checks(*run)) {
       const Check& check = group.front();
-      if (!check.known_discrepancy || !check.tolerance) continue;
+      const bool known = std::any_of(group.checks.begin(), group.checks.end(),
+                                     [](const Check* entry) { return entry->known_discrepancy; });
+      if (!known || !check.tolerance) continue;
       auto subject = std::find_if(out.begin(), out.end(), [&](const Subject& known) {
         return known.name == check.name && known.measure == check.measure;
       });
@@ -200,7 +202,9 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Subject& su
   const Reference* reference = results.reference(first.reference);
   Figure figure;
   figure.id = slug(info.id + "-" + subject.name + "-" + subject.measure + "-discrepancy");
-  figure.title = "Known discrepancy: " + (reference ? reference->title : subject.name);
+  figure.title = "Known discrepancy: " + (!first.title.empty() ? first.title
+                                          : reference          ? reference->title
+                                                               : subject.name);
   figure.caption = conclusion(subject);
   if (digits_shown(subject)) figure.caption += " Digits number the entries (modes).";
   figure.alt = "Differences of every variant with the band expected. " + figure.caption;

@@ -88,6 +88,19 @@ std::vector<PlotScript::Rows> boxes(const Field& field) {
   return by_color;
 }
 
+/// Tics far enough apart for the width of a square plot: about four, at 1, 2 or 5 times a power of
+/// ten.
+double tic_step(const Field& field) {
+  const auto [low, high] =
+      std::minmax_element(field.cells.begin(), field.cells.end(),
+                          [](const Cell& a, const Cell& b) { return a.x < b.x; });
+  const double coarse = (high->x - low->x + field.dx) / 3;
+  const double decade = std::pow(10.0, std::floor(std::log10(coarse)));
+  for (const double step : {5.0, 2.0})
+    if (step * decade <= coarse) return step * decade;
+  return decade;
+}
+
 std::string class_name(const std::vector<double>& limits, std::size_t k) {
   if (limits.empty()) return "all";
   if (k == 0) return "below " + trimmed(limits.front(), 2);
@@ -166,8 +179,11 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   }
   PlotScript script;
   script.command("set size ratio -1");
-  script.axis_label("x", axis_label(in_words(parse_quantity(request.x)), "m"));
-  script.axis_label("y", axis_label(in_words(parse_quantity(request.y.front())), "m"));
+  const std::string step = shortest(tic_step(field));
+  script.command("set xtics " + step);
+  script.command("set ytics " + step);
+  script.axis_label("x", axis_label(parse_quantity(request.x).label, "m"));
+  script.axis_label("y", axis_label(parse_quantity(request.y.front()).label, "m"));
   const auto by_color = boxes(field);
   std::vector<std::string> titles;
   for (std::size_t k = 0; k < by_color.size(); ++k) {
