@@ -24,8 +24,9 @@ std::vector<Subject> subjects(const std::vector<const Run*>& runs) {
   for (const Run* run : runs) {
     for (CheckGroup& group : group_checks(*run)) {
       const Check& check = group.front();
-      const bool known = std::any_of(group.checks.begin(), group.checks.end(),
-                                     [](const Check* entry) { return entry->known_discrepancy; });
+      const bool expected =
+          std::any_of(group.checks.begin(), group.checks.end(),
+                      [](const Check* entry) { return entry->known_discrepancy; });
       if (!expected || !check.tolerance) continue;
       auto subject = std::find_if(out.begin(), out.end(), [&](const Subject& known) {
         return known.name == check.name && known.measure == check.measure;
