@@ -38,27 +38,13 @@ class Path {
   double radius_ = 0, angle_ = 0, turn_ = 0;
 };
 
-/// a (b/a)^s of everything that a section has.
-Section in_proportion(const Section& first, const Section& second, double s) {
-  const auto mix = [s](double a, double b) { return std::pow(a, 1 - s) * std::pow(b, s); };
-  Section section;
-  section.EA = mix(first.EA, second.EA);
-  section.EI = mix(first.EI, second.EI);
-  section.kappa_GA = mix(first.kappa_GA, second.kappa_GA);
-  section.mass_per_length = mix(first.mass_per_length, second.mass_per_length);
-  section.inertia_per_length = mix(first.inertia_per_length, second.inertia_per_length);
-  section.area = mix(first.area, second.area);
-  section.section_modulus = mix(first.section_modulus, second.section_modulus);
-  return section;
-}
-
 }  // namespace
 
 void add_chain(const Member& member, const MemberChain& chain, const Vector2d& start,
                const Vector2d& end, Index first_node, Model& parts) {
   const Path path(chain, start, end);
   const auto section = [&](double s) {
-    return chain.exponential ? in_proportion(member.section, member.end_section, s)
+    return chain.exponential ? interpolate_geometric(member.section, member.end_section, s)
                              : interpolate(member.section, member.end_section, s);
   };
   const bool is_bar = section(0.5).EI == 0;

@@ -1,6 +1,7 @@
 #include "solver/frame_element.h"
 
 #include <array>
+#include <cmath>
 
 namespace trammel {
 namespace {
@@ -23,10 +24,9 @@ T rotary_inertia(const SectionOf<T>& section, BeamTheory theory) {
   return has_rotary_inertia(theory) ? section.inertia_per_length : T(0);
 }
 
-}  // namespace
-
-Section interpolate(const Section& first, const Section& second, double at) {
-  const auto mix = [at](double a, double b) { return (1 - at) * a + at * b; };
+/// A section with `mix` of each property of two.
+template <class Mix>
+Section mixed(const Section& first, const Section& second, const Mix& mix) {
   Section section;
   section.EA = mix(first.EA, second.EA);
   section.EI = mix(first.EI, second.EI);
@@ -36,6 +36,17 @@ Section interpolate(const Section& first, const Section& second, double at) {
   section.area = mix(first.area, second.area);
   section.section_modulus = mix(first.section_modulus, second.section_modulus);
   return section;
+}
+
+}  // namespace
+
+Section interpolate(const Section& first, const Section& second, double at) {
+  return mixed(first, second, [at](double a, double b) { return (1 - at) * a + at * b; });
+}
+
+Section interpolate_geometric(const Section& first, const Section& second, double at) {
+  return mixed(first, second,
+               [at](double a, double b) { return std::pow(a, 1 - at) * std::pow(b, at); });
 }
 
 template <Real T>

@@ -1,7 +1,9 @@
 #include "solver/grnn_validation.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -150,28 +152,10 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
     }
     return error;
   };
-  const double ratio = (std::sqrt(5.0) - 1) / 2;
-  double a = std::log(grid(best - 1));
-  double b = std::log(grid(best + 1));
-  double c = b - ratio * (b - a);
-  double d = a + ratio * (b - a);
-  double fc = error_at(c);
-  double fd = error_at(d);
-  while (b - a > 1e-4) {
-    if (fc <= fd) {
-      b = d;
-      d = c;
-      fd = fc;
-      c = b - ratio * (b - a);
-      fc = error_at(c);
-    } else {
-      a = c;
-      c = d;
-      fc = fd;
-      d = a + ratio * (b - a);
-      fd = error_at(d);
-    }
-  }
+  constexpr int kBits = 16;  // of the logarithm: sigma to better than 1e-3
+  std::uintmax_t evaluations = 100;
+  boost::math::tools::brent_find_minima(error_at, std::log(grid(best - 1)),
+                                        std::log(grid(best + 1)), kBits, evaluations);
   return search;
 }
 

@@ -2,8 +2,10 @@
 
 #include <Eigen/SparseLU>
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -149,31 +151,12 @@ HarmonicPeak harmonic_peak(const HarmonicResponse& response, double low, double 
       best = i;
     }
   }
-  double a = places[best > 0 ? best - 1 : 0];
-  double b = places[std::min(best + 1, places.size() - 1)];
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double x1 = b - golden * (b - a);
-  double x2 = a + golden * (b - a);
-  double f1 = size(x1);
-  double f2 = size(x2);
-  while (b - a > std::max(1e-9 * b, 1e-12 * (high - low))) {
-    if (f1 > f2) {
-      b = x2;
-      x2 = x1;
-      f2 = f1;
-      x1 = b - golden * (b - a);
-      f1 = size(x1);
-    } else {
-      a = x1;
-      x1 = x2;
-      f1 = f2;
-      x2 = a + golden * (b - a);
-      f2 = size(x2);
-    }
-  }
-  for (const HarmonicPeak& candidate : {HarmonicPeak{x1, f1}, HarmonicPeak{x2, f2}}) {
-    if (candidate.amplitude > peak.amplitude) peak = candidate;
-  }
+  constexpr int kBits = 26;  // half of a double's: a maximum is flat
+  std::uintmax_t evaluations = 100;
+  const auto [frequency, negative] = boost::math::tools::brent_find_minima(
+      [&](double f) { return -size(f); }, places[best > 0 ? best - 1 : 0],
+      places[std::min(best + 1, places.size() - 1)], kBits, evaluations);
+  if (-negative > peak.amplitude) peak = {frequency, -negative};
   return peak;
 }
 

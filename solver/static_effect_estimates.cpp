@@ -348,12 +348,15 @@ Change without_weight(LinearState& state, bool of_members, double& share) {
   return change;
 }
 
+double span(const Model& model, const Member& member) {
+  return (model.nodes[at(member.nodes[1])].position - model.nodes[at(member.nodes[0])].position)
+      .norm();
+}
+
 double axial_slenderness(const LinearState& state) {
   double most = 0;
   for (const Member& member : state.system.model.members) {
-    const double length = (state.system.model.nodes[at(member.nodes[1])].position -
-                           state.system.model.nodes[at(member.nodes[0])].position)
-                              .norm();
+    const double length = span(state.system.model, member);
     most = std::max(most, member.section.EI / (member.section.EA * length * length));
   }
   return most;
@@ -362,9 +365,7 @@ double axial_slenderness(const LinearState& state) {
 double largest_shear_ratio(const LinearState& state) {
   double most = 0;
   for (const Member& member : state.system.model.members) {
-    const double length = (state.system.model.nodes[at(member.nodes[1])].position -
-                           state.system.model.nodes[at(member.nodes[0])].position)
-                              .norm();
+    const double length = span(state.system.model, member);
     if (member.section.EI > 0) {
       most = std::max(most, shear_ratio(member.section, member.theory, length));
     }

@@ -3,26 +3,16 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "tests/harness/support.h"
+#include "tests/harness/analysing.h"
 
 using namespace trammel;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;
+using testing::only;
+using testing::result_of;
 
 namespace {
-
-AnalysisResult result_of(const Json& json) {
-  const Folder folder;
-  const References references;
-  return analyse(patched(testing::read(folder, json), "base"), references, {});
-}
-
-double only(const AnalysisResult& result, const std::string& name) {
-  const auto& values = result.quantities.at(name).values;
-  BOOST_REQUIRE(values.size() == 1);
-  return values[0];
-}
 
 Json on_a_circle(Json json, int points) {
   json["model"].erase("pose");

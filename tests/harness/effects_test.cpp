@@ -5,12 +5,13 @@
 #include "harness/effect_study.h"
 #include "harness/print_effects.h"
 #include "harness/reference_library.h"
-#include "tests/harness/support.h"
+#include "tests/harness/analysing.h"
 
 using namespace trammel;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;
+using testing::result_of;
 
 namespace {
 
@@ -18,12 +19,6 @@ Json timoshenko_cantilever() {
   Json json = testing::cantilever();
   json["model"]["members"]["AB"]["beam"] = "timoshenko";
   return json;
-}
-
-AnalysisResult result_of(const Json& json) {
-  const Folder folder;
-  const References references;
-  return analyse(patched(testing::read(folder, json), "base"), references, {false});
 }
 
 std::string fault(const Json& json) {

@@ -2,27 +2,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/analysis.h"
-#include "tests/harness/support.h"
+#include "tests/harness/analysing.h"
 
 using namespace trammel;
 using testing::complaint;
 using testing::contains;
-using testing::Folder;
+using testing::only;
+using testing::result_of;
 
 namespace {
-
-AnalysisResult result_of(const Json& json) {
-  const Folder folder;
-  const References references;
-  return analyse(patched(testing::read(folder, json), "base"), references, {});
-}
-
-double only(const AnalysisResult& result, const std::string& name) {
-  const auto& values = result.quantities.at(name).values;
-  BOOST_REQUIRE_MESSAGE(values.size() == 1, name);
-  return values[0];
-}
 
 /// A crank of 1 m, a rod of 2 m and a slider that it moves along x.
 Json slider_crank() {

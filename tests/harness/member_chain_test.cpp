@@ -4,32 +4,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/analysis.h"
 #include "harness/scene.h"
-#include "tests/harness/support.h"
+#include "tests/harness/analysing.h"
 
 using namespace trammel;
 using boost::test_tools::tolerance;
 using testing::complaint;
 using testing::contains;
-using testing::Folder;
+using testing::document_of;
+using testing::only;
+using testing::result_of;
 
 namespace {
-
-Document document_of(const Json& json) {
-  const Folder folder;
-  return patched(testing::read(folder, json), "base");
-}
-
-AnalysisResult result_of(const Json& json) {
-  const References references;
-  return analyse(document_of(json), references, {});
-}
-
-double only(const AnalysisResult& result, const std::string& name) {
-  BOOST_REQUIRE_MESSAGE(result.quantities.count(name) == 1, name);
-  return result.quantities.at(name).values.at(0);
-}
 
 /// A quarter circle of 1 m from A to B about the origin, clamped at A, a force at B.
 Json quarter(Index elements) {

@@ -2,27 +2,16 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/analysis.h"
-#include "tests/harness/support.h"
+#include "tests/harness/analysing.h"
 
 using namespace trammel;
 using boost::test_tools::tolerance;
 using testing::complaint;
 using testing::contains;
-using testing::Folder;
+using testing::result_of;
+using testing::values;
 
 namespace {
-
-AnalysisResult result_of(const Json& json) {
-  const Folder folder;
-  const References references;
-  return analyse(patched(testing::read(folder, json), "base"), references, {});
-}
-
-std::vector<double> values(const AnalysisResult& result, const std::string& name) {
-  BOOST_REQUIRE_MESSAGE(result.quantities.count(name) == 1, name);
-  return result.quantities.at(name).values;
-}
 
 double last(const AnalysisResult& result, const std::string& name) {
   return values(result, name).back();

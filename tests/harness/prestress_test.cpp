@@ -2,31 +2,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/analysis.h"
-#include "tests/harness/support.h"
+#include "tests/harness/analysing.h"
 
 using namespace trammel;
 using boost::test_tools::tolerance;
 using testing::complaint;
 using testing::contains;
-using testing::Folder;
+using testing::result_of;
+using testing::values;
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 /// Of the cantilever in support.h.
 constexpr double kEI = 2e11 * 0.05 * 1e-3 / 12;
-
-AnalysisResult result_of(const Json& json) {
-  const Folder folder;
-  const References references;
-  return analyse(patched(testing::read(folder, json), "base"), references, {});
-}
-
-const std::vector<double>& values(const AnalysisResult& result, const std::string& name) {
-  BOOST_REQUIRE_MESSAGE(result.quantities.count(name) == 1, name);
-  return result.quantities.at(name).values;
-}
 
 /// The cantilever of 2 m with a force along itself at its tip.
 Json column(double force) {
