@@ -62,6 +62,22 @@ void check_names(const Case& given) {
   }
 }
 
+/// Indicators of the battery are checks of the case.
+void check_indicators(const Case& given) {
+  const Cursor root(given.document);
+  if (!root.has("battery")) return;
+  std::vector<std::string> names;
+  if (const auto checks = root.find("checks")) {
+    for (const auto& entry : checks->entries()) names.push_back(entry.first);
+  }
+  for (const auto& [number, place] : root["battery"]["indicators"].entries()) {
+    const auto name = place.get<std::string>();
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw place.error("expected the name of a check of the case (got '" + printable(name) + "')" +
+                      did_you_mean(name, names));
+  }
+}
+
 Json patch_of_pointers(const Cursor& sweep, const Json& document, const Json& value) {
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
@@ -96,6 +112,7 @@ Case load_case(const fs::path& file) {
   lay_with_bases(loaded.document, file, {});
   loaded.document.check("case");
   check_names(loaded);
+  check_indicators(loaded);
   return loaded;
 }
 

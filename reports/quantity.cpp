@@ -64,6 +64,13 @@ bool takes_prefix(const std::string& unit) {
   return std::find(plain.begin(), plain.end(), unit) != plain.end();
 }
 
+/// Whether what follows the colon is the name of a quantity in turn: relative_error:frequency_Hz.
+bool is_of_a_quantity(const std::string& base) {
+  static const std::array<const char*, 4> names = {"relative_error", "roundoff",
+                                                   "error_over_roundoff", "least_error_at"};
+  return std::find(names.begin(), names.end(), base) != names.end();
+}
+
 }  // namespace
 
 std::string unit_for_people(const std::string& unit) {
@@ -94,13 +101,14 @@ Quantity parse_quantity(const std::string& name) {
       !quantity.subject.empty()) {
     quantity.subject.insert(0, "mode ");
   }
+  if (is_of_a_quantity(base)) quantity.subject = in_words(parse_quantity(quantity.subject));
   for (const auto& [key, people] : units) {
     if (!ends_with(base, std::string("_") + key)) continue;
     quantity.unit = people;
     base.resize(base.size() - std::string(key).size() - 1);
     break;
   }
-  quantity.label = words(base);
+  quantity.label = base == "error_over_roundoff" ? "error over promised round-off" : words(base);
   return quantity;
 }
 

@@ -20,9 +20,9 @@ constexpr const char* generator = R"(<meta name="generator" content="trammel">)"
 Data page_data(const Results& results, const std::vector<Family>& families,
                const std::vector<CostPanel>& panels) {
   Data page = object();
-  for (const char* name :
-       {"summary", "claims", "family", "case", "variants", "figure", "checks", "matrix", "cost",
-        "targets", "orders", "noise", "references", "counts", "rows", "head", "matrix_row", "cell"})
+  for (const char* name : {"summary", "claims", "family", "case", "variants", "figure", "checks",
+                           "matrix", "cost", "battery", "targets", "orders", "noise", "references",
+                           "counts", "rows", "head", "matrix_row", "cell"})
     page.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -31,6 +31,7 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   page.set("environment", environment_section(results));
   const Data claims = claims_section(results);
   const Data cost = cost_section(results, families, panels);
+  const Data battery = battery_section(families);
   const Data targets = targets_section(results, families);
   const Data orders = orders_section(results, families);
   const Data noise = noise_section(results, families);
@@ -44,6 +45,7 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   };
   answer("The paper's claims", "claims", claims, "overview");
   answer("What accuracy costs", "cost", cost, "words");
+  answer("The battery of hard cases", "battery", battery, "words");
   answer("Published targets", "targets", targets, "words");
   answer("Orders and bands", "orders", orders, "words");
   answer("Difference and noise", "noise", noise, "words");
@@ -51,6 +53,7 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   page.set("claims", claims);
   set_flag(page, "has_claims", results.ledger.has_value());
   page.set("cost", cost);
+  page.set("battery", battery);
   page.set("targets", targets);
   page.set("orders", orders);
   page.set("noise", noise);

@@ -320,6 +320,8 @@ CaseInfo read_case(const std::string& id, const JsonView& view) {
   info.description = view.find("description").text_or("");
   info.family = view.find("family").text_or(id.c_str());
   info.labels = texts(view.find("labels"));
+  if (const JsonView battery = view.find("battery"); !battery.null())
+    info.battery = {battery.at("item").integer(any_index), texts(battery.at("indicators"))};
   for (const auto& [figure, plot] : view.find("figures").members()) {
     PlotRequest request;
     request.id = figure;

@@ -144,9 +144,17 @@ struct TableRequest {
   std::vector<std::string> variants;
 };
 
+/// The place of a case in the battery of hard cases: an item, and the checks that indicate how well
+/// it is stood.
+struct BatteryPlace {
+  int item = 0;
+  std::vector<std::string> indicators;
+};
+
 struct CaseInfo {
   std::string id, title, description, family;
   std::vector<std::string> labels;
+  std::optional<BatteryPlace> battery;
   std::vector<PlotRequest> figures;
   std::vector<TableRequest> tables;
   std::vector<std::pair<std::string, std::string>> variants;  ///< id, title

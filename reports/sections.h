@@ -48,6 +48,10 @@ void set_effects(Data& data, const std::vector<const Run*>& runs);
 [[nodiscard]] std::string comparison_conclusion(const Family& family, const Results& results,
                                                 const std::string& reference);
 
+/// The battery of hard cases: items in order, each indicator with its worst value, bound, reason and
+/// verdict, and links to the pictures; empty where no case belongs to it.
+[[nodiscard]] Data battery_section(const std::vector<Family>& families);
+
 /// Published targets beside better values and what comes out; empty rows where no case is labelled
 /// as a benchmark.
 [[nodiscard]] Data targets_section(const Results& results, const std::vector<Family>& families);

@@ -98,6 +98,18 @@ BOOST_AUTO_TEST_CASE(what_is_extended_may_be_in_another_folder) {
                       "/extends: expected a file relative to this one or a case of the catalogue"));
 }
 
+BOOST_AUTO_TEST_CASE(an_indicator_of_the_battery_is_a_check_of_the_case) {
+  const Folder folder;
+  const auto file =
+      folder.write("beam.json", R"({"id": "beam", "title": "t", "analysis": {"modes": {"count": 1}},
+    "battery": {"item": 1, "indicators": ["digits", "driftt"]},
+    "checks": {"digits": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}},
+               "drift": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}}}})");
+  const std::string said = complaint([&] { static_cast<void>(load_case(file)); });
+  BOOST_TEST(contains(said, "/battery/indicators/1"));
+  BOOST_TEST(contains(said, "did you mean 'drift'?"));
+}
+
 BOOST_AUTO_TEST_CASE(a_file_and_its_case_have_one_name) {
   const Folder folder;
   const auto file = folder.write("other.json", testing::cantilever().dump());

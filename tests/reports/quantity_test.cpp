@@ -13,6 +13,9 @@ BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
   BOOST_TEST(moment.unit == "N·m");
   BOOST_TEST(in_words(parse_quantity("displacement_x_m:P")) == "x displacement of P");
   BOOST_TEST(in_words(parse_quantity("frequency_Hz:1")) == "frequency of mode 1");
+  BOOST_TEST(in_words(parse_quantity("relative_error:displacement_y_m:B")) ==
+             "relative error of y displacement of B");
+  BOOST_TEST(parse_quantity("relative_error:frequency_Hz").unit == "");
   BOOST_TEST(parse_quantity("platform_inertia_kg_m2").unit == "kg·m²");
   BOOST_TEST(parse_quantity("frequency_roundoff").unit == "");
 }
