@@ -193,15 +193,17 @@ class Integrator {
   }
 
   /// K q = f now and at four times after it: the velocity by the one-sided difference of order 4.
+  /// Then K q = f - C v: otherwise the drag of that velocity would set in at once, and shake what
+  /// is stiff.
   bool start_quasi_static() {
     constexpr std::array<double, 5> kSlope = {-25.0 / 12, 4, -3, 4.0 / 3, -0.25};
     const double gap = std::min(options_.step, options_.end - options_.start) / 4;
     SparseFactor factor(S_);
     now_.v.setZero();
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 4; i >= 0; --i) {
       const double time = options_.start + i * gap;
       update_matrices(time);
-      if (i == 0 || equation_.update) {
+      if (i == 4 || equation_.update) {
         ++summary_.counters.factorizations;
         if (!factor.factorize(K_) || factor.pivot_ratio() < kSingularMass) {
           return fail(Status::singular,
@@ -209,19 +211,24 @@ class Integrator {
         }
       }
       load(time, next_.f);
-      // The skew part of K, if any, by refinement.
-      next_.q.setZero();
-      for (int pass = 0; pass < 4; ++pass) {
-        residual_ = next_.f;
-        residual_.noalias() -= K_ * next_.q;
-        factor.solve(residual_, correction_);
-        next_.q += correction_;
-        ++summary_.counters.solves;
-      }
-      if (i == 0) now_.q = next_.q;
+      solve_statically(factor, next_.f, next_.q);
       now_.v += (kSlope[static_cast<std::size_t>(i)] / gap) * next_.q;
     }
+    next_.f.noalias() -= C_ * now_.v;
+    solve_statically(factor, next_.f, now_.q);
     return true;
+  }
+
+  /// K q = f; the skew part of K, if any, by refinement.
+  void solve_statically(SparseFactor& factor, const VectorXd& f, VectorXd& q) {
+    q.setZero();
+    for (int pass = 0; pass < 4; ++pass) {
+      residual_ = f;
+      residual_.noalias() -= K_ * q;
+      factor.solve(residual_, correction_);
+      q += correction_;
+      ++summary_.counters.solves;
+    }
   }
 
   /// Refuses a step at which the fastest motion grows. The power iteration comes from below, so

@@ -47,7 +47,7 @@ struct TransientOptions {
   /// factorization for each k and not one for each change.
   std::optional<ErrorControl> adaptive;
   std::vector<double> sample_times;  ///< ascending, within [start, end] [s]; empty: every step
-  bool quasi_static_start = false;   ///< on K q = f with its velocity; otherwise from q0, v0
+  bool quasi_static_start = false;   ///< K q = f - C v with its velocity; otherwise from q0, v0
   Eigen::VectorXd q0, v0;            ///< empty: zero
 };
 

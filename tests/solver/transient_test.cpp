@@ -359,6 +359,28 @@ BOOST_AUTO_TEST_CASE(a_slow_load_from_the_quasi_static_state_stays_quasi_static)
   BOOST_TEST((solve_transient(equation, options).summary.outcome.status == Status::singular));
 }
 
+/// Stiff and strongly damped masses on the way of a slow load: nothing is shaken at the start.
+BOOST_AUTO_TEST_CASE(a_quasi_static_start_carries_the_drag_of_its_own_velocity) {
+  EquationOfMotion equation = chain(3, 1, 1e6);
+  equation.C = 0.003 * equation.K;
+  const double slow = 0.5;
+  equation.load = [=](double t, VectorXd& f) {
+    f.setZero();
+    f[2] = 10 + std::sin(slow * t);
+  };
+  TransientOptions options;
+  options.end = 0.1;
+  options.step = 0.01;
+  options.quasi_static_start = true;
+  const TransientHistory h = solve_transient(equation, options);
+  BOOST_REQUIRE(h.summary.outcome.solved());
+  const double of_the_drag =
+      0.003 * slow;  // [N], in each spring; on 1 kg it would be as many m/s^2
+  BOOST_TEST(h.a.col(0).cwiseAbs().maxCoeff() < 1e-6 * of_the_drag);
+  const double lag = 3 * (10 - of_the_drag) / 1e6;
+  BOOST_TEST(h.q(2, 0) == lag, boost::test_tools::tolerance(1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(samples_between_steps_are_as_accurate_as_the_steps) {
   const EquationOfMotion equation = chain(1, 1, 100);
   TransientOptions options;
