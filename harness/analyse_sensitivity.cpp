@@ -48,6 +48,7 @@ StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool 
   static_cast<void>(read_rigid_manipulator(analysis, scene));  // nothing beside the manipulator
   const std::vector<Named> named = read_parameters(analysis["parameters"]);
   std::vector<DesignParameter> parameters;
+  parameters.reserve(named.size());
   for (const Named& one : named) parameters.push_back(one.parameter);
   const FrequencySensitivity found = frequency_sensitivity(
       *scene.manipulator, scene.motion.front().pose, parameters, analysis["count"].get<Index>());

@@ -9,7 +9,6 @@
 
 using namespace trammel;
 using Eigen::VectorXd;
-using Quantity = DesignParameter::Quantity;
 
 BOOST_AUTO_TEST_SUITE(sensitivity)
 
