@@ -70,6 +70,8 @@ large::TimeFunction rest_to_rest(double travel, double duration) {
   };
 }
 
+}  // namespace
+
 large::TimeFunction read_law(const Cursor& law) {
   if (const auto place = law.find("constant_speed")) {
     const double speed = place->number("speed_per_s");
@@ -88,8 +90,6 @@ large::TimeFunction read_law(const Cursor& law) {
                                  -a * w * w * std::sin(w * t)};
   };
 }
-
-}  // namespace
 
 Index find_node(const Cursor& name, const Model& built) {
   return find_named(name.get<std::string>(), name, built);

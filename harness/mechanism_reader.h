@@ -18,6 +18,9 @@ namespace trammel {
 void read_drives(const Cursor& analysis, const Model& built, large::Scenario& scenario);
 void read_history(const Cursor& analysis, const Model& built, large::Scenario& scenario);
 
+/// A motion over time: place, speed and acceleration.
+[[nodiscard]] large::TimeFunction read_law(const Cursor& law);
+
 /// The node of that name. @throws InputError  where there is none.
 [[nodiscard]] Index find_node(const Cursor& name, const Model& built);
 

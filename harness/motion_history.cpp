@@ -7,9 +7,11 @@
 
 #include "harness/damping_reader.h"
 #include "harness/material_reader.h"
+#include "harness/mechanism_reader.h"
 #include "solver/damping.h"
 #include "solver/modal_superposition.h"
 #include "solver/modes.h"
+#include "solver/relative_motion.h"
 
 namespace trammel {
 namespace {
@@ -106,6 +108,22 @@ std::vector<double> sample_times(const Cursor& transient) {
   return times;
 }
 
+/// The axes that the motion is seen from.
+TurningAxes read_axes(const Cursor& transient) {
+  for (const char* key : {"load_history", "initial"}) {
+    if (transient.has(key)) throw transient[key].error("expected it without 'turning_axes'");
+  }
+  const Cursor place = transient["turning_axes"];
+  TurningAxes axes;
+  axes.speed = [law = read_law(place["law"])](double time) {
+    const std::array<double, 3> motion = law(time);
+    return std::array<double, 2>{motion[1], motion[2]};
+  };
+  if (place.has("center_m")) axes.centre = read_point(place["center_m"]);
+  axes.stiffening = place.get("stiffening", true);
+  return axes;
+}
+
 class Motion {
  public:
   Motion(const Cursor& transient, const System& system)
@@ -131,7 +149,12 @@ class Motion {
     equation.M = system_.M;
     equation.K = system_.K;
     if (!damp(equation)) return;
-    load_.act_on(equation);
+    if (transient_.has("turning_axes")) {
+      history_.outcome = turn_axes(system_, read_axes(transient_), equation);
+      if (!history_.outcome.solved()) return;
+    } else {
+      load_.act_on(equation);
+    }
     TransientOptions options;
     options.end = transient_.number("duration_s");
     options.step = transient_.number("step_s");
@@ -171,6 +194,9 @@ class Motion {
   void superpose_modes() {
     if (transient_.has("error_control")) {
       throw transient_["error_control"].error("expected it without 'modal-superposition'");
+    }
+    if (transient_.has("turning_axes")) {
+      throw transient_["turning_axes"].error("expected it without 'modal-superposition'");
     }
     const ModalBasis basis = every_mode(system_.M, system_.K);
     const HarmonicDamping damping = read_damping(transient_, basis.omega.size());
