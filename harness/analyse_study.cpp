@@ -100,28 +100,30 @@ std::vector<Level> trajectory_levels(const Document& document, const Cursor& stu
   return found;
 }
 
-std::vector<Level> study_levels(const Document& document, const Cursor& study) {
+}  // namespace
+
+std::vector<Level> study_levels(const Document& document) {
+  const Cursor study = Cursor(document)["analysis"]["study"];
+  if (study["of"].has("study")) throw study["of"].error("expected another analysis than a study");
   const bool along = study.get("trajectory", false);
   if (along == study.has("values")) {
     throw study.error("expected either 'values' or 'trajectory'");
   }
-  return along ? trajectory_levels(document, study) : levels(document, study);
+  std::vector<Level> found = along ? trajectory_levels(document, study) : levels(document, study);
+  for (Level& level : found) level.document = with_inner_analysis(std::move(level.document));
+  return found;
 }
-
-}  // namespace
 
 StepResult analyse_study(const Document& document, const References& references, bool draw,
                          Recorder& record) {
   const Cursor study = Cursor(document)["analysis"]["study"];
-  if (study["of"].has("study")) throw study["of"].error("expected another analysis than a study");
   const auto kept_places = study.find("keep");
   const auto keep =
       kept_places ? kept_places->entries() : std::vector<std::pair<std::string, Cursor>>{};
   std::vector<std::vector<Kept>> kept(keep.size());
   StepResult result;
-  for (const Level& level : study_levels(document, study)) {
-    AnalysisResult found =
-        analyse(with_inner_analysis(level.document), references, {draw && !result.drawing});
+  for (const Level& level : study_levels(document)) {
+    AnalysisResult found = analyse(level.document, references, {draw && !result.drawing});
     record.add(study.get<std::string>("parameter", "parameter"), "", level.parameter);
     record.add("status", "", status_code(found.outcome.status));
     for (std::size_t k = 0; k < keep.size(); ++k) {

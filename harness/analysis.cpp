@@ -86,6 +86,10 @@ AnalysisResult analyse(const Document& document, const References& references,
     compare_references(place, references, record);
     return result_of({}, record);
   }
+  if (kind == "options") {
+    analyse_options(document, references, record);
+    return result_of({}, record);
+  }
   if (kind == "study") {
     return result_of(analyse_study(document, references, options.drawing, record), record);
   }

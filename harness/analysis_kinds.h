@@ -1,6 +1,7 @@
 #pragma once
 
 #include "harness/analysis.h"
+#include "harness/case.h"
 #include "harness/recorder.h"
 #include "harness/scene.h"
 #include "solver/statics.h"
@@ -99,6 +100,13 @@ void record_solution(const Model& model, const StaticSolution& solution, double 
 /// Another analysis at each value of a parameter: every quantity kept has one number a value.
 [[nodiscard]] StepResult analyse_study(const Document& document, const References& references,
                                        bool draw, Recorder& record);
+
+/// The levels of a study, each with the inner analysis in the study's place.
+[[nodiscard]] std::vector<Level> study_levels(const Document& document);
+
+/// Every combination of some options tried on the variants and levels of other cases: how they end,
+/// how many numbers are none, how many reasons lack words, how far apart are those that must agree.
+void analyse_options(const Document& document, const References& references, Recorder& record);
 
 /// relative_difference and difference_percent of references from each other, by name.
 void compare_references(const Cursor& comparison, const References& references, Recorder& record);

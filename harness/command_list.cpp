@@ -42,6 +42,7 @@ std::string count_of(std::size_t count, const char* what) {
 std::string model_words(const Document& document) {
   const std::string kind = analysis_kind(document);
   if (kind == "comparison") return "no model: references against each other";
+  if (kind == "options") return "those of other cases";
   if (kind == "study" && !document.value().contains("model")) return "made by the analysis";
   if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
   if (kind == "grnn" && !document.value().contains("model")) return "none: samples of its own";
