@@ -63,11 +63,11 @@ std::vector<fs::path> catalogue_files() {
 }
 
 fs::path find_case(const std::string& name_or_file) {
-  const fs::path file(name_or_file);
+  fs::path file(name_or_file);
   std::error_code error;
   const bool looks_like_file = !is_name(name_or_file) || file.extension() == ".json";
   if (looks_like_file && fs::exists(file, error)) return file;
-  if (const fs::path found = by_name(name_or_file); !found.empty()) return found;
+  if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   if (looks_like_file) throw InputError(name_or_file + ": expected a readable file");
   throw InputError("expected a case of the catalogue or a file (got '" + printable(name_or_file) +
                    "')" + did_you_mean(name_or_file, all_names()));
@@ -75,12 +75,12 @@ fs::path find_case(const std::string& name_or_file) {
 
 fs::path find_extended(const std::string& name_or_file, const fs::path& from) {
   std::error_code error;
-  const fs::path beside = from.parent_path() / name_or_file;
+  fs::path beside = from.parent_path() / name_or_file;
   if (fs::is_regular_file(beside, error)) return beside;
   fs::path with_extension = beside;
   with_extension += ".json";
   if (fs::is_regular_file(with_extension, error)) return with_extension;
-  if (const fs::path found = by_name(name_or_file); !found.empty()) return found;
+  if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   throw InputError(from.string(), "/extends",
                    "expected a file relative to this one or a case of the catalogue (got '" +
                        printable(name_or_file) + "')" + did_you_mean(name_or_file, all_names()));

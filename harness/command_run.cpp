@@ -115,7 +115,7 @@ void print_run(const Run& run) {
     const Judgement& one = *told.worst;
     std::string quantity = one.quantity;
     if (one.index && told.entries > 1) quantity += "[" + std::to_string(*one.index) + "]";
-    if (!one.statistic.empty()) quantity = one.statistic + " " + quantity;
+    if (!one.statistic.empty()) quantity.insert(0, one.statistic + " ");
     table.add({verdict_word(one), one.name, quantity, one.computed ? rounded(*one.computed, 8) : "",
                one.expected ? rounded(*one.expected, 8) : "",
                one.difference ? rounded(*one.difference, 3) : "", allowed(one)});
@@ -156,7 +156,7 @@ void print_trouble(const std::vector<Run>& runs) {
 
 std::filesystem::path write_all(const Json& json, const std::string& out,
                                 const Renderers& renderers) {
-  const auto results = write_results(json, out);
+  auto results = write_results(json, out);
   if (renderers.junit) renderers.junit(results, std::filesystem::path(out) / "junit.xml");
   return results;
 }
