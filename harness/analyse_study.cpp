@@ -66,14 +66,20 @@ std::vector<double> truth_of(const std::vector<Kept>& kept, const Cursor& keep,
   return reference.values;
 }
 
-/// Errors, and what share of the round-off that the solver promised they are.
-void record_errors(const std::string& name, const std::vector<Kept>& kept, const Cursor& keep,
+/// Errors, what share of the round-off that the solver promised they are, and where they are least.
+void record_errors(const std::string& name, const std::vector<Kept>& kept,
+                   const std::vector<double>& parameter, const Cursor& keep,
                    const References& references, Recorder& record) {
   if (!keep.has("reference") && !keep.has("against")) return;
   const std::vector<double> truth = truth_of(kept, keep, references);
+  double least = std::numeric_limits<double>::infinity(), best = nothing;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const double error = std::abs(kept[i].value - truth[i]) / std::abs(truth[i]);
     record.add("relative_error", name, error);
+    if (error < least) {
+      least = error;
+      best = parameter[i];
+    }
     if (kept[i].roundoff >= 0) {
       record.add("roundoff", name, kept[i].roundoff);
       record.add("error_over_roundoff", name, error / kept[i].roundoff);
@@ -82,6 +88,7 @@ void record_errors(const std::string& name, const std::vector<Kept>& kept, const
       record.add("error_over_roundoff", name, nothing);
     }
   }
+  if (keep.has("reference") && !std::isnan(best)) record.add("least_error_at", name, best);
 }
 
 /// A level for each point of the model's trajectory; its parameter is the time.
@@ -121,9 +128,11 @@ StepResult analyse_study(const Document& document, const References& references,
   const auto keep =
       kept_places ? kept_places->entries() : std::vector<std::pair<std::string, Cursor>>{};
   std::vector<std::vector<Kept>> kept(keep.size());
+  std::vector<double> parameter;
   StepResult result;
   for (const Level& level : study_levels(document)) {
     AnalysisResult found = analyse(level.document, references, {draw && !result.drawing});
+    parameter.push_back(level.parameter);
     record.add(study.get<std::string>("parameter", "parameter"), "", level.parameter);
     record.add("status", "", status_code(found.outcome.status));
     for (std::size_t k = 0; k < keep.size(); ++k) {
@@ -138,7 +147,7 @@ StepResult analyse_study(const Document& document, const References& references,
   for (std::size_t k = 0; k < keep.size(); ++k) {
     const auto& [name, place] = keep[k];
     for (const Kept& one : kept[k]) record.add(name, "", one.value);
-    record_errors(name, kept[k], place, references, record);
+    record_errors(name, kept[k], parameter, place, references, record);
   }
   return result;
 }

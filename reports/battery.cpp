@@ -56,7 +56,7 @@ std::string value_of(const Check& check) {
 Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const Check& check = *indicator.worst;
   Data row = object();
-  row.set("quantity", quantity_text(check));
+  row.set("quantity", check.title.empty() ? quantity_text(check) : check.title);
   set_text(row, "of_what", of_what(indicator, info));
   row.set("value", value_of(check));
   row.set("bound", bound_of(check));
