@@ -17,6 +17,10 @@ void read_effects(const Cursor& analysis, ElastodynamicsOptions& options) {
   options.nominal_inertia = effects->get("nominal_inertia", true);
   options.elastic_inertia = effects->get("elastic_inertia", true);
   options.convective = effects->get("transformation_rate_terms", false);
+  if (options.convective && !options.elastic_inertia) {
+    throw(*effects)["transformation_rate_terms"].error(
+        "expected elastic inertia with it: these terms are a part of it");
+  }
 }
 
 ElastodynamicsOptions read_options(const Cursor& analysis, const Scene& scene) {
@@ -36,6 +40,10 @@ ElastodynamicsOptions read_options(const Cursor& analysis, const Scene& scene) {
   options.time = read_time_options(analysis);
   options.time.quasi_static_start = analysis.text("start") == "quasi-static";
   options.modal_superposition = analysis.get("modal_superposition", false);
+  if (options.modal_superposition && !stands_still(options.path)) {
+    throw analysis["modal_superposition"].error(
+        "expected a platform that stands still: modes are superposed where M and K are constant");
+  }
   for (const TrajectoryPoint& point : scene.motion) {
     options.time.sample_times.push_back(point.time);
   }
@@ -93,7 +101,7 @@ void record_energy(const ElastodynamicsSolution& solution, Recorder& record) {
 void record_excess(ElastodynamicsOptions options, const ElastodynamicsSolution& solution,
                    Recorder& record) {
   if (!options.elastic_inertia) return;
-  options.elastic_inertia = false;
+  options.elastic_inertia = options.convective = false;
   const ElastodynamicsSolution slow = solve_elastodynamics(options);
   if (!slow.outcome.solved()) return;  // a mechanism has no quasi-static position
   const double size = slow.deflection.rowwise().norm().maxCoeff();
@@ -119,8 +127,7 @@ void record_distance(const char* name, const ElastodynamicsSolution& a,
 void record_step_errors(ElastodynamicsOptions options, const ElastodynamicsSolution& solution,
                         Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
-  const bool still = solution.effects.elastic_inertia == 0 && !options.convective;
-  if (still) {
+  if (stands_still(options.path) && !options.convective) {
     options.modal_superposition = true;
     record_distance("integration_error", solve_elastodynamics(options), solution, record);
     options.modal_superposition = false;

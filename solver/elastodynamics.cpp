@@ -16,6 +16,8 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Below this ratio of pivot to diagonal the stiffness counts as singular.
+constexpr double kSingular = 1e-13;
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -37,13 +39,16 @@ Model loaded_model(const ElastodynamicsOptions& options) {
   return model;
 }
 
-/// The system on its way along the path. Poses are evaluated once for each time.
+/// The system on its way along the path. Poses are evaluated once for each time, and only once for
+/// a platform that stands still.
 class Journey {
  public:
   explicit Journey(const ElastodynamicsOptions& options)
       : options_(options),
+        stands_still_(trammel::stands_still(options.path)),
         rigid_(rigid_manipulator(options.design)),
-        moving_(loaded_model(options), options.convective) {
+        moving_(loaded_model(options), options.convective),
+        stiffness_(moving_.K()) {
     rigid_.gravity = options.gravity;
     const TrajectoryPoint first = at(options.path, options.time.start);
     start_ = inverse_dynamics(rigid_, first, options.wrench).q;
@@ -51,7 +56,13 @@ class Journey {
 
   bool go_to(double time) {
     if (time == time_) return outcome_.solved();
+    const bool been_here = stands_still_ && !std::isnan(time_);
     time_ = time;
+    if (been_here) {
+      point_.time = time;
+      return outcome_.solved();
+    }
+    factored_ = false;
     point_ = at(options_.path, time);
     dynamics_ = inverse_dynamics(rigid_, point_, options_.wrench);
     outcome_ = dynamics_.outcome;
@@ -63,6 +74,25 @@ class Journey {
       outcome_.reason = "at t = " + std::to_string(time) + " s: " + outcome_.reason;
     }
     return outcome_.solved();
+  }
+
+  /// K q = f here; false where K is singular.
+  bool solve_statically(const VectorXd& f, VectorXd& q) {
+    if (!factored_) {
+      factored_ = true;
+      ++counters_.factorizations;
+      regular_ = stiffness_.factorize(moving_.K()) && stiffness_.pivot_ratio() > kSingular;
+    }
+    if (!regular_) return false;
+    ++counters_.solves;
+    stiffness_.solve(f, q);
+    return true;
+  }
+
+  /// (f^T K^-1 f)^(1/2), twice the energy that the load f alone would store [J^(1/2)]; NaN where K
+  /// is singular.
+  double size(const VectorXd& f) {
+    return solve_statically(f, static_) ? std::sqrt(std::max(0.0, f.dot(static_))) : kNaN;
   }
 
   void load(VectorXd& f) const {
@@ -92,11 +122,23 @@ class Journey {
   [[nodiscard]] const MovingSystem& system() const { return moving_; }
   [[nodiscard]] const TrajectoryPoint& point() const { return point_; }
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
+  [[nodiscard]] bool stands_still() const { return stands_still_; }
+  /// Elements, and what was solved with K.
+  [[nodiscard]] Counters counters() const {
+    Counters all = counters_;
+    all.element_evaluations += moving_.element_evaluations();
+    return all;
+  }
 
  private:
   const ElastodynamicsOptions& options_;
+  bool stands_still_;
   RigidManipulator rigid_;
   MovingSystem moving_;
+  SparseFactor stiffness_;
+  bool factored_ = false, regular_ = false;
+  VectorXd static_;
+  Counters counters_;
   Vector9d start_;
   double time_ = kNaN;
   TrajectoryPoint point_;
@@ -284,7 +326,7 @@ class Recorder {
     deflection_.emplace_back(state.displacement.row(model.find_node("P")).head<2>());
     torque_.emplace_back(state.reaction.col(2));
     rigid_torque_.push_back(journey_.rigid_torque());
-    follow(moving.motion());
+    follow(moving);
   }
 
   void finish() {
@@ -307,14 +349,20 @@ class Recorder {
       solution_.torque.row(i) = torque_[k];
       solution_.rigid_torque.row(i) = rigid_torque_[k];
     }
-    const double first = 2 * std::numbers::pi * solution_.effects.first_frequency;
+    ElastodynamicsEffects& effects = solution_.effects;
+    const double first = 2 * std::numbers::pi * effects.first_frequency;
     const double path = fastest_ > 0 ? hardest_ / fastest_ : 0;
-    solution_.effects.elastic_inertia = path * path / (first * first);
-    solution_.effects.convective = 2 * turning_ / first;
+    effects.nominal_inertia = inertia_;
+    effects.elastic_inertia = path * path / (first * first);
+    effects.convective = 2 * turning_ / first;
   }
 
  private:
-  void follow(const NominalMotion& motion) {
+  void follow(const MovingSystem& moving) {
+    const double inertia = journey_.size(moving.inertia_load());
+    const double share = inertia == 0 ? 0 : inertia / journey_.size(moving.load());
+    if (!std::isnan(inertia_) && !(share <= inertia_)) inertia_ = share;
+    const NominalMotion& motion = moving.motion();
     for (const auto* parts : {&motion.member, &motion.plate, &motion.rigid_body}) {
       for (const PartMotion& part : *parts) turning_ = std::max(turning_, std::abs(part.rate));
     }
@@ -328,11 +376,14 @@ class Recorder {
   std::vector<double> rotation_;
   std::vector<Vector2d> deflection_;
   std::vector<Vector3d> torque_, rigid_torque_;
-  double turning_ = 0, fastest_ = 0, hardest_ = 0;
+  double inertia_ = 0, turning_ = 0, fastest_ = 0, hardest_ = 0;
 };
 
 std::vector<double> sample_times(const TransientOptions& options) {
   if (!options.sample_times.empty()) return options.sample_times;
+  if (!(options.step > 0 && options.end > options.start)) {
+    throw ModelError("a motion ends after it starts, and its step is positive");
+  }
   std::vector<double> times;
   const double whole = std::ceil((options.end - options.start) / options.step - 1e-9);
   for (Index i = 0; i <= static_cast<Index>(whole); ++i) {
@@ -345,42 +396,29 @@ std::vector<double> sample_times(const TransientOptions& options) {
 void follow_quasi_statically(const ElastodynamicsOptions& options, Journey& journey,
                              Recorder& recorder, ElastodynamicsSolution& solution) {
   const std::vector<double> times = sample_times(options.time);
-  SparseFactor factor(journey.system().K());
   VectorXd f;
   VectorXd q;
   const VectorXd still = VectorXd::Zero(journey.system().K().rows());
   for (const double time : times) {
     if (!journey.go_to(time)) return;
-    ++solution.summary.counters.factorizations;
-    ++solution.summary.counters.solves;
-    if (!factor.factorize(journey.system().K()) || !(factor.pivot_ratio() > 1e-13)) {
+    journey.load(f);
+    if (!journey.solve_statically(f, q)) {
       solution.outcome = {Status::singular,
-                          "the stiffness is singular: free joints have no "
-                          "quasi-static position"};
+                          "the stiffness is singular: free joints have no quasi-static position"};
       return;
     }
-    journey.load(f);
-    factor.solve(f, q);
-    const VectorXd Kq = journey.system().K() * q;
     MotionEnergy energy;
-    energy.strain = q.dot(Kq) / 2;
+    energy.strain = q.dot(journey.system().K() * q) / 2;
     recorder.take(time, q, still, still, energy);
     solution.summary.time = time;
   }
-}
-
-bool stands_still(const Path& path, const std::vector<double>& times) {
-  return std::all_of(times.begin(), times.end(), [&path](double time) {
-    const TrajectoryPoint point = at(path, time);
-    return point.velocity.isZero(0) && point.acceleration.isZero(0);
-  });
 }
 
 /// All modes at every sample, each by its closed form.
 void superpose_modes(const ElastodynamicsOptions& options, Journey& journey, Recorder& recorder,
                      ElastodynamicsSolution& solution) {
   const std::vector<double> times = sample_times(options.time);
-  if (!stands_still(options.path, times)) {
+  if (!journey.stands_still()) {
     throw ModelError("modes are superposed where the matrices are constant: the platform moves");
   }
   if (options.convective) throw ModelError("a platform that stands still has no convective terms");
@@ -389,13 +427,9 @@ void superpose_modes(const ElastodynamicsOptions& options, Journey& journey, Rec
   VectorXd f;
   journey.load(f);
   VectorXd q0 = VectorXd::Zero(f.size());
-  if (options.time.quasi_static_start) {
-    SparseFactor factor(K);
-    if (!factor.factorize(K) || !(factor.pivot_ratio() > 1e-13)) {
-      solution.outcome = {Status::singular, "the stiffness is singular: no quasi-static start"};
-      return;
-    }
-    factor.solve(f, q0);
+  if (options.time.quasi_static_start && !journey.solve_statically(f, q0)) {
+    solution.outcome = {Status::singular, "the stiffness is singular: no quasi-static start"};
+    return;
   }
   std::vector<double> from_start = {options.time.start};
   from_start.insert(from_start.end(), times.begin(), times.end());
@@ -420,25 +454,39 @@ void superpose_modes(const ElastodynamicsOptions& options, Journey& journey, Rec
   }
 }
 
-void estimate_effects(const ElastodynamicsOptions& options, Journey& journey,
-                      ElastodynamicsSolution& solution) {
-  ElastodynamicsEffects& effects = solution.effects;
-  const ModalSolution modes = solve_modes(journey.system().start(), {.count = 4});
-  for (const double f : modes.frequency) {
-    if (!(f > 0)) continue;
-    effects.first_frequency = f;
-    effects.damping_ratio = damping_ratio(options.damping, 2 * std::numbers::pi * f);
-    break;
-  }
-  SparseFactor factor(journey.system().K());
-  if (!factor.factorize(journey.system().K()) || !(factor.pivot_ratio() > 1e-13)) return;
-  const auto size = [&factor](const VectorXd& f) {
-    VectorXd x;
-    factor.solve(f, x);
-    return std::sqrt(std::max(0.0, f.dot(x)));
+void find_first_frequency(const ElastodynamicsOptions& options, const System& start,
+                          ElastodynamicsEffects& effects) {
+  const ModalSolution modes = solve_modes(start, {.count = 4});  // three may be rigid
+  const auto first = std::find_if(modes.frequency.begin(), modes.frequency.end(),
+                                  [](double frequency) { return frequency > 0; });
+  if (first == modes.frequency.end()) return;
+  effects.first_frequency = *first;
+  effects.damping_ratio = damping_ratio(options.damping, 2 * std::numbers::pi * *first);
+}
+
+/// By a scheme; the matrices are evaluated at every step unless the platform stands still.
+void integrate(const ElastodynamicsOptions& options, Journey& journey, Recorder& recorder,
+               ElastodynamicsSolution& solution) {
+  EquationOfMotion equation;
+  equation.M = equation.C = equation.K = journey.system().K();
+  journey.matrices(equation.M, equation.C, equation.K);
+  // Where there is no pose the numbers end, and with them the integration.
+  equation.load = [&journey](double time, VectorXd& f) {
+    if (journey.go_to(time)) {
+      journey.load(f);
+    } else {
+      f.setConstant(kNaN);
+    }
   };
-  const double inertia = size(journey.system().inertia_load());
-  effects.nominal_inertia = inertia > 0 ? inertia / size(journey.system().load()) : 0;
+  if (!journey.stands_still()) {
+    equation.update = [&journey](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
+      if (journey.go_to(time)) journey.matrices(M, C, K);
+    };
+  }
+  solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
+    recorder.take(sample.time, sample.q, sample.v, sample.a, sample.energy);
+  });
+  solution.outcome = solution.summary.outcome;
 }
 
 }  // namespace
@@ -483,6 +531,10 @@ NominalMotion nominal_motion(const ManipulatorDesign& design, const Model& model
 }
 
 ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options) {
+  if (options.convective && !options.elastic_inertia) {
+    throw ModelError(
+        "convective terms are inertia of the elastic motion: without it there are none");
+  }
   ElastodynamicsSolution solution;
   Journey journey(options);
   Recorder recorder(options, journey, solution);
@@ -490,33 +542,16 @@ ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options
     solution.outcome = journey.outcome();
     return solution;
   }
-  estimate_effects(options, journey, solution);
+  find_first_frequency(options, journey.system().start(), solution.effects);
   if (!options.elastic_inertia) {
     follow_quasi_statically(options, journey, recorder, solution);
   } else if (options.modal_superposition) {
     superpose_modes(options, journey, recorder, solution);
   } else {
-    EquationOfMotion equation;
-    equation.M = equation.C = equation.K = journey.system().K();
-    journey.matrices(equation.M, equation.C, equation.K);
-    // Where there is no pose the numbers end, and with them the integration.
-    equation.load = [&journey](double time, VectorXd& f) {
-      if (journey.go_to(time)) {
-        journey.load(f);
-      } else {
-        f.setConstant(kNaN);
-      }
-    };
-    equation.update = [&journey](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
-      if (journey.go_to(time)) journey.matrices(M, C, K);
-    };
-    solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
-      recorder.take(sample.time, sample.q, sample.v, sample.a, sample.energy);
-    });
-    solution.outcome = solution.summary.outcome;
+    integrate(options, journey, recorder, solution);
   }
   if (!journey.outcome().solved()) solution.outcome = journey.outcome();
-  solution.summary.counters.element_evaluations += journey.system().element_evaluations();
+  solution.summary.counters += journey.counters();
   recorder.finish();
   return solution;
 }

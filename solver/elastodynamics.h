@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "solver/damping.h"
@@ -27,7 +28,7 @@ struct ElastodynamicsOptions {
 
   bool nominal_inertia = true;  ///< f, Eq. 14-17
   bool elastic_inertia = true;  ///< M q.., and with it damping; off: quasi-static, K q = F + f
-  bool convective = false;      ///< G and S
+  bool convective = false;      ///< G and S; a part of elastic inertia, without which it is refused
 
   /// start, end, step, scheme, error control, samples; `quasi_static_start` or at rest.
   TransientOptions time;
@@ -36,13 +37,16 @@ struct ElastodynamicsOptions {
   bool modal_superposition = false;
 };
 
-/// Numbers without dimension that say when an effect matters; the largest over the samples.
+/// Numbers without dimension that say when an effect matters; the largest over the samples. NaN
+/// where there is no such number: no elastic mode was found, or the stiffness is singular.
 struct ElastodynamicsEffects {
-  double first_frequency = 0;  ///< at the start [Hz]
-  double damping_ratio = 0;    ///< of that mode
+  double first_frequency = kUnknown;  ///< at the start [Hz]
+  double damping_ratio = kUnknown;    ///< of that mode
   double nominal_inertia = 0;  ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
   double elastic_inertia = 0;  ///< path frequency over the first frequency, squared
   double convective = 0;       ///< twice the fastest turning of a part over the first frequency
+
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One entry a sample, as many as `time`.
@@ -66,8 +70,7 @@ struct ElastodynamicsSolution {
 };
 
 /// @throws ModelError  as `build_manipulator`, `at` and `solve_transient`; for modal superposition
-/// of
-///                     a platform that moves.
+///                     of a platform that moves; for convective terms without elastic inertia.
 [[nodiscard]] ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options);
 
 /// The nominal motion of every part of the built model, from that of the platform.

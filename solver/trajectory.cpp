@@ -89,6 +89,20 @@ TrajectoryPoint evaluate(const Spline& spline, double time) {
   return point;
 }
 
+bool is_still(const Circle& circle) {
+  return circle.radius == 0 || circle.angular_speed == 0;
+}
+
+bool is_still(const Spline& spline) {
+  return (spline.pose.rowwise() - spline.pose.row(0)).isZero(0);
+}
+
+/// A line, or from rest to rest.
+template <class Way>
+bool is_still(const Way& way) {
+  return as_vector(way.from) == as_vector(way.to);
+}
+
 }  // namespace
 
 // Unknown: the accelerations a_k. The velocity is continuous at t_k (h_k = t_{k+1} - t_k):
@@ -155,6 +169,10 @@ TrajectoryPoint at(const Path& path, double time) {
   TrajectoryPoint point = std::visit([&](const auto& p) { return evaluate(p, time); }, path);
   point.time = time;
   return point;
+}
+
+bool stands_still(const Path& path) {
+  return std::visit([](const auto& p) { return is_still(p); }, path);
 }
 
 std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step) {

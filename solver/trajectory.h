@@ -57,6 +57,9 @@ using Path = std::variant<Circle, Line, RestToRest, Spline>;
 /// @throws ModelError  where the path has no meaning, or the time is outside a spline's.
 [[nodiscard]] TrajectoryPoint at(const Path& path, double time);
 
+/// Whether the platform never moves: not at any time, whatever the times that are looked at.
+[[nodiscard]] bool stands_still(const Path& path);
+
 /// The path at the times 0, step, 2 step, ... , (points - 1) step.
 /// @throws ModelError  as `at`, or where points < 1 or the step is not positive.
 [[nodiscard]] std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step);

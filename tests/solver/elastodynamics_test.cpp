@@ -204,6 +204,47 @@ BOOST_AUTO_TEST_CASE(modes_are_not_superposed_along_a_path) {
   BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
 }
 
+BOOST_AUTO_TEST_CASE(modes_are_not_superposed_on_a_motion_that_rests_at_its_samples_alone) {
+  ElastodynamicsOptions options =
+      options_on(RestToRest{{0.25, 0.144, 0}, {0.28, 0.15, 0.1}, 0.2}, 0.2, 1e-3);
+  options.time.sample_times = {0, 0.2};
+  options.modal_superposition = true;
+  BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(where_nothing_moves_the_matrices_are_made_and_factored_once) {
+  const Pose pose{0.26, 0.15, 0.1};
+  ElastodynamicsOptions options = options_on(RestToRest{pose, pose, 1}, 0.1, 5e-4);
+  options.wrench = {10, 0, 0};
+  const ElastodynamicsSolution s = solve_elastodynamics(options);
+  BOOST_TEST(s.time.size() == 201U);
+  BOOST_TEST(s.summary.counters.factorizations == 3);  // mass, step, stiffness
+}
+
+BOOST_AUTO_TEST_CASE(convective_terms_are_not_left_out_of_a_quasi_static_equation_in_silence) {
+  // they once stood in the forces and not in the equation: 2e-4 N were missing
+  ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-2);
+  options.wrench = {10, 0, 0};
+  options.convective = true;
+  options.elastic_inertia = false;
+  BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(inertia_that_is_nothing_at_the_start_may_be_more_than_the_load_later) {
+  ElastodynamicsOptions options =
+      options_on(RestToRest{{0.25, 0.144, 0}, {0.28, 0.15, 0.1}, 0.2}, 0.2, 5e-3);
+  options.wrench = {0.1, 0, 0};
+  options.elastic_inertia = false;
+  const ElastodynamicsSolution with = solve_elastodynamics(options);
+  options.nominal_inertia = false;
+  const ElastodynamicsSolution without = solve_elastodynamics(options);
+  const double change =
+      largest_difference(with, without) / without.deflection.rowwise().norm().maxCoeff();
+  BOOST_TEST(change > 1);
+  BOOST_TEST(std::abs(with.effects.nominal_inertia / change - 1) < 0.5);
+  BOOST_TEST(with.effects.nominal_inertia == without.effects.nominal_inertia);
+}
+
 BOOST_AUTO_TEST_CASE(reactions_loads_inertia_and_drag_are_in_equilibrium_all_along) {
   for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
     for (const bool convective : {false, true}) {
@@ -263,6 +304,17 @@ BOOST_AUTO_TEST_CASE(a_path_that_leaves_the_reach_ends_there_and_says_when) {
     BOOST_TEST(s.time.size() > 3U);
     BOOST_TEST(s.deflection.allFinite());
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_mechanism_has_no_number_for_its_inertia_beside_the_load) {
+  ElastodynamicsOptions options = options_on(circle(20), 0.01, 1e-3);
+  options.design.active.fill({ActiveKind::free});
+  options.design.elbow.fill({ElbowKind::hinged});
+  options.wrench = {10, 0, 0};
+  const ElastodynamicsSolution s = solve_elastodynamics(options);
+  BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
+  BOOST_TEST(std::isnan(s.effects.nominal_inertia));
+  BOOST_TEST(s.effects.first_frequency > 0);  // the first elastic one, after three rigid motions
 }
 
 BOOST_AUTO_TEST_CASE(a_moment_needs_a_platform_that_can_turn) {

@@ -158,4 +158,16 @@ BOOST_AUTO_TEST_CASE(a_path_without_meaning_is_refused_with_a_sentence) {
   BOOST_CHECK_THROW((void)at(make_spline({0, 1, 2}, three, SplineEnds::natural), 2.1), ModelError);
 }
 
+BOOST_AUTO_TEST_CASE(a_path_stands_still_if_it_goes_nowhere_and_not_if_it_rests_now_and_then) {
+  BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0, 1}));
+  BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0.01, 0}));
+  BOOST_TEST(!stands_still(Circle{{0.25, 0.144}, 0.01, 1}));
+  BOOST_TEST(stands_still(Line{kFrom, kFrom, 1}));
+  BOOST_TEST(!stands_still(Line{kFrom, kTo, 1}));
+  BOOST_TEST(stands_still(RestToRest{kTo, kTo, 1}));
+  BOOST_TEST(!stands_still(RestToRest{kFrom, kTo, 1}));  // at rest before 0 and after 1 s
+  BOOST_TEST(stands_still(make_spline({0, 1, 2}, {kTo, kTo, kTo}, SplineEnds::at_rest)));
+  BOOST_TEST(!stands_still(make_spline({0, 1, 2}, {kTo, kFrom, kTo}, SplineEnds::at_rest)));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
