@@ -109,9 +109,7 @@ StepResult analyse_sensitivity_map(const Cursor& analysis, const Scene& scene, R
     const PoseGrid grid =
         reachable_grid(design.geometry, center.phi, analysis["columns"].get<Index>());
     const SensitivityMap map = map_first_frequency(design, parameter, grid);
-    result.counters.element_evaluations += map.counters.element_evaluations;
-    result.counters.factorizations += map.counters.factorizations;
-    result.counters.solves += map.counters.solves;
+    result.counters += map.counters;
     Reading reading = read_map(map, quantity, of, margin, positions, record);
     const FirstFrequency at_center = first_frequency(design, parameter, center);
     result.outcome = at_center.outcome;
@@ -122,10 +120,10 @@ StepResult analyse_sensitivity_map(const Cursor& analysis, const Scene& scene, R
     reading.center_frequency = at_center.frequency;
     reading.center = at_center.derivative;
     readings.push_back(reading);
-    if (positions)
+    if (positions) {
       record_curves("boundary", of, reach_boundary(design.geometry, center.phi, 360), record);
-    if (positions)
       record_curves("singular", of, parallel_singularities(design.geometry, grid), record);
+    }
     record.add("center_frequency_Hz", "", reading.center_frequency);
     record.add("center_" + quantity, "", reading.center);
     record.add("mean_frequency_Hz", "", reading.mean_frequency);

@@ -139,9 +139,7 @@ StepResult analyse_study(const Document& document, const References& references,
       const auto& [name, place] = keep[k];
       kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place) : Kept{});
     }
-    result.counters.element_evaluations += found.counters.element_evaluations;
-    result.counters.factorizations += found.counters.factorizations;
-    result.counters.solves += found.counters.solves;
+    result.counters += found.counters;
     if (found.drawing) result.drawing = std::move(found.drawing);
   }
   for (std::size_t k = 0; k < keep.size(); ++k) {

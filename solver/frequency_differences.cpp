@@ -53,6 +53,10 @@ class Differences {
   VectorXd central(double step) {
     const VectorXd above = frequencies(step);
     const VectorXd below = frequencies(-step);
+    const Index needed = sets_.empty() ? 0 : sets_.back().first + sets_.back().count;
+    if (std::min(above.size(), below.size()) < needed) {  // their modes did not converge
+      return VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
+    }
     VectorXd rate = VectorXd::Zero(count_);
     for (const FrequencySet& set : sets_) {
       for (Index k = 0; k < set.count && set.first + k < count_; ++k) {

@@ -21,12 +21,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// apart are good to the modes' round-off over it.
 constexpr double kSameFrequency = 1e-7;
 
-void add(Counters& total, const Counters& more) {
-  total.element_evaluations += more.element_evaluations;
-  total.factorizations += more.factorizations;
-  total.solves += more.solves;
-}
-
 /// The number of a part that the parameter names, or null.
 template <class Part>
 auto number(Part& part, Quantity quantity) -> decltype(&part.thickness) {
@@ -125,8 +119,11 @@ class DualDesign {
       const Dual b = trammel::dual(g.distal[i], length && parameter.distal[i] ? 1 : 0);
       const Eigen::Vector2<Dual> A = g.base[i].cast<Dual>();
       const Eigen::Vector2<Dual> C = posture.C[i].cast<Dual>();
+      // Of a straight limb the angles change infinitely fast, but only with its own lengths.
       const Eigen::Vector2<Dual> B =
-          elbow_position(g.base[i], posture.C[i], a, b, g.working_mode[i]);
+          slope(a) == 0 && slope(b) == 0
+              ? Eigen::Vector2<Dual>(posture.B[i].cast<Dual>())
+              : elbow_position(g.base[i], posture.C[i], a, b, g.working_mode[i]);
       links_[2 * i] = make(proximal, a, A, B);
       links_[2 * i + 1] = make(distal, b, B, C);
     }
@@ -390,7 +387,7 @@ FirstFrequency first_frequency(const ManipulatorDesign& design, const DesignPara
   FirstFrequency first{.outcome = {}, .frequency = kNaN, .derivative = kNaN, .counters = {}};
   for (Index count = 1;; count *= 2) {
     const FrequencySensitivity s = frequency_sensitivity(design, pose, {parameter}, count);
-    add(first.counters, s.counters);
+    first.counters += s.counters;
     first.outcome = s.outcome;
     const auto rigid = (s.frequency.array() == 0).count();
     if (rigid < s.frequency.size()) {
@@ -447,7 +444,7 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
       const FirstFrequency first = first_frequency(design, parameter, pose);
       map.frequency(j, i) = first.frequency;
       map.derivative(j, i) = first.derivative;
-      add(map.counters, first.counters);
+      map.counters += first.counters;
     }
   }
   return map;

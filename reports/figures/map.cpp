@@ -33,18 +33,20 @@ double spacing(std::vector<double> values) {
   return least;
 }
 
-Field read_field(const Numbers& x, const Numbers& y, const Numbers& value, double factor) {
+Field read_field(const Numbers& x, const Numbers& y, const Numbers& value) {
   Field field;
   std::vector<double> xs, ys;
   for (std::size_t i = 0; i < value.size(); ++i) {
     if (!x[i] || !y[i] || !value[i]) continue;
-    field.cells.push_back({*x[i], *y[i], factor * *value[i]});
+    field.cells.push_back({*x[i], *y[i], *value[i]});
     xs.push_back(*x[i]);
     ys.push_back(*y[i]);
   }
   if (field.cells.empty()) return field;
   field.dx = spacing(xs);
   field.dy = spacing(ys);
+  if (field.dx == 0) field.dx = field.dy;  // one column, or one row, of square cells
+  if (field.dy == 0) field.dy = field.dx;
   std::sort(field.cells.begin(), field.cells.end(), [&](const Cell& a, const Cell& b) {
     return std::abs(a.y - b.y) > 0.5 * field.dy ? a.y < b.y : a.x < b.x;
   });
@@ -141,12 +143,10 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
   }
 }
 
-Table table_of(const Field& field, const PlotRequest& request, double factor) {
+Table table_of(const Field& field, const PlotRequest& request) {
   Table table;
   table.heads = {request.x, request.y.front(), request.value};
-  for (const Cell& cell : field.cells) {
-    table.rows.push_back({cell.x, cell.y, cell.value / factor});
-  }
+  for (const Cell& cell : field.cells) table.rows.push_back({cell.x, cell.y, cell.value});
   return table;
 }
 
@@ -162,16 +162,14 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
     problem = "there is no " + request.value + " over " + request.x + " and " + request.y.front();
     return std::nullopt;
   }
-  double largest = 0;
-  for (const Number& number : *value)
-    if (number) largest = std::max(largest, std::abs(*number));
   const Quantity quantity = parse_quantity(request.value);
-  const Scale scale{1, quantity.unit};
-  Field field = read_field(*x, *y, *value, scale.factor);
-  if (field.cells.empty()) {
-    problem = request.value + " has no numbers";
+  Field field = read_field(*x, *y, *value);
+  if (field.cells.empty() || !(field.dx > 0)) {
+    problem = request.value + (field.cells.empty() ? " has no numbers" : " has a single position");
     return std::nullopt;
   }
+  double largest = 0;
+  for (const Cell& cell : field.cells) largest = std::max(largest, std::abs(cell.value));
   const std::vector<double> limits = class_limits(field);
   for (Cell& cell : field.cells) {
     const auto above = std::upper_bound(limits.begin(), limits.end(), cell.value);
@@ -201,13 +199,14 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   figure.id = slug(info.id + "-" + request.id);
   figure.title = request.title;
   figure.caption = request.caption + (request.caption.empty() ? "" : " ") +
-                   "Colours: " + quantity.label + (scale.unit.empty() ? "" : " in " + scale.unit) +
+                   "Colours: " + quantity.label +
+                   (quantity.unit.empty() ? "" : " in " + quantity.unit) +
                    ", in classes of about as many positions each.";
   figure.alt = "Map of " + in_words(quantity) + " over positions; the largest magnitude is " +
-               trimmed(scale.factor * largest, 3) + " " + scale.unit + ".";
+               trimmed(largest, 3) + " " + quantity.unit + ".";
   figure.height = 420 + key_height;
   figure.commands = script.commands();
-  figure.data = table_of(field, request, scale.factor);
+  figure.data = table_of(field, request);
   return figure;
 }
 
