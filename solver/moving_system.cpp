@@ -1,11 +1,11 @@
 #include "solver/moving_system.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 #include "solver/inertia.h"
+#include "solver/plane.h"
 #include "solver/quadrature.h"
 #include "solver/strain.h"
 
@@ -17,6 +17,8 @@ using Eigen::VectorXd;
 
 /// Entries of T beyond this have cost four digits.
 constexpr double kLargestT = 1e4;
+/// An entry of T below this share of its row's largest is round-off of zero.
+constexpr double kVanishing = 1e-11;
 
 /// d/dangle of a rotation, times its inverse.
 const Eigen::Matrix3d& generator() {
@@ -29,16 +31,6 @@ Matrix6d generator6() {
   Matrix6d J = Matrix6d::Zero();
   J.topLeftCorner<3, 3>() = J.bottomRightCorner<3, 3>() = generator();
   return J;
-}
-
-Vector2d turned(const Vector2d& v, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
-Vector2d quarter_turn(const Vector2d& v) {
-  return {-v.y(), v.x()};
 }
 
 /// The vector's derivative in time, of order 0, 1 or 2, when it turns with a part.
@@ -88,6 +80,14 @@ MovingSystem::MovingSystem(const Model& model, bool convective)
                 (constraints_.pivot[r] >= 0 && (source == ConstraintRow::Source::rigid_body ||
                                                 source == ConstraintRow::Source::inextensible));
   }
+  motion_.position.resize(static_cast<Index>(model.nodes.size()), 2);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    motion_.position.row(static_cast<Index>(i)) = model.nodes[i].position;
+  }
+  motion_.acceleration.setZero(static_cast<Index>(model.nodes.size()), 2);
+  motion_.member.resize(model.members.size());
+  motion_.plate.resize(model.plates.size());
+  motion_.rigid_body.resize(model.rigid_bodies.size());
   if (variable_) widen_constraints();
   make_frames();
   make_triangles();
@@ -98,14 +98,6 @@ MovingSystem::MovingSystem(const Model& model, bool convective)
   inertia_u_.setZero(start_.coordinates.size);
   inertia_load_.setZero(K_.rows());
   load_.setZero(K_.rows());
-  motion_.position.resize(static_cast<Index>(model.nodes.size()), 2);
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    motion_.position.row(static_cast<Index>(i)) = model.nodes[i].position;
-  }
-  motion_.acceleration.setZero(static_cast<Index>(model.nodes.size()), 2);
-  motion_.member.resize(model.members.size());
-  motion_.plate.resize(model.plates.size());
-  motion_.rigid_body.resize(model.rigid_bodies.size());
   static_cast<void>(move_to(NominalMotion(motion_)));
 }
 
@@ -208,47 +200,48 @@ void MovingSystem::make_springs() {
 // ---- places
 // --------------------------------------------------------------------------------------
 
-/// T with every entry that elimination with the same pivots can give at another pose.
+/// Rows that T is solved from, and T with every entry that some pose needs: those that do not
+/// vanish at three turns of the parts in general position. Of the pattern alone, each node of an
+/// inextensible member would follow all before it; in numbers what they add cancels.
 void MovingSystem::widen_constraints() {
-  const auto size = static_cast<std::size_t>(start_.coordinates.size);
-  std::vector<std::vector<Index>> named(size);  // coordinate -> free ones it follows
-  std::vector<Index> row_of(size, -1);
+  auto& T = constraints_.T;
+  kept_number_.assign(static_cast<std::size_t>(T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
-    if (constraints_.pivot[r] >= 0) {
-      row_of[static_cast<std::size_t>(constraints_.pivot[r])] = static_cast<Index>(r);
+    if (constraints_.pivot[r] < 0 ||
+        constraints_.rows[r].source == ConstraintRow::Source::support) {
+      continue;
     }
+    kept_number_[static_cast<std::size_t>(constraints_.pivot[r])] =
+        static_cast<Index>(kept_.size());
+    kept_.push_back(r);
   }
-  for (std::size_t u = 0; u < size; ++u) {
-    if (constraints_.free[u] >= 0) named[u] = {constraints_.free[u]};
-  }
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (std::size_t u = 0; u < size; ++u) {
-      if (row_of[u] < 0) continue;
-      const ConstraintRow& row = constraints_.rows[static_cast<std::size_t>(row_of[u])];
-      if (row.source == ConstraintRow::Source::support) continue;
-      std::vector<Index> all = named[u];
-      for (const auto& term : row.terms) {
-        const std::vector<Index>& other = named[static_cast<std::size_t>(term.first)];
-        all.insert(all.end(), other.begin(), other.end());
-      }
-      std::sort(all.begin(), all.end());
-      all.erase(std::unique(all.begin(), all.end()), all.end());
-      if (all.size() == named[u].size()) continue;
-      named[u] = std::move(all);
-      grows = true;
+  Eigen::ArrayXX<bool> needed(static_cast<Index>(kept_.size()), T.cols());
+  needed.setConstant(false);
+  NominalMotion general = motion_;
+  double turn = 1;
+  for (int found = 0, trial = 0; found < 3 && trial < 100; ++trial) {
+    for (auto* parts : {&general.member, &general.rigid_body}) {
+      for (PartMotion& part : *parts) part.turn = 0.4 * std::sin(turn += std::numbers::phi);
+    }
+    const MatrixXd X = follow(general).cwiseAbs();
+    if (!(X.allFinite() && X.maxCoeff() < kLargestT)) continue;
+    ++found;
+    for (Index i = 0; i < X.rows(); ++i) {
+      needed.row(i) = needed.row(i) || X.row(i).array() > kVanishing * X.row(i).maxCoeff();
     }
   }
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t u = 0; u < size; ++u) {
-    for (const Index q : named[u]) {
-      const double value = start_.T.coeff(static_cast<Index>(u), q);
-      entries.emplace_back(static_cast<int>(u), static_cast<int>(q), value);
+  for (Index u = 0; u < T.rows(); ++u) {
+    const Index row = kept_number_[static_cast<std::size_t>(u)];
+    const Index own = constraints_.free[static_cast<std::size_t>(u)];
+    for (Index q = 0; q < T.cols(); ++q) {
+      const bool enters = row >= 0 ? needed(row, q) : q == own;
+      if (enters) entries.emplace_back(static_cast<int>(u), static_cast<int>(q), T.coeff(u, q));
     }
   }
-  constraints_.T.setFromTriplets(entries.begin(), entries.end());
-  constraints_.T.makeCompressed();
-  T_dot_ = 0.0 * constraints_.T;
+  T.setFromTriplets(entries.begin(), entries.end());
+  T.makeCompressed();
+  T_dot_ = 0.0 * T;
   T_ddot_ = T_dot_;
 }
 
@@ -356,54 +349,54 @@ bool MovingSystem::constraints_move(const NominalMotion& motion) const {
   return false;
 }
 
+/// X of C_p X = - C_f: what the eliminated coordinates are of the free ones; kept row x q.
+MatrixXd MovingSystem::follow(const NominalMotion& motion) {
+  const auto k = static_cast<Index>(kept_.size());
+  MatrixXd pivots = MatrixXd::Zero(k, k);
+  MatrixXd rest = MatrixXd::Zero(k, constraints_.T.cols());
+  for (Index i = 0; i < k; ++i) {
+    const ConstraintRow& row = constraints_.rows[kept_[static_cast<std::size_t>(i)]];
+    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+      const auto u = static_cast<std::size_t>(row.terms[t].first);
+      const double c = coefficient(row, t, motion, 0);
+      if (kept_number_[u] >= 0) pivots(i, kept_number_[u]) += c;
+      if (constraints_.free[u] >= 0) rest(i, constraints_.free[u]) -= c;
+    }
+  }
+  pivots_.compute(pivots);
+  return pivots_.solve(rest);
+}
+
 /// C T = 0 with the pivots of the start, and its derivatives: C_p X = - C_f,
 /// C_p X. = - C. T, C_p X.. = - C.. T - 2 C. T..
 Outcome MovingSystem::solve_constraints(const NominalMotion& motion) {
   auto& T = constraints_.T;
-  std::vector<std::size_t> kept;
-  std::vector<Index> number(static_cast<std::size_t>(T.rows()), -1);
-  for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
-    if (constraints_.pivot[r] < 0 ||
-        constraints_.rows[r].source == ConstraintRow::Source::support) {
-      continue;
-    }
-    number[static_cast<std::size_t>(constraints_.pivot[r])] = static_cast<Index>(kept.size());
-    kept.push_back(r);
-  }
-  const auto k = static_cast<Index>(kept.size());
-  MatrixXd pivots = MatrixXd::Zero(k, k);
-  MatrixXd rest = MatrixXd::Zero(k, T.cols());
-  for (Index i = 0; i < k; ++i) {
-    ConstraintRow& row = constraints_.rows[kept[static_cast<std::size_t>(i)]];
-    for (std::size_t t = 0; t < row.terms.size(); ++t) {
-      const auto u = static_cast<std::size_t>(row.terms[t].first);
-      const double c = coefficient(row, t, motion, 0);
-      row.terms[t].second = c;
-      if (number[u] >= 0) pivots(i, number[u]) += c;
-      if (constraints_.free[u] >= 0) rest(i, constraints_.free[u]) -= c;
-    }
-  }
-  const Eigen::PartialPivLU<MatrixXd> lu(pivots);
-  const auto store = [&](const MatrixXd& X, Eigen::SparseMatrix<double, Eigen::RowMajor>& target) {
-    for (Index u = 0; u < target.rows(); ++u) {
-      const Index row = number[static_cast<std::size_t>(u)];
-      if (row < 0) continue;
-      for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(target, u); it; ++it) {
-        it.valueRef() = X(row, it.col());
-      }
-    }
-  };
-  const MatrixXd X = lu.solve(rest);
-  if (!(X.cwiseAbs().maxCoeff() < kLargestT)) {
+  const MatrixXd X = follow(motion);
+  if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,
             "the coordinates that the constraints eliminated at the start do not suit this pose"};
   }
+  for (const std::size_t r : kept_) {  // only now, so that what is refused leaves no trace
+    ConstraintRow& row = constraints_.rows[r];
+    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+      row.terms[t].second = coefficient(row, t, motion, 0);
+    }
+  }
+  const auto store = [&](const MatrixXd& values, RowMajorMatrix& target) {
+    for (Index u = 0; u < target.rows(); ++u) {
+      const Index row = kept_number_[static_cast<std::size_t>(u)];
+      if (row < 0) continue;
+      for (RowMajorMatrix::InnerIterator it(target, u); it; ++it) {
+        it.valueRef() = values(row, it.col());
+      }
+    }
+  };
   store(X, T);
   if (!convective_) return {};
-  const auto product = [&](int order, const Eigen::SparseMatrix<double, Eigen::RowMajor>& of) {
-    MatrixXd sum = MatrixXd::Zero(k, of.cols());
-    for (Index i = 0; i < k; ++i) {
-      const ConstraintRow& row = constraints_.rows[kept[static_cast<std::size_t>(i)]];
+  const auto product = [&](int order, const RowMajorMatrix& of) {
+    MatrixXd sum = MatrixXd::Zero(X.rows(), X.cols());
+    for (Index i = 0; i < X.rows(); ++i) {
+      const ConstraintRow& row = constraints_.rows[kept_[static_cast<std::size_t>(i)]];
       for (std::size_t t = 0; t < row.terms.size(); ++t) {
         const double c = coefficient(row, t, motion, order);
         if (c != 0) sum.row(i) += c * of.row(row.terms[t].first);
@@ -411,8 +404,8 @@ Outcome MovingSystem::solve_constraints(const NominalMotion& motion) {
     }
     return sum;
   };
-  store(lu.solve(-product(1, T)), T_dot_);
-  store(lu.solve(-product(2, T) - 2 * product(1, T_dot_)), T_ddot_);
+  store(pivots_.solve(-product(1, T)), T_dot_);
+  store(pivots_.solve(-product(2, T) - 2 * product(1, T_dot_)), T_ddot_);
   return {};
 }
 

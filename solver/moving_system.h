@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 #include <vector>
 
@@ -77,6 +78,7 @@ class MovingSystem {
   [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }
 
  private:
+  using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   enum class Layout { frame, triangle, lump, scalar };  // what the coordinates are
 
   /// Matrices in the axes of the part at the start.
@@ -106,6 +108,7 @@ class MovingSystem {
   [[nodiscard]] double coefficient(const ConstraintRow& row, std::size_t term,
                                    const NominalMotion& motion, int order) const;
   [[nodiscard]] bool constraints_move(const NominalMotion& motion) const;
+  [[nodiscard]] Eigen::MatrixXd follow(const NominalMotion& motion);
   [[nodiscard]] Outcome solve_constraints(const NominalMotion& motion);
   [[nodiscard]] PartMotion part_of(const Element& element) const;
   [[nodiscard]] Matrix6d turned_matrix(const Element& element, const Matrix6d& A,
@@ -123,7 +126,10 @@ class MovingSystem {
   std::vector<Element> elements_;
   std::vector<Term> terms_;
   SparseMatrix K_, M_, C_convective_, K_convective_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> T_dot_, T_ddot_;  // pattern of T
+  RowMajorMatrix T_dot_, T_ddot_;   // pattern of T
+  std::vector<std::size_t> kept_;   // rows of C beside supports ...
+  std::vector<Index> kept_number_;  // ... and of each coordinate that they eliminate, or -1
+  Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
   std::vector<std::array<Index, 2>> span_;  // mesh node -> ends of its member ...
   std::vector<double> fraction_;            // ... and where it lies between them
   NominalMotion motion_;

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "solver/elastodynamics.h"
 #include "solver/inertia.h"
@@ -290,6 +291,42 @@ BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_conve
       BOOST_TEST(std::abs(stiffness[i]) < 1e-12 * scale);
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_matrices_of_inextensible_links_grow_with_their_elements_and_not_faster) {
+  // by the pattern of the constraints alone each node followed all before it on its link
+  std::vector<double> entries;
+  for (const Index elements : {8, 16}) {
+    ManipulatorDesign design = designs()[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      design.proximal[i].elements = design.distal[i].elements = elements;
+    }
+    const Walk walk(design, waltz(), 0.1, false);
+    entries.push_back(static_cast<double>(walk.moving.K().nonZeros()));
+  }
+  BOOST_TEST(entries[1] / entries[0] < 2.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_that_is_refused_leaves_no_trace) {
+  Walk walk(designs()[3], waltz(), 0.1, false);
+  MovingSystem& moving = walk.moving;
+  const NominalMotion before = moving.motion();
+  const VectorXd force = VectorXd::LinSpaced(moving.constraints().T.rows(), -1, 2);
+  const VectorXd multipliers = moving.constraints().multipliers(force);
+  int refused = 0;
+  for (std::size_t member = 0; member < before.member.size(); ++member) {
+    const auto& ends = moving.start().model.members[member].nodes;
+    const Vector2d d = before.position.row(ends[1]) - before.position.row(ends[0]);
+    for (const double along : {0.0, 0.5}) {  // of x, of y: the other component is no pivot then
+      NominalMotion motion = before;
+      motion.member[member].turn = along * std::numbers::pi - std::atan2(d.y(), d.x());
+      refused += moving.move_to(motion).solved() ? 0 : 1;
+      BOOST_TEST_REQUIRE(moving.move_to(before).solved());
+      BOOST_TEST((moving.constraints().multipliers(force) - multipliers).norm() <
+                 1e-10 * multipliers.norm());
+    }
+  }
+  BOOST_TEST(refused > 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
