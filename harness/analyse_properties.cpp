@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "harness/analysis_kinds.h"
+#include "solver/plane.h"
 
 namespace trammel {
 namespace {
@@ -52,7 +53,7 @@ Body body_of(const Model& model, const Triangle& triangle) {
   };
   const Vector2d a = corner(1) - corner(0), b = corner(2) - corner(0), c = b - a;
   const Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
-  const double area = std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
+  const double area = std::abs(cross(a, b)) / 2;
   const double mass = plate.material.rho * plate.thickness * area;
   return {mass, (corner(0) + corner(1) + corner(2)) / 3,
           mass * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm()) / 36};

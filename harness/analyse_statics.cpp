@@ -5,6 +5,7 @@
 
 #include "harness/analysis_kinds.h"
 #include "solver/large_statics.h"
+#include "solver/larger.h"
 #include "solver/statics.h"
 
 namespace trammel {
@@ -103,8 +104,7 @@ void record_plates(const Model& model, const StaticSolution& solution, double ro
     const Eigen::RowVector3d s = solution.triangle_stress.row(static_cast<Index>(i));
     const double von_mises = std::sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]);
     double& plate = largest[static_cast<std::size_t>(model.triangles[i].plate)];
-    // A NaN must come through.
-    if (!(von_mises <= plate)) plate = von_mises;
+    plate = larger(plate, von_mises);
   }
   for (std::size_t p = 0; p < largest.size(); ++p) {
     record.add("von_mises_stress_Pa", model.plates[p].name, largest[p], roundoff);

@@ -6,6 +6,7 @@
 
 #include "harness/analysis.h"
 #include "harness/stopwatch.h"
+#include "solver/larger.h"
 
 namespace trammel {
 namespace {
@@ -162,8 +163,7 @@ ErrorNorms error_norms(const Observations& found, const Observations& truth, con
         truth.at(i).empty() ? found[i] : relative_errors(found[i], truth[i], scale, largest);
     for (const double error : errors) {
       const double size = std::abs(error);
-      // A NaN must come through, and stay.
-      if (!(size <= norms.max) && !std::isnan(norms.max)) norms.max = size;
+      norms.max = larger(norms.max, size);
       squares += size * size;
       sum += size;
       ++count;

@@ -7,6 +7,7 @@
 
 #include "harness/reference_library.h"
 #include "harness/stopwatch.h"
+#include "solver/larger.h"
 
 namespace trammel {
 namespace {
@@ -64,8 +65,7 @@ double change(const std::vector<double>& full, const std::vector<double>& other,
     const double by = each ? std::abs(full[i]) : scale;
     const double difference = std::abs(other[i] - full[i]);
     if (difference == 0) continue;
-    const double relative = by > 0 ? difference / by : kInfinite;
-    most = relative <= most ? most : relative;  // NaN comes through
+    most = larger(most, by > 0 ? difference / by : kInfinite);
   }
   return std::isnan(most) ? kInfinite : most;
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "solver/frame_element.h"
+#include "solver/plane.h"
 
 namespace trammel {
 namespace {
@@ -22,7 +23,7 @@ class Path {
     }
     radius_ = a.norm();
     angle_ = std::atan2(a.y(), a.x());
-    turn_ = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    turn_ = std::atan2(cross(a, b), a.dot(b));
     if (turn_ <= 0) turn_ += 2 * std::numbers::pi;
   }
 

@@ -8,6 +8,7 @@
 
 #include "harness/material_reader.h"
 #include "solver/block_mesh.h"
+#include "solver/plane.h"
 
 namespace trammel {
 namespace {
@@ -24,10 +25,6 @@ const Vector2d& position(const Model& parts, Index node) {
 
 std::string point_words(const Vector2d& point) {
   return "(" + shortest(point.x()) + ", " + shortest(point.y()) + ") m";
-}
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 double twice_area(const Model& parts, const Triangle& triangle) {

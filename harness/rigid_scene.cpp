@@ -1,7 +1,8 @@
 #include "harness/rigid_scene.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+
+#include "solver/plane.h"
 
 namespace trammel {
 namespace {
@@ -41,9 +42,8 @@ Vector3d wrench_on_platform(const Scene& scene, const Pose& pose) {
     wrench += load.force;
     if (load.node == P) continue;
     const auto corner = static_cast<std::size_t>(load.node - first_C);
-    const Eigen::Rotation2Dd turn(pose.phi);
-    const Vector2d arm = turn * scene.manipulator->geometry.platform[corner];
-    wrench.z() += arm.x() * load.force.y() - arm.y() * load.force.x();
+    wrench.z() +=
+        cross(turned(scene.manipulator->geometry.platform[corner], pose.phi), load.force.head<2>());
   }
   return wrench;
 }

@@ -4,6 +4,7 @@
 #include "solver/edge_load.h"
 #include "solver/element_mass.h"
 #include "solver/inertia.h"
+#include "solver/plane.h"
 #include "solver/projection.h"
 #include "solver/strain.h"
 #include "solver/symmetric_builder.h"
@@ -176,9 +177,8 @@ class Assembler {
     });
     for (const PointMass& lump : model.masses) {
       const Vector2d weight = lump.mass * model.gravity;
-      const double moment = lump.offset.x() * weight.y() - lump.offset.y() * weight.x();
       add_load(system_.coordinates.node[static_cast<std::size_t>(lump.node)],
-               Vector3d(weight.x(), weight.y(), moment));
+               Vector3d(weight.x(), weight.y(), cross(lump.offset, weight)));
     }
   }
 

@@ -5,8 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/larger.h"
 #include "solver/modal_superposition.h"
 #include "solver/modes.h"
+#include "solver/plane.h"
 #include "solver/sparse_factor.h"
 #include "solver/triangle_element.h"
 
@@ -18,20 +20,6 @@ using Eigen::VectorXd;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Below this ratio of pivot to diagonal the stiffness counts as singular.
 constexpr double kSingular = 1e-13;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-Vector2d quarter_turn(const Vector2d& v) {
-  return {-v.y(), v.x()};
-}
-
-Vector2d turned(const Vector2d& v, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
 
 Model loaded_model(const ElastodynamicsOptions& options) {
   Model model = build_manipulator(options.design, at(options.path, options.time.start).pose);
@@ -222,9 +210,8 @@ class Recovery {
       before = e.member;
       double& largest = state_.member_stress[e.member];
       for (const Eigen::RowVector3d& s : {first, second}) {
-        const double stress =
-            std::abs(s[0]) / e.section.area + std::abs(s[2]) / e.section.section_modulus;
-        if (!(stress <= largest)) largest = stress;
+        largest = larger(
+            largest, std::abs(s[0]) / e.section.area + std::abs(s[2]) / e.section.section_modulus);
       }
     }
   }
@@ -361,7 +348,7 @@ class Recorder {
   void follow(const MovingSystem& moving) {
     const double inertia = journey_.size(moving.inertia_load());
     const double share = inertia == 0 ? 0 : inertia / journey_.size(moving.load());
-    if (!std::isnan(inertia_) && !(share <= inertia_)) inertia_ = share;
+    inertia_ = larger(inertia_, share);
     const NominalMotion& motion = moving.motion();
     for (const auto* parts : {&motion.member, &motion.plate, &motion.rigid_body}) {
       for (const PartMotion& part : *parts) turning_ = std::max(turning_, std::abs(part.rate));

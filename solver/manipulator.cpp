@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "solver/plane.h"
 #include "solver/platform_mesh.h"
 
 namespace trammel {
@@ -29,10 +30,6 @@ void require(bool holds, const std::string& sentence) {
 template <Real T>
 bool positive(const T& number) {
   return value(number) > 0 && std::isfinite(value(number));
-}
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 double platform_area(const std::array<Vector2d, 3>& c) {

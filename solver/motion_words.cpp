@@ -7,6 +7,7 @@
 
 #include "solver/free_motions.h"
 #include "solver/labels.h"
+#include "solver/plane.h"
 
 namespace trammel {
 namespace {
@@ -200,7 +201,7 @@ class Narrator {
       const Vector2d arm = at(node) - motion.point;
       const Vector2d v = shift_of(u, node);
       motion.shift += v / static_cast<double>(nodes.size());
-      motion.turn += arm.x() * v.y() - arm.y() * v.x();
+      motion.turn += cross(arm, v);
       inertia += arm.squaredNorm();
       largest = std::max(largest, v.norm());
     }

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "solver/plane.h"
+
 namespace trammel {
 
 namespace {
@@ -13,9 +15,7 @@ namespace {
 using Corners = std::array<Vector2d, 3>;
 
 double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  const Vector2d u = b - a;
-  const Vector2d v = c - a;
-  return u.x() * v.y() - u.y() * v.x();
+  return cross(b - a, c - a);
 }
 
 /// Splits every triangle in four at its mid-sides; edges share their node.

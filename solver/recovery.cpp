@@ -5,16 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/larger.h"
+#include "solver/plane.h"
 #include "solver/strain.h"
 
 namespace trammel {
 namespace {
 
 using Eigen::VectorXd;
-
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Force and moment about the world origin.
 struct Wrench {
@@ -181,9 +179,7 @@ class Recovery {
     double largest = 0;
     const auto look = [&](double x) {
       if (!(x >= 0 && x <= e.length)) return;
-      const double value = stress(e, from_start, x, f.at(x, e.length));
-      largest = std::isnan(value) || std::isnan(largest) ? std::numeric_limits<double>::quiet_NaN()
-                                                         : std::max(largest, value);
+      largest = larger(largest, stress(e, from_start, x, f.at(x, e.length)));
     };
     look(0);
     look(e.length);
@@ -210,9 +206,8 @@ class Recovery {
       if (first) from_start = 0;
       if (first) solution_.resultant_start.row(e.member) = forces.start;
       solution_.resultant_end.row(e.member) = forces.end;
-      const double stress = largest_stress(e, from_start, forces);
       double& largest = solution_.member_stress[e.member];
-      if (!(stress <= largest)) largest = std::isnan(largest) ? largest : stress;
+      largest = larger(largest, largest_stress(e, from_start, forces));
       from_start += e.length;
     }
   }

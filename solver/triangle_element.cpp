@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solver/plane.h"
+
 namespace trammel {
 
 TrianglePoints corners(const Model& model, const Triangle& triangle) {
@@ -13,9 +15,7 @@ TrianglePoints corners(const Model& model, const Triangle& triangle) {
 }
 
 double signed_area(const TrianglePoints& points) {
-  const Vector2d a = points[1] - points[0];
-  const Vector2d b = points[2] - points[0];
-  return (a.x() * b.y() - a.y() * b.x()) / 2;
+  return cross(points[1] - points[0], points[2] - points[0]) / 2;
 }
 
 TriangleDeformation triangle_deformation(const TrianglePoints& points) {

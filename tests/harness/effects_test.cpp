@@ -1,4 +1,6 @@
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include "harness/catalogue.h"
@@ -131,6 +133,13 @@ BOOST_AUTO_TEST_CASE(each_scene_calls_for_the_effects_that_it_was_made_for) {
       BOOST_TEST(effect_names(study.choice.chosen) == found->second);
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_change_that_is_not_a_number_is_not_forgotten_over_the_next) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const Quantities full = {{"displacement_x_m:B", {{1, 2, 3}, {}}}};
+  const Quantities other = {{"displacement_x_m:B", {{nothing, 2, 3.1}, {}}}};
+  BOOST_TEST(std::isinf(largest(changes_between(full, other, 1))));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
