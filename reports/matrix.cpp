@@ -16,16 +16,17 @@ constexpr std::size_t open_rows = 10;  ///< of more than three rows beyond these
 constexpr double full_colour = 0.4;    ///< relative difference that is drawn in full colour
 constexpr double reached = 0.01;       ///< a target nearer than this counts as reached
 
-/// One variant against one reference: its checks by entry.
+/// One variant: its checks by entry.
 struct Row {
   const Run* run;
   std::map<int, const Check*> checks;
   double distance = 0;  ///< root mean square of the relative differences
 };
 
-/// All variants that compare one quantity with one reference.
+/// All variants that make one check. Another check may compare the same entries with other ones of
+/// the same reference.
 struct Subject {
-  std::string reference, quantity;
+  std::string reference, quantity, check;
   std::vector<Row> rows;
   std::map<int, double> targets;
 };
@@ -36,26 +37,22 @@ bool belongs(const Check& check) {
          check.verdict != Verdict::error && check.verdict != Verdict::not_run;
 }
 
-/// Entries of the reference are told apart by their values: a check may compare entry 2 of a
-/// solution with entry 1 of a reference, so columns are the targets.
-int column_of(Subject& subject, const Check& check) {
-  subject.targets.emplace(*check.index, *check.expected);
-  return *check.index;
-}
-
 std::vector<Subject> subjects(const Family& family) {
   std::vector<Subject> out;
   for (const Run* run : family.runs) {
     for (const Check& check : run->checks) {
       if (!belongs(check)) continue;
       auto subject = std::find_if(out.begin(), out.end(), [&](const Subject& s) {
-        return s.reference == check.reference && s.quantity == check.quantity;
+        return s.reference == check.reference && s.quantity == check.quantity &&
+               s.check == check.name;
       });
       if (subject == out.end())
-        subject = out.insert(out.end(), Subject{check.reference, check.quantity, {}, {}});
+        subject =
+            out.insert(out.end(), Subject{check.reference, check.quantity, check.name, {}, {}});
       if (subject->rows.empty() || subject->rows.back().run != run)
         subject->rows.push_back({run, {}, 0});
-      subject->rows.back().checks[column_of(*subject, check)] = &check;
+      subject->rows.back().checks[*check.index] = &check;
+      subject->targets.emplace(*check.index, *check.expected);
     }
   }
   return out;
@@ -213,9 +210,10 @@ Data comparison_matrices(const Family& family, const Results& results) {
 }
 
 std::string comparison_conclusion(const Family& family, const Results& results,
-                                  const std::string& reference) {
+                                  const Check& check) {
   for (const Subject& subject : compared(family))
-    if (subject.reference == reference) return conclusion(subject, family, results);
+    if (subject.reference == check.reference && subject.check == check.name)
+      return conclusion(subject, family, results);
   return "";
 }
 

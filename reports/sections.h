@@ -40,13 +40,13 @@ struct Answer {
 /// Nothing where no run did.
 void set_effects(Data& data, const std::vector<const Run*>& runs);
 
-/// For every reference that validation checks of many variants compare one quantity with: variants
-/// down, entries across, nearest first. @returns a list, empty where there is none.
+/// For every validation check that many variants make against a reference: variants down, entries
+/// across, nearest first. @returns a list, empty where there is none.
 [[nodiscard]] Data comparison_matrices(const Family& family, const Results& results);
 
-/// What such a matrix says about a reference in a sentence or two; empty if there is none.
+/// What the matrix of such a check says in a sentence or two; empty if there is none.
 [[nodiscard]] std::string comparison_conclusion(const Family& family, const Results& results,
-                                                const std::string& reference);
+                                                const Check& check);
 
 /// The battery of hard cases: items in order, each indicator with its worst value, bound, reason and
 /// verdict, and links to the pictures; empty where no case belongs to it.

@@ -219,7 +219,7 @@ Data known_data(const Known& known, const Results& results) {
   const bool one = known.reasons.size() == 1;
   set_text(data, "reason",
            one ? known.reasons.front().text
-               : comparison_conclusion(*known.family, results, known.first->reference));
+               : comparison_conclusion(*known.family, results, *known.first));
   set_text(data, "reasons_title", one ? "" : count(known.reasons.size(), "reason"));
   data.set("reasons", one ? list() : reasons_data(known, results));
   return data;

@@ -143,6 +143,7 @@ std::string conclusion(const Subject& subject) {
       ++n;
       if (check->verdict != Verdict::pass) ++outside;
     }
+  if (span.low > span.high) return "No difference could be computed.";
   std::string text = n == 1 ? "The difference is " + words(span.low, subject.measure)
                             : "The " + count(n, "difference") + " lie between " +
                                   words(span.low, subject.measure) + " and " +

@@ -153,4 +153,23 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
   BOOST_TEST(inner_edges(drawing, 20).empty());
 }
 
+BOOST_AUTO_TEST_CASE(a_discrepancy_that_could_not_be_computed_is_not_given_a_number) {
+  Run run = run_with({});
+  run.checks = {judged("known", 0.1, 0.2), judged("known", 0.1, 0.2)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    run.checks[i].index = static_cast<int>(i);
+    run.checks[i].known_discrepancy = true;
+  }
+  const auto caption = [&run] {
+    const auto figures = discrepancy_figures(beam(), Results{}, {&run});
+    return figures.empty() ? std::string() : figures.front().caption;
+  };
+  BOOST_TEST(contains(caption(), "The 2 differences lie between"), caption());
+  for (Check& check : run.checks) {
+    check.difference.reset();
+    check.verdict = Verdict::error;
+  }
+  BOOST_TEST(contains(caption(), "No difference could be computed."), caption());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
