@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "harness/analysis_kinds.h"
@@ -24,12 +25,32 @@ MovingState state_of(const System& system, const MotionHistory& motion, Index sa
   return state;
 }
 
+/// Of free vibration: how far the energy goes from where it started, over the largest kinetic one.
+class EnergyDrift {
+ public:
+  void look(double kinetic, double strain) {
+    const double total = kinetic + strain;
+    if (start_ < 0) start_ = total;
+    drift_ = std::max(drift_, std::abs(total - start_));
+    most_kinetic_ = std::max(most_kinetic_, kinetic);
+  }
+  void record(Recorder& record) const {
+    if (most_kinetic_ > 0) record.add("energy_drift", "", drift_ / most_kinetic_);
+  }
+
+ private:
+  double start_ = -1, drift_ = 0, most_kinetic_ = 0;
+};
+
 void record_energy(const System& system, const MotionHistory& motion, Index sample,
-                   Recorder& record) {
+                   EnergyDrift& drift, Recorder& record) {
   const Eigen::VectorXd q = motion.q.col(sample);
   const Eigen::VectorXd v = motion.v.col(sample);
-  record.add("kinetic_energy_J", "", 0.5 * v.dot(system.M * v));
-  record.add("strain_energy_J", "", 0.5 * q.dot(system.K * q));
+  const double kinetic = 0.5 * v.dot(system.M * v), strain = 0.5 * q.dot(system.K * q);
+  record.add("kinetic_energy_J", "", kinetic);
+  record.add("strain_energy_J", "", strain);
+  record.add("total_energy_J", "", kinetic + strain);
+  drift.look(kinetic, strain);
 }
 
 void record_peaks(const MotionHistory& motion, const std::vector<Output>& outputs,
@@ -55,6 +76,7 @@ StepResult analyse_transient(const Cursor& analysis, const Scene& scene, std::si
   const bool with_forces = std::any_of(outputs.begin(), outputs.end(),
                                        [](const Output& one) { return one.needs_forces(); });
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
+  EnergyDrift drift;
   for (Index sample = 0; sample < values.cols(); ++sample) {
     const MovingState state = state_of(system, motion, sample, with_forces);
     record.add("time_s", "", motion.time[static_cast<std::size_t>(sample)]);
@@ -63,9 +85,10 @@ StepResult analyse_transient(const Cursor& analysis, const Scene& scene, std::si
       values(i, sample) = value_of(output, system.model, state);
       record.add(output.name, "", values(i, sample));
     }
-    record_energy(system, motion, sample, record);
+    record_energy(system, motion, sample, drift, record);
   }
   record_peaks(motion, outputs, values, record);
+  if (system.load.isZero(0) && !analysis.has("turning_axes")) drift.record(record);
   record.add("steps", "", static_cast<double>(motion.steps));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;

@@ -19,6 +19,9 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 /// A step counts as solved when what is left of the equation is below this share of its terms, or
 /// is round-off of its largest products.
 constexpr double kResidual = 1e-10;
+/// Motions so small have no digits: what numerical damping leaves of a vibration ends in them.
+constexpr double kNothing =
+    std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 constexpr int kMaxRefinements = 40;
 /// Below this ratio of pivot to diagonal a mass matrix counts as singular.
 constexpr double kSingularMass = 1e-13;
@@ -439,7 +442,7 @@ class Integrator {
         infinity_norm(MA_) + infinity_norm(next_.Cv) + infinity_norm(Kq_) + infinity_norm(next_.f);
     const double products = norm_M_ * infinity_norm(next_.acceleration) +
                             norm_C_ * infinity_norm(next_.v) + norm_K_ * infinity_norm(next_.q);
-    allowed = kResidual * terms + 16 * kEps * products;
+    allowed = kResidual * terms + 16 * kEps * products + kNothing * (norm_M_ + norm_C_ + norm_K_);
     share = terms > 0 ? left / terms : left;
     return left;
   }

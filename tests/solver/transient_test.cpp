@@ -480,4 +480,17 @@ BOOST_AUTO_TEST_CASE(input_without_meaning_is_refused) {
   BOOST_CHECK_THROW(static_cast<void>(solve_transient(odd, options)), ModelError);
 }
 
+BOOST_AUTO_TEST_CASE(a_vibration_that_dies_out_ends_in_zeros_and_not_in_a_failure) {
+  EquationOfMotion equation = chain(4, 1, 200);
+  TransientOptions options;
+  options.end = 40000;
+  options.step = 1;  // a radius of 0.5 a step: nothing that a double holds after 1075 steps
+  options.scheme = generalized_alpha(0.5);
+  options.v0 = VectorXd::Ones(4);
+  options.sample_times = {0, 40000};
+  const TransientHistory found = solve_transient(equation, options);
+  BOOST_TEST(found.summary.outcome.solved(), found.summary.outcome.reason);
+  BOOST_TEST(found.q.col(1).norm() < 1e-290);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
