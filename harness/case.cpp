@@ -5,6 +5,7 @@
 #include "harness/catalogue.h"
 #include "harness/cursor.h"
 #include "harness/json_file.h"
+#include "harness/schema.h"
 #include "harness/words.h"
 
 namespace trammel {
@@ -78,10 +79,43 @@ void check_indicators(const Case& given) {
   }
 }
 
+InputError no_such_place(const Cursor& pointer, const std::string& guess) {
+  return pointer.error("expected a pointer to a value of the case, as /model/elements (got '" +
+                       printable(pointer.get<std::string>()) + "')" + guess);
+}
+
+/// What the schema has against a key that a pointer names and the document does not have: nothing
+/// where the key is one that stands for a default, as /model/elements.
+std::optional<Fault> fault_of_new_key(const Json& document, const JsonPointer& pointer,
+                                      const Json& value) {
+  const Fault nowhere{pointer.to_string(), ""};
+  if (pointer.empty() || !document.contains(pointer.parent_pointer())) return nowhere;
+  if (!document.at(pointer.parent_pointer()).is_object()) return nowhere;
+  Json probe = document;
+  probe[pointer] = value;
+  const auto fault = find_fault(probe, "case");
+  return fault && fault->pointer == pointer.to_string() ? fault : std::nullopt;
+}
+
+/// @throws InputError where the pointer names neither a value nor a key that may be added
+void require_place(const Document& document, const Cursor& pointer, const Json& value) {
+  const auto text = pointer.get<std::string>();
+  try {
+    const JsonPointer place(text);
+    if (!place.empty() && document.value().contains(place)) return;
+    const auto fault = fault_of_new_key(document.value(), place, value);
+    if (!fault) return;
+    const auto guess = fault->message.find("; did you mean");
+    throw no_such_place(pointer, guess == std::string::npos ? "" : fault->message.substr(guess));
+  } catch (const Json::exception&) {
+    throw no_such_place(pointer, "");
+  }
+}
+
 Json patch_of_pointers(const Cursor& sweep, const Json& document, const Json& value) {
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
-    require_pointer(sweep.document(), at);
+    require_place(sweep.document(), at, value);
     patch.merge_patch(patch_at(document, at.get<std::string>(), value));
   }
   return patch;
@@ -145,10 +179,7 @@ void require_pointer(const Document& document, const Cursor& pointer) {
   } catch (const Json::exception&) {
     found = false;
   }
-  if (!found || text.empty()) {
-    throw pointer.error("expected a pointer to a value of the case, as /model/elements (got '" +
-                        printable(text) + "')");
-  }
+  if (!found || text.empty()) throw no_such_place(pointer, "");
 }
 
 Json patch_at(const Json& document, const std::string& pointer, const Json& value) {

@@ -122,12 +122,26 @@ void print_modes(const Side& a, const Side& b) {
                "subspaces are compared)\n";
 }
 
-bool is_results(const std::string& words) {
-  const std::filesystem::path file(words);
+bool is_json_file(const std::filesystem::path& file) {
   std::error_code error;
-  if (file.extension() != ".json" || !std::filesystem::is_regular_file(file, error)) return false;
-  const Json json = read_json(file);
+  return file.extension() == ".json" && std::filesystem::is_regular_file(file, error);
+}
+
+bool is_results(const std::string& words) {
+  if (!is_json_file(words)) return false;
+  const Json json = read_json(words);
   return json.is_object() && json.contains("format") && json.contains("runs");
+}
+
+/// Why something cannot be compared with a results file.
+[[noreturn]] void refuse_beside_results(const std::string& words) {
+  if (!is_json_file(words)) (void)find_case(words.substr(0, words.rfind(':')));
+  const Json json = is_json_file(words) ? read_json(words) : Json();
+  if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
+    const auto fault = find_fault(json, "results");
+    if (fault) throw InputError(words, fault->pointer, fault->message);
+  }
+  throw InputError("expected two variants or two result files (got one of each)");
 }
 
 /// "case:variant" -> quantities of a results file.
@@ -232,9 +246,7 @@ int compare_results(const std::string& file_a, const std::string& file_b) {
 
 int compare_command(const std::string& a, const std::string& b) {
   const bool results_a = is_results(a), results_b = is_results(b);
-  if (results_a != results_b) {
-    throw InputError("expected two variants or two result files (got one of each)");
-  }
+  if (results_a != results_b) refuse_beside_results(results_a ? b : a);
   if (results_a) return compare_results(a, b);
   const References references;
   const Side side_a = load_side(a, references), side_b = load_side(b, references);

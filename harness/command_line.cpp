@@ -34,6 +34,7 @@ Examples:
   trammel ledger                            the paper's claims, and a verdict for each
   trammel effects scene-soft-platform       what each effect is worth in a scene
   trammel report                            the whole catalogue as a page
+  trammel report ~/my-robot.json            a page of your own case
 
 Exit status: 0 every gate holds, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
 
@@ -213,12 +214,16 @@ class CommandLine {
     });
   }
   void define_report() {
-    CLI::App* sub = add("report", "Run the whole catalogue and write the page",
-                        "\nExample:\n  trammel report --out report --jobs 4");
+    CLI::App* sub =
+        add("report", "Run the whole catalogue, or some cases, and write the page",
+            "\nOnly the page of the whole catalogue has the cost studies and the "
+            "claims of the paper.\n\nExamples:\n  trammel report --out report --jobs 4\n"
+            "  trammel report my-robot.json      a page of your own case");
+    sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
+    sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
     add_jobs(sub);
     add_out(sub, "Folder for the page, its figures and data, results.json and junit.xml");
-    sub->callback(
-        [this] { command_ = [this] { return report_command(run_.out, run_.jobs, renderers_); }; });
+    sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
   }
 
   const Renderers& renderers_;

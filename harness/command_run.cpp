@@ -91,10 +91,33 @@ std::vector<Told> by_check(const Run& run) {
   return told;
 }
 
+/// Digits that tell the ends of a window from each other and from what lies between them.
+int digits_of(const Judgement& one) {
+  constexpr int least = 3, most = 12;
+  if (!one.window || one.symmetric) return least;
+  const double low = one.window->low, high = one.window->high;
+  const auto judged = one.measure == "bound" ? one.computed : one.difference;
+  const auto apart = [](double a, double b, int digits) {
+    return a == b || !std::isfinite(a) || !std::isfinite(b) ||
+           rounded(a, digits) != rounded(b, digits);
+  };
+  for (int digits = least; digits < most; ++digits) {
+    const bool told = apart(low, high, digits) &&
+                      (!judged || (apart(low, *judged, digits) && apart(*judged, high, digits)));
+    if (told) return digits;
+  }
+  return most;
+}
+
 std::string allowed(const Judgement& one) {
   if (!one.window) return "";
   if (one.symmetric) return "+-" + rounded(one.window->high, 3);
-  return "[" + rounded(one.window->low, 3) + ", " + rounded(one.window->high, 3) + "]";
+  const int digits = digits_of(one);
+  const std::string low = rounded(one.window->low, digits),
+                    high = rounded(one.window->high, digits);
+  if (!std::isfinite(one.window->low)) return "at most " + high;
+  if (!std::isfinite(one.window->high)) return "at least " + low;
+  return "[" + low + ", " + high + "]";
 }
 
 std::string verdict_word(const Judgement& one) {
@@ -118,8 +141,9 @@ void print_run(const Run& run) {
     if (!one.statistic.empty()) quantity.insert(0, one.statistic + " ");
     table.add({verdict_word(one), one.name, quantity, one.computed ? rounded(*one.computed, 8) : "",
                one.expected ? rounded(*one.expected, 8) : "",
-               one.difference ? rounded(*one.difference, 3) : "", allowed(one)});
-    if (breaks_gate(one.verdict) && !one.message.empty()) {
+               one.difference ? rounded(*one.difference, digits_of(one)) : "", allowed(one)});
+    const bool said_above = one.quantity == "status" && !run.reason.empty();
+    if (breaks_gate(one.verdict) && !one.message.empty() && !said_above) {
       messages.push_back(one.name + ": " + one.message);
     }
   }
@@ -136,7 +160,8 @@ void print_summary(const std::vector<Run>& runs) {
       ++verdicts[verdict_word(one)];
     }
   }
-  std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks << " checks";
+  std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks
+            << (checks == 1 ? " check" : " checks");
   for (const auto& [word, count] : verdicts) std::cout << ", " << count << " " << word;
   std::cout << '\n';
   print_bands(bands_of(runs), std::cout);
@@ -161,9 +186,8 @@ std::filesystem::path write_all(const Json& json, const std::string& out,
   return results;
 }
 
-}  // namespace
-
-int run_command(const RunCommand& command, const Renderers& renderers) {
+/// The cases that are named, and those with the labels.
+Selection select(const RunCommand& command) {
   std::vector<std::filesystem::path> files;
   for (const std::string& name : command.cases) files.push_back(find_case(name));
   Selection selection = load(files);
@@ -176,6 +200,43 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   }
   require_distinct(selection.cases);
   require_variant(selection.cases, command.variant);
+  return selection;
+}
+
+void print_broken(const std::vector<Run>& runs) {
+  for (const Run& run : runs) {
+    const bool broken = std::any_of(run.judgements.begin(), run.judgements.end(),
+                                    [](const Judgement& one) { return breaks_gate(one.verdict); });
+    if (broken && run.trouble == Run::Trouble::none) print_run(run);
+  }
+}
+
+/// The page of these results, and where it is.
+void write_page(const Json& results, const std::vector<Run>& runs, const std::string& out,
+                const Renderers& renderers) {
+  const auto file = write_all(results, out, renderers);
+  const auto page = renderers.report ? renderers.report(file, out) : file;
+  print_summary(runs);
+  std::cout << "report in " << page.string() << std::endl;
+  print_trouble(runs);
+}
+
+/// The page of some cases: without the cost studies and the claims, which rest on the catalogue.
+int report_some(const RunCommand& command, const Renderers& renderers) {
+  const Selection selection = select(command);
+  require_writable(command.out);
+  const References references;
+  const std::vector<Run> runs =
+      compute(selection, references, {command.variant, command.jobs, Follow::named, {}});
+  print_broken(runs);
+  write_page(results_of(runs, selection.cases, references), runs, command.out, renderers);
+  return exit_status(runs);
+}
+
+}  // namespace
+
+int run_command(const RunCommand& command, const Renderers& renderers) {
+  const Selection selection = select(command);
   require_writable(command.out);
   const References references;
   const std::vector<Run> runs =
@@ -193,27 +254,21 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   return exit_status(runs);
 }
 
-int report_command(const std::string& out, unsigned jobs, const Renderers& renderers) {
-  require_writable(out);
+int report_command(const RunCommand& command, const Renderers& renderers) {
+  if (!command.cases.empty() || !command.labels.empty()) return report_some(command, renderers);
+  require_writable(command.out);
   const Selection selection = load(catalogue_files());
   const References references;
-  const std::vector<Run> runs = compute(selection, references, {"", jobs, Follow::named, {}});
-  for (const Run& run : runs) {
-    const bool broken = std::any_of(run.judgements.begin(), run.judgements.end(),
-                                    [](const Judgement& one) { return breaks_gate(one.verdict); });
-    if (broken && run.trouble == Run::Trouble::none) print_run(run);
-  }
+  const std::vector<Run> runs =
+      compute(selection, references, {"", command.jobs, Follow::named, {}});
+  print_broken(runs);
   std::vector<std::string> troubles;
   const Json cost = quick_cost(references, troubles);
   Json json = results_of(runs, selection.cases, references);
   json["cost"] = cost;
   const Ledger ledger = judge_ledger(load_ledger(), runs);
   json["ledger"] = to_json(ledger);
-  const auto results = write_all(json, out, renderers);
-  const auto page = renderers.report ? renderers.report(results, out) : results;
-  print_summary(runs);
-  std::cout << "report in " << page.string() << std::endl;
-  print_trouble(runs);
+  write_page(json, runs, command.out, renderers);
   for (const std::string& trouble : troubles) std::cerr << trouble << '\n';
   for (const LedgerClaim& claim : ledger.claims) {
     if (claim.follows()) continue;

@@ -48,7 +48,8 @@ int ledger_command(unsigned jobs, bool json);
 int effects_command(const EffectsCommand& command);
 /// Hit rate of automatic effects: 1 below 99 % within tolerance or 90 % minimal.
 int random_effects_command(const EffectsCommand& command);
-int report_command(const std::string& out, unsigned jobs, const Renderers& renderers);
+/// The page of the whole catalogue with its cost studies and claims, or of the cases named.
+int report_command(const RunCommand& command, const Renderers& renderers);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.
 /// @param troubles  gets a line for each study that could not be measured

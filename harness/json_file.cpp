@@ -16,7 +16,7 @@ constexpr std::size_t deepest = 100;
 /// Walks through a text without building it, and notes the first thing that is wrong.
 class StrictReader : public nlohmann::json_sax<Json> {
  public:
-  explicit StrictReader(std::string file) : file_(std::move(file)) {}
+  StrictReader(std::string file, const std::string& text) : file_(std::move(file)), text_(text) {}
 
   bool null() override { return value(); }
   bool boolean(bool) override { return value(); }
@@ -43,7 +43,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     const std::size_t offset = position > 0 ? position - 1 : 0;  // of the last byte read
     const std::string what = error.what();
     const bool overflow = what.find("out_of_range") != std::string::npos;
-    throw InputError(file_ + ": byte " + std::to_string(offset) + ": expected " +
+    throw InputError(file_ + ": " + place_of(offset) + ": expected " +
                      (overflow ? "a number that a double can hold" : "JSON") + " (got '" +
                      printable(token, 30) + "')");
   }
@@ -56,6 +56,14 @@ class StrictReader : public nlohmann::json_sax<Json> {
     std::size_t items = 0;
   };
 
+  /// Where a byte stands, as an editor counts.
+  [[nodiscard]] std::string place_of(std::size_t offset) const {
+    const std::string before = text_.substr(0, std::min(offset, text_.size()));
+    const auto line = std::count(before.begin(), before.end(), '\n');
+    const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
+    return "line " + std::to_string(line + 1) + ", column " +
+           std::to_string(before.size() - start + 1);
+  }
   [[nodiscard]] std::string pointer() const {
     JsonPointer path;
     for (const Level& level : levels_) path /= level.step;
@@ -82,13 +90,14 @@ class StrictReader : public nlohmann::json_sax<Json> {
   }
 
   std::string file_;
+  const std::string& text_;
   std::vector<Level> levels_;
 };
 
 }  // namespace
 
 Json parse_json(const std::string& text, const std::string& name) {
-  StrictReader reader(name);
+  StrictReader reader(name, text);
   Json::sax_parse(text, &reader);
   return Json::parse(text);
 }

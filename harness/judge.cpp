@@ -24,12 +24,29 @@ std::vector<std::string> names_of(const Quantities& quantities) {
   return names;
 }
 
+/// What there is instead, without the parts it belongs to: " (known here: frequency_Hz and ...)".
+std::string known_kinds(const Quantities& quantities) {
+  constexpr std::size_t most = 12;
+  std::vector<std::string> kinds;
+  for (const auto& item : quantities) {
+    const std::string kind = item.first.substr(0, item.first.find(':'));
+    if (kinds.empty() || kinds.back() != kind) kinds.push_back(kind);
+  }
+  if (kinds.empty()) return "";
+  if (kinds.size() > most) {
+    kinds.resize(most);
+    kinds.emplace_back("more");
+  }
+  return " (known here: " + join(kinds, "and") + ")";
+}
+
 const std::vector<double>& find_quantity(const Quantities& quantities, const std::string& name,
                                          const std::string& where) {
   const auto found = quantities.find(name);
   if (found != quantities.end()) return found->second.values;
+  const std::string guess = did_you_mean(name, names_of(quantities));
   throw Unjudgeable{"no quantity '" + name + "'" + where +
-                    did_you_mean(name, names_of(quantities))};
+                    (guess.empty() ? known_kinds(quantities) : guess)};
 }
 
 std::vector<double> pick(const std::vector<double>& values, const std::vector<std::size_t>& index,

@@ -135,16 +135,21 @@ std::vector<std::string> allowed_keys(const Rules& rules) {
   return keys;
 }
 
-std::string all_quoted(std::vector<std::string> names) {
+std::string all_quoted(std::vector<std::string> names, const char* last) {
   for (std::string& name : names) name = trammel::quoted(name);
-  return join(names, "or");
+  return join(names, last);
+}
+
+/// What stands there instead: "(got 'a' and 'b')".
+std::string got_keys(const Plain& object) {
+  return " (got " + (object.empty() ? "none" : all_quoted(keys_of(object), "and")) + ")";
 }
 
 Fault unknown_key(const Plain::json_pointer& pointer, const std::string& key,
                   const std::vector<std::string>& allowed) {
   std::string message = "expected no key of that name";
   const std::string guess = did_you_mean(key, allowed);
-  message += guess.empty() ? " (known here: " + all_quoted(allowed) + ")" : guess;
+  message += guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess;
   return {(pointer / key).to_string(), message};
 }
 
@@ -158,9 +163,7 @@ Fault explain_object(const Plain::json_pointer& pointer, const Plain& object, co
     for (const Plain& key : rule->value("required", Plain::array())) {
       const std::string name = key.get<std::string>();
       if (!object.contains(name)) {
-        return {pointer.to_string(), "expected the key '" + name + "' (got " +
-                                         (object.empty() ? "none" : all_quoted(keys_of(object))) +
-                                         ")"};
+        return {pointer.to_string(), "expected the key '" + name + "'" + got_keys(object)};
       }
     }
   }
@@ -170,8 +173,9 @@ Fault explain_object(const Plain::json_pointer& pointer, const Plain& object, co
     if (object.size() < least || object.size() > most) {
       const std::string count = most == 1 ? "exactly one of " : "at least one of ";
       return {pointer.to_string(),
-              "expected " + (allowed.empty() ? "at least one key" : count + all_quoted(allowed)) +
-                  " (got " + (object.empty() ? "none" : all_quoted(keys_of(object))) + ")"};
+              "expected " +
+                  (allowed.empty() ? "at least one key" : count + all_quoted(allowed, "or")) +
+                  got_keys(object)};
     }
   }
   return {pointer.to_string(), "expected another object"};

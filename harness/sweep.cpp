@@ -72,6 +72,7 @@ std::vector<Followed> named_by_checks(const Document& document, const std::vecto
 
 void add_everything_else(const Sweep& sweep, std::vector<Followed>& followed) {
   for (const auto& item : sweep.levels.back().result.quantities) {
+    if (is_diagnostic(item.first)) continue;
     const bool known = std::any_of(followed.begin(), followed.end(),
                                    [&](const Followed& one) { return one.quantity == item.first; });
     if (!known) followed.push_back({item.first, "", {}, {}, nullptr});

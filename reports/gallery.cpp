@@ -14,9 +14,10 @@ namespace {
 constexpr std::size_t most_poses = 4;
 constexpr std::size_t most_drawn = 24;  ///< variants of one case whose shapes the page carries
 
-/// Joints of one name stand in one place.
+/// Joints of one name stand in one place; what has no name says nothing.
 bool same_geometry(const Drawing& a, const Drawing& b) {
   for (const Joint& ja : a.joints) {
+    if (ja.name.empty()) continue;
     for (const Joint& jb : b.joints) {
       const auto& [ax, ay] = a.nodes[ja.node];
       const auto& [bx, by] = b.nodes[jb.node];

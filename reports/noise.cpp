@@ -139,6 +139,7 @@ Data table_of(const Subject& subject, bool is_only, const Results& results) {
   Data table = object();
   table.set("title", reference ? reference->title : subject.reference);
   set_text(table, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(table, "unit", reference ? unit_for_people(reference->unit) : "");
   set_text(table, "check", is_only ? "" : name_for_people(subject.check));
   table.set("case_title", subject.info->title);
   table.set("case_anchor", case_anchor(subject.info->id));

@@ -64,7 +64,8 @@ bool takes_prefix(const std::string& unit) {
   return std::find(plain.begin(), plain.end(), unit) != plain.end();
 }
 
-/// Whether what follows the colon is the name of a quantity in turn: relative_error:frequency_Hz.
+/// Whether what follows the colon is the name of a quantity in turn, be it of the whole model:
+/// relative_error:frequency_Hz.
 bool is_of_a_quantity(const std::string& base) {
   static const std::array<const char*, 4> names = {"relative_error", "roundoff",
                                                    "error_over_roundoff", "least_error_at"};
@@ -100,8 +101,9 @@ Quantity parse_quantity(const std::string& name) {
   if (quantity.subject.find_first_not_of("0123456789") == std::string::npos &&
       !quantity.subject.empty()) {
     quantity.subject.insert(0, "mode ");
+  } else if (quantity.subject.find(':') != std::string::npos || is_of_a_quantity(base)) {
+    quantity.subject = in_words(parse_quantity(quantity.subject));
   }
-  if (is_of_a_quantity(base)) quantity.subject = in_words(parse_quantity(quantity.subject));
   for (const auto& [key, people] : units) {
     if (!ends_with(base, std::string("_") + key)) continue;
     quantity.unit = people;

@@ -5,7 +5,8 @@
 namespace trammel::reports {
 
 /// A quantity's name taken apart: displacement_x_m:P is the "x displacement" of "P" in "m",
-/// frequency_Hz:1 the "frequency" of "mode 1".
+/// frequency_Hz:1 the "frequency" of "mode 1", peak_time_s:displacement_y_m:M the "peak time" of
+/// the "y displacement of M".
 struct Quantity {
   std::string label, subject, unit;  ///< unit for people: N·m, rad/s; empty if dimensionless
 };

@@ -134,7 +134,38 @@ std::string span(double low, double high) {
   return a == b ? a : a + " to " + b;
 }
 
+/// "a h^4 + b h^1.35": the two orders that mix by theory.
+std::string law_of(const Convergence& c) {
+  return "a h^" + trimmed(*c.theory_order, 3) + " + b h^" + trimmed(*c.lower_order, 3);
+}
+
+/// Where two orders mix there is no one order to fit; a law of both meets the errors, or does not.
+std::string conclusion_of_two(const Sweeps& sweeps) {
+  std::size_t met = 0;
+  double worst = 0;
+  for (const Convergence* c : sweeps) {
+    if (!c->law_within) continue;
+    ++met;
+    worst = std::max(worst, *c->law_within);
+  }
+  const std::string law = law_of(*sweeps.front());
+  if (met == 0) return "Two orders mix by theory, but no law " + law + " meets the errors.";
+  const std::string which =
+      met == sweeps.size() ? ""
+                           : " of " + std::to_string(met) + " of " + count(sweeps.size(), "curve");
+  return "Two orders mix: the law " + law + " of the size h meets the errors" + which +
+         " at the filled marks within " + reports::relative(worst, 2, false) + ".";
+}
+
+bool any_asymptotic(const Sweeps& sweeps) {
+  return std::any_of(sweeps.begin(), sweeps.end(), [](const Convergence* c) {
+    const auto& inside = c->in_asymptotic_range;
+    return std::find(inside.begin(), inside.end(), true) != inside.end();
+  });
+}
+
 std::string conclusion(const Sweeps& sweeps) {
+  if (sweeps.front()->lower_order && sweeps.front()->theory_order) return conclusion_of_two(sweeps);
   double low = 1e300, high = -1e300;
   std::string off;
   std::size_t fitted = 0;
@@ -151,7 +182,9 @@ std::string conclusion(const Sweeps& sweeps) {
   const std::string against = theory ? "; theory: " + trimmed(*theory, 3) : "";
   std::string text;
   if (fitted == 0) {
-    text = "No order is claimed: no mesh lies in the asymptotic range";
+    text = std::string("No order is claimed: ") +
+           (any_asymptotic(sweeps) ? "too few levels lie" : "no level lies") +
+           " in the asymptotic range";
   } else {
     text = sweeps.size() == 1 ? "The error falls with order " + span(low, high)
            : fitted == sweeps.size()
@@ -160,16 +193,22 @@ std::string conclusion(const Sweeps& sweeps) {
                      " have levels in the asymptotic range and fall with order " + span(low, high);
   }
   text += against + ".";
-  if (!off.empty()) text += " More than 0.1 from theory: " + off + ".";
+  if (!off.empty()) {
+    text += sweeps.size() == 1 ? " That is more than 0.1 from theory."
+                               : " More than 0.1 from theory: " + off + ".";
+  }
   return text;
 }
 
-std::string floor_sentence(const Sweeps& sweeps) {
+/// What marks and ground of the picture mean, as far as there are any.
+std::string legend_sentence(const Sweeps& sweeps) {
+  const bool filled = any_asymptotic(sweeps);
   const auto rows = floor_of(sweeps);
-  if (rows.empty()) return "";
   double high = 0;
   for (const auto& row : rows) high = std::max(high, row[1]);
-  return " Filled marks lie in the asymptotic range; the grey ground is round-off, at most " +
+  std::string text = filled ? " Filled marks lie in the asymptotic range" : "";
+  if (rows.empty()) return filled ? text + "." : "";
+  return text + (filled ? "; the" : " The") + " grey ground is round-off, at most " +
          trimmed(high, 2) + " here.";
 }
 
@@ -231,7 +270,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   figure.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity);
   figure.title =
       titled("Convergence of " + words + " over " + parse_quantity(first.sweep).label, info, run);
-  figure.caption = conclusion(sweeps) + floor_sentence(sweeps);
+  figure.caption = conclusion(sweeps) + legend_sentence(sweeps);
   if (!exact)
     figure.caption +=
         " No exact value is at hand: errors are distances from the "

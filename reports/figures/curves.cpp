@@ -172,8 +172,10 @@ void log_range(PlotScript& script, const std::string& axis,
 }
 
 /// "Largest magnitude: 8.13 mm (base), 8.10 mm (rigid platform)."; of more than two curves the
-/// smallest and the largest.
-std::string measured(const std::vector<Series>& series, const Scale& scale) {
+/// smallest and the largest. The power of ten of an axis is no unit of a number in a text.
+std::string measured(const std::vector<Series>& series, const Scale& axis,
+                     const std::string& unit) {
+  const Scale scale = axis.unit.rfind("10", 0) == 0 ? Scale{1, unit} : axis;
   const auto said = [&](const Series& s) {
     std::string text = trimmed(scale.factor * s.largest, 3);
     if (!scale.unit.empty()) text += "\u202f" + scale.unit;
@@ -287,9 +289,9 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   figure.id = slug(info.id + "-" + request.id);
   figure.title = request.title;
   figure.caption =
-      request.caption + (request.caption.empty() ? "" : " ") + measured(series, y_scale);
+      request.caption + (request.caption.empty() ? "" : " ") + measured(series, y_scale, y.unit);
   figure.alt = "Curves of " + words + " over " + (request.x.empty() ? "number" : in_words(x)) +
-               ". " + measured(series, y_scale);
+               ". " + measured(series, y_scale, y.unit);
   figure.height = 345 + key_height;
   figure.commands = script.commands();
   figure.data = table_of(series, runs, request);

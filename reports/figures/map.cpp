@@ -184,8 +184,14 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   script.axis_label("y", axis_label(parse_quantity(request.y.front()).label, "m"));
   const auto by_color = boxes(field);
   std::vector<std::string> titles;
+  // Dark is far from zero: of negative numbers the lowest.
+  const bool negative = std::all_of(field.cells.begin(), field.cells.end(),
+                                    [](const Cell& cell) { return cell.value <= 0; });
+  const bool positive = std::all_of(field.cells.begin(), field.cells.end(),
+                                    [](const Cell& cell) { return cell.value >= 0; });
   for (std::size_t k = 0; k < by_color.size(); ++k) {
-    const std::string color = lc(palette::sequence[k]);
+    const std::size_t shade = negative ? limits.size() - std::min(k, limits.size()) : k;
+    const std::string color = lc(palette::sequence[shade]);
     script.curve(by_color[k], "using 1:2:3:4:5:6 with boxxyerror fs solid noborder" + color);
     if (by_color[k].empty()) continue;
     titles.push_back(class_name(limits, k));
@@ -201,7 +207,8 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   figure.caption = request.caption + (request.caption.empty() ? "" : " ") +
                    "Colours: " + quantity.label +
                    (quantity.unit.empty() ? "" : " in " + quantity.unit) +
-                   ", in classes of about as many positions each.";
+                   (negative || positive ? ", dark far from zero" : ", dark where it is high") +
+                   ", in classes of about equally many positions.";
   figure.alt = "Map of " + in_words(quantity) + " over positions; the largest magnitude is " +
                trimmed(largest, 3) + " " + quantity.unit + ".";
   figure.height = 420 + key_height;

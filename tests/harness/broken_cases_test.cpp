@@ -284,7 +284,7 @@ BOOST_AUTO_TEST_CASE(a_hundred_invalid_cases_are_answered_with_a_place) {
     const Answer given = answer(folder, text);
     BOOST_TEST(given.status == 2, how);
     const bool has_place = testing::contains(given.error, "x.json: /") ||
-                           testing::contains(given.error, "x.json: byte ");
+                           testing::contains(given.error, "x.json: line ");
     BOOST_TEST(has_place, how << ": " << given.error);
     BOOST_TEST(std::count(given.error.begin(), given.error.end(), '\n') == 1,
                how << ": " << given.error);

@@ -133,6 +133,16 @@ BOOST_AUTO_TEST_CASE(a_sweep_sets_the_places_that_its_pointers_name) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_sweep_may_set_a_key_that_the_case_leaves_to_its_default) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["model"].erase("elements");
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}}, {"values", {1, 2, 4}}};
+  const auto found = levels(patched(testing::read(folder, json), "base"), "elements");
+  BOOST_REQUIRE(found.size() == 3);
+  BOOST_TEST(found[2].document.value()["model"]["elements"] == 4);
+}
+
 BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
   const Folder folder;
   Json json = testing::cantilever();
@@ -149,6 +159,7 @@ BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
                       "65536 (got 2.5), at /model/elements"));
   BOOST_TEST(
       contains(fault("nowhere"), "/sweeps/nowhere/pointers/0: expected a pointer to a value"));
+  BOOST_TEST(contains(fault("nowhere"), "did you mean 'elements'?"));
   BOOST_TEST(contains(fault("patches"), "/sweeps/patches/patches/0/model/elements: expected"));
 }
 

@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(a_bad_file_among_good_ones_loses_nothing) {
   (void)folder.write("broken.json", "{\"id\": ");
   const Outcome outcome = run(folder, "run cantilever.json broken.json");
   BOOST_TEST(outcome.status == 2);
-  BOOST_TEST(contains(outcome.err, "broken.json: byte 7: expected JSON"));
+  BOOST_TEST(contains(outcome.err, "broken.json: line 1, column 8: expected JSON"));
   const Json results = read_json(folder.path() / "trammel-results/results.json");
   BOOST_TEST(results["runs"].size() == 2U);
   BOOST_TEST(results["runs"][0]["status"] == "solved");
@@ -192,6 +192,79 @@ BOOST_AUTO_TEST_CASE(two_variants_and_two_result_files_are_compared) {
   BOOST_TEST(run(folder, "compare a/results.json cantilever.json").status == 2);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_no_results_file_is_said_so_beside_one) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  (void)folder.write("other.json", R"({"a": 1})");
+  (void)run(folder, "run cantilever.json");
+  const auto refusal = [&](const std::string& other) {
+    const Outcome outcome = run(folder, "compare trammel-results/results.json " + other);
+    BOOST_TEST(outcome.status == 2);
+    return outcome.err;
+  };
+  BOOST_TEST(contains(refusal("none.json"), "none.json: expected a readable file"));
+  BOOST_TEST(contains(refusal("other.json"), "other.json: /a: expected no key of that name"));
+  BOOST_TEST(contains(refusal("cantilever.json"), "expected two variants or two result files"));
+}
+
+BOOST_AUTO_TEST_CASE(the_page_of_one_s_own_case_has_that_case_alone) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const Outcome outcome = run(folder, "report cantilever.json --out mine");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "1 run, 1 check, 1 pass"));
+  BOOST_TEST(contains(outcome.out, "report in mine/index.html"));
+  BOOST_TEST(std::filesystem::exists(folder.path() / "mine/index.html"));
+  const Json results = read_json(folder.path() / "mine/results.json");
+  BOOST_TEST(results["cases"].size() == 1U);
+  BOOST_TEST(!results.contains("ledger"));
+  (void)folder.write(judged(99));
+  BOOST_TEST(run(folder, "report cantilever.json --out mine").status == 1);
+}
+
+BOOST_AUTO_TEST_CASE(how_a_singular_run_ended_is_told_once) {
+  const Folder folder;
+  Json json = judged(101);
+  json["model"].erase("supports");
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "run cantilever.json");
+  BOOST_TEST(outcome.status == 1);
+  const auto first = outcome.out.find("moves freely");
+  BOOST_TEST(first != std::string::npos);
+  BOOST_TEST(outcome.out.find("moves freely", first + 1) == std::string::npos, outcome.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_narrow_window_is_told_with_the_digits_that_it_takes) {
+  const Folder folder;
+  Json json = judged(101);
+  json["checks"] = {
+      {"hold",
+       {{"quantity", "reaction_y_N:A"},
+        {"role", "verification"},
+        {"bound", {{"at_least", 99.9999999}, {"at_most", 100.0000001}, {"why", "x"}}}}}};
+  (void)folder.write(json);
+  BOOST_TEST(contains(run(folder, "run cantilever.json").out, "[99.9999999, 100.0000001]"));
+}
+
+BOOST_AUTO_TEST_CASE(the_example_of_the_readme_runs_and_holds) {
+  const std::string readme = text_of(TRAMMEL_SOURCE_DIR "/README.md");
+  const std::string fence = "```json\n";
+  const auto start = readme.find(fence + "{\n  \"id\": \"short-arm\"") + fence.size();
+  const Folder folder;
+  (void)folder.write("short-arm.json", readme.substr(start, readme.find("\n```", start) - start));
+  const Outcome outcome = run(folder, "run short-arm.json");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "1 check, 1 pass"));
+}
+
+BOOST_AUTO_TEST_CASE(a_quantity_that_is_not_there_is_answered_with_what_is) {
+  const Folder folder;
+  Json json = judged(101);
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  (void)folder.write(json);
+  BOOST_TEST(contains(run(folder, "run cantilever.json").out, "(known here: degrees_of_freedom,"));
+}
+
 BOOST_AUTO_TEST_CASE(what_refinements_show_is_told) {
   const Folder folder;
   Json json = testing::cantilever();
@@ -204,6 +277,7 @@ BOOST_AUTO_TEST_CASE(what_refinements_show_is_told) {
   BOOST_TEST(contains(outcome.out, "frequency_Hz[0]"));
   BOOST_TEST(contains(outcome.out, "asymptotic"));
   BOOST_TEST(contains(outcome.out, "order by theory 4"));
+  BOOST_TEST(!contains(outcome.out, "roundoff"));  // it converges to nothing
   json.erase("sweeps");
   (void)folder.write(json);
   BOOST_TEST(run(folder, "converge cantilever.json").status == 2);

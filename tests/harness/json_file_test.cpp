@@ -18,12 +18,13 @@ std::string fault(const std::string& text) {
 
 BOOST_AUTO_TEST_SUITE(json_file)
 
-BOOST_AUTO_TEST_CASE(text_that_is_no_json_is_answered_with_its_byte) {
-  BOOST_TEST(fault(R"({"a": nan})").rfind("x.json: byte 7: expected JSON", 0) == 0);
-  BOOST_TEST(fault(R"({"a": NaN})").rfind("x.json: byte 6: expected JSON", 0) == 0);
-  BOOST_TEST(fault(R"({"a": 1)").rfind("x.json: byte 7: expected JSON", 0) == 0);
-  BOOST_TEST(fault("").rfind("x.json: byte 0: expected JSON", 0) == 0);
-  BOOST_TEST(fault("{} {}").rfind("x.json: byte 3: expected JSON", 0) == 0);
+BOOST_AUTO_TEST_CASE(text_that_is_no_json_is_answered_with_its_line_and_column) {
+  BOOST_TEST(fault(R"({"a": nan})").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
+  BOOST_TEST(fault(R"({"a": NaN})").rfind("x.json: line 1, column 7: expected JSON", 0) == 0);
+  BOOST_TEST(fault(R"({"a": 1)").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
+  BOOST_TEST(fault("").rfind("x.json: line 1, column 1: expected JSON", 0) == 0);
+  BOOST_TEST(fault("{} {}").rfind("x.json: line 1, column 4: expected JSON", 0) == 0);
+  BOOST_TEST(fault("{\n  \"a\": 1,\n  \"b\": }\n").rfind("x.json: line 3, column 8: ", 0) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(a_key_that_stands_twice_is_refused_where_it_stands) {
@@ -34,7 +35,8 @@ BOOST_AUTO_TEST_CASE(a_key_that_stands_twice_is_refused_where_it_stands) {
 
 BOOST_AUTO_TEST_CASE(a_number_beyond_a_double_is_refused) {
   BOOST_TEST(fault(R"({"a": 1e999})")
-                 .rfind("x.json: byte 10: expected a number that a double can hold", 0) == 0);
+                 .rfind("x.json: line 1, column 11: expected a number that a double can hold", 0) ==
+             0);
 }
 
 BOOST_AUTO_TEST_CASE(bottomless_nesting_does_not_overflow_the_stack) {

@@ -20,4 +20,14 @@ BOOST_AUTO_TEST_CASE(the_unit_is_the_end_of_the_name) {
   BOOST_TEST(unit_of("odd:name_m") == "1");
 }
 
+BOOST_AUTO_TEST_CASE(what_says_how_well_was_computed_is_no_result_that_converges) {
+  for (const char* name :
+       {"frequency_roundoff", "equilibrium_residual_N", "step_residual:J", "constraint_gap_rate"}) {
+    BOOST_TEST(is_diagnostic(name), name);
+  }
+  for (const char* name : {"frequency_Hz", "displacement_error", "compliance_J", "x:roundoff"}) {
+    BOOST_TEST(!is_diagnostic(name), name);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reports/figures/outline.h"
+#include "reports/gallery.h"
 
 using namespace trammel::reports;
 
@@ -79,13 +80,44 @@ BOOST_AUTO_TEST_CASE(convergence_caption_says_what_was_fitted_and_what_theory_wa
 
   const auto bad = convergence_figures(beam(), run_with({sweep(0, 4), sweep(1, 2.1)}));
   BOOST_TEST(contains(bad[0].caption, "More than 0.1 from theory: mode 2 (2.10)."));
+  const auto alone = convergence_figures(beam(), run_with({sweep(0, 2.1)}));
+  BOOST_TEST(contains(alone[0].caption, "That is more than 0.1 from theory."));
+}
+
+BOOST_AUTO_TEST_CASE(where_two_orders_mix_the_caption_names_their_law_and_how_well_it_holds) {
+  Convergence mixed = sweep(0, 4);
+  mixed.fitted_order.reset();
+  mixed.lower_order = 1.354;
+  mixed.law_within = 0.042;
+  const auto figure = convergence_figures(beam(), run_with({mixed}));
+  BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35 of the size h"));
+  BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
+  BOOST_TEST(!contains(figure[0].caption, "No order"));
+  mixed.law_within.reset();
+  BOOST_TEST(contains(convergence_figures(beam(), run_with({mixed}))[0].caption,
+                      "no law a h^4 + b h^1.35 meets the errors"));
 }
 
 BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_claimed) {
   Convergence coarse = sweep(0, 4);
   coarse.fitted_order.reset();
   const auto figure = convergence_figures(beam(), run_with({coarse}));
-  BOOST_TEST(contains(figure[0].caption, "No order is claimed"));
+  BOOST_TEST(contains(figure[0].caption, "No order is claimed: too few levels lie"));
+  coarse.in_asymptotic_range.assign(coarse.in_asymptotic_range.size(), false);
+  const auto none = convergence_figures(beam(), run_with({coarse}));
+  BOOST_TEST(contains(none[0].caption, "No order is claimed: no level lies"));
+  BOOST_TEST(!contains(none[0].caption, "Filled marks"));
+}
+
+BOOST_AUTO_TEST_CASE(a_caption_says_small_numbers_in_their_unit_not_in_powers_of_the_axis) {
+  Run run = run_with({});
+  run.quantities = {{"time_s", {0.0, 1.0}}, {"position_error_m", {1e-12, 5.72e-9}}};
+  std::string problem;
+  const auto figure = curves_figure(
+      beam(), {"f", "f", "time_s", "", {"position_error_m"}, {"base"}}, {&run}, problem);
+  BOOST_TEST_REQUIRE(figure.has_value());
+  BOOST_TEST(contains(figure->caption, "Largest magnitude: 5.72\u202f×\u202f10⁻⁹\u202fm."),
+             figure->caption);
 }
 
 BOOST_AUTO_TEST_CASE(a_count_that_is_right_on_every_mesh_makes_no_figure) {
@@ -119,6 +151,23 @@ BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
   BOOST_TEST(contains(problem_of({"torque_N_m:A"}), "has no torque_N_m:A"));
   run.quantities.emplace_back("length_m:B", Numbers{1.0, 2.0});
   BOOST_TEST(contains(problem_of({"force_N:A", "length_m:B"}), "differ in unit"));
+}
+
+BOOST_AUTO_TEST_CASE(hinges_without_a_name_are_no_further_pose) {
+  Run run = run_with({});
+  run.drawing = Drawing{{{0, 0}, {1, 0}, {2, 0}},
+                        {{0, 1}, {1, 2}},
+                        {},
+                        {{0, "support", "A"}, {1, "hinged", ""}, {2, "hinged", ""}},
+                        {},
+                        {}};
+  Results results;
+  results.cases = {beam()};
+  results.runs = {run};
+  const auto families = plan_families(results);
+  const Gallery& gallery = families.front().galleries.at("beam");
+  BOOST_TEST_REQUIRE(!gallery.shown.empty());
+  BOOST_TEST(!contains(gallery.shown.front().caption, "poses"), gallery.shown.front().caption);
 }
 
 BOOST_AUTO_TEST_CASE(a_straight_limb_is_two_points_and_a_bent_one_keeps_its_corner) {

@@ -16,6 +16,11 @@ BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
   BOOST_TEST(in_words(parse_quantity("relative_error:displacement_y_m:B")) ==
              "relative error of y displacement of B");
   BOOST_TEST(parse_quantity("relative_error:frequency_Hz").unit == "");
+  BOOST_TEST(in_words(parse_quantity("peak_time_s:displacement_y_m:M")) ==
+             "peak time of y displacement of M");
+  BOOST_TEST(in_words(parse_quantity("relative_error:serial_distance")) ==
+             "relative error of serial distance");
+  BOOST_TEST(in_words(parse_quantity("displacement_x_m:tip_left")) == "x displacement of tip_left");
   BOOST_TEST(parse_quantity("platform_inertia_kg_m2").unit == "kg·m²");
   BOOST_TEST(parse_quantity("frequency_roundoff").unit == "");
 }

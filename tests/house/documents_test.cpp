@@ -1,0 +1,59 @@
+// What README.md and CONTRIBUTING.md say of the house is there.
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = TRAMMEL_SOURCE_DIR;
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(root / file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> found(const std::string& text, const std::regex& pattern) {
+  std::vector<std::string> all;
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) {
+    all.push_back((*at)[1]);
+  }
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(documents)
+
+BOOST_AUTO_TEST_CASE(every_file_that_the_tour_names_is_there) {
+  const std::regex path("`((?:cases|harness|references|reports|solver|tests|\\.ci)/[\\w./-]*)`");
+  for (const char* document : {"README.md", "CONTRIBUTING.md"}) {
+    const std::vector<std::string> named = found(text_of(document), path);
+    BOOST_TEST(named.size() > 3U, document);
+    for (const std::string& one : named) {
+      if (one == "cases/short-arm.json") continue;  // the reader's own
+      BOOST_TEST(fs::exists(root / one), document << " names " << one);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_readme_names_every_analysis_that_a_case_may_ask_for) {
+  const auto schema = nlohmann::json::parse(text_of("cases/schema/case.schema.json"));
+  const std::string readme = text_of("README.md");
+  const auto ref = schema.at("properties").at("analysis").at("$ref").get<std::string>();
+  const auto& analyses = schema.at(nlohmann::json::json_pointer(ref.substr(1))).at("properties");
+  BOOST_TEST(analyses.size() > 10U);
+  for (const auto& item : analyses.items()) {
+    BOOST_TEST(readme.find("`" + item.key() + "`") != std::string::npos, item.key());
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
