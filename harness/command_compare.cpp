@@ -114,7 +114,10 @@ void print_modes(const Side& a, const Side& b) {
       continue;
     }
     const double fb = modes_b.frequency[match.b.front()];
-    table.add({mode_numbers(match.a), rounded(fa, 8), mode_numbers(match.b), rounded(fb, 8),
+    const double last = modes_b.frequency[match.b.back()];
+    const bool parted = last - fb > 1e-6 * last;
+    table.add({mode_numbers(match.a), rounded(fa, 8), mode_numbers(match.b),
+               rounded(fb, 8) + (parted ? " to " + rounded(last, 8) : ""),
                rounded(100 * relative(fa, fb), 3), rounded(match.overlap, 4)});
   }
   table.print(std::cout);

@@ -4,7 +4,9 @@
 
 #include "harness/catalogue.h"
 #include "harness/commands.h"
+#include "harness/diagnostic.h"
 #include "harness/errors.h"
+#include "harness/judge.h"
 #include "harness/ledger.h"
 #include "harness/print_uncertainty.h"
 #include "harness/progress.h"
@@ -127,6 +129,31 @@ std::string verdict_word(const Judgement& one) {
   return to_string(one.verdict);
 }
 
+/// What was computed, where no check says it: short ones whole, of long ones the range.
+void print_quantities(const Run& run) {
+  constexpr std::size_t most = 30, whole = 6;
+  Table table({"quantity", ">entries", "values"});
+  std::size_t told = 0, left = 0;
+  for (const auto& [name, quantity] : run.result.quantities) {
+    const std::vector<double>& values = quantity.values;
+    if (values.empty() || is_diagnostic(name)) continue;
+    if (told == most) {
+      ++left;
+      continue;
+    }
+    ++told;
+    std::string text;
+    if (values.size() > whole) {
+      text = rounded(statistic_of("min", values)) + " ... " + rounded(statistic_of("max", values));
+    } else {
+      for (const double value : values) text += (text.empty() ? "" : ", ") + rounded(value, 8);
+    }
+    table.add({name, std::to_string(values.size()), text});
+  }
+  if (!table.empty()) table.print(std::cout, "  ");
+  if (left > 0) std::cout << "  and " << left << " more in results.json\n";
+}
+
 void print_run(const Run& run) {
   std::cout << run.case_id << (run.variant == base_variant ? "" : ":" + run.variant) << "  "
             << run.status << ", " << rounded(run.wall_s, 2) << " s\n";
@@ -148,6 +175,7 @@ void print_run(const Run& run) {
     }
   }
   if (!table.empty()) table.print(std::cout, "  ");
+  if (table.empty()) print_quantities(run);
   for (const std::string& message : messages) std::cout << wrapped(message, "    ");
 }
 

@@ -132,13 +132,23 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const auto& x, const auto& y) { return std::get<0>(x) > std::get<0>(y); });
   std::vector<ModeMatch> matches;
-  for (const auto& set : sets_a) matches.push_back({set, {}, 0});
-  std::vector<bool> taken(sets_b.size(), false);
+  // A set has room for as many modes as it has: two that symmetry no longer holds together look
+  // like the set that they were.
+  std::vector<std::size_t> room_a, room_b;
+  for (const auto& set : sets_a) {
+    matches.push_back({set, {}, 0});
+    room_a.push_back(set.size());
+  }
+  for (const auto& set : sets_b) room_b.push_back(set.size());
   for (const auto& [overlap, i, j] : pairs) {
-    if (overlap < alike || taken[j] || !matches[i].b.empty()) continue;
-    matches[i].b = sets_b[j];
-    matches[i].overlap = overlap;
-    taken[j] = true;
+    const std::size_t taken = std::min(room_a[i], room_b[j]);
+    if (overlap < alike || taken == 0) continue;
+    room_a[i] -= taken;
+    room_b[j] -= taken;
+    ModeMatch& match = matches[i];
+    match.overlap = match.b.empty() ? overlap : std::min(match.overlap, overlap);
+    match.b.insert(match.b.end(), sets_b[j].begin(), sets_b[j].end());
+    std::sort(match.b.begin(), match.b.end());
   }
   return matches;
 }

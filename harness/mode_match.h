@@ -23,7 +23,8 @@ struct SampledModes {
 /// A set of modes of one model and the set of the other that looks most like it. Frequencies within
 /// a millionth of each other are one set, whose single shapes mean nothing.
 struct ModeMatch {
-  std::vector<std::size_t> a, b;  ///< b is empty where nothing looks alike
+  /// b is empty where nothing looks alike; a set of b may stand beside several single modes of a.
+  std::vector<std::size_t> a, b;
   /// Mean squared cosine of the angles between the two subspaces: the modal assurance criterion
   /// where both sets are single modes (R. J. Allemang, D. L. Brown, IMAC 1982).
   double overlap = 0;

@@ -6,7 +6,8 @@
 
 namespace trammel {
 
-/// Prints, under its head, which effects a case has, by which numbers, and why.
+/// Prints, under its head, which effects a case has; where they are automatic, by which numbers and
+/// why.
 void print_effects(const EffectChoice& choice, const std::string& analysis);
 
 /// "axial-flexibility, shear and gravity", or "none".

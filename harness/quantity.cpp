@@ -62,10 +62,4 @@ bool is_count(const std::string& name) {
   return counts.count(name) > 0;
 }
 
-bool is_diagnostic(const std::string& name) {
-  const std::string head = name.substr(0, name.find(':'));
-  return head.find("roundoff") != std::string::npos || head.find("residual") != std::string::npos ||
-         head.rfind("constraint_gap", 0) == 0;
-}
-
 }  // namespace trammel

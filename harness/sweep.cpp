@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "harness/case.h"
+#include "harness/diagnostic.h"
 #include "harness/judge.h"
 
 namespace trammel {

@@ -246,6 +246,17 @@ BOOST_AUTO_TEST_CASE(a_narrow_window_is_told_with_the_digits_that_it_takes) {
   BOOST_TEST(contains(run(folder, "run cantilever.json").out, "[99.9999999, 100.0000001]"));
 }
 
+BOOST_AUTO_TEST_CASE(a_case_without_checks_tells_what_was_computed) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  json.erase("checks");
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "run cantilever.json");
+  BOOST_TEST(contains(outcome.out, "frequency_Hz"));
+  BOOST_TEST(!contains(outcome.out, "roundoff"));
+}
+
 BOOST_AUTO_TEST_CASE(the_example_of_the_readme_runs_and_holds) {
   const std::string readme = text_of(TRAMMEL_SOURCE_DIR "/README.md");
   const std::string fence = "```json\n";

@@ -44,6 +44,17 @@ BOOST_AUTO_TEST_CASE(repeated_modes_are_a_set_whose_single_shapes_mean_nothing) 
   BOOST_TEST(matches[0].overlap == 1, boost::test_tools::tolerance(1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(modes_that_part_look_like_the_set_they_were) {
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(5, 3);
+  const SampledModes pair = modes({1, 1, 3}, I), parted = modes({1, 1.1, 3}, I);
+  const auto apart = match_modes(parted, pair);
+  BOOST_REQUIRE(apart.size() == 3);
+  for (std::size_t i = 0; i < 2; ++i) BOOST_TEST(apart[i].b.size() == 2U);
+  const auto together = match_modes(pair, parted);
+  BOOST_REQUIRE(together.size() == 2);
+  BOOST_TEST((together[0].b == std::vector<std::size_t>{0, 1}));
+}
+
 BOOST_AUTO_TEST_CASE(what_looks_like_nothing_stays_alone) {
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(5, 5);
   const auto matches = match_modes(modes({1, 2}, I.leftCols(2)), modes({1, 2}, I.rightCols(2)));

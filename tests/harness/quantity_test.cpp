@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "harness/diagnostic.h"
+
 using namespace trammel;
 
 BOOST_AUTO_TEST_SUITE(quantity)
