@@ -208,7 +208,10 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Subject& su
                                           : reference          ? reference->title
                                                                : subject.name);
   figure.caption = conclusion(subject);
-  if (digits_shown(subject)) figure.caption += " Digits number the entries (modes).";
+  const bool modes = first.quantity.rfind("frequency", 0) == 0;
+  if (digits_shown(subject)) {
+    figure.caption += std::string(" Digits number the ") + (modes ? "modes." : "entries.");
+  }
   figure.alt = "Differences of every variant with the band expected. " + figure.caption;
   figure.height = strip_height(subject.rows.size()) + 20;
   figure.commands = script.commands();
