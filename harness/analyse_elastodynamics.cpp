@@ -98,17 +98,13 @@ void record_energy(const ElastodynamicsSolution& solution, Recorder& record) {
 
 /// How far P is from where it would be without elastic inertia and damping, over the largest
 /// deflection that it would have there.
-void record_excess(ElastodynamicsOptions options, const ElastodynamicsSolution& solution,
-                   Recorder& record) {
-  if (!options.elastic_inertia) return;
-  options.elastic_inertia = options.convective = false;
-  const ElastodynamicsSolution slow = solve_elastodynamics(options);
-  if (!slow.outcome.solved()) return;  // a mechanism has no quasi-static position
-  const double size = slow.deflection.rowwise().norm().maxCoeff();
+void record_excess(const ElastodynamicsSolution& solution, Recorder& record) {
+  const Eigen::MatrixX2d& slow = solution.quasi_static_deflection;
+  if (!slow.allFinite()) return;  // a mechanism has no quasi-static position
+  const double size = slow.rowwise().norm().maxCoeff();
   if (!(size > 0)) return;
-  for (Index i = 0; i < slow.deflection.rows(); ++i) {
-    record.add("dynamic_excess", "P",
-               (solution.deflection.row(i) - slow.deflection.row(i)).norm() / size);
+  for (Index i = 0; i < slow.rows(); ++i) {
+    record.add("dynamic_excess", "P", (solution.deflection.row(i) - slow.row(i)).norm() / size);
   }
 }
 
@@ -183,7 +179,7 @@ StepResult analyse_elastodynamics(const Cursor& analysis, const Scene& scene, bo
   record_deflection(solution, record);
   record_torques(solution, record);
   record_energy(solution, record);
-  record_excess(options, solution, record);
+  if (options.elastic_inertia) record_excess(solution, record);
   if (analysis.get("step_errors", false)) record_step_errors(options, solution, record);
   record_damping(options.damping, start, record);
   record_summary(solution, record);

@@ -310,7 +310,10 @@ class Recorder {
     solution_.state.push_back(Recovery(moving, q, forces).run());
     const StaticSolution& state = solution_.state.back();
     rotation_.push_back(mean_rotation(model, moving, state.displacement));
-    deflection_.emplace_back(state.displacement.row(model.find_node("P")).head<2>());
+    const Index P = model.find_node("P");
+    deflection_.emplace_back(state.displacement.row(P).head<2>());
+    quasi_static_.push_back(options_.elastic_inertia ? quasi_static_displacement(moving, P)
+                                                     : deflection_.back());
     torque_.emplace_back(state.reaction.col(2));
     rigid_torque_.push_back(journey_.rigid_torque());
     follow(moving);
@@ -319,6 +322,7 @@ class Recorder {
   void finish() {
     const auto n = static_cast<Index>(solution_.time.size());
     solution_.deflection.resize(n, 2);
+    solution_.quasi_static_deflection.resize(n, 2);
     solution_.torque.resize(n, 3);
     solution_.rigid_torque.resize(n, 3);
     for (VectorXd* x :
@@ -330,6 +334,7 @@ class Recorder {
       const Vector2d velocity = solution_.nominal[k].velocity.head<2>();
       const Vector2d along = velocity / velocity.norm();  // NaN at a standstill
       solution_.deflection.row(i) = deflection_[k];
+      solution_.quasi_static_deflection.row(i) = quasi_static_[k];
       solution_.tangential_error[i] = along.dot(deflection_[k]);
       solution_.normal_error[i] = cross(along, deflection_[k]);
       solution_.platform_rotation[i] = rotation_[k];
@@ -345,6 +350,14 @@ class Recorder {
   }
 
  private:
+  Vector2d quasi_static_displacement(const MovingSystem& moving, Index node) {
+    journey_.load(load_);
+    if (!journey_.solve_statically(load_, static_)) return Vector2d::Constant(kNaN);
+    const auto& c = moving.start().coordinates.node[static_cast<std::size_t>(node)];
+    const auto& T = moving.constraints().T;
+    return {T.row(c[0]).dot(static_), T.row(c[1]).dot(static_)};
+  }
+
   void follow(const MovingSystem& moving) {
     const double inertia = journey_.size(moving.inertia_load());
     const double share = inertia == 0 ? 0 : inertia / journey_.size(moving.load());
@@ -361,7 +374,8 @@ class Recorder {
   Journey& journey_;
   ElastodynamicsSolution& solution_;
   std::vector<double> rotation_;
-  std::vector<Vector2d> deflection_;
+  std::vector<Vector2d> deflection_, quasi_static_;
+  VectorXd load_, static_;
   std::vector<Vector3d> torque_, rigid_torque_;
   double inertia_ = 0, turning_ = 0, fastest_ = 0, hardest_ = 0;
 };

@@ -60,6 +60,8 @@ struct ElastodynamicsSolution {
   /// the largest at the ends of its elements. `q` are the free coordinates.
   std::vector<StaticSolution> state;
   Eigen::MatrixX2d deflection;  ///< of P, world axes [m]
+  /// The same without elastic inertia and damping, K q = F + f; NaN for a mechanism.
+  Eigen::MatrixX2d quasi_static_deflection;
   /// Deflection of P along the nominal velocity and to the left of it [m]; NaN at a standstill.
   Eigen::VectorXd tangential_error, normal_error;
   Eigen::VectorXd platform_rotation;  ///< mean elastic rotation of C1 C2 C3 about P [rad]

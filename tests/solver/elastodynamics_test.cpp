@@ -306,6 +306,23 @@ BOOST_AUTO_TEST_CASE(a_path_that_leaves_the_reach_ends_there_and_says_when) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(beside_the_motion_stands_the_quasi_static_position_of_the_same_pose) {
+  // once it took a second simulation, at the cost of the first
+  for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
+    ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-3);
+    options.design = coarse_design(kind);
+    options.wrench = {10, 0, 0};
+    options.convective = true;
+    const ElastodynamicsSolution motion = solve_elastodynamics(options);
+    options.elastic_inertia = options.convective = false;
+    const ElastodynamicsSolution slow = solve_elastodynamics(options);
+    BOOST_TEST((motion.quasi_static_deflection - slow.deflection).norm() <
+               1e-12 * slow.deflection.norm());
+    BOOST_TEST(largest_difference(motion, slow) > 1e-3 * slow.deflection.norm());
+    BOOST_TEST((slow.quasi_static_deflection == slow.deflection));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_mechanism_has_no_number_for_its_inertia_beside_the_load) {
   ElastodynamicsOptions options = options_on(circle(20), 0.01, 1e-3);
   options.design.active.fill({ActiveKind::free});
@@ -314,6 +331,7 @@ BOOST_AUTO_TEST_CASE(a_mechanism_has_no_number_for_its_inertia_beside_the_load) 
   const ElastodynamicsSolution s = solve_elastodynamics(options);
   BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
   BOOST_TEST(std::isnan(s.effects.nominal_inertia));
+  BOOST_TEST(s.quasi_static_deflection.array().isNaN().all());
   BOOST_TEST(s.effects.first_frequency > 0);  // the first elastic one, after three rigid motions
 }
 
