@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "reports/figures/figures.h"
+#include "reports/palette.h"
 
 using namespace trammel::reports;
 
@@ -55,9 +56,28 @@ BOOST_AUTO_TEST_CASE(a_map_keeps_every_position_and_says_what_its_colours_mean) 
   const auto figure = draw(field(14, 5), problem);
   BOOST_TEST_REQUIRE(figure.has_value(), problem);
   BOOST_TEST(figure->data.rows.size() == 70U);
-  BOOST_TEST(contains(figure->caption, " in Hz, in classes of about as many positions each."));
+  BOOST_TEST(contains(figure->caption,
+                      " in Hz, dark far from zero, in classes of about equally many positions."));
   BOOST_TEST(contains(figure->commands, "'below 1'"));  // ten of the 70, in seven classes
   BOOST_TEST(contains(figure->alt, "the largest magnitude is 5.3 Hz"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
+  std::string problem;
+  Run run = field(14, 5);
+  const auto shade_of_lowest = [&] {
+    const auto figure = draw(run, problem);
+    BOOST_TEST_REQUIRE(figure.has_value(), problem);
+    const std::size_t key = figure->commands.find("'below ");
+    const std::size_t color = figure->commands.rfind('#', key);
+    return figure->commands.substr(color, 7);
+  };
+  BOOST_TEST(shade_of_lowest() == palette::sequence.front());
+  for (Number& number : run.quantities[2].second) number = -*number;
+  BOOST_TEST(shade_of_lowest() == palette::sequence.back());
+  run.quantities[2].second[0] = 7.0;
+  BOOST_TEST(shade_of_lowest() == palette::sequence.front());
+  BOOST_TEST(contains(draw(run, problem)->caption, "dark where it is high"));
 }
 
 BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
