@@ -74,19 +74,31 @@ const Run* run_of(const std::vector<const Run*>& runs, const std::string& varian
   return nullptr;
 }
 
-/// Every quantity of every variant asked for. Units and lengths must agree.
+/// Whether a run has one of the quantities at least.
+bool has_any(const Run& run, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    const Numbers* values = run.quantity(name);
+    return values && !values->empty();
+  });
+}
+
+/// Every quantity of every variant asked for that has it; each has one, and each quantity is there.
+/// Units and lengths must agree.
 std::vector<Series> collect(const PlotRequest& request, const std::vector<std::string>& variants,
                             const std::vector<const Run*>& runs, std::string& problem) {
   std::vector<Series> series;
   for (std::size_t iy = 0; iy < request.y.size(); ++iy) {
+    const std::string& y = request.y[iy];
+    const std::size_t before = series.size();
     for (std::size_t iv = 0; iv < variants.size(); ++iv) {
-      const std::string& y = request.y[iy];
       const std::string& variant = variants[iv];
       const Run* run = run_of(runs, variant);
       const Numbers* values = run ? run->quantity(y) : nullptr;
       const Numbers* x = run ? run->quantity(request.x) : nullptr;
       if (!run) {
         problem = "there is no run of the variant " + variant;
+      } else if ((!values || values->empty()) && has_any(*run, request.y)) {
+        continue;  // another quantity of its own stands for it
       } else if (!values || values->empty()) {
         problem = "the variant " + variant + " has no " + y;
       } else if (!request.x.empty() && !x) {
@@ -101,6 +113,10 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
         series.push_back({y, variant, "", color, iv, values, largest_of(*values)});
         continue;
       }
+      return {};
+    }
+    if (series.size() == before) {
+      problem = "no variant has " + y;
       return {};
     }
   }
