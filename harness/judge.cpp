@@ -138,8 +138,8 @@ double measured(Measure measure, double computed, double expected) {
 }
 
 std::string outside(const Check& check, double value, const Window& window) {
-  const std::string where = shortest(value) + " is outside of [" + shortest(window.low) + ", " +
-                            shortest(window.high) + "]";
+  std::string where = shortest(value) + " is outside of [" + shortest(window.low) + ", " +
+                      shortest(window.high) + "]";
   if (check.expectation == Expectation::known_discrepancy) {
     return "the known discrepancy is no longer what was recorded: " + where;
   }
