@@ -67,13 +67,13 @@ Real Arguments::number(const std::string& key, const Real& absent) const {
 }
 
 Real Arguments::positive(const std::string& key) const {
-  const Real value = number(key);
+  Real value = number(key);
   if (!(value > 0)) fail(key, "expected a positive number");
   return value;
 }
 
 Real Arguments::not_negative(const std::string& key, const Real& absent) const {
-  const Real value = number(key, absent);
+  Real value = number(key, absent);
   if (value < 0) fail(key, "expected a number that is not negative");
   return value;
 }
