@@ -17,7 +17,8 @@ Json catalogue_case(const char* id) {
   const std::filesystem::path file =
       std::filesystem::path(TRAMMEL_SOURCE_DIR) / "cases" / (std::string(id) + ".json");
   Json json = load_case(file).document.value();
-  for (const char* key : {"extends", "checks", "variants", "sweeps", "figures", "expect_status"}) {
+  for (const char* key :
+       {"extends", "checks", "battery", "variants", "sweeps", "figures", "expect_status"}) {
     json.erase(key);
   }
   return json;
