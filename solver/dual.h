@@ -2,18 +2,25 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <complex>
 #include <concepts>
 #include <unsupported/Eigen/AutoDiff>
 
-/// Exact derivatives: the functions that make elements out of a design are templates over `Real`,
-/// and a dual number carries d/dp of everything through the very same lines.
+/// Derivatives without differences: the functions that make elements out of a design are templates
+/// over `Real`, and d/dp of everything comes out of the very same lines. A dual number carries it
+/// exactly. A complex step carries it as an imaginary part so small that its square is nothing
+/// beside the real one: f(p + ih) = f + ih f' + O(h^2), with no difference to cancel
+/// (W. Squire, G. Trapp, SIAM Review 40, 1998).
 namespace trammel {
 
 /// A value and its derivative with respect to one parameter.
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
+using Complex = std::complex<double>;
+/// h, in the parameter's unit: h^2 is below the round-off of any number that a design holds.
+inline constexpr double complex_step = 1e-30;
 
 template <class T>
-concept Real = std::same_as<T, double> || std::same_as<T, Dual>;
+concept Real = std::same_as<T, double> || std::same_as<T, Dual> || std::same_as<T, Complex>;
 
 [[nodiscard]] inline double value(double x) {
   return x;
@@ -21,13 +28,30 @@ concept Real = std::same_as<T, double> || std::same_as<T, Dual>;
 [[nodiscard]] inline double value(const Dual& x) {
   return x.value();
 }
+[[nodiscard]] inline double value(const Complex& x) {
+  return x.real();
+}
 [[nodiscard]] inline double slope(const Dual& x) {
   return x.derivatives()[0];
 }
+[[nodiscard]] inline double slope(const Complex& x) {
+  return x.imag() / complex_step;
+}
 
-/// The parameter itself: d/dp = `slope`.
-[[nodiscard]] inline Dual dual(double value, double slope) {
-  return {value, Eigen::Matrix<double, 1, 1>(slope)};
+/// A number with d/dp = `slope`: the parameter itself has 1.
+template <Real T>
+[[nodiscard]] T with_slope(double value, double slope) {
+  if constexpr (std::same_as<T, Dual>) {
+    return {value, Eigen::Matrix<double, 1, 1>(slope)};
+  } else {
+    return {value, slope * complex_step};
+  }
+}
+
+/// Of numbers that carry a complex step; the library has no complex one.
+[[nodiscard]] inline Complex atan2(const Complex& y, const Complex& x) {
+  const double turn = x.real() * y.imag() - y.real() * x.imag();
+  return {std::atan2(y.real(), x.real()), turn / (x.real() * x.real() + y.real() * y.real())};
 }
 
 }  // namespace trammel

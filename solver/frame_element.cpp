@@ -53,7 +53,7 @@ template <Real T>
 T shear_ratio(const SectionOf<T>& section, BeamTheory theory,
               const std::type_identity_t<T>& length) {
   if (!shears(theory)) return T(0);
-  return 12 * section.EI / (section.kappa_GA * length * length);
+  return 12.0 * section.EI / (section.kappa_GA * length * length);
 }
 
 template <Real T>
@@ -61,8 +61,8 @@ Matrix36<T> frame_deformation(const Eigen::Vector2<T>& direction,
                               const std::type_identity_t<T>& length) {
   const T c = direction.x();
   const T s = direction.y();
-  const T rs = 2 / length * s;
-  const T rc = 2 / length * c;
+  const T rs = 2.0 / length * s;
+  const T rc = 2.0 / length * c;
   Matrix36<T> B = Matrix36<T>::Zero();
   B(0, 3) = c;
   B(0, 4) = s;
@@ -82,7 +82,7 @@ template <Real T>
 Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
                                  const std::type_identity_t<T>& length) {
   const T phi = shear_ratio(section, theory, length);
-  return {section.EA / length, section.EI / length, 3 * section.EI / (length * (1 + phi))};
+  return {section.EA / length, section.EI / length, 3.0 * section.EI / (length * (1.0 + phi))};
 }
 
 Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length) {
@@ -96,7 +96,7 @@ Matrix36<T> frame_interpolation(const T& shear_ratio, const std::type_identity_t
   const double x2 = xi * xi;
   const double x3 = x2 * xi;
   const T phi = shear_ratio;
-  const T g = 1 / (1 + phi);
+  const T g = 1.0 / (1.0 + phi);
   const T h = 0.5 * phi * (xi - x2);
   Matrix36<T> N = Matrix36<T>::Zero();
   N(0, 0) = 1 - xi;
@@ -105,7 +105,7 @@ Matrix36<T> frame_interpolation(const T& shear_ratio, const std::type_identity_t
   N(1, 2) = g * length * (xi - 2 * x2 + x3 + h);
   N(1, 4) = g * (3 * x2 - 2 * x3 + phi * xi);
   N(1, 5) = g * length * (x3 - x2 - h);
-  N(2, 1) = g * 6 * (x2 - xi) / length;
+  N(2, 1) = g * 6.0 * (x2 - xi) / length;
   N(2, 2) = g * (1 - 4 * xi + 3 * x2 + phi * (1 - xi));
   N(2, 4) = -N(2, 1);
   N(2, 5) = g * (3 * x2 - 2 * xi + phi * xi);
@@ -119,8 +119,8 @@ Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix
   const T J = rotary_inertia(section, theory) * length;
   Matrix6<T> M = Matrix6<T>::Zero();
   if (mass == MassMatrix::lumped) {
-    M(0, 0) = M(1, 1) = M(3, 3) = M(4, 4) = m / 2;
-    M(2, 2) = M(5, 5) = J / 2;
+    M(0, 0) = M(1, 1) = M(3, 3) = M(4, 4) = m / 2.0;
+    M(2, 2) = M(5, 5) = J / 2.0;
     return M;
   }
   const T phi = shear_ratio(section, theory, length);
@@ -165,16 +165,24 @@ Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
 
 template double shear_ratio(const SectionOf<double>&, BeamTheory, const double&);
 template Dual shear_ratio(const SectionOf<Dual>&, BeamTheory, const Dual&);
+template Complex shear_ratio(const SectionOf<Complex>&, BeamTheory, const Complex&);
 template Matrix36<double> frame_deformation(const Eigen::Vector2<double>&, const double&);
 template Matrix36<Dual> frame_deformation(const Eigen::Vector2<Dual>&, const Dual&);
+template Matrix36<Complex> frame_deformation(const Eigen::Vector2<Complex>&, const Complex&);
 template Eigen::Vector3<double> frame_rigidity(const SectionOf<double>&, BeamTheory, const double&);
 template Eigen::Vector3<Dual> frame_rigidity(const SectionOf<Dual>&, BeamTheory, const Dual&);
+template Eigen::Vector3<Complex> frame_rigidity(const SectionOf<Complex>&, BeamTheory,
+                                                const Complex&);
 template Matrix36<double> frame_interpolation(const double&, const double&, double);
 template Matrix36<Dual> frame_interpolation(const Dual&, const Dual&, double);
+template Matrix36<Complex> frame_interpolation(const Complex&, const Complex&, double);
 template Matrix6<double> frame_mass(const SectionOf<double>&, BeamTheory, MassMatrix,
                                     const double&);
 template Matrix6<Dual> frame_mass(const SectionOf<Dual>&, BeamTheory, MassMatrix, const Dual&);
+template Matrix6<Complex> frame_mass(const SectionOf<Complex>&, BeamTheory, MassMatrix,
+                                     const Complex&);
 template Matrix6<double> frame_rotation(const Eigen::Vector2<double>&);
 template Matrix6<Dual> frame_rotation(const Eigen::Vector2<Dual>&);
+template Matrix6<Complex> frame_rotation(const Eigen::Vector2<Complex>&);
 
 }  // namespace trammel

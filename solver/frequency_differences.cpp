@@ -24,23 +24,44 @@ class Differences {
       : design_(design), pose_(pose), parameter_(parameter), count_(count) {}
 
   FrequencyDifferences run(double relative_step) {
-    const VectorXd all = frequencies(0);
-    result_.frequency = all.head(std::min(count_, all.size()));
-    count_ = result_.frequency.size();
-    result_.derivative = VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
-    result_.doubt = VectorXd::Constant(count_, std::numeric_limits<double>::infinity());
+    const VectorXd all = begin();
     if (!result_.outcome.solved()) return result_;
-    sets_ = equal_frequencies(all);
     result_.step = first_step(all, relative_step * parameter_value(design_, parameter_));
     extrapolate(result_.step);
     return result_;
   }
 
+  FrequencyDifferences once(double relative_step, bool both) {
+    const VectorXd all = begin();
+    if (!result_.outcome.solved()) return result_;
+    result_.step = relative_step * parameter_value(design_, parameter_);
+    if (both) {
+      result_.derivative = central(result_.step);
+    } else {
+      const VectorXd above = frequencies(result_.step);
+      if (above.size() < count_) return result_;
+      result_.derivative = (above.head(count_) - all.head(count_)) / result_.step;
+    }
+    return result_;
+  }
+
  private:
+  /// The frequencies of the design itself.
+  VectorXd begin() {
+    VectorXd all = frequencies(0);
+    result_.frequency = all.head(std::min(count_, all.size()));
+    count_ = result_.frequency.size();
+    result_.derivative = VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
+    result_.doubt = VectorXd::Constant(count_, std::numeric_limits<double>::infinity());
+    if (result_.outcome.solved()) sets_ = equal_frequencies(all);
+    return all;
+  }
+
   VectorXd frequencies(double change) {
     const ManipulatorDesign design = changed(design_, parameter_, change);
     const ModalSolution modes =
         solve_modes(assemble(build_manipulator(design, pose_)), {.count = count_ + kBeyond});
+    result_.counters += modes.counters;
     if (!modes.outcome.solved()) result_.outcome = modes.outcome;
     return modes.frequency;
   }
@@ -115,6 +136,12 @@ FrequencyDifferences differentiate_frequencies(const ManipulatorDesign& design, 
                                                const DesignParameter& parameter, Index count,
                                                double relative_step) {
   return Differences(design, pose, parameter, count).run(relative_step);
+}
+
+FrequencyDifferences difference_quotient(const ManipulatorDesign& design, const Pose& pose,
+                                         const DesignParameter& parameter, Index count,
+                                         double relative_step, bool central) {
+  return Differences(design, pose, parameter, count).once(relative_step, central);
 }
 
 }  // namespace trammel

@@ -12,6 +12,7 @@ struct FrequencyDifferences {
   Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
   Eigen::VectorXd doubt;       ///< what the extrapolation itself says of its error [Hz / unit]
   double step = 0;             ///< the largest [unit]
+  Counters counters;
 };
 
 /// Central differences at steps that shrink by 1.6, extrapolated to zero; of the table, the entry
@@ -25,5 +26,14 @@ struct FrequencyDifferences {
                                                              const DesignParameter& parameter,
                                                              Index count,
                                                              double relative_step = 5e-3);
+
+/// One difference quotient, as it is: central over 2 h or forward over h.
+/// @param relative_step  h over the value of the parameter, > 0; `doubt` stays infinite
+/// @throws ModelError  as `build_manipulator`, so also where the step leads out of reach.
+[[nodiscard]] FrequencyDifferences difference_quotient(const ManipulatorDesign& design,
+                                                       const Pose& pose,
+                                                       const DesignParameter& parameter,
+                                                       Index count, double relative_step,
+                                                       bool central);
 
 }  // namespace trammel

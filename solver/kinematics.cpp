@@ -47,13 +47,14 @@ struct Limb {
 /// A side rounded just beyond the reach makes a factor slightly negative: a straight limb.
 template <Real T>
 T not_negative(const T& x) {
-  return x > 0 ? x : T(0);
+  return value(x) > 0 ? x : T(0);
 }
 
 template <Real T>
 Limb<T> solve_limb(const T& a, const T& b, double r) {
   using std::atan2;
   using std::sqrt;
+  using trammel::atan2;
   const T stretch = not_negative<T>((a + b) - r);
   const T fold_out = not_negative<T>((b - a) + r);
   const T fold_in = not_negative<T>((a - b) + r);
@@ -61,13 +62,13 @@ Limb<T> solve_limb(const T& a, const T& b, double r) {
   const T opposite = sqrt(T(fold_out * stretch));
   const T adjacent = sqrt(T(sum * fold_in));
   const T angle = atan2(opposite, adjacent);
-  return {2 * angle, sqrt(T(sum * stretch)) * sqrt(T(fold_out * fold_in)) / (2 * a * b)};
+  return {2.0 * angle, sqrt(T(sum * stretch)) * sqrt(T(fold_out * fold_in)) / (2.0 * a * b)};
 }
 
 /// theta_a, not wrapped.
 template <Real T>
 T active_angle(const Vector2d& p_AC, const Limb<T>& limb, int working_mode) {
-  return std::atan2(p_AC.y(), p_AC.x()) + working_mode * limb.angle_at_A;
+  return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
 }
 
 /// Why the limb cannot reach, or empty.
@@ -176,6 +177,8 @@ template Eigen::Vector2<double> elbow_position(const Vector2d&, const Vector2d&,
                                                const double&, int);
 template Eigen::Vector2<Dual> elbow_position(const Vector2d&, const Vector2d&, const Dual&,
                                              const Dual&, int);
+template Eigen::Vector2<Complex> elbow_position(const Vector2d&, const Vector2d&, const Complex&,
+                                                const Complex&, int);
 
 ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
                                      const std::array<double, 3>& active, const Pose& start) {

@@ -238,18 +238,18 @@ SectionOf<T> link_section(const LinkDesignOf<T>& link, const std::type_identity_
   require(positive(link.thickness), "a link's thickness must be positive");
   require(positive(link.width), "a link's width must be positive");
   require(positive(link.material.E), "a link's Young's modulus must be positive");
-  require(link.material.nu > -1 && link.material.nu <= 0.5,
+  require(value(link.material.nu) > -1 && value(link.material.nu) <= 0.5,
           "a link's Poisson's ratio must lie between -1 and 0.5");
   require(link.elements >= 1, "a link needs at least one element");
   require(positive(link.shear_coefficient), "a link's shear coefficient must be positive");
   const T mass = link_mass(link, length);
-  require(mass >= 0 && std::isfinite(value(mass)), "a link's mass must not be negative");
+  require(value(mass) >= 0 && std::isfinite(value(mass)), "a link's mass must not be negative");
   require(link.inertia.value_or(0) >= 0 && std::isfinite(link.inertia.value_or(0)),
           "a link's inertia must not be negative");
 
   const T area = link.thickness * link.width;
-  const T second_moment = area * link.thickness * link.thickness / 12;
-  const T G = link.material.E / (2 * (1 + link.material.nu));
+  const T second_moment = area * link.thickness * link.thickness / 12.0;
+  const T G = link.material.E / (2.0 * (1.0 + link.material.nu));
   SectionOf<T> section;
   section.EA = link.material.E * area;
   section.EI = link.material.E * second_moment;
@@ -257,7 +257,7 @@ SectionOf<T> link_section(const LinkDesignOf<T>& link, const std::type_identity_
   section.mass_per_length = mass / length;
   section.inertia_per_length = mass / length * second_moment / area;
   section.area = area;
-  section.section_modulus = second_moment / (link.thickness / 2);
+  section.section_modulus = second_moment / (link.thickness / 2.0);
   return section;
 }
 
@@ -273,17 +273,17 @@ PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
     require(positive(platform.thickness), "the platform's thickness must be positive");
     result.mass = platform.material.rho * platform.thickness * platform_area(c);
   }
-  require(result.mass >= 0 && std::isfinite(value(result.mass)),
+  require(value(result.mass) >= 0 && std::isfinite(value(result.mass)),
           "the platform's mass must not be negative");
   if (platform.inertia) {
     result.inertia = *platform.inertia - result.mass * result.center.squaredNorm();
-    require(result.inertia >= 0 && std::isfinite(value(result.inertia)),
+    require(value(result.inertia) >= 0 && std::isfinite(value(result.inertia)),
             "the platform's inertia about P must be at least its mass times the square of the "
             "distance from P to its centre of mass");
   } else {
     const double sides_squared =
         (c[1] - c[0]).squaredNorm() + (c[2] - c[1]).squaredNorm() + (c[0] - c[2]).squaredNorm();
-    result.inertia = result.mass * sides_squared / 36;
+    result.inertia = result.mass * sides_squared / 36.0;
   }
   return result;
 }
@@ -294,12 +294,16 @@ PlatformMass platform_mass(const ManipulatorDesign& design) {
 
 template double link_mass(const LinkDesignOf<double>&, const double&);
 template Dual link_mass(const LinkDesignOf<Dual>&, const Dual&);
+template Complex link_mass(const LinkDesignOf<Complex>&, const Complex&);
 template SectionOf<double> link_section(const LinkDesignOf<double>&, const double&);
 template SectionOf<Dual> link_section(const LinkDesignOf<Dual>&, const Dual&);
+template SectionOf<Complex> link_section(const LinkDesignOf<Complex>&, const Complex&);
 template PlatformMassOf<double> platform_mass(const PlatformDesignOf<double>&,
                                               const std::array<Vector2d, 3>&);
 template PlatformMassOf<Dual> platform_mass(const PlatformDesignOf<Dual>&,
                                             const std::array<Vector2d, 3>&);
+template PlatformMassOf<Complex> platform_mass(const PlatformDesignOf<Complex>&,
+                                               const std::array<Vector2d, 3>&);
 
 Model build_manipulator(const ManipulatorDesign& design, const Pose& pose) {
   const Posture posture = inverse_kinematics(design.geometry, pose);

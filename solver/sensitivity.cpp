@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "solver/inertia.h"
+#include "solver/seeded_design.h"
 #include "solver/strain.h"
 
 namespace trammel {
@@ -21,28 +22,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// apart are good to the modes' round-off over it.
 constexpr double kSameFrequency = 1e-7;
 
-/// The number of a part that the parameter names, or null.
-template <class Part>
-auto number(Part& part, Quantity quantity) -> decltype(&part.thickness) {
-  switch (quantity) {
-    case Quantity::thickness:
-      return &part.thickness;
-    case Quantity::E:
-      return &part.material.E;
-    case Quantity::density:
-      return &part.material.rho;
-    case Quantity::length:
-    case Quantity::width:
-      break;
-  }
-  return nullptr;
-}
-
-template <class T>
-T* link_number(LinkDesignOf<T>& link, Quantity quantity) {
-  return quantity == Quantity::width ? &link.width : number(link, quantity);
-}
-
 /// Calls visit(number) for each number of the design that the parameter names.
 template <class Visit>
 void for_each_number(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
@@ -53,110 +32,15 @@ void for_each_number(ManipulatorDesign& design, const DesignParameter& parameter
   };
   for (std::size_t i = 0; i < 3; ++i) {
     if (parameter.proximal[i]) {
-      meet(length ? &design.geometry.proximal[i] : link_number(design.proximal[i], quantity));
+      meet(length ? &design.geometry.proximal[i]
+                  : detail::link_number(design.proximal[i], quantity));
     }
     if (parameter.distal[i]) {
-      meet(length ? &design.geometry.distal[i] : link_number(design.distal[i], quantity));
+      meet(length ? &design.geometry.distal[i] : detail::link_number(design.distal[i], quantity));
     }
   }
-  if (parameter.platform) meet(number(design.platform, quantity));
+  if (parameter.platform) meet(detail::number(design.platform, quantity));
 }
-
-MaterialOf<Dual> dual(const Material& m) {
-  return {.E = m.E, .rho = m.rho, .nu = m.nu};
-}
-
-LinkDesignOf<Dual> dual(const LinkDesign& link) {
-  return {.thickness = link.thickness,
-          .width = link.width,
-          .material = dual(link.material),
-          .shear_coefficient = link.shear_coefficient,
-          .theory = link.theory,
-          .mass_matrix = link.mass_matrix,
-          .elements = link.elements,
-          .axially_flexible = link.axially_flexible,
-          .mass = link.mass,
-          .inertia = link.inertia};
-}
-
-PlatformDesignOf<Dual> dual(const PlatformDesign& platform) {
-  return {.kind = platform.kind,
-          .thickness = platform.thickness,
-          .material = dual(platform.material),
-          .refinements = platform.refinements,
-          .pin_radius = platform.pin_radius,
-          .mass = platform.mass,
-          .inertia = platform.inertia};
-}
-
-void seed(Dual* x) {
-  if (x != nullptr) x->derivatives()[0] = 1;
-}
-
-/// A link with its derivative: what of it the elements need.
-struct DualLink {
-  SectionOf<Dual> section;
-  Eigen::Vector2<Dual> direction;
-  Dual length;
-};
-
-/// The design with d/dp = 1 on the numbers that the parameter names.
-class DualDesign {
- public:
-  DualDesign(const ManipulatorDesign& design, const Posture& posture,
-             const DesignParameter& parameter)
-      : platform_(dual(design.platform)) {
-    const ManipulatorGeometry& g = design.geometry;
-    if (parameter.platform) seed(number(platform_, parameter.quantity));
-    platform_mass_ = platform_mass(platform_, g.platform);
-    const bool length = parameter.quantity == Quantity::length;
-    for (std::size_t i = 0; i < 3; ++i) {
-      LinkDesignOf<Dual> proximal = dual(design.proximal[i]);
-      LinkDesignOf<Dual> distal = dual(design.distal[i]);
-      if (parameter.proximal[i]) seed(link_number(proximal, parameter.quantity));
-      if (parameter.distal[i]) seed(link_number(distal, parameter.quantity));
-      const Dual a = trammel::dual(g.proximal[i], length && parameter.proximal[i] ? 1 : 0);
-      const Dual b = trammel::dual(g.distal[i], length && parameter.distal[i] ? 1 : 0);
-      const Eigen::Vector2<Dual> A = g.base[i].cast<Dual>();
-      const Eigen::Vector2<Dual> C = posture.C[i].cast<Dual>();
-      // Of a straight limb the angles change infinitely fast, but only with its own lengths.
-      const Eigen::Vector2<Dual> B =
-          slope(a) == 0 && slope(b) == 0
-              ? Eigen::Vector2<Dual>(posture.B[i].cast<Dual>())
-              : elbow_position(g.base[i], posture.C[i], a, b, g.working_mode[i]);
-      links_[2 * i] = make(proximal, a, A, B);
-      links_[2 * i + 1] = make(distal, b, B, C);
-    }
-  }
-
-  /// In the order of the built model's members.
-  [[nodiscard]] const DualLink& link(Index member) const {
-    return links_[static_cast<std::size_t>(member)];
-  }
-  [[nodiscard]] const PlatformMassOf<Dual>& mass() const { return platform_mass_; }
-  /// The triangles' stiffness is in proportion to E t and their mass to the total: d ln / dp.
-  [[nodiscard]] double stiffness_rate() const {
-    const Dual product = platform_.material.E * platform_.thickness;
-    return slope(product) == 0 ? 0 : slope(product) / value(product);
-  }
-  [[nodiscard]] double mass_rate() const {
-    return slope(platform_mass_.mass) == 0
-               ? 0
-               : slope(platform_mass_.mass) / value(platform_mass_.mass);
-  }
-
- private:
-  static DualLink make(const LinkDesignOf<Dual>& link, const Dual& nominal,
-                       const Eigen::Vector2<Dual>& from, const Eigen::Vector2<Dual>& to) {
-    const Eigen::Vector2<Dual> span = to - from;
-    const Dual length = sqrt(Dual(span.x() * span.x() + span.y() * span.y()));
-    return {link_section(link, nominal), {span.x() / length, span.y() / length}, length};
-  }
-
-  PlatformDesignOf<Dual> platform_;
-  PlatformMassOf<Dual> platform_mass_;
-  std::array<DualLink, 6> links_;
-};
 
 /// U^T (dK/dp - w^2 dM/dp) U on the unconstrained coordinates, for a set of modes of one w.
 class SetDerivative {
@@ -175,7 +59,7 @@ class SetDerivative {
     }
   }
 
-  MatrixXd of(const DualDesign& design) const {
+  MatrixXd of(const SeededDesign<Dual>& design) const {
     MatrixXd sum = MatrixXd::Zero(U_.cols(), U_.cols());
     for (const FrameElement& e : system_.mesh.frame) add_element(e, design.link(e.member), sum);
     if (inextensible_) add_constraints(design, sum);
@@ -192,7 +76,7 @@ class SetDerivative {
     return local;
   }
 
-  void add_element(const FrameElement& e, const DualLink& link, MatrixXd& sum) const {
+  void add_element(const FrameElement& e, const SeededLink<Dual>& link, MatrixXd& sum) const {
     const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
     const Eigen::Matrix<double, 6, Eigen::Dynamic> local = gather(e.coordinates);
     const Dual length = link.length / static_cast<double>(member.elements);
@@ -223,12 +107,12 @@ class SetDerivative {
   }
 
   /// With C u = 0 and C depending on p, the eliminated coordinates move: - mu^T dC/dp u, twice.
-  void add_constraints(const DualDesign& design, MatrixXd& sum) const {
+  void add_constraints(const SeededDesign<Dual>& design, MatrixXd& sum) const {
     for (std::size_t r = 0; r < system_.constraints.rows.size(); ++r) {
       const ConstraintRow& row = system_.constraints.rows[r];
       if (row.source != ConstraintRow::Source::inextensible) continue;
       const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(row.index)];
-      const DualLink& link = design.link(e.member);
+      const SeededLink<Dual>& link = design.link(e.member);
       const Vector2d turn(slope(link.direction.x()), slope(link.direction.y()));
       const Eigen::Matrix<double, 6, Eigen::Dynamic> u = gather(e.coordinates);
       const Eigen::RowVectorXd gap = turn.transpose() * (u.middleRows<2>(3) - u.topRows<2>());
@@ -237,7 +121,7 @@ class SetDerivative {
     }
   }
 
-  void add_platform(const DualDesign& design, MatrixXd& sum) const {
+  void add_platform(const SeededDesign<Dual>& design, MatrixXd& sum) const {
     const double stiffness = design.stiffness_rate();
     const double mass = design.mass_rate();
     if (stiffness == 0 && mass == 0) return;
@@ -342,7 +226,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
   result.gap = VectorXd::Constant(kept, std::numeric_limits<double>::infinity());
   if (!modes.outcome.solved()) return result;
 
-  std::vector<DualDesign> designs;
+  std::vector<SeededDesign<Dual>> designs;
   designs.reserve(parameters.size());
   for (const DesignParameter& parameter : parameters) {
     designs.emplace_back(design, posture, parameter);
@@ -366,6 +250,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
     const SetDerivative derivative(system, U, omega * omega);
     for (Index p = 0; p < columns; ++p) {
       const MatrixXd small = derivative.of(designs[static_cast<std::size_t>(p)]);
+      result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
       if (!small.allFinite()) {
         result.outcome = {Status::singular,
                           "a limb is straight or folded: its angles, and with them the "

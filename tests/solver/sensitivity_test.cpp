@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "solver/frequency_complex_step.h"
 #include "solver/workspace_curves.h"
 #include "tests/solver/sensitivity_differences.h"
 
@@ -98,6 +99,54 @@ BOOST_AUTO_TEST_CASE(every_variant_of_the_model_agrees_with_differences) {
     const Comparison single = compare(design, one_length(1, false), 1, 5e-3, 3);
     BOOST_TEST(single.worst < 1e-8);
   }
+}
+
+/// Two routes that share the elements' functions, but not how an eigenvalue's derivative is found.
+BOOST_AUTO_TEST_CASE(complex_steps_of_the_eigenvalue_problem_agree_with_its_energies) {
+  std::vector<ManipulatorDesign> designs(3, coarse_design());
+  designs[1].platform.kind = PlatformKind::rigid;
+  for (LinkDesign& link : designs[1].proximal) link.theory = BeamTheory::timoshenko;
+  designs[2].active.fill({ActiveKind::sprung, 5});
+  for (LinkDesign& link : designs[2].distal) link.mass_matrix = MassMatrix::lumped;
+  const std::vector<DesignParameter> parameters = {all(Quantity::length), all(Quantity::thickness),
+                                                   all(Quantity::E), all(Quantity::density),
+                                                   one_length(1, false)};
+  const Pose pose{0.26, 0.15, 0.1};
+  for (const ManipulatorDesign& design : designs) {
+    const FrequencySensitivity energies = frequency_sensitivity(design, pose, parameters, 6);
+    const FrequencyComplexStep steps = step_frequencies(design, pose, parameters, 6);
+    BOOST_TEST_REQUIRE(steps.outcome.solved());
+    for (Index p = 0; p < energies.derivative.cols(); ++p) {
+      const double scale = energies.derivative.col(p).cwiseAbs().maxCoeff();
+      const double off =
+          (steps.derivative.col(p) - energies.derivative.col(p)).cwiseAbs().maxCoeff();
+      BOOST_TEST(off < 1e-9 * scale);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(complex_steps_say_where_they_cannot_tell) {
+  ManipulatorDesign design = coarse_design();
+  const FrequencyComplexStep repeated =
+      step_frequencies(design, centred_pose(0.1), {all(Quantity::length)}, 6);
+  BOOST_TEST(static_cast<int>(repeated.outcome.status) == static_cast<int>(Status::singular));
+  design.proximal[0].axially_flexible = false;
+  BOOST_CHECK_THROW((void)step_frequencies(design, {0.26, 0.15, 0.1}, {all(Quantity::length)}, 6),
+                    ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(difference_quotients_are_of_first_and_second_order) {
+  const ManipulatorDesign design = coarse_design();
+  const Pose pose{0.26, 0.15, 0.1};
+  const DesignParameter thickness = all(Quantity::thickness);
+  const VectorXd exact = frequency_sensitivity(design, pose, {thickness}, 4).derivative.col(0);
+  const auto error = [&](double step, bool central) {
+    const FrequencyDifferences found =
+        difference_quotient(design, pose, thickness, 4, step, central);
+    return (found.derivative - exact).norm() / exact.norm();
+  };
+  BOOST_TEST(std::abs(std::log2(error(2e-3, true) / error(1e-3, true)) - 2) < 0.05);
+  BOOST_TEST(std::abs(std::log2(error(2e-4, false) / error(1e-4, false)) - 1) < 0.05);
 }
 
 BOOST_AUTO_TEST_CASE(holding_the_total_mass_is_not_holding_the_density) {
