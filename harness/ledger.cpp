@@ -91,7 +91,10 @@ void add_checks(const Cursor& reading, const Run& run, LedgerReading& found) {
       if (!chosen) continue;
     }
     const auto value = taken(found.take, one);
-    if (!value || !std::isfinite(*value)) continue;
+    if (run.status != "solved" || !value || !std::isfinite(*value)) {
+      found.incomplete = true;
+      continue;
+    }
     found.unit = found.take == "ratio" || found.take == "relative" ? "1" : one.unit;
     found.entries.push_back({run.case_id, run.variant, one.name, *value});
   }
@@ -100,7 +103,10 @@ void add_checks(const Cursor& reading, const Run& run, LedgerReading& found) {
 void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
   const std::string name = reading.text("quantity");
   const auto quantity = run.result.quantities.find(name);
-  if (quantity == run.result.quantities.end()) return;
+  if (quantity == run.result.quantities.end() || quantity->second.values.empty()) {
+    found.incomplete = true;
+    return;
+  }
   std::vector<double> values;
   const std::vector<double>& all = quantity->second.values;
   if (reading.has("index")) {
@@ -121,7 +127,8 @@ void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
   if (reading.has("statistic")) values = {statistic_of(reading.text("statistic"), values)};
   found.unit = unit_of(name);
   for (const double value : values) {
-    if (std::isfinite(value)) found.entries.push_back({run.case_id, run.variant, name, value});
+    found.incomplete = found.incomplete || !std::isfinite(value);
+    found.entries.push_back({run.case_id, run.variant, name, value});
   }
 }
 
@@ -172,16 +179,19 @@ LedgerReading judge_reading(const std::string& name, const Cursor& reading,
   }
   const Rule rule = read_rule(reading);
   for (const Run& run : runs) {
-    if (run.status != "solved" || !wants(reading, run)) continue;
+    if (!wants(reading, run)) continue;
     by_check ? add_checks(reading, run, found) : add_quantity(reading, run, found);
   }
-  found.verdict = verdict_of(rule, found.entries);
+  if (!found.incomplete) found.verdict = verdict_of(rule, found.entries);
   return found;
 }
 
 ClaimVerdict verdict_of(const std::vector<LedgerReading>& readings, bool alternatives) {
   std::set<ReadingVerdict> verdicts;
-  for (const LedgerReading& reading : readings) verdicts.insert(reading.verdict);
+  for (const LedgerReading& reading : readings) {
+    if (reading.incomplete) return ClaimVerdict::not_measured;
+    verdicts.insert(reading.verdict);
+  }
   verdicts.erase(ReadingVerdict::not_measured);
   if (verdicts.empty()) return ClaimVerdict::not_measured;
   if (verdicts.size() == 1) {

@@ -31,6 +31,7 @@ struct LedgerReading {
   std::string name, what, take;
   std::string unit;  ///< of the values: 1 for ratios
   std::vector<LedgerEntry> entries;
+  bool incomplete = false;  ///< a run or a number that it asks for is not there
   ReadingVerdict verdict = ReadingVerdict::not_measured;
 };
 
@@ -58,8 +59,8 @@ struct Ledger {
 [[nodiscard]] std::vector<Case> cases_of(const Document& ledger,
                                          const std::vector<Case>& catalogue);
 
-/// Readings without a computed number are not measured and have no say; a claim without any reading
-/// that has is not measured.
+/// Readings of cases that were not run have no say; a claim without any reading that has is not
+/// measured, and neither is one that misses a single number of a case that was.
 /// @throws InputError  where a rule contradicts itself.
 [[nodiscard]] Ledger judge_ledger(const Document& ledger, const std::vector<Run>& runs);
 
