@@ -169,6 +169,34 @@ int effects_command(const EffectsCommand& command) {
   return study.within() ? 0 : 1;
 }
 
+int labelled_effects_command(const EffectsCommand& command) {
+  Table table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">time", ">deciding",
+               ">elements", ">solves"});
+  bool within = true;
+  std::size_t scenes = 0;
+  for (const Case& given : load_catalogue(command.labels)) {
+    const Document document = patched(given, base_variant);
+    if (!knows_effects(document)) continue;
+    const EffectStudy study = study_effects(document, {command.tolerance, false, command.repeats});
+    if (!study.full.outcome.solved()) continue;
+    ++scenes;
+    within = within && study.within();
+    const Counters &chosen = study.chosen.counters, &full = study.full.counters;
+    table.add({given.id(), effect_names(study.choice.chosen),
+               percent(largest(study.chosen.changes)), percent(study.tolerance),
+               study.minimal() ? "yes" : "no", ratio(study.chosen.cpu_s, study.full.cpu_s),
+               ratio(study.choice_cpu_s, study.full.cpu_s),
+               ratio(static_cast<double>(chosen.element_evaluations),
+                     static_cast<double>(full.element_evaluations)),
+               ratio(static_cast<double>(chosen.solves), static_cast<double>(full.solves))});
+  }
+  if (scenes == 0)
+    throw InputError("expected a case with these labels whose analysis knows effects");
+  table.print(std::cout, "");
+  std::cout << "time, deciding, elements, solves: over those of the whole scene\n";
+  return within ? 0 : 1;
+}
+
 int random_effects_command(const EffectsCommand& command) {
   Tally tally;
   {

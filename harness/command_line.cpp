@@ -187,6 +187,7 @@ class CommandLine {
                         "with only those\nthat its tolerance calls for.\n\nExamples:\n"
                         "  trammel effects scene-soft-platform\n"
                         "  trammel effects my-robot.json --tolerance 0.001\n"
+                        "  trammel effects -L effects                 a table of the scenes\n"
                         "  trammel effects --random 200 --seed 1      hit rate on random scenes\n"
                         "  trammel effects --seed 1 --scene 17        one of them");
     sub->add_option("case", name_, "Name or file of a case with statics or modes");
@@ -202,13 +203,17 @@ class CommandLine {
                        ->check(CLI::Range(1, 100000));
     auto* scene = sub->add_option("--scene", effects_.scene, "This one of the random scenes");
     sub->add_option("--seed", effects_.seed, "Of random scenes")->capture_default_str();
-    sub->callback([this, random, scene] {
-      const bool many = random->count() > 0, one = scene->count() > 0;
-      if (int(many) + int(one) + int(!name_.empty()) != 1) {
-        throw CLI::RequiredError("exactly one of a case, --random and --scene");
+    auto* labels = sub->add_option("-L,--label", effects_.labels,
+                                   "Every case with one of these labels, in a table")
+                       ->allow_extra_args(false);
+    sub->callback([this, random, scene, labels] {
+      const bool many = random->count() > 0, one = scene->count() > 0, all = labels->count() > 0;
+      if (int(many) + int(one) + int(all) + int(!name_.empty()) != 1) {
+        throw CLI::RequiredError("exactly one of a case, --label, --random and --scene");
       }
       effects_.name = name_;
-      command_ = [this, many] {
+      command_ = [this, many, all] {
+        if (all) return labelled_effects_command(effects_);
         return many ? random_effects_command(effects_) : effects_command(effects_);
       };
     });

@@ -30,12 +30,13 @@ struct CostCommand {
 };
 
 struct EffectsCommand {
-  std::string name, variant;  ///< of a case; or
-  std::uint64_t seed = 1;     ///< of random scenes:
-  std::uint64_t random = 0;   ///< so many of them,
-  std::uint64_t scene = 0;    ///< or this one
-  double tolerance = 0.01;    ///< where the case does not give one
-  int repeats = 7;            ///< of each measurement of time
+  std::string name, variant;        ///< of a case; or
+  std::uint64_t seed = 1;           ///< of random scenes:
+  std::uint64_t random = 0;         ///< so many of them,
+  std::uint64_t scene = 0;          ///< or this one
+  std::vector<std::string> labels;  ///< or every case of the catalogue with one of these
+  double tolerance = 0.01;          ///< where the case does not give one
+  int repeats = 7;                  ///< of each measurement of time
 };
 
 int list_cases(const std::vector<std::string>& labels, bool json);
@@ -48,6 +49,8 @@ int ledger_command(unsigned jobs, bool json);
 int effects_command(const EffectsCommand& command);
 /// Hit rate of automatic effects: 1 below 99 % within tolerance or 90 % minimal.
 int random_effects_command(const EffectsCommand& command);
+/// A table of what the labelled cases call for: 1 where one is beyond its tolerance.
+int labelled_effects_command(const EffectsCommand& command);
 /// The page of the whole catalogue with its cost studies and claims, or of the cases named.
 int report_command(const RunCommand& command, const Renderers& renderers);
 
