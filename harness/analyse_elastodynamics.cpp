@@ -11,50 +11,6 @@
 namespace trammel {
 namespace {
 
-void read_effects(const Cursor& analysis, ElastodynamicsOptions& options) {
-  const auto effects = analysis.find("effects");
-  if (!effects) return;
-  options.nominal_inertia = effects->get("nominal_inertia", true);
-  options.elastic_inertia = effects->get("elastic_inertia", true);
-  options.convective = effects->get("transformation_rate_terms", false);
-  if (options.convective && !options.elastic_inertia) {
-    throw(*effects)["transformation_rate_terms"].error(
-        "expected elastic inertia with it: these terms are a part of it");
-  }
-}
-
-ElastodynamicsOptions read_options(const Cursor& analysis, const Scene& scene) {
-  // The same things have no place here as in the dynamics of rigid links.
-  static_cast<void>(read_rigid_manipulator(analysis, scene));
-  if (!scene.path) throw analysis.error("expected a trajectory: a pose alone has no time");
-  if (!loads_at_P_only(scene)) {
-    throw analysis.error("expected loads at P only: those elsewhere would turn with the platform");
-  }
-  ElastodynamicsOptions options;
-  options.design = *scene.manipulator;
-  options.path = *scene.path;
-  for (const NodalLoad& load : scene.parts.loads) options.wrench += load.force;
-  options.gravity = scene.parts.gravity;
-  options.damping = read_rayleigh(analysis.find("damping"));
-  read_effects(analysis, options);
-  options.time = read_time_options(analysis);
-  options.time.quasi_static_start = analysis.text("start") == "quasi-static";
-  options.modal_superposition = analysis.get("modal_superposition", false);
-  if (options.modal_superposition && !stands_still(options.path)) {
-    throw analysis["modal_superposition"].error(
-        "expected a platform that stands still: modes are superposed where M and K are constant");
-  }
-  for (const TrajectoryPoint& point : scene.motion) {
-    options.time.sample_times.push_back(point.time);
-  }
-  options.time.start = options.time.sample_times.front();
-  options.time.end = options.time.sample_times.back();
-  if (!(options.time.end > options.time.start)) {
-    throw analysis.error("expected a trajectory of at least two points");
-  }
-  return options;
-}
-
 /// Deflection of P from the nominal path, and along and across it where the path has a direction
 /// all the time.
 void record_deflection(const ElastodynamicsSolution& solution, Recorder& record) {
@@ -144,6 +100,7 @@ void record_damping(const RayleighDamping& damping, const System& start, Recorde
 /// What says beforehand whether an effect matters, and what the integration took.
 void record_summary(const ElastodynamicsSolution& solution, Recorder& record) {
   const ElastodynamicsEffects& effects = solution.effects;
+  if (effects.first_frequency == 0) return;  // quasi-static
   record.add("first_frequency_Hz", "", effects.first_frequency);
   record.add("damping_ratio", "", effects.damping_ratio);
   if (std::isfinite(effects.nominal_inertia)) {
@@ -162,9 +119,52 @@ void record_summary(const ElastodynamicsSolution& solution, Recorder& record) {
 
 }  // namespace
 
+ElastodynamicsOptions read_elastodynamics(const Cursor& analysis, const Scene& scene) {
+  // The same things have no place here as in the dynamics of rigid links.
+  static_cast<void>(read_rigid_manipulator(analysis, scene));
+  if (!scene.path) throw analysis.error("expected a trajectory: a pose alone has no time");
+  if (!loads_at_P_only(scene)) {
+    throw analysis.error("expected loads at P only: those elsewhere would turn with the platform");
+  }
+  ElastodynamicsOptions options;
+  const Effects effects = scene.effects;
+  options.design = reduced(*scene.manipulator, effects);
+  options.path = *scene.path;
+  for (const NodalLoad& load : scene.parts.loads) options.wrench += load.force;
+  if (effects.has(Effect::gravity)) options.gravity = scene.parts.gravity;
+  options.damping = {.mass = 0, .stiffness = 0};
+  if (effects.has(Effect::damping)) options.damping = read_rayleigh(analysis.find("damping"));
+  options.elastic_inertia = effects.has(Effect::inertia);
+  options.convective = effects.has(Effect::gyroscopic);
+  if (const auto words = analysis.find("effects")) {
+    options.nominal_inertia = words->get("nominal_inertia", true);
+    const bool rates = words->get("transformation_rate_terms", false);
+    if (rates && !words->get("elastic_inertia", true)) {
+      throw(*words)["transformation_rate_terms"].error(
+          "expected elastic inertia with it: these terms are a part of it");
+    }
+  }
+  options.time = read_time_options(analysis);
+  options.time.quasi_static_start = analysis.text("start") == "quasi-static";
+  options.modal_superposition = analysis.get("modal_superposition", false);
+  if (options.modal_superposition && !stands_still(options.path)) {
+    throw analysis["modal_superposition"].error(
+        "expected a platform that stands still: modes are superposed where M and K are constant");
+  }
+  for (const TrajectoryPoint& point : scene.motion) {
+    options.time.sample_times.push_back(point.time);
+  }
+  options.time.start = options.time.sample_times.front();
+  options.time.end = options.time.sample_times.back();
+  if (!(options.time.end > options.time.start)) {
+    throw analysis.error("expected a trajectory of at least two points");
+  }
+  return options;
+}
+
 StepResult analyse_elastodynamics(const Cursor& analysis, const Scene& scene, bool draw,
                                   Recorder& record) {
-  const ElastodynamicsOptions options = read_options(analysis, scene);
+  const ElastodynamicsOptions options = read_elastodynamics(analysis, scene);
   const ElastodynamicsSolution solution = solve_elastodynamics(options);
   StepResult result{solution.outcome, solution.summary.counters, std::nullopt};
   const System start = assemble(build_model(scene, 0));
@@ -181,7 +181,7 @@ StepResult analyse_elastodynamics(const Cursor& analysis, const Scene& scene, bo
   record_energy(solution, record);
   if (options.elastic_inertia) record_excess(solution, record);
   if (analysis.get("step_errors", false)) record_step_errors(options, solution, record);
-  record_damping(options.damping, start, record);
+  if (options.elastic_inertia) record_damping(options.damping, start, record);
   record_summary(solution, record);
   return result;
 }

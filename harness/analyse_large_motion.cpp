@@ -250,6 +250,7 @@ StepResult analyse_large_motion(const Cursor& analysis, const Scene& scene, bool
   result.outcome = summary.outcome;
   result.counters = summary.counters;
   result.counters.element_evaluations = system.element_evaluations();
+  result.counters.steps = summary.steps + summary.rejected;
   record_summary(summary, log, record);
   return result;
 }

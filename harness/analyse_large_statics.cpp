@@ -94,6 +94,7 @@ StepResult analyse_large_statics(const Cursor& analysis, const Scene& scene, std
     result.counters.element_evaluations = system.element_evaluations();
     result.counters.factorizations += path.counters.factorizations;
     result.counters.solves += path.counters.solves;
+    result.counters.steps += path.counters.steps;
     result.outcome = path.outcome;
     if (!path.outcome.solved()) return result;
     kept.insert(kept.end(), path.points.begin(), path.points.end());

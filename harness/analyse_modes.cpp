@@ -55,7 +55,8 @@ StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
     refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
     if (scene.path) throw analysis["rotating"].error("expected a model at one place");
-    return analyse_rotating(analysis, assemble(build_model(scene, step)), draw, record);
+    return analyse_rotating(analysis, assemble(build_model(scene, step)), scene.effects, draw,
+                            record);
   }
   const System system =
       condensed(analysis, scene, assemble(build_model(scene, step), scene.effects));

@@ -4,6 +4,7 @@
 #include "harness/case.h"
 #include "harness/recorder.h"
 #include "harness/scene.h"
+#include "solver/elastodynamics.h"
 #include "solver/statics.h"
 
 /// The analyses, one source each. Each adds what it finds at one step of the scene's path, or along
@@ -71,6 +72,10 @@ void record_solution(const Model& model, const StaticSolution& solution, double 
 /// rotations, section forces, stresses, reactions, torques beside those of rigid links, energies.
 [[nodiscard]] StepResult analyse_elastodynamics(const Cursor& analysis, const Scene& scene,
                                                 bool draw, Recorder& record);
+
+/// The motion that a case of elastodynamics describes, with the scene's effects.
+/// @throws InputError  where something stands beside the manipulator or the trajectory has no time.
+[[nodiscard]] ElastodynamicsOptions read_elastodynamics(const Cursor& analysis, const Scene& scene);
 
 /// Derivatives of the natural frequencies with respect to the design, at one pose.
 [[nodiscard]] StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool draw,

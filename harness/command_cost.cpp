@@ -82,7 +82,7 @@ std::string mark(const MeasuredSetting& measured, bool on_front) {
 
 void print_settings(const MeasuredStudy& measured) {
   Table table({"setting", ">error", ">time", ">spread", ">cpu [s]", ">elements", ">factor.",
-               ">solves", ""});
+               ">solves", ">steps", ""});
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
     const MeasuredSetting& one = measured.settings[i];
@@ -93,7 +93,7 @@ void print_settings(const MeasuredStudy& measured) {
                rounded(one.relative, 3), one.timing ? rounded(one.timing->spread(), 2) : "-",
                rounded(one.cpu_s, 3), std::to_string(one.counters.element_evaluations),
                std::to_string(one.counters.factorizations), std::to_string(one.counters.solves),
-               mark(one, on_front)});
+               std::to_string(one.counters.steps), mark(one, on_front)});
     if (!one.reason.empty()) reasons.push_back(title + ": " + one.reason);
   }
   table.print(std::cout, "  ");

@@ -113,6 +113,10 @@ void print_verdict(const EffectStudy& study) {
   }
 }
 
+Document draw_scene(const EffectsCommand& command, std::uint64_t n) {
+  return command.motion ? random_motion(command.seed, n) : random_scene(command.seed, n);
+}
+
 /// What the random scenes come to.
 struct Tally {
   std::size_t scenes = 0, unsolved = 0, within = 0, minimal = 0;
@@ -148,7 +152,7 @@ void judge(const EffectStudy& study, const std::string& name, Tally& tally) {
 int effects_command(const EffectsCommand& command) {
   const bool random = command.name.empty();
   const Document document = [&] {
-    if (random) return random_scene(command.seed, command.scene);
+    if (random) return draw_scene(command, command.scene);
     const Case given = load_case(find_case(command.name));
     return patched(given, command.variant.empty() ? base_variant : command.variant);
   }();
@@ -202,7 +206,7 @@ int random_effects_command(const EffectsCommand& command) {
   {
     Progress progress;
     for (std::uint64_t n = 0; tally.scenes < command.random && n < 2 * command.random; ++n) {
-      const Document document = random_scene(command.seed, n);
+      const Document document = draw_scene(command, n);
       judge(study_effects(document, {command.tolerance, false, 0}),
             document.value().at("id").get<std::string>(), tally);
       progress.show(tally.scenes, command.random);

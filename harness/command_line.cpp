@@ -189,8 +189,9 @@ class CommandLine {
                         "  trammel effects my-robot.json --tolerance 0.001\n"
                         "  trammel effects -L effects                 a table of the scenes\n"
                         "  trammel effects --random 200 --seed 1      hit rate on random scenes\n"
+                        "  trammel effects --random 200 --motion      of scenes in motion\n"
                         "  trammel effects --seed 1 --scene 17        one of them");
-    sub->add_option("case", name_, "Name or file of a case with statics or modes");
+    sub->add_option("case", name_, "Name or file of a case with statics, modes or elastodynamics");
     sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
     sub->add_option("--tolerance", effects_.tolerance,
                     "Relative, where the case's effects are not automatic")
@@ -203,6 +204,8 @@ class CommandLine {
                        ->check(CLI::Range(1, 100000));
     auto* scene = sub->add_option("--scene", effects_.scene, "This one of the random scenes");
     sub->add_option("--seed", effects_.seed, "Of random scenes")->capture_default_str();
+    sub->add_flag("--motion", effects_.motion,
+                  "Random scenes in motion: along circles, and spinning links");
     auto* labels = sub->add_option("-L,--label", effects_.labels,
                                    "Every case with one of these labels, in a table")
                        ->allow_extra_args(false);

@@ -39,7 +39,8 @@ Json setting_json(const Setting& setting, const MeasuredSetting& measured, bool 
           {"counters",
            {{"element_evaluations", measured.counters.element_evaluations},
             {"factorizations", measured.counters.factorizations},
-            {"solves", measured.counters.solves}}},
+            {"solves", measured.counters.solves},
+            {"steps", measured.counters.steps}}},
           {"on_front", on_front}};
 }
 

@@ -216,7 +216,7 @@ bool EffectStudy::minimal() const {
 EffectStudy study_effects(const Document& document, const EffectStudyOptions& options) {
   if (!knows_effects(document)) {
     throw Cursor(document)["analysis"].error(
-        "expected an analysis that knows effects: statics or modes");
+        std::string("expected an analysis that knows effects: ") + analyses_with_effects);
   }
   return Study(document, options).run();
 }

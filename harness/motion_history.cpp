@@ -168,8 +168,7 @@ class Motion {
     TransientHistory found = solve_transient(equation, options);
     history_.outcome = found.summary.outcome;
     history_.steps = found.summary.accepted;
-    history_.counters.factorizations += found.summary.counters.factorizations;
-    history_.counters.solves += found.summary.counters.solves;
+    history_.counters += found.summary.counters;
     history_.q = std::move(found.q);
     history_.v = std::move(found.v);
     history_.a = std::move(found.a);

@@ -174,11 +174,111 @@ Json portal(bool modes, Draw& draw) {
   return model;
 }
 
+/// A manipulator that swings as it follows a circle, slow or fast, damped or not.
+Json moving_manipulator(Draw& draw, Json& scene) {
+  const double length = draw.uniform(0.18, 0.22);
+  const double thickness = length * draw.logarithmic(0.004, 0.1);
+  const double width = length * draw.logarithmic(0.05, 0.3);
+  const bool soft = draw.chance(0.5);
+  Json platform = {{"kind", soft ? "triangles" : "rigid"},
+                   {"side_m", 0.2},
+                   {"thickness_m", width * draw.logarithmic(0.003, 1)}};
+  platform["mass_kg"] = kDensity * thickness * width * length * draw.logarithmic(0.1, 1e3);
+  constexpr int kPoints = 33;
+  const double speed = draw.logarithmic(0.3, 60);
+  const double step = 2 * std::numbers::pi / speed / (kPoints - 1);
+  Json model = {{"manipulator",
+                 {{"base_side_m", 0.5},
+                  {"links",
+                   {{"proximal_length_m", length},
+                    {"distal_length_m", length},
+                    {"thickness_m", thickness},
+                    {"width_m", width},
+                    {"beam", "timoshenko"},
+                    {"elements", 2}}},
+                  {"platform", platform},
+                  {"material", material()},
+                  {"joints",
+                   {{"active", joint(draw, "locked", thickness, width, length)},
+                    {"elbow", draw.chance(0.5) ? "welded" : "hinged"},
+                    {"platform", "hinged"}}}}},
+                {"trajectory",
+                 {{"circle",
+                   {{"center_m", {0.25, 0.144}},
+                    {"radius_m", draw.logarithmic(0.002, 0.015)},
+                    {"points", kPoints},
+                    {"step_s", step},
+                    {"angular_speed_rad_s", speed},
+                    {"phi_rad", 0}}}}}};
+  if (draw.chance(0.6)) {
+    const double load = 0.1 * bending_load(draw, thickness, width, length);
+    model["loads"] = {{"P", {{"node", "P"}, {"force_N", draw.direction(load)}}}};
+  }
+  if (draw.chance(0.3)) model["gravity_m_s2"] = {0, -draw.logarithmic(0.01, 10)};
+  Json motion = {{"scheme", {{"generalized-alpha", {{"spectral_radius", 0.8}}}}},
+                 {"step_s", step / 16},
+                 {"start", draw.chance(0.75) ? "quasi-static" : "at-rest"}};
+  if (draw.chance(0.75)) {
+    motion["damping"] = {{"mass_per_s", draw.logarithmic(1e-3, 1)},
+                         {"stiffness_s", draw.logarithmic(1e-6, 3e-3)}};
+  }
+  scene["analysis"] = {{"elastodynamics", motion}};
+  return model;
+}
+
+/// A link that spins about its root, with a lump at its end.
+Json spinning_link(Draw& draw, Json& scene) {
+  const double length = draw.logarithmic(0.1, 1);
+  const double thickness = length * draw.logarithmic(0.003, 0.2);
+  const double width = thickness * draw.logarithmic(0.5, 10);
+  const double own = 3.516 * thickness / (length * length) * std::sqrt(kE / (12 * kDensity));
+  const double mass = kDensity * thickness * width * length;
+  const double hub = length * draw.uniform(0, 1);
+  scene["analysis"] = {
+      {"modes",
+       {{"count", draw.chance(0.5) ? 1 : 3},
+        {"rotating", {{"angular_speed_rad_s", own * draw.logarithmic(0.003, 0.6)}}}}}};
+  return {{"materials", {{"alloy", material()}}},
+          {"sections",
+           {{"s",
+             {{"material", "alloy"},
+              {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
+          {"elements", 8},
+          {"nodes", {{"A", {hub, 0}}, {"B", {hub + length, 0}}}},
+          {"members",
+           {{"AB",
+             {{"nodes", {"A", "B"}},
+              {"section", "s"},
+              {"beam", "timoshenko"},
+              {"ends", {joint(draw, "welded", thickness, width, length), "welded"}}}}}},
+          {"supports", {{"A", {"x", "y", "rotation"}}}},
+          {"point_masses",
+           {{"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(0.01, 1e3)}}}}}};
+}
+
+/// So that neighbours have nothing in common.
+constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15;
+
+Document written(const std::string& name, const Json& scene) {
+  Document document;
+  document.lay(name, "", scene);
+  document.check("case");
+  return document;
+}
+
 }  // namespace
 
+Document random_motion(std::uint64_t seed, std::uint64_t n) {
+  Draw draw((seed + 1) * kSpread + n);
+  const std::string name = "random-motion-" + std::to_string(seed) + "-" + std::to_string(n);
+  Json scene = {{"id", name}, {"title", "Random scene in motion"}};
+  const bool spins = draw.chance(0.25);
+  Json model = spins ? spinning_link(draw, scene) : moving_manipulator(draw, scene);
+  scene["model"] = std::move(model);
+  return written(name, scene);
+}
+
 Document random_scene(std::uint64_t seed, std::uint64_t n) {
-  constexpr std::uint64_t kSpread =
-      0x9E3779B97F4A7C15;  // so that neighbours have nothing in common
   Draw draw((seed + 1) * kSpread + n);
   const bool modes = draw.chance(0.5);
   const double kind = draw.uniform(0, 1);
@@ -188,10 +288,7 @@ Document random_scene(std::uint64_t seed, std::uint64_t n) {
                    : kind < 0.75 ? beam(modes, draw)
                                  : portal(modes, draw);
   scene["analysis"] = analysis(modes, draw);
-  Document document;
-  document.lay(name, "", scene);
-  document.check("case");
-  return document;
+  return written(name, scene);
 }
 
 }  // namespace trammel

@@ -11,4 +11,8 @@ namespace trammel {
 /// far below a per cent to far above. The same on every machine.
 [[nodiscard]] Document random_scene(std::uint64_t seed, std::uint64_t n);
 
+/// The same in motion: a manipulator along a circle (elastodynamics), slow or fast, damped or not,
+/// or the modes of a link that spins.
+[[nodiscard]] Document random_motion(std::uint64_t seed, std::uint64_t n);
+
 }  // namespace trammel

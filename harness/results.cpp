@@ -187,7 +187,8 @@ Json cost(const Run& run) {
                {"counters",
                 {{"element_evaluations", counters.element_evaluations},
                  {"factorizations", counters.factorizations},
-                 {"solves", counters.solves}}}};
+                 {"solves", counters.solves},
+                 {"steps", counters.steps}}}};
   if (!run.uncertainty.empty()) json["uncertainty_wall_s"] = run.uncertainty_wall_s;
   for (const EvaluationTime& timing : run.result.timings) {
     json["timings"][timing.name] = {{"each_s", timing.wall_s}, {"evaluations", timing.evaluations}};

@@ -5,7 +5,6 @@
 
 #include "harness/eigen_path.h"
 #include "harness/material_reader.h"
-#include "solver/rotating_modes.h"
 
 namespace trammel {
 namespace {
@@ -16,18 +15,6 @@ SpinAxis read_axis(const Cursor& rotating) {
   const std::string axis = rotating.get<std::string>("axis", "normal");
   if (axis == "x") return SpinAxis::x;
   return axis == "y" ? SpinAxis::y : SpinAxis::normal;
-}
-
-RotatingOptions read_options(const Cursor& modes) {
-  const Cursor rotating = modes["rotating"];
-  RotatingOptions options;
-  options.count = modes["count"].get<Index>();
-  options.path = read_eigen_path(modes);
-  options.spin.axis = read_axis(rotating);
-  if (rotating.has("center_m")) options.spin.centre = read_point(rotating["center_m"]);
-  options.coriolis = rotating.get("coriolis", true);
-  options.deformed_tension = rotating.get<std::string>("tension", "deformed") == "deformed";
-  return options;
 }
 
 std::string label(Index mode, double frequency) {
@@ -65,20 +52,39 @@ void record_state(const System& system, const RotatingModes& modes, Recorder& re
 
 }  // namespace
 
-StepResult analyse_rotating(const Cursor& modes, const System& system, bool draw,
-                            Recorder& record) {
+RotatingOptions read_rotating_options(const Cursor& modes) {
+  const Cursor rotating = modes["rotating"];
+  RotatingOptions options;
+  options.count = modes["count"].get<Index>();
+  options.path = read_eigen_path(modes);
+  options.spin.axis = read_axis(rotating);
+  if (rotating.has("center_m")) options.spin.centre = read_point(rotating["center_m"]);
+  options.deformed_tension = rotating.get<std::string>("tension", "deformed") == "deformed";
+  return options;
+}
+
+std::vector<double> read_speeds(const Cursor& modes) {
   const Json& stated = modes["rotating"]["angular_speed_rad_s"].json();
-  const bool several = stated.is_array();
-  const auto speeds =
-      several ? stated.get<std::vector<double>>() : std::vector<double>{stated.get<double>()};
-  RotatingOptions options = read_options(modes);
+  if (stated.is_array()) return stated.get<std::vector<double>>();
+  return {stated.get<double>()};
+}
+
+StepResult analyse_rotating(const Cursor& modes, const System& system, Effects effects, bool draw,
+                            Recorder& record) {
+  const bool several = modes["rotating"]["angular_speed_rad_s"].json().is_array();
+  const std::vector<double> speeds = read_speeds(modes);
+  RotatingOptions options = read_rotating_options(modes);
+  options.coriolis = effects.has(Effect::gyroscopic);
+  options.stiffening = effects.has(Effect::geometric_stiffening);
   StepResult result{{}, system.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, false);
   for (const double speed : speeds) {
     options.spin.speed = speed;
     const RotatingModes found = solve_rotating_modes(system, options);
-    result.counters.factorizations += found.counters.factorizations;
-    result.counters.solves += found.counters.solves;
+    Counters its = found.counters;  // which begin with the system's
+    its.element_evaluations = 0;
+    for (std::size_t i = 0; i < effect_count; ++i) its.effects[i] -= system.counters.effects[i];
+    result.counters += its;
     result.outcome = found.outcome;
     if (!found.outcome.solved()) return result;
     record.add("angular_speed_rad_s", "", speed);

@@ -3,8 +3,12 @@
 #include <algorithm>
 
 #include "harness/analysis.h"
+#include "harness/analysis_kinds.h"
+#include "harness/rotating_state.h"
 #include "harness/table.h"
+#include "harness/time_reader.h"
 #include "harness/words.h"
+#include "solver/dynamic_effect_estimates.h"
 
 namespace trammel {
 namespace {
@@ -13,9 +17,35 @@ Effects& carried_by(EffectScope& scope, Effect effect) {
   return scope.carries[static_cast<std::size_t>(effect)];
 }
 
-/// The word of an analysis that means geometric stiffening.
-const char* stiffening_word(const std::string& kind) {
-  return kind == "statics" ? "second_order" : "prestressed";
+/// A word of the analysis itself that says whether there is an effect.
+struct EffectWord {
+  Effect effect;
+  std::vector<const char*> place;  ///< below the analysis
+  bool otherwise;                  ///< where nothing is said
+};
+
+bool is_rotating(const Document& document) {
+  return Cursor(document)["analysis"][analysis_kind(document)].has("rotating");
+}
+
+std::vector<EffectWord> effect_words(const Document& document) {
+  const std::string kind = analysis_kind(document);
+  if (kind == "statics") return {{Effect::geometric_stiffening, {"second_order"}, false}};
+  if (kind == "elastodynamics") {
+    return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
+            {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
+  }
+  if (is_rotating(document)) return {{Effect::gyroscopic, {"rotating", "coriolis"}, true}};
+  return {{Effect::geometric_stiffening, {"prestressed"}, false}};
+}
+
+/// What the analysis says of it, if anything.
+std::optional<Cursor> find_word(const Document& document, const EffectWord& word) {
+  std::optional<Cursor> place = Cursor(document)["analysis"][analysis_kind(document)];
+  for (const char* key : word.place) {
+    if (place) place = place->find(key);
+  }
+  return place;
 }
 
 EffectScope statics_scope(const Model& model) {
@@ -51,14 +81,48 @@ EffectScope modes_scope(const Model& model) {
   return scope;
 }
 
+/// Whatever the frame holds as it turns stays.
+EffectScope rotating_scope(const Document& document, const Model& model) {
+  EffectScope scope;
+  scope.admitted = admitted_effects(model).with(Effect::inertia).with(Effect::geometric_stiffening);
+  scope.required = Effects().with(Effect::inertia);
+  if (scope.admitted.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
+  const Cursor rotating = Cursor(document)["analysis"]["modes"]["rotating"];
+  // Coriolis forces point out of the plane where the axis lies in it.
+  if (rotating.get<std::string>("axis", "normal") == "normal") {
+    scope.admitted = scope.admitted.with(Effect::gyroscopic);
+  }
+  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  return scope;
+}
+
+EffectScope motion_scope(const Document& document, const Model& model) {
+  EffectScope scope;
+  scope.admitted = admitted_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
+  const RayleighDamping damping =
+      read_rayleigh(Cursor(document)["analysis"]["elastodynamics"].find("damping"));
+  const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
+  if (damping.mass != 0 || damping.stiffness != 0) {
+    scope.admitted = scope.admitted.with(Effect::damping);
+  }
+  // Inextensible links turn, and constraints that turn with them cost more than stretch does.
+  if (scope.admitted.has(Effect::axial_flexibility)) {
+    scope.required = Effects().with(Effect::axial_flexibility);
+  }
+  carried_by(scope, Effect::inertia) = with_velocity;
+  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  return scope;
+}
+
 /// Without "effects": the parts' own words, and the analysis's.
 Effects stated_effects(const Document& document, const EffectScope& scope) {
-  const std::string kind = analysis_kind(document);
-  const bool second = Cursor(document)["analysis"][kind].get(stiffening_word(kind), false);
   Effects stated = scope.admitted.without(Effect::large_displacement);
-  if (second) return stated;
-  stated = stated.without(Effect::geometric_stiffening);
-  return kind == "modes" ? stated.without(Effect::gravity) : stated;
+  for (const EffectWord& word : effect_words(document)) {
+    const auto said = find_word(document, word);
+    if (said ? said->get<bool>() : word.otherwise) continue;
+    stated = scope.without(stated, word.effect);
+  }
+  return stated;
 }
 
 /// Why a scene does not have an effect.
@@ -80,17 +144,30 @@ std::string missing_words(Effect effect, const std::string& kind) {
     case Effect::gravity:
       return "nothing has a weight ('gravity_m_s2')";
     case Effect::inertia:
-      return "nothing moves in statics";
+    case Effect::gyroscopic:
+      return kind == "statics" ? "nothing moves in statics" : "the frame does not turn";
+    case Effect::damping:
+      return kind == "statics" ? "nothing moves in statics"
+             : kind == "modes" ? "modes are those of the undamped model"
+                               : "there is no 'damping'";
     case Effect::geometric_stiffening:
-      return "there are no loads";
+      return kind == "modes" ? "there are no loads" : "it belongs to the analysis 'large-motion'";
     case Effect::large_displacement:
-      return "modes are small motions";
+      return kind == "modes" ? "modes are small motions"
+                             : "it belongs to the analysis 'large-motion'";
   }
   return "";
 }
 
 std::string percent(double share) {
   return rounded(100 * share, 3) + " %";
+}
+
+/// Why an effect stays, whatever it is worth.
+const char* required_words(Effect effect, const std::string& kind) {
+  return kind == "elastodynamics" && effect == Effect::axial_flexibility
+             ? "kept, for constraints that turn with the links cost more than it does"
+             : "the analysis is of it";
 }
 
 std::vector<EffectReason> plain_reasons(const EffectScope& scope, Effects chosen,
@@ -102,7 +179,7 @@ std::vector<EffectReason> plain_reasons(const EffectScope& scope, Effects chosen
     one.admitted = scope.admitted.has(effect);
     one.on = one.admitted && chosen.has(effect);
     one.why = !one.admitted                ? missing_words(effect, kind)
-              : scope.required.has(effect) ? "the analysis is of it"
+              : scope.required.has(effect) ? required_words(effect, kind)
               : one.on                     ? word
                                            : "not " + word;
     reasons.push_back(std::move(one));
@@ -167,15 +244,25 @@ std::string why_words(const EffectEstimate& estimate, bool on, double tolerance,
          percent(tolerance) + " less a tenth in hand";
 }
 
+EffectEstimates estimate(const Document& document, const Scene& scene, const EffectScope& scope) {
+  const std::string kind = analysis_kind(document);
+  const Cursor analysis = Cursor(document)["analysis"][kind];
+  if (kind == "elastodynamics") {
+    return estimate_motion_effects(read_elastodynamics(analysis, scene), scope.admitted);
+  }
+  const std::vector<Model> poses = sample_poses(scene);
+  if (kind == "statics") return estimate_static_effects(poses, scope.admitted);
+  if (is_rotating(document)) {
+    return estimate_rotating_effects(poses.front(), scope.admitted, read_rotating_options(analysis),
+                                     read_speeds(analysis));
+  }
+  return estimate_modal_effects(poses, scope.admitted, analysis["count"].get<Index>());
+}
+
 EffectChoice choose_automatically(const Document& document, const Scene& scene,
                                   const EffectScope& scope, double tolerance) {
   const std::string kind = analysis_kind(document);
-  const std::vector<Model> poses = sample_poses(scene);
-  const Cursor analysis = Cursor(document)["analysis"][kind];
-  const EffectEstimates estimates =
-      kind == "statics"
-          ? estimate_static_effects(poses, scope.admitted)
-          : estimate_modal_effects(poses, scope.admitted, analysis["count"].get<Index>());
+  const EffectEstimates estimates = estimate(document, scene, scope);
   EffectChoice choice;
   choice.tolerance = tolerance;
   choice.counters = estimates.counters;
@@ -198,15 +285,16 @@ EffectChoice choose_automatically(const Document& document, const Scene& scene,
 
 bool knows_effects(const Document& document) {
   const std::string kind = analysis_kind(document);
-  // A rotating frame turns with its forces and always stiffens by them.
-  const bool rotating = Cursor(document)["analysis"][kind].has("rotating");
-  return kind == "statics" || (kind == "modes" && !rotating);
+  return kind == "statics" || kind == "modes" || kind == "elastodynamics";
 }
 
 EffectScope effect_scope(const Document& document, const Scene& scene) {
   const Model model = build_model(scene, 0);
-  EffectScope scope =
-      analysis_kind(document) == "statics" ? statics_scope(model) : modes_scope(model);
+  const std::string kind = analysis_kind(document);
+  EffectScope scope = kind == "statics"          ? statics_scope(model)
+                      : kind == "elastodynamics" ? motion_scope(document, model)
+                      : is_rotating(document)    ? rotating_scope(document, model)
+                                                 : modes_scope(model);
   if (!model.triangles.empty()) {
     scope.admitted = scope.admitted.with(Effect::platform_flexibility);
     // Plates that are no platform are what there is.
@@ -218,7 +306,9 @@ EffectScope effect_scope(const Document& document, const Scene& scene) {
 EffectChoice choose_effects(const Document& document, const Scene& scene) {
   const auto asked = Cursor(document).find("effects");
   if (!knows_effects(document)) {
-    if (asked) throw asked->error("expected an analysis that knows effects: statics or modes");
+    if (asked)
+      throw asked->error(std::string("expected an analysis that knows effects: ") +
+                         analyses_with_effects);
     return {};
   }
   const std::string kind = analysis_kind(document);
@@ -229,10 +319,10 @@ EffectChoice choose_effects(const Document& document, const Scene& scene) {
     choice.reasons = plain_reasons(scope, choice.chosen, kind, "stated by the parts");
     return choice;
   }
-  const Cursor analysis = Cursor(document)["analysis"][kind];
-  const char* word = stiffening_word(kind);
-  if (analysis.has(word)) {
-    throw analysis[word].error("expected 'effects' alone to say it: geometric-stiffening");
+  for (const EffectWord& word : effect_words(document)) {
+    const auto said = find_word(document, word);
+    if (!said) continue;
+    throw said->error("expected 'effects' alone to say it: " + std::string(name_of(word.effect)));
   }
   if (asked->json().is_object()) {
     return choose_automatically(document, scene, scope, (*asked)["auto"].number("tolerance"));
@@ -243,7 +333,7 @@ EffectChoice choose_effects(const Document& document, const Scene& scene) {
 }
 
 std::string number_words(Effect effect, const std::string& analysis) {
-  const bool statics = analysis == "statics";
+  const bool statics = analysis == "statics", motion = analysis == "elastodynamics";
   switch (effect) {
     case Effect::axial_flexibility:
       return statics ? "(r / L)^2, the squared slenderness" : "share of the strain energy";
@@ -258,13 +348,20 @@ std::string number_words(Effect effect, const std::string& analysis) {
       return statics ? "weight of members over all loads, in energy"
                      : "share of the kinetic energy";
     case Effect::gravity:
-      return statics ? "other weights over all loads, in energy" : "share of the stiffness";
+      return statics  ? "other weights over all loads, in energy"
+             : motion ? "weights over all loads, in energy"
+                      : "share of the stiffness";
     case Effect::geometric_stiffening:
       return statics ? "load over buckling load, tension positive" : "share of the stiffness";
     case Effect::large_displacement:
       return "largest rotation [rad]";
     case Effect::inertia:
-      break;
+      return motion ? "(speed of the path over the first frequency)^2" : "";
+    case Effect::damping:
+      return "damping ratio of the first mode";
+    case Effect::gyroscopic:
+      return motion ? "twice the fastest turning over the first frequency"
+                    : "share of the stiffness";
   }
   return "";
 }
@@ -273,9 +370,15 @@ Document with_effects(const Document& document, Effects effects) {
   Document changed = document;
   Json names = Json::array();
   for (const Effect effect : effects.list()) names.push_back(std::string(name_of(effect)));
-  const std::string kind = analysis_kind(document);
-  changed.lay(document.origin("").file, "",
-              Json{{"effects", names}, {"analysis", {{kind, {{stiffening_word(kind), nullptr}}}}}});
+  Json patch = {{"effects", names}};
+  for (const EffectWord& word : effect_words(document)) {
+    std::string pointer = "/analysis/" + analysis_kind(document);
+    const bool below = word.place.size() > 1;  // what holds the word must not come from nothing
+    if (below && !find_word(document, word)) continue;
+    for (const char* key : word.place) pointer += std::string("/") + key;
+    patch[JsonPointer(pointer)] = nullptr;
+  }
+  changed.lay(document.origin("").file, "", patch);
   return changed;
 }
 

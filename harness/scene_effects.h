@@ -28,7 +28,9 @@ struct EffectChoice {
   Counters counters;                  ///< what the choice has cost
 };
 
-/// Whether the case's analysis knows effects: statics does, and modes at rest.
+inline constexpr const char* analyses_with_effects = "statics, modes or elastodynamics";
+
+/// Whether the case's analysis knows effects.
 [[nodiscard]] bool knows_effects(const Document& document);
 
 /// What the analysis of the whole scene can do with.

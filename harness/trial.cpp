@@ -28,7 +28,7 @@ Json answer(const Setting& setting, const References& references) {
     const AnalysisResult result = analyse(setting.document, references, {false});
     json["cpu_s"] = watch.cpu_s();
     json["counters"] = {result.counters.element_evaluations, result.counters.factorizations,
-                        result.counters.solves};
+                        result.counters.solves, result.counters.steps};
     if (!result.outcome.solved()) {
       json["failure"] = result.outcome.reason.empty() ? "no solution" : result.outcome.reason;
       return json;
@@ -77,8 +77,8 @@ Trial read_answer(const std::string& text) {
   }
   trial.cpu_s = json.at("cpu_s").get<double>();
   if (json.contains("counters")) {
-    const auto counts = json.at("counters").get<std::array<std::int64_t, 3>>();
-    trial.counters = {counts[0], counts[1], counts[2]};
+    const auto counts = json.at("counters").get<std::array<std::int64_t, 4>>();
+    trial.counters = {counts[0], counts[1], counts[2], counts[3]};
   }
   if (json.contains("failure")) {
     trial.reason = json.at("failure").get<std::string>();

@@ -94,6 +94,7 @@ CostStudies read_cost_studies(const JsonView& view) {
 std::string counters_text(const std::vector<std::pair<std::string, double>>& counters) {
   std::string text;
   for (const auto& [name, n] : counters) {
+    if (n == 0 && name == "steps") continue;  // most computations have none
     std::string words = name;
     std::replace(words.begin(), words.end(), '_', ' ');
     text += (text.empty() ? "" : ", ") + grouped(n) + " " + words;

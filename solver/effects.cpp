@@ -7,9 +7,18 @@
 namespace trammel {
 namespace {
 
-constexpr std::array<std::string_view, effect_count> kNames = {
-    "axial-flexibility", "shear",   "rotary-inertia", "platform-flexibility", "joint-compliance",
-    "link-mass",         "gravity", "inertia",        "geometric-stiffening", "large-displacement"};
+constexpr std::array<std::string_view, effect_count> kNames = {"axial-flexibility",
+                                                               "shear",
+                                                               "rotary-inertia",
+                                                               "platform-flexibility",
+                                                               "joint-compliance",
+                                                               "link-mass",
+                                                               "gravity",
+                                                               "inertia",
+                                                               "damping",
+                                                               "gyroscopic",
+                                                               "geometric-stiffening",
+                                                               "large-displacement"};
 
 bool bends(const Member& member) {
   return interpolate(member.section, member.end_section, 0.5).EI > 0;
@@ -52,6 +61,15 @@ void reduce(Member& member, Effects kept) {
   if (kept.has(Effect::link_mass)) return;
   take_mass(member.section);
   take_mass(member.end_section);
+}
+
+void reduce(LinkDesign& link, Effects kept) {
+  if (!kept.has(Effect::axial_flexibility)) link.axially_flexible = false;
+  link.theory = beam_theory(shears(link.theory) && kept.has(Effect::shear),
+                            has_rotary_inertia(link.theory) && kept.has(Effect::rotary_inertia));
+  if (kept.has(Effect::link_mass)) return;
+  link.mass = 0;
+  link.inertia.reset();
 }
 
 }  // namespace
@@ -98,6 +116,16 @@ Model reduced(Model model, Effects kept) {
 }
 
 ManipulatorDesign reduced(ManipulatorDesign design, Effects kept) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    reduce(design.proximal[i], kept);
+    reduce(design.distal[i], kept);
+    if (kept.has(Effect::joint_compliance)) continue;
+    if (design.active[i].kind == ActiveKind::sprung) design.active[i] = {ActiveKind::locked};
+    if (design.elbow[i].kind == ElbowKind::sprung) design.elbow[i] = {ElbowKind::welded};
+    if (design.platform_joint[i].kind == PlatformJointKind::sprung) {
+      design.platform_joint[i] = {PlatformJointKind::welded};
+    }
+  }
   if (!kept.has(Effect::platform_flexibility)) {
     design.platform.kind = PlatformDesign::Kind::rigid;
     design.platform.refinements = 0;

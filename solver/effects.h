@@ -22,11 +22,13 @@ enum class Effect : std::uint8_t {
   joint_compliance,      ///< springs between member ends and nodes; off: welded
   link_mass,             ///< mass and inertia of the members
   gravity,               ///< weights
-  inertia,               ///< mass at all; off: no mass matrix
+  inertia,               ///< mass at all; off: no mass matrix, motion is a row of equilibria
+  damping,               ///< forces that go with velocities and take energy
+  gyroscopic,            ///< Coriolis and other forces of frames that turn, but for the centrifugal
   geometric_stiffening,  ///< forces turn with what they act in: second-order theory
   large_displacement,    ///< equilibrium in the place where it is: the geometrically exact tier
 };
-inline constexpr std::size_t effect_count = 10;
+inline constexpr std::size_t effect_count = 12;
 
 /// A set of effects.
 class Effects {
@@ -60,12 +62,13 @@ class Effects {
 using EffectCounts = std::array<std::int64_t, effect_count>;
 
 /// The effects that the parts have, as they are described. What belongs to an analysis rather than
-/// to parts (inertia, geometric stiffening, large displacement) is not among them.
+/// to parts (inertia, damping, gyroscopic forces, geometric stiffening, large displacement) is not
+/// among them.
 [[nodiscard]] Effects admitted_effects(const Model& model);
 
 /// The model without the effects that are not in `kept`.
 [[nodiscard]] Model reduced(Model model, Effects kept);
-/// The same for what the builder decides: the platform.
+/// The same before it is built.
 [[nodiscard]] ManipulatorDesign reduced(ManipulatorDesign design, Effects kept);
 
 }  // namespace trammel

@@ -35,7 +35,7 @@ class Journey {
       : options_(options),
         stands_still_(trammel::stands_still(options.path)),
         rigid_(rigid_manipulator(options.design)),
-        moving_(loaded_model(options), options.convective),
+        moving_(loaded_model(options), options.convective, options.elastic_inertia),
         stiffness_(moving_.K()) {
     rigid_.gravity = options.gravity;
     const TrajectoryPoint first = at(options.path, options.time.start);
@@ -88,13 +88,24 @@ class Journey {
     if (options_.nominal_inertia) f += moving_.inertia_load();
   }
 
-  void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) const {
+  [[nodiscard]] bool damped() const {
+    return options_.damping.mass != 0 || options_.damping.stiffness != 0;
+  }
+
+  /// C stays empty where nothing goes with velocities.
+  void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
     M.coeffs() = moving_.M().coeffs();
     K.coeffs() = moving_.K().coeffs();
-    C.coeffs() =
-        options_.damping.mass * M.coeffs() + options_.damping.stiffness * moving_.K().coeffs();
+    if (damped()) {
+      C.coeffs() =
+          options_.damping.mass * M.coeffs() + options_.damping.stiffness * moving_.K().coeffs();
+      counters_.count(Effect::damping, 1);
+    } else if (options_.convective) {
+      C.coeffs() = moving_.convective_damping().coeffs();
+    }
     if (!options_.convective) return;
-    C.coeffs() += moving_.convective_damping().coeffs();
+    counters_.count(Effect::gyroscopic, 1);
+    if (damped()) C.coeffs() += moving_.convective_damping().coeffs();
     K.coeffs() += moving_.convective_stiffness().coeffs();
   }
 
@@ -111,10 +122,14 @@ class Journey {
   [[nodiscard]] const TrajectoryPoint& point() const { return point_; }
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   [[nodiscard]] bool stands_still() const { return stands_still_; }
-  /// Elements, and what was solved with K.
+  /// Elements, what was solved with K, and the effects: what the parts have, once; what only the
+  /// motion has, each time.
   [[nodiscard]] Counters counters() const {
     Counters all = counters_;
     all.element_evaluations += moving_.element_evaluations();
+    all.effects = moving_.start().counters.effects;
+    for (std::size_t i = 0; i < effect_count; ++i) all.effects[i] += counters_.effects[i];
+    if (!options_.gravity.isZero(0)) all.count(Effect::gravity, 1);
     return all;
   }
 
@@ -469,7 +484,8 @@ void find_first_frequency(const ElastodynamicsOptions& options, const System& st
 void integrate(const ElastodynamicsOptions& options, Journey& journey, Recorder& recorder,
                ElastodynamicsSolution& solution) {
   EquationOfMotion equation;
-  equation.M = equation.C = equation.K = journey.system().K();
+  equation.M = equation.K = journey.system().K();
+  if (journey.damped() || options.convective) equation.C = journey.system().K();
   journey.matrices(equation.M, equation.C, equation.K);
   // Where there is no pose the numbers end, and with them the integration.
   equation.load = [&journey](double time, VectorXd& f) {
@@ -543,7 +559,9 @@ ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options
     solution.outcome = journey.outcome();
     return solution;
   }
-  find_first_frequency(options, journey.system().start(), solution.effects);
+  if (options.elastic_inertia) {
+    find_first_frequency(options, journey.system().start(), solution.effects);
+  }
   if (!options.elastic_inertia) {
     follow_quasi_statically(options, journey, recorder, solution);
   } else if (options.modal_superposition) {

@@ -72,8 +72,11 @@ Turning turning_of(const FrameElement& e, const Member& member) {
 
 }  // namespace
 
-MovingSystem::MovingSystem(const Model& model, bool convective)
-    : start_(assemble(model)), constraints_(start_.constraints), convective_(convective) {
+MovingSystem::MovingSystem(const Model& model, bool convective, bool inertia)
+    : start_(assemble(model, inertia ? Effects::all() : Effects::all().without(Effect::inertia))),
+      constraints_(start_.constraints),
+      convective_(convective),
+      inertia_(inertia) {
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
     const auto source = constraints_.rows[r].source;
     variable_ = variable_ ||
@@ -271,7 +274,8 @@ void MovingSystem::make_pattern() {
   K_.resize(n, n);
   K_.setFromTriplets(places.begin(), places.end());
   K_.makeCompressed();
-  M_ = C_convective_ = K_convective_ = K_;
+  if (inertia_) M_ = K_;
+  if (convective_) C_convective_ = K_convective_ = K_;
   terms_.reserve(places.size());
   visit([&](int local, int a, int b, int row, int column) {
     const int* const begin = K_.innerIndexPtr() + K_.outerIndexPtr()[column];
@@ -491,7 +495,7 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
   motion_ = motion;
   const double* const T = constraints_.T.valuePtr();
   std::fill_n(K_.valuePtr(), K_.nonZeros(), 0.0);
-  std::fill_n(M_.valuePtr(), M_.nonZeros(), 0.0);
+  if (inertia_) std::fill_n(M_.valuePtr(), M_.nonZeros(), 0.0);
   if (convective_) {
     std::fill_n(C_convective_.valuePtr(), K_.nonZeros(), 0.0);
     std::fill_n(K_convective_.valuePtr(), K_.nonZeros(), 0.0);
@@ -508,7 +512,7 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
       const Term& term = terms_[t];
       const double factor = T[term.a] * T[term.b];
       K_.valuePtr()[term.destination] += factor * k(term.local);
-      M_.valuePtr()[term.destination] += factor * m(term.local);
+      if (inertia_) M_.valuePtr()[term.destination] += factor * m(term.local);
     }
     if (convective_) add_convective(element, part, m, end);
     const Vector6d f = element_inertia_load(element, m);

@@ -39,8 +39,9 @@ struct NominalMotion {
 /// of T(t) are the `convective` effect, 2 W^T W. a damping matrix and W^T W.. a stiffness.
 class MovingSystem {
  public:
+  /// @param inertia  false: no M, and none of the start
   /// @throws ModelError  as `assemble`.
-  explicit MovingSystem(const Model& model, bool convective = false);
+  explicit MovingSystem(const Model& model, bool convective = false, bool inertia = true);
 
   /// singular: the coordinates that the constraints eliminate do not suit this pose.
   [[nodiscard]] Outcome move_to(const NominalMotion& motion);
@@ -121,7 +122,7 @@ class MovingSystem {
 
   System start_;
   Constraints constraints_;  // of the present pose
-  bool convective_;
+  bool convective_, inertia_;
   bool variable_ = false;  // T changes with the pose
   std::vector<Element> elements_;
   std::vector<Term> terms_;

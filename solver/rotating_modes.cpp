@@ -21,6 +21,7 @@ class SteadyState {
       : system_(system),
         spin_(options.spin),
         deformed_(options.deformed_tension),
+        stiffens_(options.stiffening),
         counters_(counters),
         body_(body_forces(system, spin_)),
         softening_(-spin_.speed * spin_.speed * spin_softening(system, spin_.axis)),
@@ -34,6 +35,7 @@ class SteadyState {
         system_.f + system_.T.transpose() *
                         centrifugal_forces(system_, spin_, VectorXd::Zero(system_.T.rows()));
     added_ = softening_;
+    if (!stiffens_) return solve(added_, right);
     if (!deformed_) {
       if (!solve(SparseMatrix(system_.K.rows(), system_.K.rows()), right)) return false;
       update(VectorXd::Zero(system_.T.rows()));
@@ -79,13 +81,14 @@ class SteadyState {
     VectorXd force =
         internal_forces(system_, u) - system_.load - centrifugal_forces(system_, spin_, shape);
     if (geometric_.axial.size() > 0) force += turning_forces(system_, geometric_, u);
+    counters_.count(Effect::geometric_stiffening, 1);
     geometric_ = prestress(system_, u, system_.constraints.multipliers(force), body_);
     added_ = softening_ + geometric_stiffness(system_, geometric_);
   }
 
   const System& system_;
   Spin spin_;
-  bool deformed_;
+  bool deformed_, stiffens_;
   Counters& counters_;
   BodyForces body_;
   SparseMatrix softening_;
@@ -122,10 +125,15 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   }
   result.q = steady.q;
   const bool turns = options.coriolis && options.spin.axis == SpinAxis::normal;
-  const SparseMatrix C = (turns ? 2 * options.spin.speed : 0.0) * coriolis_matrix(system);
+  SparseMatrix C(system.K.rows(), system.K.cols());
+  if (turns) {
+    C = 2 * options.spin.speed * coriolis_matrix(system);
+    result.counters.count(Effect::gyroscopic, 1);
+  }
   const GyroscopicPencil pencil{steady.tangent(), C, system.M,
                                 [&steady](const VectorXd& x) { return steady.energy(x); }};
   GyroscopicModes modes;
+  if (system.M.coeffs().isZero(0)) return result;  // nothing swings
   if (steady.factorization.smallest_pivot() > 0) {
     modes = stable_gyroscopic_modes(pencil, steady.factorization, options.count, options.path,
                                     result.counters);

@@ -14,6 +14,7 @@ struct RotatingOptions {
   Index count = 6;
   EigenPath path = EigenPath::automatic;  ///< of a stable state; an unstable one is always dense
   bool coriolis = true;                   ///< false: leaves G out
+  bool stiffening = true;                 ///< false: leaves K_G out
   /// K_G from the forces in the steady state; false: from those of linear statics under the
   /// centrifugal forces on the undeformed frame, as the classical equations of blades have it.
   bool deformed_tension = true;

@@ -20,6 +20,7 @@ struct Counters {
   std::int64_t element_evaluations = 0;  ///< element matrices
   std::int64_t factorizations = 0;
   std::int64_t solves = 0;  ///< right-hand sides, refinement included
+  std::int64_t steps = 0;   ///< of time or load, rejected ones included
   EffectCounts effects{};   ///< by effect
 
   void count(Effect effect, std::int64_t evaluations) {

@@ -53,7 +53,7 @@ void check(const EquationOfMotion& e, const TransientOptions& o) {
   if (!fits(e.M) || !fits(e.K) || !(e.C.size() == 0 || fits(e.C))) {
     throw ModelError("M, C and K of an equation of motion are square and of one size");
   }
-  if (e.update && !(same_pattern(e.M, e.K) && same_pattern(e.M, e.C))) {
+  if (e.update && !(same_pattern(e.M, e.K) && (e.C.size() == 0 || same_pattern(e.M, e.C)))) {
     throw ModelError("matrices that change with time share one pattern");
   }
   const auto missing_or_sized = [n](const VectorXd& x) { return x.size() == 0 || x.size() == n; };
@@ -130,6 +130,10 @@ class Integrator {
         A->makeCompressed();
       }
     }
+    if (equation.update && equation.C.size() == 0) {
+      C_ = M_;
+      C_.coeffs().setZero();
+    }
     S_ = M_;
     for (VectorXd* x : {&MA_, &Mv_, &Kq_, &residual_, &correction_, &q_, &v_, &a_}) x->setZero(n);
   }
@@ -144,6 +148,7 @@ class Integrator {
       }
     }
     summary_.time = now_.time;
+    summary_.counters.steps = summary_.accepted + summary_.rejected;
     return summary_;
   }
 

@@ -155,6 +155,7 @@ class Follower {
   }
 
   void keep(PathPoint point) {
+    ++path_.counters.steps;
     if (!options_.keep_points) path_.points.clear();
     path_.points.push_back(std::move(point));
   }
