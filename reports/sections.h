@@ -48,8 +48,8 @@ void set_effects(Data& data, const std::vector<const Run*>& runs);
 [[nodiscard]] std::string comparison_conclusion(const Family& family, const Results& results,
                                                 const Check& check);
 
-/// The battery of hard cases: items in order, each indicator with its worst value, bound, reason and
-/// verdict, and links to the pictures; empty where no case belongs to it.
+/// The battery of hard cases: items in order, each indicator with its worst value, bound, reason
+/// and verdict, and links to the pictures; empty where no case belongs to it.
 [[nodiscard]] Data battery_section(const std::vector<Family>& families);
 
 /// Published targets beside better values and what comes out; empty rows where no case is labelled

@@ -1,7 +1,7 @@
-#include "solver/larger.h"
-
 #include <boost/test/unit_test.hpp>
 #include <limits>
+
+#include "solver/larger.h"
 
 using namespace trammel;
 
