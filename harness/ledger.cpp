@@ -127,8 +127,11 @@ void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
   if (reading.has("statistic")) values = {statistic_of(reading.text("statistic"), values)};
   found.unit = unit_of(name);
   for (const double value : values) {
-    found.incomplete = found.incomplete || !std::isfinite(value);
-    found.entries.push_back({run.case_id, run.variant, name, value});
+    if (std::isfinite(value)) {
+      found.entries.push_back({run.case_id, run.variant, name, value});
+    } else {
+      found.incomplete = true;
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "harness/catalogue.h"
 #include "harness/schema.h"
@@ -143,6 +144,21 @@ BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
   BOOST_TEST(reading.entries[1].value == -1);
   BOOST_TEST(reading.unit == "Hz");
   BOOST_TEST((reading.verdict == ReadingVerdict::in_part));
+}
+
+BOOST_AUTO_TEST_CASE(
+    a_quantity_that_is_no_number_leaves_its_claim_unmeasured_and_its_entries_finite) {
+  const Json grows = {{"what", "growth"},           {"case", "bend"},
+                      {"quantity", "frequency_Hz"}, {"take", "value"},
+                      {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
+  Run run = bend(1, 1);
+  run.result.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
+  const Ledger found = judge_ledger(ledger_of({{"g", grows}}, "confirmed"), {run});
+  BOOST_TEST((found.claims[0].verdict == ClaimVerdict::not_measured));
+  BOOST_TEST(found.claims[0].readings[0].entries.size() == 2U);
+  for (const LedgerEntry& entry : found.claims[0].readings[0].entries) {
+    BOOST_TEST(std::isfinite(entry.value));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
