@@ -52,6 +52,22 @@ Json analysis(bool modes, Draw& draw) {
   return {{"modes", {{"count", draw.chance(0.5) ? 1 : 3}}}};
 }
 
+/// Three equal limbs of Timoshenko links, and what joins and carries them.
+Json manipulator_of(double length, double thickness, double width, int elements,
+                    const Json& platform, const Json& joints) {
+  return {{"base_side_m", 0.5},
+          {"links",
+           {{"proximal_length_m", length},
+            {"distal_length_m", length},
+            {"thickness_m", thickness},
+            {"width_m", width},
+            {"beam", "timoshenko"},
+            {"elements", elements}}},
+          {"platform", platform},
+          {"material", material()},
+          {"joints", joints}};
+}
+
 Json manipulator(bool modes, Draw& draw) {
   const double length = draw.uniform(0.17, 0.25);
   const double thickness = length * draw.logarithmic(0.003, 0.3);
@@ -65,18 +81,7 @@ Json manipulator(bool modes, Draw& draw) {
   Json joints = {{"active", joint(draw, "locked", thickness, width, length)},
                  {"elbow", joint(draw, "welded", thickness, width, length)},
                  {"platform", "hinged"}};
-  Json model = {{"manipulator",
-                 {{"base_side_m", 0.5},
-                  {"links",
-                   {{"proximal_length_m", length},
-                    {"distal_length_m", length},
-                    {"thickness_m", thickness},
-                    {"width_m", width},
-                    {"beam", "timoshenko"},
-                    {"elements", 4}}},
-                  {"platform", platform},
-                  {"material", material()},
-                  {"joints", joints}}},
+  Json model = {{"manipulator", manipulator_of(length, thickness, width, 4, platform, joints)},
                 {"pose",
                  {{"x_m", draw.uniform(0.23, 0.27)},
                   {"y_m", draw.uniform(0.125, 0.165)},
@@ -187,21 +192,10 @@ Json moving_manipulator(Draw& draw, Json& scene) {
   constexpr int kPoints = 33;
   const double speed = draw.logarithmic(0.3, 60);
   const double step = 2 * std::numbers::pi / speed / (kPoints - 1);
-  Json model = {{"manipulator",
-                 {{"base_side_m", 0.5},
-                  {"links",
-                   {{"proximal_length_m", length},
-                    {"distal_length_m", length},
-                    {"thickness_m", thickness},
-                    {"width_m", width},
-                    {"beam", "timoshenko"},
-                    {"elements", 2}}},
-                  {"platform", platform},
-                  {"material", material()},
-                  {"joints",
-                   {{"active", joint(draw, "locked", thickness, width, length)},
-                    {"elbow", draw.chance(0.5) ? "welded" : "hinged"},
-                    {"platform", "hinged"}}}}},
+  const Json joints = {{"active", joint(draw, "locked", thickness, width, length)},
+                       {"elbow", draw.chance(0.5) ? "welded" : "hinged"},
+                       {"platform", "hinged"}};
+  Json model = {{"manipulator", manipulator_of(length, thickness, width, 2, platform, joints)},
                 {"trajectory",
                  {{"circle",
                    {{"center_m", {0.25, 0.144}},
