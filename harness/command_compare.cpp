@@ -130,16 +130,18 @@ bool is_json_file(const std::filesystem::path& file) {
   return file.extension() == ".json" && std::filesystem::is_regular_file(file, error);
 }
 
-bool is_results(const std::string& words) {
-  if (!is_json_file(words)) return false;
-  const Json json = read_json(words);
+/// What a file holds, read once; null for a case of the catalogue.
+Json contents(const std::string& words) {
+  return is_json_file(words) ? read_json(words) : Json();
+}
+
+bool is_results(const Json& json) {
   return json.is_object() && json.contains("format") && json.contains("runs");
 }
 
 /// Why something cannot be compared with a results file.
-[[noreturn]] void refuse_beside_results(const std::string& words) {
+[[noreturn]] void refuse_beside_results(const std::string& words, const Json& json) {
   if (!is_json_file(words)) (void)find_case(words.substr(0, words.rfind(':')));
-  const Json json = is_json_file(words) ? read_json(words) : Json();
   if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
     const auto fault = find_fault(json, "results");
     if (fault) throw InputError(words, fault->pointer, fault->message);
@@ -148,8 +150,7 @@ bool is_results(const std::string& words) {
 }
 
 /// "case:variant" -> quantities of a results file.
-std::map<std::string, Named> read_runs(const std::string& file) {
-  const Json json = read_json(file);
+std::map<std::string, Named> read_runs(const std::string& file, const Json& json) {
   if (const auto fault = find_fault(json, "results")) {
     throw InputError(file, fault->pointer, fault->message);
   }
@@ -219,8 +220,9 @@ void compare_costs(const Json& a, const Json& b) {
   table.print(std::cout, "  ");
 }
 
-int compare_results(const std::string& file_a, const std::string& file_b) {
-  const auto runs_a = read_runs(file_a), runs_b = read_runs(file_b);
+int compare_results(const std::string& file_a, const Json& json_a, const std::string& file_b,
+                    const Json& json_b) {
+  const auto runs_a = read_runs(file_a, json_a), runs_b = read_runs(file_b, json_b);
   std::size_t same = 0, different = 0;
   for (const auto& [name, a] : runs_a) {
     const auto b = runs_b.find(name);
@@ -241,16 +243,19 @@ int compare_results(const std::string& file_a, const std::string& file_b) {
     if (runs_a.count(item.first) == 0) std::cout << item.first << ": only in " << file_b << '\n';
   }
   std::cout << same << " runs are the same bit for bit, " << different << " differ\n";
-  compare_costs(read_json(file_a), read_json(file_b));
+  compare_costs(json_a, json_b);
   return 0;
 }
 
 }  // namespace
 
 int compare_command(const std::string& a, const std::string& b) {
-  const bool results_a = is_results(a), results_b = is_results(b);
-  if (results_a != results_b) refuse_beside_results(results_a ? b : a);
-  if (results_a) return compare_results(a, b);
+  const Json json_a = contents(a), json_b = contents(b);
+  const bool results_a = is_results(json_a);
+  if (results_a != is_results(json_b)) {
+    results_a ? refuse_beside_results(b, json_b) : refuse_beside_results(a, json_a);
+  }
+  if (results_a) return compare_results(a, json_a, b, json_b);
   const References references;
   const Side side_a = load_side(a, references), side_b = load_side(b, references);
   if (analysis_kind(side_a.document) != analysis_kind(side_b.document)) {

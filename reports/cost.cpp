@@ -138,7 +138,6 @@ Data study_data(const CostPanel& panel) {
   data.set("study_title", study.title);
   set_text(data, "description", study.description);
   data.set("measured", measured_words(study));
-  data.set("words", study.words);
   data.set("figure", figure_data(panel.figure));
   Data rows = list();
   for (const auto& [error, setting] : study.cheapest)
