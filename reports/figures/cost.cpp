@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/cost_study.h"
-#include "reports/number.h"
-#include "reports/palette.h"
-#include "reports/plot_script.h"
+#include "reports/data/cost_study.h"
+#include "reports/text/number.h"
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
 
 namespace trammel::reports {
 

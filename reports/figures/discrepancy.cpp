@@ -3,9 +3,9 @@
 
 #include "reports/figures/figures.h"
 #include "reports/figures/strip.h"
-#include "reports/number.h"
-#include "reports/palette.h"
-#include "reports/standing.h"
+#include "reports/text/number.h"
+#include "reports/drawing/palette.h"
+#include "reports/data/check_status.h"
 
 namespace trammel::reports {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "reports/figure.h"
-#include "reports/results.h"
+#include "reports/drawing/figure.h"
+#include "reports/data/results.h"
 
 namespace trammel::reports {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "reports/figures/figures.h"
-#include "reports/number.h"
-#include "reports/palette.h"
-#include "reports/plot_script.h"
-#include "reports/quantity.h"
+#include "reports/text/number.h"
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
+#include "reports/text/quantity.h"
 
 namespace trammel::reports {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "reports/figures/figures.h"
-#include "reports/number.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 

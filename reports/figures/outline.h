@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "reports/plot_script.h"
-#include "reports/results.h"
+#include "reports/drawing/plot_script.h"
+#include "reports/data/results.h"
 
 namespace trammel::reports {
 

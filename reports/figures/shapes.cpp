@@ -3,9 +3,9 @@
 
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
-#include "reports/number.h"
-#include "reports/palette.h"
-#include "reports/plot_script.h"
+#include "reports/text/number.h"
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
 
 namespace trammel::reports {
 

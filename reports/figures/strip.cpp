@@ -1,7 +1,7 @@
 #include "reports/figures/strip.h"
 
-#include "reports/number.h"
-#include "reports/palette.h"
+#include "reports/text/number.h"
+#include "reports/drawing/palette.h"
 
 namespace trammel::reports {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/plot_script.h"
+#include "reports/drawing/plot_script.h"
 
 namespace trammel::reports {
 

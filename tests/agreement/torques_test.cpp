@@ -3,8 +3,8 @@
 #include <iostream>
 #include <random>
 
-#include "references/derivations/newton_euler.h"
-#include "solver/rigid_dynamics.h"
+#include "references/manipulator/newton_euler.h"
+#include "solver/manipulator/rigid_dynamics.h"
 
 namespace {
 

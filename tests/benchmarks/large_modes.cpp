@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "solver/modes.h"
+#include "solver/modes/modes.h"
 
 namespace {
 

@@ -32,7 +32,7 @@ const std::map<std::string, Arrows>& rules() {
 /// The one place where the stops meet: the program's entry, which hands a results file to the
 /// report.
 bool is_exception(const std::string& file, const std::string& target) {
-  return file == "harness/main.cpp" && target.rfind("reports/", 0) == 0;
+  return file == "harness/cli/main.cpp" && target.rfind("reports/", 0) == 0;
 }
 
 /// Of references/, the harness reads the stored data and never the programs that derive it.

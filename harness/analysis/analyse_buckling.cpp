@@ -1,0 +1,59 @@
+#include <cmath>
+
+#include "harness/analysis/analysis_kinds.h"
+#include "harness/scene/eigen_path.h"
+#include "solver/statics/buckling.h"
+
+namespace trammel {
+namespace {
+
+constexpr Index shapes_drawn = 12;
+
+std::string label(Index mode, double factor) {
+  char text[64];
+  std::snprintf(text, sizeof text, "mode %d, %.4g times the loads", static_cast<int>(mode) + 1,
+                factor);
+  return text;
+}
+
+BucklingOptions read_options(const Cursor& analysis) {
+  return {analysis.get<Index>("count", 3), read_eigen_path(analysis)};
+}
+
+/// The forces on nodes at a load factor: critical_force_N:NAME.
+void record_forces(const Cursor& analysis, const std::string& mode, double factor, double roundoff,
+                   Recorder& record) {
+  const Cursor model = Cursor(analysis.document())["model"];
+  const auto loads = model.find("loads");
+  if (!loads) return;
+  for (const auto& [name, place] : loads->entries()) {
+    const auto force = place.find("force_N");
+    if (!force) continue;
+    const double size = std::hypot((*force)[0].get<double>(), (*force)[1].get<double>());
+    if (size > 0) record.add("critical_force_N", name + mode, factor * size, roundoff);
+  }
+}
+
+}  // namespace
+
+StepResult analyse_buckling(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
+                            Recorder& record) {
+  const System system = assemble(build_model(scene, step));
+  const BucklingSolution buckling = solve_buckling(system, read_options(analysis));
+  StepResult result{buckling.outcome, buckling.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (!buckling.outcome.solved()) return result;
+  for (Index i = 0; i < buckling.load_factor.size(); ++i) {
+    const double factor = buckling.load_factor[i];
+    const std::string mode = scene.path ? std::to_string(i + 1) : "";
+    record.add("load_factor", mode, factor, buckling.roundoff[i]);
+    record_forces(analysis, mode.empty() ? "" : "." + mode, factor, buckling.roundoff[i], record);
+    if (result.drawing && i < shapes_drawn) {
+      result.drawing->shapes.push_back(draw_shape(system, buckling.shape.col(i), label(i, factor)));
+    }
+  }
+  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  return result;
+}
+
+}  // namespace trammel

@@ -1,0 +1,285 @@
+#include <cmath>
+#include <limits>
+
+#include "harness/analysis/analysis_kinds.h"
+#include "harness/analysis/grnn_samples.h"
+#include "harness/scene/rigid_case_model.h"
+#include "harness/base/stopwatch.h"
+#include "solver/manipulator/forward_dynamics.h"
+#include "solver/grnn/grnn_validation.h"
+
+namespace trammel {
+namespace {
+
+InputScaling read_scaling(const Cursor& analysis) {
+  const auto word = analysis.get<std::string>("scaling", "none");
+  if (word == "deviation") return InputScaling::deviation;
+  return word == "range" ? InputScaling::range : InputScaling::none;
+}
+
+CrossValidation read_validation(const Cursor& search) {
+  CrossValidation validation;
+  validation.folds = search.get<Index>("folds", 0);
+  const auto order = search.get<std::string>("order", "interleaved");
+  validation.order = order == "blocks"     ? FoldOrder::blocks
+                     : order == "shuffled" ? FoldOrder::shuffled
+                                           : FoldOrder::interleaved;
+  validation.seed = search.get<std::uint64_t>("seed", 1);
+  return validation;
+}
+
+Split read_split(const Cursor& analysis) {
+  const auto word = analysis.get<std::string>("split", "first");
+  if (word == "interleaved") return Split::interleaved;
+  return word == "shuffled" ? Split::shuffled : Split::first;
+}
+
+/// The smoothing: as given, or the one with the least error of cross-validation.
+void choose_sigma(const Cursor& analysis, Grnn& network, Recorder& record) {
+  if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma")) {
+    throw analysis.error("expected either 'sigma' or 'spread' (got both)");
+  }
+  if (analysis.has("sigma")) {
+    network.sigma = analysis.number("sigma");
+  } else if (analysis.has("spread")) {
+    network.sigma = sigma_of_spread(analysis.number("spread"));
+  } else {
+    const Cursor search = analysis.has("search") ? analysis["search"] : analysis;
+    const Index count = search.get<Index>("count", 41);
+    const bool given = search.has("from");
+    const SigmaSearch found =
+        search_sigma(network,
+                     given ? logarithmic_grid(search.number("from"), search.number("to"), count)
+                           : default_grid(network, count),
+                     read_validation(search));
+    network.sigma = found.sigma;
+    record.add("cross_validation_error", "", found.error);
+    record.add("sigma_bracketed", "", found.bracketed ? 1 : 0);
+    record.add("sigmas_tried", "", static_cast<double>(found.evaluations));
+    for (Index k = 0; k < found.grid.size(); ++k) {
+      record.add("grid_sigma", "", found.grid(k));
+      record.add("grid_error", "", found.grid_error(k));
+    }
+  }
+  record.add("sigma", "", network.sigma);
+}
+
+struct Parts {
+  std::vector<Index> training, held_out;
+};
+
+Parts parts_of(const std::vector<bool>& trains) {
+  Parts parts;
+  for (std::size_t i = 0; i < trains.size(); ++i) {
+    (trains[i] ? parts.training : parts.held_out).push_back(static_cast<Index>(i));
+  }
+  return parts;
+}
+
+/// Scales of the outputs over all samples: what errors of unlike outputs are divided by.
+struct OutputScales {
+  Eigen::RowVectorXd deviation, range;
+  explicit OutputScales(const Eigen::MatrixXd& outputs)
+      : deviation(outputs.cols()),
+        range(outputs.colwise().maxCoeff() - outputs.colwise().minCoeff()) {
+    for (Index j = 0; j < outputs.cols(); ++j) {
+      const Eigen::ArrayXd centred = outputs.col(j).array() - outputs.col(j).mean();
+      deviation(j) = std::sqrt(centred.square().mean());
+      if (range(j) == 0) range(j) = deviation(j) = 1;  // a constant output
+    }
+  }
+};
+
+/// Root mean square over rows and outputs, each output divided by its standard deviation.
+double rms(const Eigen::MatrixXd& error, const OutputScales& scales) {
+  const Eigen::MatrixXd relative = error * scales.deviation.cwiseInverse().asDiagonal();
+  return std::sqrt(relative.squaredNorm() / static_cast<double>(relative.size()));
+}
+
+Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<Index>& which) {
+  return all(which, Eigen::all);
+}
+
+void record_part(const std::string& part, const std::vector<Index>& which,
+                 const GrnnSamples& samples, const Eigen::MatrixXd& error,
+                 const OutputScales& scales, Recorder& record) {
+  if (which.empty()) return;
+  const Eigen::MatrixXd own = rows(error, which);
+  for (Index j = 0; j < own.cols(); ++j) {
+    const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
+    for (Index i = 0; i < own.rows(); ++i) {
+      record.add(part + "_" + column.what + "_error" + column.unit, column.of, own(i, j));
+    }
+  }
+  record.add(part + "_rms_error", "", rms(own, scales));
+  const Eigen::MatrixXd of_range = own * scales.range.cwiseInverse().asDiagonal();
+  record.add(part + "_largest_error_of_range", "", of_range.cwiseAbs().maxCoeff());
+}
+
+/// Against the two predictors that know nothing of smoothing: the mean of the training samples, and
+/// the nearest of them. Skill is 1 - (rms error / theirs)^2: 1 is perfect, 0 no better.
+void record_skill(const Grnn& network, const GrnnSamples& samples, const std::vector<Index>& which,
+                  double error, const OutputScales& scales, Recorder& record) {
+  const Eigen::MatrixXd queries = rows(samples.inputs, which);
+  const Eigen::MatrixXd truth = rows(samples.outputs, which);
+  const auto against = [&](const char* name, double sigma) {
+    Grnn trivial = network;
+    trivial.sigma = sigma;
+    const double theirs = rms(predict(trivial, queries) - truth, scales);
+    record.add("held_out_rms_error", name, theirs);
+    record.add("skill_over", name, 1 - (error / theirs) * (error / theirs));
+  };
+  against("mean", 1e150);
+  against("nearest", 1e-300);
+}
+
+/// How long one evaluation takes, averaged over as many rounds as fill a few hundredths of a
+/// second.
+template <class Work>
+EvaluationTime timed(const std::string& name, std::size_t evaluations, const Work& round) {
+  constexpr double enough_s = 0.02;
+  const Stopwatch watch;
+  std::size_t rounds = 0;
+  do {
+    round();
+    ++rounds;
+  } while (watch.wall_s() < enough_s);
+  const std::size_t all = rounds * evaluations;
+  return {name, watch.wall_s() / static_cast<double>(all), all};
+}
+
+/// A prediction at every point of the path, at once and one by one, beside what it stands in for:
+/// from the torques at a point to the motion at the next, and from the motion to the torques.
+std::vector<EvaluationTime> time_against_solving(const Grnn& network,
+                                                 const RigidManipulator& manipulator,
+                                                 const Scene& scene, const GrnnSamples& samples) {
+  const std::size_t count = scene.motion.size();
+  double sink = 0;  // what is computed is used, so that it cannot be left out
+  std::vector<EvaluationTime> timings;
+  timings.push_back(timed("prediction_in_a_batch", count,
+                          [&] { sink += predict(network, samples.inputs).sum(); }));
+  timings.push_back(timed("prediction_one_by_one", count, [&] {
+    for (Index k = 0; k < samples.inputs.rows(); ++k) {
+      sink += predict(network, samples.inputs.row(k))(0, 0);
+    }
+  }));
+  timings.push_back(timed("inverse_dynamics", count, [&] {
+    for (const TrajectoryPoint& point : scene.motion) {
+      sink += inverse_dynamics(manipulator, point, wrench_on_platform(scene, point.pose)).torque(0);
+    }
+  }));
+  if (count < 2 || !loads_at_P_only(scene)) return timings;
+  const Vector3d wrench = wrench_on_platform(scene, scene.motion.front().pose);
+  timings.push_back(timed("forward_dynamics_to_the_next_point", count - 1, [&] {
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      const double from = scene.motion[k].time, to = scene.motion[k + 1].time;
+      const auto row = static_cast<Index>(k);
+      const auto torque = [&](double time) -> Vector3d {
+        const double s = (time - from) / (to - from);
+        return ((1 - s) * samples.inputs.row(row) + s * samples.inputs.row(row + 1)).transpose();
+      };
+      const ForwardDynamics next =
+          forward_dynamics(manipulator, scene.motion[k], torque, {to}, wrench);
+      if (next.outcome.solved()) sink += next.motion.back().pose.x;
+    }
+  }));
+  if (!std::isfinite(sink)) timings.clear();
+  return timings;
+}
+
+void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predicted,
+                        const std::vector<bool>& trains, Recorder& record) {
+  for (Index j = 0; j < predicted.cols(); ++j) {
+    const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
+    for (Index k = 0; k < predicted.rows(); ++k) {
+      record.add("active_" + column.what + column.unit, column.of, samples.outputs(k, j));
+      record.add("predicted_" + column.what + column.unit, column.of, predicted(k, j));
+    }
+  }
+  for (const bool trains_here : trains) record.add("trains", "", trains_here ? 1 : 0);
+}
+
+/// Where the platform would be with the predicted angles of the active joints, by forward
+/// kinematics from its true pose; NaN where it cannot be assembled.
+void record_positions(const ManipulatorGeometry& geometry, const Scene& scene,
+                      const Eigen::MatrixXd& predicted, Recorder& record) {
+  for (std::size_t k = 0; k < scene.motion.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    const std::array<double, 3> active = {predicted(row, 0), predicted(row, 1), predicted(row, 2)};
+    const ForwardKinematics found = forward_kinematics(geometry, active, scene.motion[k].pose);
+    const bool solved = found.outcome.solved();
+    record.add("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
+    record.add("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
+  }
+}
+
+/// Samples of the case's own: predictions at its queries.
+StepResult predict_own(const Cursor& analysis, Recorder& record) {
+  const GrnnSamples samples = read_samples(analysis["samples"]);
+  const Eigen::MatrixXd queries = read_rows(analysis["queries"]);
+  if (queries.cols() != samples.inputs.cols()) {
+    throw analysis["queries"].error("expected rows as long as the inputs', " +
+                                    std::to_string(samples.inputs.cols()));
+  }
+  try {
+    Grnn network = make_grnn(samples.inputs, samples.outputs, 1, read_scaling(analysis));
+    choose_sigma(analysis, network, record);
+    const Eigen::MatrixXd predicted = predict(network, queries);
+    for (Index k = 0; k < predicted.rows(); ++k) {
+      for (Index j = 0; j < predicted.cols(); ++j) {
+        record.add("prediction", samples.columns[static_cast<std::size_t>(j)].of, predicted(k, j));
+      }
+    }
+  } catch (const ModelError& error) {
+    throw analysis.error(std::string("expected a network that has a meaning: ") + error.what());
+  }
+  return {};
+}
+
+}  // namespace
+
+StepResult analyse_grnn(const Cursor& analysis, const std::optional<Scene>& scene, bool draw,
+                        Recorder& record) {
+  if (!scene) return predict_own(analysis, record);
+  const RigidManipulator manipulator = read_rigid_manipulator(analysis, *scene);
+  if (!scene->path) throw analysis.error("expected a model with a trajectory, or samples");
+  StepResult result;
+  const PathSamples path = samples_of_path(manipulator, *scene);
+  result.outcome = path.outcome;
+  if (!result.outcome.solved()) return result;
+  const GrnnSamples& samples = path.samples;
+  const Index count = samples.inputs.rows();
+  const Index train = analysis.get<Index>("train", count);
+  if (train > count) {
+    throw analysis["train"].error("expected no more samples than the path has points, " +
+                                  std::to_string(count));
+  }
+  const std::vector<bool> trains =
+      training_part(count, train, read_split(analysis), analysis.get<std::uint64_t>("seed", 1));
+  const Parts parts = parts_of(trains);
+  Grnn network = make_grnn(rows(samples.inputs, parts.training),
+                           rows(samples.outputs, parts.training), 1, read_scaling(analysis));
+  choose_sigma(analysis, network, record);
+  const Eigen::MatrixXd predicted = predict(network, samples.inputs);
+  const Eigen::MatrixXd error = predicted - samples.outputs;
+  const OutputScales scales(samples.outputs);
+  for (std::size_t step = 0; step < scene->motion.size(); ++step) {
+    record_path(*scene, step, record);
+  }
+  record_predictions(samples, predicted, trains, record);
+  record_positions(manipulator.geometry, *scene, predicted, record);
+  record_part("training", parts.training, samples, error, scales, record);
+  record_part("held_out", parts.held_out, samples, error, scales, record);
+  if (!parts.held_out.empty()) {
+    record_skill(network, samples, parts.held_out, rms(rows(error, parts.held_out), scales), scales,
+                 record);
+  }
+  record.add("kernel_evaluations", "", static_cast<double>(train));
+  if (draw) {
+    result.drawing = draw_manipulator(manipulator.geometry, scene->motion);
+    result.timings = time_against_solving(network, manipulator, *scene, samples);
+  }
+  return result;
+}
+
+}  // namespace trammel

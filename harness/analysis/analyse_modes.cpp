@@ -1,0 +1,89 @@
+#include <cmath>
+
+#include "harness/analysis/analysis_kinds.h"
+#include "harness/scene/eigen_path.h"
+#include "harness/analysis/rotating_state.h"
+#include "solver/modes/modes.h"
+#include "solver/modes/prestressed_modes.h"
+#include "solver/modes/reduction.h"
+
+namespace trammel {
+namespace {
+
+constexpr Index shapes_drawn = 12;
+
+ModesOptions read_options(const Cursor& analysis) {
+  return {analysis["count"].get<Index>(), read_eigen_path(analysis)};
+}
+
+std::string label(Index mode, double frequency) {
+  char text[64];
+  std::snprintf(text, sizeof text, "mode %d, %.4g Hz", static_cast<int>(mode) + 1, frequency);
+  return text;
+}
+
+/// What cannot stand beside the modes of a state that loads or rotation make.
+void refuse(const Cursor& analysis, const char* key, const char* beside, const char* reason) {
+  if (!analysis.has(key) || analysis[key].json() == false) return;
+  throw analysis[key].error(std::string("expected it without '") + beside + "': " + reason);
+}
+
+/// The system in the coordinates that the analysis asks for.
+System condensed(const Cursor& analysis, const Scene& scene, System system) {
+  if (!analysis.has("reduction")) return system;
+  refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the whole model");
+  if (scene.effects.has(Effect::geometric_stiffening)) {
+    throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
+  }
+  return reduce_members(system, analysis["reduction"]["modes_of_a_member"].get<Index>());
+}
+
+ModalSolution modes_of(const Cursor& analysis, const Scene& scene, const System& system) {
+  const ModesOptions options = read_options(analysis);
+  if (!scene.effects.has(Effect::geometric_stiffening)) return solve_modes(system, options);
+  refuse(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
+         "it counts the modes of the unloaded model");
+  return solve_prestressed_modes(system, options).modes;
+}
+
+}  // namespace
+
+StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
+                         Recorder& record) {
+  if (analysis.has("rotating")) {
+    refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
+    refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
+    refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
+    if (scene.path) throw analysis["rotating"].error("expected a model at one place");
+    return analyse_rotating(analysis, assemble(build_model(scene, step)), scene.effects, draw,
+                            record);
+  }
+  const System system =
+      condensed(analysis, scene, assemble(build_model(scene, step), scene.effects));
+  const ModalSolution modes = modes_of(analysis, scene, system);
+  StepResult result{modes.outcome, modes.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (!modes.outcome.solved()) return result;
+  for (Index i = 0; i < modes.frequency.size(); ++i) {
+    const std::string of = scene.path ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", of, modes.frequency[i], modes.roundoff[i]);
+    record.add("frequency_roundoff", of, modes.roundoff[i]);
+    if (i > 0) {
+      record.add("frequency_gap", of,
+                 (modes.frequency[i] - modes.frequency[i - 1]) / modes.frequency[i]);
+    }
+    if (result.drawing && i < shapes_drawn) {
+      result.drawing->shapes.push_back(
+          draw_shape(system, modes.shape.col(i), label(i, modes.frequency[i])));
+    }
+  }
+  if (analysis.has("count_below_Hz")) {
+    const std::optional<Index> below = count_modes_below(system, analysis.number("count_below_Hz"));
+    record.add("modes_below", "", below ? static_cast<double>(*below) : std::nan(""));
+  }
+  record.add("rigid_motions", "", static_cast<double>(modes.rigid_motions));
+  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  return result;
+}
+
+}  // namespace trammel

@@ -1,0 +1,140 @@
+#include <cmath>
+
+#include "harness/analysis/analysis_kinds.h"
+#include "harness/scene/design_parameter.h"
+#include "harness/scene/rigid_case_model.h"
+#include "solver/sensitivity/frequency_complex_step.h"
+#include "solver/sensitivity/frequency_differences.h"
+
+namespace trammel {
+namespace {
+
+struct Named {
+  std::string name;
+  DesignParameter parameter;
+};
+
+std::vector<Named> read_parameters(const Cursor& parameters) {
+  std::vector<Named> read;
+  for (const auto& [name, place] : parameters.entries()) {
+    read.push_back({name, read_design_parameter(place)});
+  }
+  return read;
+}
+
+/// What the route says of the frequencies and their derivatives.
+struct Derivatives {
+  Outcome outcome;
+  Eigen::VectorXd frequency;
+  Eigen::MatrixXd derivative;  ///< mode x parameter
+  Counters counters;
+};
+
+/// Differences, parameter by parameter.
+template <class Difference>
+Derivatives one_by_one(const std::vector<DesignParameter>& parameters, const Difference& of) {
+  Derivatives all;
+  for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
+    const FrequencyDifferences one = of(parameters[p]);
+    all.counters += one.counters;
+    all.outcome = one.outcome;
+    all.frequency = one.frequency;
+    all.derivative.conservativeResize(one.derivative.size(), static_cast<Index>(p) + 1);
+    all.derivative.col(static_cast<Index>(p)) = one.derivative;
+  }
+  return all;
+}
+
+/// By another route than Eq. 35.
+Derivatives derive_by(const Cursor& method, const Scene& scene,
+                      const std::vector<DesignParameter>& parameters, Index count) {
+  const ManipulatorDesign& design = *scene.manipulator;
+  const Pose& pose = scene.motion.front().pose;
+  if (method.json() == "complex-step") {
+    const FrequencyComplexStep found = step_frequencies(design, pose, parameters, count);
+    return {found.outcome, found.frequency, found.derivative, found.counters};
+  }
+  if (method.json() == "extrapolated-differences") {
+    return one_by_one(parameters, [&](const DesignParameter& parameter) {
+      return differentiate_frequencies(design, pose, parameter, count);
+    });
+  }
+  const auto [name, numbers] = method.entries().front();
+  const double step = numbers.number("relative_step");
+  return one_by_one(parameters,
+                    [&, central = name == "central-difference"](const DesignParameter& parameter) {
+                      return difference_quotient(design, pose, parameter, count, step, central);
+                    });
+}
+
+/// Error of the derivative against extrapolated differences, as a share of frequency over
+/// parameter, which is what a derivative of a frequency is like.
+void record_differences(const Scene& scene, const Named& named, const FrequencySensitivity& found,
+                        Index column, Recorder& record, StepResult& result) {
+  const Index count = found.frequency.size();
+  const FrequencyDifferences differences = differentiate_frequencies(
+      *scene.manipulator, scene.motion.front().pose, named.parameter, count);
+  if (!differences.outcome.solved()) {
+    result.outcome = differences.outcome;
+    return;
+  }
+  const double value = parameter_value(*scene.manipulator, named.parameter);
+  for (Index i = 0; i < count; ++i) {
+    if (found.frequency[i] == 0) continue;  // rigid motions
+    const double error = std::abs(found.derivative(i, column) - differences.derivative[i]);
+    record.add("difference_error", named.name, error * value / found.frequency[i]);
+  }
+}
+
+}  // namespace
+
+StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool draw,
+                               Recorder& record) {
+  if (scene.path) throw analysis.error("expected a model with a pose, not a trajectory");
+  static_cast<void>(read_rigid_manipulator(analysis, scene));  // nothing beside the manipulator
+  const std::vector<Named> named = read_parameters(analysis["parameters"]);
+  std::vector<DesignParameter> parameters;
+  parameters.reserve(named.size());
+  for (const Named& one : named) parameters.push_back(one.parameter);
+  const auto count = analysis["count"].get<Index>();
+  const auto method = analysis.find("method");
+  const bool exactly = !method || method->json() == "energies";
+  FrequencySensitivity found;
+  if (exactly) {
+    found = frequency_sensitivity(*scene.manipulator, scene.motion.front().pose, parameters, count);
+  } else {
+    const Derivatives other = derive_by(*method, scene, parameters, count);
+    found.outcome = other.outcome;
+    found.frequency = other.frequency;
+    found.derivative = other.derivative;
+    found.counters = other.counters;
+  }
+  StepResult result{found.outcome, found.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(assemble(build_model(scene, 0)), true);
+  if (!found.outcome.solved()) return result;
+  for (Index i = 0; i < found.frequency.size(); ++i) {
+    record.add("frequency_Hz", "", found.frequency[i]);
+    if (exactly && std::isfinite(found.gap[i])) record.add("frequency_gap", "", found.gap[i]);
+  }
+  for (const FrequencySet& set : found.sets) {
+    for (Index i = 0; i < set.count; ++i) {
+      record.add("multiplicity", "", static_cast<double>(set.count));
+    }
+  }
+  for (std::size_t p = 0; p < named.size(); ++p) {
+    const auto column = static_cast<Index>(p);
+    const double value = parameter_value(*scene.manipulator, named[p].parameter);
+    for (Index i = 0; i < found.frequency.size(); ++i) {
+      const double derivative = found.derivative(i, column);
+      record.add(sensitivity_name(named[p].parameter.quantity), named[p].name, derivative);
+      if (found.frequency[i] == 0) continue;  // rigid motions
+      record.add("relative_sensitivity", named[p].name, derivative * value / found.frequency[i]);
+    }
+    if (analysis.get("differences", false)) {
+      record_differences(scene, named[p], found, column, record, result);
+    }
+  }
+  return result;
+}
+
+}  // namespace trammel

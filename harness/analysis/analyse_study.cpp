@@ -1,0 +1,153 @@
+#include <cmath>
+#include <limits>
+
+#include "harness/analysis/analysis_kinds.h"
+#include "harness/input/case.h"
+#include "harness/input/json_view.h"
+#include "harness/judge/judge.h"
+
+namespace trammel {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The case with the inner analysis in place of the study.
+Document with_inner_analysis(Document document) {
+  const Json inner = document.value().at("analysis").at("study").at("of");
+  const Origin written = document.origin("/analysis/study/of");
+  document.lay(written.file, written.pointer, {{"analysis", {{"study", nullptr}}}});
+  document.lay(written.file, written.pointer, {{"analysis", inner}});
+  return document;
+}
+
+double status_code(Status status) {
+  return status == Status::solved ? 0 : status == Status::singular ? 1 : 2;
+}
+
+/// A number and its round-off error as far as it is known (else negative).
+struct Kept {
+  double value = nothing, roundoff = -1;
+};
+
+/// The one number of a quantity that is kept. @throws InputError  where there is none.
+Kept number_of(const Quantities& quantities, const std::string& name, const Cursor& keep) {
+  const auto found = quantities.find(name);
+  if (found == quantities.end()) {
+    std::string some;
+    for (const auto& item : quantities) some += (some.empty() ? "" : ", ") + item.first;
+    throw keep.error("expected the name of a quantity of the analysis, one of " + some);
+  }
+  const std::vector<double>& values = found->second.values;
+  const std::vector<double>& roundoff = found->second.roundoff;
+  if (keep.has("statistic")) {
+    return {statistic_of(keep.text("statistic"), values),
+            roundoff.empty() ? -1 : statistic_of("max", roundoff)};
+  }
+  const auto index = keep.get<std::size_t>("index", 0);
+  if (!keep.has("index") && values.size() != 1) {
+    throw keep.error("expected 'index' or 'statistic' for a quantity of " +
+                     std::to_string(values.size()) + " numbers");
+  }
+  if (index >= values.size()) return {};
+  return {values[index], index < roundoff.size() ? roundoff[index] : -1};
+}
+
+std::vector<double> truth_of(const std::vector<Kept>& kept, const Cursor& keep,
+                             const References& references) {
+  if (!keep.has("reference")) {
+    const Kept& one = keep.text("against") == "first" ? kept.front() : kept.back();
+    return std::vector<double>(kept.size(), one.value);
+  }
+  const Reference& reference = references.get(keep["reference"]);
+  if (reference.values.size() != kept.size()) {
+    throw keep["reference"].error("expected a reference of " + std::to_string(kept.size()) +
+                                  " values (got " + std::to_string(reference.values.size()) + ")");
+  }
+  return reference.values;
+}
+
+/// Errors, what share of the round-off that the solver promised they are, and where they are least.
+void record_errors(const std::string& name, const std::vector<Kept>& kept,
+                   const std::vector<double>& parameter, const Cursor& keep,
+                   const References& references, Recorder& record) {
+  if (!keep.has("reference") && !keep.has("against")) return;
+  const std::vector<double> truth = truth_of(kept, keep, references);
+  double least = std::numeric_limits<double>::infinity(), best = nothing;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const double error = std::abs(kept[i].value - truth[i]) / std::abs(truth[i]);
+    record.add("relative_error", name, error);
+    if (error < least) {
+      least = error;
+      best = parameter[i];
+    }
+    if (kept[i].roundoff >= 0) {
+      record.add("roundoff", name, kept[i].roundoff);
+      record.add("error_over_roundoff", name, error / kept[i].roundoff);
+    } else if (std::isnan(kept[i].value)) {
+      record.add("roundoff", name, nothing);
+      record.add("error_over_roundoff", name, nothing);
+    }
+  }
+  if (keep.has("reference") && !std::isnan(best)) record.add("least_error_at", name, best);
+}
+
+/// A level for each point of the model's trajectory; its parameter is the time.
+std::vector<Level> trajectory_levels(const Document& document, const Cursor& study) {
+  const Scene scene = read_scene(document);
+  if (!scene.path) throw study["trajectory"].error("expected a model with a trajectory");
+  const Origin written = document.origin("/model/trajectory");
+  std::vector<Level> found;
+  for (const TrajectoryPoint& point : scene.motion) {
+    const Pose& pose = point.pose;
+    const Json place = {{"x_m", pose.x}, {"y_m", pose.y}, {"phi_rad", pose.phi}};
+    found.push_back({point.time, document});
+    found.back().document.lay(written.file, written.pointer,
+                              {{"model", {{"trajectory", nullptr}, {"pose", place}}}});
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Level> study_levels(const Document& document) {
+  const Cursor study = Cursor(document)["analysis"]["study"];
+  if (study["of"].has("study")) throw study["of"].error("expected another analysis than a study");
+  const bool along = study.get("trajectory", false);
+  if (along == study.has("values")) {
+    throw study.error("expected either 'values' or 'trajectory'");
+  }
+  std::vector<Level> found = along ? trajectory_levels(document, study) : levels(document, study);
+  for (Level& level : found) level.document = with_inner_analysis(std::move(level.document));
+  return found;
+}
+
+StepResult analyse_study(const Document& document, const References& references, bool draw,
+                         Recorder& record) {
+  const Cursor study = Cursor(document)["analysis"]["study"];
+  const auto kept_places = study.find("keep");
+  const auto keep =
+      kept_places ? kept_places->entries() : std::vector<std::pair<std::string, Cursor>>{};
+  std::vector<std::vector<Kept>> kept(keep.size());
+  std::vector<double> parameter;
+  StepResult result;
+  for (const Level& level : study_levels(document)) {
+    AnalysisResult found = analyse(level.document, references, {draw && !result.drawing});
+    parameter.push_back(level.parameter);
+    record.add(study.get<std::string>("parameter", "parameter"), "", level.parameter);
+    record.add("status", "", status_code(found.outcome.status));
+    for (std::size_t k = 0; k < keep.size(); ++k) {
+      const auto& [name, place] = keep[k];
+      kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place) : Kept{});
+    }
+    result.counters += found.counters;
+    if (found.drawing) result.drawing = std::move(found.drawing);
+  }
+  for (std::size_t k = 0; k < keep.size(); ++k) {
+    const auto& [name, place] = keep[k];
+    for (const Kept& one : kept[k]) record.add(name, "", one.value);
+    record_errors(name, kept[k], parameter, place, references, record);
+  }
+  return result;
+}
+
+}  // namespace trammel

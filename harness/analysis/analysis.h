@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "harness/input/document.h"
+#include "harness/scene/drawing.h"
+#include "harness/base/quantity.h"
+#include "harness/input/reference_library.h"
+#include "harness/analysis/case_effects.h"
+#include "solver/assembly/system.h"
+
+/// One computation: a case with its patches in, numbers out.
+namespace trammel {
+
+/// What to keep beside the numbers.
+struct AnalysisOptions {
+  bool drawing = true;  ///< nodes, members and shapes, for the report
+};
+
+/// What one evaluation of something takes, measured; never judged.
+struct EvaluationTime {
+  std::string name;             ///< with words joined by '_'
+  double wall_s = 0;            ///< of one evaluation
+  std::size_t evaluations = 0;  ///< over which it was averaged
+};
+
+struct AnalysisResult {
+  Outcome outcome;
+  Quantities quantities;
+  std::optional<Drawing> drawing;
+  Counters counters;
+  std::vector<EvaluationTime> timings = {};
+  std::string analysis;               ///< its kind
+  std::vector<EffectReason> effects;  ///< what the computation had, and why
+};
+
+/// @throws InputError  where the model has no meaning.
+[[nodiscard]] AnalysisResult analyse(const Document& document, const References& references,
+                                     const AnalysisOptions& options);
+
+/// The one key of "analysis": "modes", "statics", ...
+[[nodiscard]] std::string analysis_kind(const Document& document);
+
+}  // namespace trammel

@@ -1,0 +1,385 @@
+#include "harness/analysis/case_effects.h"
+
+#include <algorithm>
+
+#include "harness/analysis/analysis.h"
+#include "harness/analysis/analysis_kinds.h"
+#include "harness/analysis/rotating_state.h"
+#include "harness/base/table.h"
+#include "harness/scene/time_reader.h"
+#include "harness/base/text.h"
+#include "solver/effects/dynamic_effect_estimates.h"
+
+namespace trammel {
+namespace {
+
+Effects& carried_by(EffectScope& scope, Effect effect) {
+  return scope.carries[static_cast<std::size_t>(effect)];
+}
+
+/// A word of the analysis itself that says whether there is an effect.
+struct EffectWord {
+  Effect effect;
+  std::vector<const char*> place;  ///< below the analysis
+  bool otherwise;                  ///< where nothing is said
+};
+
+bool is_rotating(const Document& document) {
+  return Cursor(document)["analysis"][analysis_kind(document)].has("rotating");
+}
+
+std::vector<EffectWord> effect_words(const Document& document) {
+  const std::string kind = analysis_kind(document);
+  if (kind == "statics") return {{Effect::geometric_stiffening, {"second_order"}, false}};
+  if (kind == "elastodynamics") {
+    return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
+            {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
+  }
+  if (is_rotating(document)) return {{Effect::gyroscopic, {"rotating", "coriolis"}, true}};
+  return {{Effect::geometric_stiffening, {"prestressed"}, false}};
+}
+
+/// What the analysis says of it, if anything.
+std::optional<Cursor> find_word(const Document& document, const EffectWord& word) {
+  std::optional<Cursor> place = Cursor(document)["analysis"][analysis_kind(document)];
+  for (const char* key : word.place) {
+    if (place) place = place->find(key);
+  }
+  return place;
+}
+
+EffectScope statics_scope(const Model& model) {
+  EffectScope scope;
+  scope.admitted = admitted_effects(model).without(Effect::rotary_inertia);
+  if (!scope.admitted.has(Effect::gravity)) {
+    scope.admitted = scope.admitted.without(Effect::link_mass);
+  }
+  scope.admitted =
+      scope.admitted.with(Effect::geometric_stiffening).with(Effect::large_displacement);
+  carried_by(scope, Effect::gravity) = Effects().with(Effect::link_mass);
+  const Effects large = Effects().with(Effect::large_displacement);
+  carried_by(scope, Effect::geometric_stiffening) = large;
+  if (would_be_overheld(model)) carried_by(scope, Effect::axial_flexibility) = large;
+  return scope;
+}
+
+bool is_loaded(const Model& model) {
+  const bool on_members = std::any_of(model.members.begin(), model.members.end(),
+                                      [](const Member& m) { return !m.load.isZero(0); });
+  return on_members || !model.loads.empty() || !model.edge_loads.empty();
+}
+
+EffectScope modes_scope(const Model& model) {
+  EffectScope scope;
+  scope.admitted = admitted_effects(model).with(Effect::inertia);
+  scope.required = Effects().with(Effect::inertia);
+  if (is_loaded(model) || scope.admitted.has(Effect::gravity)) {
+    scope.admitted = scope.admitted.with(Effect::geometric_stiffening);
+  }
+  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  carried_by(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
+  return scope;
+}
+
+/// Whatever the frame holds as it turns stays.
+EffectScope rotating_scope(const Document& document, const Model& model) {
+  EffectScope scope;
+  scope.admitted = admitted_effects(model).with(Effect::inertia).with(Effect::geometric_stiffening);
+  scope.required = Effects().with(Effect::inertia);
+  if (scope.admitted.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
+  const Cursor rotating = Cursor(document)["analysis"]["modes"]["rotating"];
+  // Coriolis forces point out of the plane where the axis lies in it.
+  if (rotating.get<std::string>("axis", "normal") == "normal") {
+    scope.admitted = scope.admitted.with(Effect::gyroscopic);
+  }
+  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  return scope;
+}
+
+EffectScope motion_scope(const Document& document, const Model& model) {
+  EffectScope scope;
+  scope.admitted = admitted_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
+  const RayleighDamping damping =
+      read_rayleigh(Cursor(document)["analysis"]["elastodynamics"].find("damping"));
+  const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
+  if (damping.mass != 0 || damping.stiffness != 0) {
+    scope.admitted = scope.admitted.with(Effect::damping);
+  }
+  // Inextensible links turn, and constraints that turn with them cost more than stretch does.
+  if (scope.admitted.has(Effect::axial_flexibility)) {
+    scope.required = Effects().with(Effect::axial_flexibility);
+  }
+  carried_by(scope, Effect::inertia) = with_velocity;
+  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  return scope;
+}
+
+/// Without "effects": the parts' own words, and the analysis's.
+Effects stated_effects(const Document& document, const EffectScope& scope) {
+  Effects stated = scope.admitted.without(Effect::large_displacement);
+  for (const EffectWord& word : effect_words(document)) {
+    const auto said = find_word(document, word);
+    if (said ? said->get<bool>() : word.otherwise) continue;
+    stated = scope.without(stated, word.effect);
+  }
+  return stated;
+}
+
+/// Why a scene does not have an effect.
+std::string missing_words(Effect effect, const std::string& kind) {
+  switch (effect) {
+    case Effect::axial_flexibility:
+      return "no member both bends and stretches ('axial')";
+    case Effect::shear:
+      return "the members do not shear ('beam')";
+    case Effect::rotary_inertia:
+      return kind == "statics" ? "nothing moves in statics"
+                               : "the sections have no rotary inertia ('beam')";
+    case Effect::platform_flexibility:
+      return "there is no platform of triangles ('kind')";
+    case Effect::joint_compliance:
+      return "no joint has a spring";
+    case Effect::link_mass:
+      return kind == "statics" ? "no member has a weight" : "no member has a mass";
+    case Effect::gravity:
+      return "nothing has a weight ('gravity_m_s2')";
+    case Effect::inertia:
+    case Effect::gyroscopic:
+      return kind == "statics" ? "nothing moves in statics" : "the frame does not turn";
+    case Effect::damping:
+      return kind == "statics" ? "nothing moves in statics"
+             : kind == "modes" ? "modes are those of the undamped model"
+                               : "there is no 'damping'";
+    case Effect::geometric_stiffening:
+      return kind == "modes" ? "there are no loads" : "it belongs to the analysis 'large-motion'";
+    case Effect::large_displacement:
+      return kind == "modes" ? "modes are small motions"
+                             : "it belongs to the analysis 'large-motion'";
+  }
+  return "";
+}
+
+std::string percent(double share) {
+  return rounded(100 * share, 3) + " %";
+}
+
+/// Why an effect stays, whatever it is worth.
+const char* required_words(Effect effect, const std::string& kind) {
+  return kind == "elastodynamics" && effect == Effect::axial_flexibility
+             ? "kept, for constraints that turn with the links cost more than it does"
+             : "the analysis is of it";
+}
+
+std::vector<EffectReason> plain_reasons(const EffectScope& scope, Effects chosen,
+                                        const std::string& kind, const std::string& word) {
+  std::vector<EffectReason> reasons;
+  for (const Effect effect : Effects::all().list()) {
+    EffectReason one;
+    one.effect = effect;
+    one.admitted = scope.admitted.has(effect);
+    one.on = one.admitted && chosen.has(effect);
+    one.why = !one.admitted                ? missing_words(effect, kind)
+              : scope.required.has(effect) ? required_words(effect, kind)
+              : one.on                     ? word
+                                           : "not " + word;
+    reasons.push_back(std::move(one));
+  }
+  return reasons;
+}
+
+/// Names, which the schema has checked.
+Effects read_names(const Cursor& names, const EffectScope& scope, const std::string& kind) {
+  Effects chosen = scope.required;
+  for (const auto& [number, place] : names.entries()) {
+    const auto effect = effect_named(place.get<std::string>());
+    if (!scope.admitted.has(*effect)) {
+      throw place.error("expected an effect that the scene admits (got '" +
+                        std::string(name_of(*effect)) + "': " + missing_words(*effect, kind) + ")");
+    }
+    chosen = chosen.with(*effect);
+  }
+  for (const Effect effect : chosen.list()) {
+    for (const Effect carrier : scope.admitted.list()) {
+      const bool carried = scope.carries[static_cast<std::size_t>(carrier)].has(effect);
+      if (carried && !chosen.has(carrier)) {
+        throw names.error("expected '" + std::string(name_of(carrier)) + "' beside '" +
+                          std::string(name_of(effect)) + "', which is nothing without it");
+      }
+    }
+  }
+  return chosen;
+}
+
+/// The whole model at a few of its poses, on a mesh that is good enough to decide by.
+std::vector<Model> sample_poses(const Scene& scene) {
+  constexpr std::size_t kPoses = 4;
+  constexpr Index kElements = 8;
+  const std::size_t count = std::min(kPoses, scene.steps());
+  std::vector<Model> models;
+  for (std::size_t i = 0; i < count; ++i) {
+    models.push_back(build_model(scene, i * scene.steps() / count));
+    for (Member& member : models.back().members) {
+      member.elements = std::min(member.elements, kElements);
+    }
+  }
+  return models;
+}
+
+std::string why_words(const EffectEstimate& estimate, bool on, double tolerance,
+                      const EffectScope& scope, Effects chosen) {
+  const std::string alone = percent(estimate.size());
+  if (!on) {
+    return "without it the results change by " + alone + ", within " + percent(tolerance) +
+           (estimate.size() > 0 ? " together with all that is off" : "");
+  }
+  for (const Effect carried : scope.carries[static_cast<std::size_t>(estimate.effect)].list()) {
+    if (chosen.has(carried) && estimate.size() < tolerance) {
+      return std::string(name_of(carried)) + " needs it";
+    }
+  }
+  if (estimate.size() > tolerance) {
+    return "without it the results change by " + alone + ", more than " + percent(tolerance);
+  }
+  return "without it the results change by " + alone + ", with all that is off by more than " +
+         percent(tolerance) + " less a tenth in hand";
+}
+
+EffectEstimates estimate(const Document& document, const Scene& scene, const EffectScope& scope) {
+  const std::string kind = analysis_kind(document);
+  const Cursor analysis = Cursor(document)["analysis"][kind];
+  if (kind == "elastodynamics") {
+    return estimate_motion_effects(read_elastodynamics(analysis, scene), scope.admitted);
+  }
+  const std::vector<Model> poses = sample_poses(scene);
+  if (kind == "statics") return estimate_static_effects(poses, scope.admitted);
+  if (is_rotating(document)) {
+    return estimate_rotating_effects(poses.front(), scope.admitted, read_rotating_options(analysis),
+                                     read_speeds(analysis));
+  }
+  return estimate_modal_effects(poses, scope.admitted, analysis["count"].get<Index>());
+}
+
+EffectChoice choose_automatically(const Document& document, const Scene& scene,
+                                  const EffectScope& scope, double tolerance) {
+  const std::string kind = analysis_kind(document);
+  const EffectEstimates estimates = estimate(document, scene, scope);
+  EffectChoice choice;
+  choice.tolerance = tolerance;
+  choice.counters = estimates.counters;
+  choice.chosen = choose_effects(estimates, scope, tolerance);
+  choice.reasons = plain_reasons(
+      scope, choice.chosen, kind,
+      "decided: there is no linear solution to decide by (" + estimates.outcome.reason + ")");
+  if (!estimates.outcome.solved()) return choice;
+  for (const EffectEstimate& estimate : estimates.effects) {
+    EffectReason& one = choice.reasons[static_cast<std::size_t>(estimate.effect)];
+    if (scope.required.has(estimate.effect)) continue;
+    one.number = estimate.number;
+    one.change = estimate.size();
+    one.why = why_words(estimate, one.on, tolerance, scope, choice.chosen);
+  }
+  return choice;
+}
+
+}  // namespace
+
+bool knows_effects(const Document& document) {
+  const std::string kind = analysis_kind(document);
+  return kind == "statics" || kind == "modes" || kind == "elastodynamics";
+}
+
+EffectScope effect_scope(const Document& document, const Scene& scene) {
+  const Model model = build_model(scene, 0);
+  const std::string kind = analysis_kind(document);
+  EffectScope scope = kind == "statics"          ? statics_scope(model)
+                      : kind == "elastodynamics" ? motion_scope(document, model)
+                      : is_rotating(document)    ? rotating_scope(document, model)
+                                                 : modes_scope(model);
+  if (!model.triangles.empty()) {
+    scope.admitted = scope.admitted.with(Effect::platform_flexibility);
+    // Plates that are no platform are what there is.
+    if (!scene.manipulator) scope.required = scope.required.with(Effect::platform_flexibility);
+  }
+  return scope;
+}
+
+EffectChoice choose_effects(const Document& document, const Scene& scene) {
+  const auto asked = Cursor(document).find("effects");
+  if (!knows_effects(document)) {
+    if (asked)
+      throw asked->error(std::string("expected an analysis that knows effects: ") +
+                         analyses_with_effects);
+    return {};
+  }
+  const std::string kind = analysis_kind(document);
+  const EffectScope scope = effect_scope(document, scene);
+  EffectChoice choice;
+  if (!asked) {
+    choice.chosen = stated_effects(document, scope);
+    choice.reasons = plain_reasons(scope, choice.chosen, kind, "stated by the parts");
+    return choice;
+  }
+  for (const EffectWord& word : effect_words(document)) {
+    const auto said = find_word(document, word);
+    if (!said) continue;
+    throw said->error("expected 'effects' alone to say it: " + std::string(name_of(word.effect)));
+  }
+  if (asked->json().is_object()) {
+    return choose_automatically(document, scene, scope, (*asked)["auto"].number("tolerance"));
+  }
+  choice.chosen = read_names(*asked, scope, kind);
+  choice.reasons = plain_reasons(scope, choice.chosen, kind, "asked for");
+  return choice;
+}
+
+std::string number_words(Effect effect, const std::string& analysis) {
+  const bool statics = analysis == "statics", motion = analysis == "elastodynamics";
+  switch (effect) {
+    case Effect::axial_flexibility:
+      return statics ? "(r / L)^2, the squared slenderness" : "share of the strain energy";
+    case Effect::shear:
+      return statics ? "12 E I / (kappa G A L^2)" : "share of the strain energy";
+    case Effect::platform_flexibility:
+    case Effect::joint_compliance:
+      return "share of the strain energy";
+    case Effect::rotary_inertia:
+      return "share of the kinetic energy";
+    case Effect::link_mass:
+      return statics ? "weight of members over all loads, in energy"
+                     : "share of the kinetic energy";
+    case Effect::gravity:
+      return statics  ? "other weights over all loads, in energy"
+             : motion ? "weights over all loads, in energy"
+                      : "share of the stiffness";
+    case Effect::geometric_stiffening:
+      return statics ? "load over buckling load, tension positive" : "share of the stiffness";
+    case Effect::large_displacement:
+      return "largest rotation [rad]";
+    case Effect::inertia:
+      return motion ? "(speed of the path over the first frequency)^2" : "";
+    case Effect::damping:
+      return "damping ratio of the first mode";
+    case Effect::gyroscopic:
+      return motion ? "twice the fastest turning over the first frequency"
+                    : "share of the stiffness";
+  }
+  return "";
+}
+
+Document with_effects(const Document& document, Effects effects) {
+  Document changed = document;
+  Json names = Json::array();
+  for (const Effect effect : effects.list()) names.push_back(std::string(name_of(effect)));
+  Json patch = {{"effects", names}};
+  for (const EffectWord& word : effect_words(document)) {
+    std::string pointer = "/analysis/" + analysis_kind(document);
+    const bool below = word.place.size() > 1;  // what holds the word must not come from nothing
+    if (below && !find_word(document, word)) continue;
+    for (const char* key : word.place) pointer += std::string("/") + key;
+    patch[JsonPointer(pointer)] = nullptr;
+  }
+  changed.lay(document.origin("").file, "", patch);
+  return changed;
+}
+
+}  // namespace trammel

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "harness/scene/case_model.h"
+#include "solver/manipulator/rigid_dynamics.h"
+
+/// What a network learns from and is asked about.
+namespace trammel {
+
+struct GrnnOutput {
+  std::string what;  ///< angle, velocity; empty for samples without a meaning
+  std::string unit;  ///< as quantities' names carry it: "_rad"; empty where there is none
+  std::string of;    ///< A1, ... or the number of the column
+};
+
+struct GrnnSamples {
+  Eigen::MatrixXd inputs;           ///< sample x input
+  Eigen::MatrixXd outputs;          ///< sample x output
+  std::vector<GrnnOutput> columns;  ///< of the outputs
+};
+
+/// Samples as a case gives them, "inputs" and "outputs".
+/// @throws InputError  where rows are not equally long, or not equally many.
+[[nodiscard]] GrnnSamples read_samples(const Cursor& samples);
+
+/// @throws InputError  where rows are not equally long.
+[[nodiscard]] Eigen::MatrixXd read_rows(const Cursor& rows);
+
+/// The paper's samples (Section 4.3): inputs are the torques of the inverse dynamics at each point
+/// of the scene's path, outputs the angles and velocities of the active joints. Angles are
+/// continued over the jump at pi.
+struct PathSamples {
+  Outcome outcome;  ///< of the first point without a solution
+  GrnnSamples samples;
+};
+[[nodiscard]] PathSamples samples_of_path(const RigidManipulator& manipulator, const Scene& scene);
+
+}  // namespace trammel

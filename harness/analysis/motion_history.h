@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/input/json_view.h"
+#include "solver/statics/postprocessing.h"
+#include "solver/time/transient.h"
+
+namespace trammel {
+
+/// The motion of a model at its sample times.
+struct MotionHistory {
+  Outcome outcome;
+  Counters counters;
+  std::vector<double> time;         ///< [s]
+  std::vector<double> load_factor;  ///< of all loads, at those times
+  Eigen::MatrixXd q, v, a;          ///< free coordinate x time
+  std::int64_t steps = 0;           ///< of the integrator; 0 for superposed modes
+};
+
+/// As the key "transient" of the analysis says.
+/// @throws InputError  for a history or damping without meaning.
+[[nodiscard]] MotionHistory compute_motion(const Cursor& transient, const System& system);
+
+}  // namespace trammel

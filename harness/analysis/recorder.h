@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "harness/base/quantity.h"
+
+namespace trammel {
+
+/// Collects quantities: each call adds one number at the end of its quantity, so that a path ends
+/// up with one number a point.
+class Recorder {
+ public:
+  /// @param of  what it belongs to, after the colon; empty: nothing
+  void add(const std::string& name, const std::string& of, double value, double roundoff = -1) {
+    Quantity& quantity = quantities_[of.empty() ? name : name + ":" + of];
+    quantity.values.push_back(value);
+    if (roundoff >= 0) quantity.roundoff.push_back(roundoff);
+  }
+  [[nodiscard]] Quantities take() { return std::move(quantities_); }
+
+ private:
+  Quantities quantities_;
+};
+
+}  // namespace trammel

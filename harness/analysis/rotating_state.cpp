@@ -1,0 +1,103 @@
+#include "harness/analysis/rotating_state.h"
+
+#include <algorithm>
+#include <complex>
+
+#include "harness/scene/eigen_path.h"
+#include "harness/scene/material_reader.h"
+
+namespace trammel {
+namespace {
+
+constexpr Index shapes_drawn = 12;
+
+SpinAxis read_axis(const Cursor& rotating) {
+  const std::string axis = rotating.get<std::string>("axis", "normal");
+  if (axis == "x") return SpinAxis::x;
+  return axis == "y" ? SpinAxis::y : SpinAxis::normal;
+}
+
+std::string label(Index mode, double frequency) {
+  char text[64];
+  std::snprintf(text, sizeof text, "mode %d, %.4g Hz", static_cast<int>(mode) + 1, frequency);
+  return text;
+}
+
+/// A moment of the motion at which its largest part is at its largest.
+Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
+  Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  const std::complex<double> turn = std::conj(shape[largest]) / std::abs(shape[largest]);
+  return (turn * shape).real();
+}
+
+void record_modes(const RotatingModes& modes, bool several, Recorder& record) {
+  for (Index i = 0; i < modes.frequency.size(); ++i) {
+    const std::string of = several ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", of, modes.frequency[i]);
+    record.add("growth_rate_per_s", of, modes.growth_rate[i]);
+  }
+  record.add("stable", "", modes.stable ? 1 : 0);
+}
+
+void record_state(const System& system, const RotatingModes& modes, Recorder& record) {
+  const Eigen::MatrixX3d motion = node_motion(system, modes.q);
+  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
+    const std::string& name = system.model.nodes[i].name;
+    if (name.empty()) continue;
+    record.add("steady_displacement_x_m", name, motion(static_cast<Index>(i), 0));
+    record.add("steady_displacement_y_m", name, motion(static_cast<Index>(i), 1));
+  }
+}
+
+}  // namespace
+
+RotatingOptions read_rotating_options(const Cursor& modes) {
+  const Cursor rotating = modes["rotating"];
+  RotatingOptions options;
+  options.count = modes["count"].get<Index>();
+  options.path = read_eigen_path(modes);
+  options.spin.axis = read_axis(rotating);
+  if (rotating.has("center_m")) options.spin.centre = read_point(rotating["center_m"]);
+  options.deformed_tension = rotating.get<std::string>("tension", "deformed") == "deformed";
+  return options;
+}
+
+std::vector<double> read_speeds(const Cursor& modes) {
+  const Json& stated = modes["rotating"]["angular_speed_rad_s"].json();
+  if (stated.is_array()) return stated.get<std::vector<double>>();
+  return {stated.get<double>()};
+}
+
+StepResult analyse_rotating(const Cursor& modes, const System& system, Effects effects, bool draw,
+                            Recorder& record) {
+  const bool several = modes["rotating"]["angular_speed_rad_s"].json().is_array();
+  const std::vector<double> speeds = read_speeds(modes);
+  RotatingOptions options = read_rotating_options(modes);
+  options.coriolis = effects.has(Effect::gyroscopic);
+  options.stiffening = effects.has(Effect::geometric_stiffening);
+  StepResult result{{}, system.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(system, false);
+  for (const double speed : speeds) {
+    options.spin.speed = speed;
+    const RotatingModes found = solve_rotating_modes(system, options);
+    Counters its = found.counters;  // which begin with the system's
+    its.element_evaluations = 0;
+    for (std::size_t i = 0; i < effect_count; ++i) its.effects[i] -= system.counters.effects[i];
+    result.counters += its;
+    result.outcome = found.outcome;
+    if (!found.outcome.solved()) return result;
+    record.add("angular_speed_rad_s", "", speed);
+    record_modes(found, several, record);
+    record_state(system, found, record);
+    if (!result.drawing || several) continue;
+    for (Index i = 0; i < std::min(found.frequency.size(), shapes_drawn); ++i) {
+      result.drawing->shapes.push_back(
+          draw_shape(system, snapshot(found.shape.col(i)), label(i, found.frequency[i])));
+    }
+  }
+  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  return result;
+}
+
+}  // namespace trammel

@@ -1,0 +1,43 @@
+#include "harness/base/data_root.h"
+
+#include <cstdlib>
+#include <vector>
+
+#include "harness/base/errors.h"
+
+namespace trammel {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds_the_data(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / "cases" / "schema" / "case.schema.json", error);
+}
+
+fs::path find_home() {
+  if (const char* set = std::getenv("TRAMMEL_HOME"); set != nullptr && *set != '\0') {
+    if (holds_the_data(set)) return fs::absolute(set);
+    throw InputError("TRAMMEL_HOME: expected a folder with cases/schema (got '" + std::string(set) +
+                     "')");
+  }
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const std::vector<fs::path> places = {TRAMMEL_SOURCE_DIR,
+                                        program.parent_path().parent_path() / "share" / "trammel"};
+  for (const fs::path& place : places) {
+    if (holds_the_data(place)) return place;
+  }
+  throw InputError(
+      "TRAMMEL_HOME: expected the folder with cases/ and references/ (it is not set, and " +
+      places.front().string() + " is gone)");
+}
+
+}  // namespace
+
+const fs::path& home() {
+  static const fs::path folder = find_home();
+  return folder;
+}
+
+}  // namespace trammel

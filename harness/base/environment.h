@@ -1,0 +1,10 @@
+#pragma once
+
+#include "harness/base/json.h"
+
+namespace trammel {
+
+/// What produced the numbers: version, commit, date, compiler and flags, libraries, processor.
+[[nodiscard]] Json environment();
+
+}  // namespace trammel

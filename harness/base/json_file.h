@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "harness/base/json.h"
+
+namespace trammel {
+
+/// Reads one JSON document, strictly: UTF-8, no duplicate keys, no number beyond a double.
+/// @throws InputError  with the byte offset where the text is not JSON, with the JSON pointer of a
+///                     key that stands twice.
+[[nodiscard]] Json read_json(const std::filesystem::path& file);
+
+/// The same for a text in memory; `name` stands in for the file in messages.
+[[nodiscard]] Json parse_json(const std::string& text, const std::string& name);
+
+/// JSON for people and for diffs: objects over several lines, arrays of plain values on one.
+[[nodiscard]] std::string pretty(const Json& json);
+
+/// Writes all of it or nothing: into a temporary file beside it, then renamed.
+/// @throws InputError  where the folder or file cannot be written.
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace trammel

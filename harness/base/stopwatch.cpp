@@ -1,0 +1,26 @@
+#include "harness/base/stopwatch.h"
+
+#include <ctime>
+
+namespace trammel {
+namespace {
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+Stopwatch::Stopwatch() : wall_(std::chrono::steady_clock::now()), cpu_(thread_seconds()) {}
+
+double Stopwatch::wall_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
+}
+
+double Stopwatch::cpu_s() const {
+  return thread_seconds() - cpu_;
+}
+
+}  // namespace trammel

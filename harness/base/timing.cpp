@@ -1,0 +1,82 @@
+#include "harness/base/timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "harness/base/stopwatch.h"
+
+namespace trammel {
+namespace {
+
+constexpr int most_runs_each = 1000;
+
+struct Elapsed {
+  double cpu_s = 0, wall_s = 0;
+};
+
+Elapsed measure(const std::function<void()>& work, int runs) {
+  const Stopwatch watch;
+  for (int i = 0; i < runs; ++i) work();
+  return {watch.cpu_s() / runs, watch.wall_s() / runs};
+}
+
+/// How many computations make a measurement; this warms up, too.
+int runs_for(const std::function<void()>& work, double shortest_s) {
+  work();
+  const double once = std::max(measure(work, 1).cpu_s, 1e-7);
+  return std::clamp(static_cast<int>(std::ceil(shortest_s / once)), 1, most_runs_each);
+}
+
+}  // namespace
+
+double Timing::spread() const {
+  return (upper_quartile_s - lower_quartile_s) / median_s;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], at - static_cast<double>(below));
+}
+
+std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t& state) {
+  // Fisher and Yates; std::shuffle differs between libraries.
+  std::mt19937_64 engine(state);
+  std::vector<std::size_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = i;
+  for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[engine() % i]);
+  state = engine();
+  return order;
+}
+
+std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
+                                     const TimingOptions& options,
+                                     const std::function<void()>& done) {
+  std::vector<Timing> timings(works.size());
+  std::vector<std::vector<double>> wall(works.size());
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    timings[i].runs_each = runs_for(works[i], options.shortest_s);
+  }
+  std::uint64_t state = options.seed;
+  for (int repeat = 0; repeat < options.repeats; ++repeat) {
+    for (const std::size_t i : shuffled(works.size(), state)) {
+      const Elapsed elapsed = measure(works[i], timings[i].runs_each);
+      timings[i].cpu_s.push_back(elapsed.cpu_s);
+      wall[i].push_back(elapsed.wall_s);
+    }
+    if (done) done();
+  }
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    Timing& timing = timings[i];
+    timing.median_s = quantile(timing.cpu_s, 0.5);
+    timing.lower_quartile_s = quantile(timing.cpu_s, 0.25);
+    timing.upper_quartile_s = quantile(timing.cpu_s, 0.75);
+    timing.wall_median_s = quantile(wall[i], 0.5);
+  }
+  return timings;
+}
+
+}  // namespace trammel

@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "harness/input/catalogue.h"
+#include "harness/cli/commands.h"
+#include "harness/run/cost_results.h"
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/studies/mode_match.h"
+#include "harness/run/run.h"
+#include "harness/input/schema.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+using Named = std::map<std::string, std::vector<double>>;
+
+/// One side of a comparison of two variants.
+struct Side {
+  std::string label;
+  Document document;
+  Run run;
+};
+
+Side load_side(const std::string& words, const References& references) {
+  // A colon in a file's own name is no variant.
+  const auto colon = words.rfind(':');
+  const bool split =
+      colon != std::string::npos && words.find('/', colon) == std::string::npos && colon > 0;
+  const Case given = load_case(find_case(split ? words.substr(0, colon) : words));
+  const std::string variant = split ? words.substr(colon + 1) : base_variant;
+  Side side{given.id() + ":" + variant, patched(given, variant), {}};
+  Run& run = side.run;
+  run.case_id = given.id();
+  run.variant = variant;
+  run.result = analyse(side.document, references, {false});
+  if (!run.result.outcome.solved()) {
+    throw InputError(side.label + ": expected a solution to compare (" + run.result.outcome.reason +
+                     ")");
+  }
+  return side;
+}
+
+Named numbers_of(const Quantities& quantities) {
+  Named named;
+  for (const auto& [name, quantity] : quantities) named[name] = quantity.values;
+  return named;
+}
+
+double relative(double a, double b) {
+  const double scale = std::max(std::abs(a), std::abs(b));
+  return scale == 0 ? 0 : (b - a) / scale;
+}
+
+/// The row of a quantity: where it differs most, and how.
+void add_row(const std::string& name, const std::vector<double>& a, const std::vector<double>& b,
+             Table& table) {
+  if (a.size() != b.size()) {
+    table.add({name, "", std::to_string(a.size()) + " entries",
+               std::to_string(b.size()) + " entries", "", ""});
+    return;
+  }
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::abs(a[i] - b[i]) > std::abs(a[worst] - b[worst]) || std::isnan(a[i] - b[i])) worst = i;
+  }
+  const std::size_t first = a.size() <= 6 ? 0 : worst;
+  const std::size_t last = a.size() <= 6 ? a.size() : std::min(a.size(), worst + 1);
+  for (std::size_t i = first; i < last; ++i) {
+    table.add({i == first ? name : "", a.size() > 1 ? std::to_string(i) : "", rounded(a[i], 10),
+               rounded(b[i], 10), rounded(b[i] - a[i], 3), rounded(100 * relative(a[i], b[i]), 3)});
+  }
+}
+
+void print_quantities(const Named& a, const Named& b, const std::string& label_a,
+                      const std::string& label_b) {
+  Table table({"quantity", ">index", ">" + label_a, ">" + label_b, ">difference", ">percent"});
+  for (const auto& [name, values] : a) {
+    const auto other = b.find(name);
+    if (other != b.end()) add_row(name, values, other->second, table);
+  }
+  table.print(std::cout);
+  for (const auto& [one, other, label] :
+       {std::tuple(&a, &b, &label_a), std::tuple(&b, &a, &label_b)}) {
+    std::vector<std::string> alone;
+    for (const auto& item : *one) {
+      if (other->count(item.first) == 0) alone.push_back(item.first);
+    }
+    if (!alone.empty()) {
+      std::cout << wrapped("Only in " + *label + ": " + join(alone, "and"), "");
+    }
+  }
+}
+
+std::string mode_numbers(const std::vector<std::size_t>& set) {
+  std::vector<std::string> numbers;
+  for (const std::size_t i : set) numbers.push_back(std::to_string(i + 1));
+  return join(numbers, "and");
+}
+
+void print_modes(const Side& a, const Side& b) {
+  const auto [modes_a, modes_b] = sample_modes(a.document, b.document);
+  const std::size_t count = a.run.result.quantities.at("frequency_Hz").values.size();
+  Table table(
+      {">mode", ">" + a.label + " [Hz]", ">mode", ">" + b.label + " [Hz]", ">percent", ">alike"});
+  for (const ModeMatch& match : match_modes(modes_a, modes_b)) {
+    if (match.a.front() >= count) break;
+    const double fa = modes_a.frequency[match.a.front()];
+    if (match.b.empty()) {
+      table.add({mode_numbers(match.a), rounded(fa, 8), "-", "no mode looks alike", "", ""});
+      continue;
+    }
+    const double fb = modes_b.frequency[match.b.front()];
+    const double last = modes_b.frequency[match.b.back()];
+    const bool parted = last - fb > 1e-6 * last;
+    table.add({mode_numbers(match.a), rounded(fa, 8), mode_numbers(match.b),
+               rounded(fb, 8) + (parted ? " to " + rounded(last, 8) : ""),
+               rounded(100 * relative(fa, fb), 3), rounded(match.overlap, 4)});
+  }
+  table.print(std::cout);
+  std::cout << "alike: 1 for the same shape (modal assurance criterion; of repeated modes the\n"
+               "subspaces are compared)\n";
+}
+
+bool is_json_file(const std::filesystem::path& file) {
+  std::error_code error;
+  return file.extension() == ".json" && std::filesystem::is_regular_file(file, error);
+}
+
+/// What a file holds, read once; null for a case of the catalogue.
+Json contents(const std::string& words) {
+  return is_json_file(words) ? read_json(words) : Json();
+}
+
+bool is_results(const Json& json) {
+  return json.is_object() && json.contains("format") && json.contains("runs");
+}
+
+/// Why something cannot be compared with a results file.
+[[noreturn]] void refuse_beside_results(const std::string& words, const Json& json) {
+  if (!is_json_file(words)) (void)find_case(words.substr(0, words.rfind(':')));
+  if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
+    const auto fault = find_fault(json, "results");
+    if (fault) throw InputError(words, fault->pointer, fault->message);
+  }
+  throw InputError("expected two variants or two result files (got one of each)");
+}
+
+/// "case:variant" -> quantities of a results file.
+std::map<std::string, Named> read_runs(const std::string& file, const Json& json) {
+  if (const auto fault = find_fault(json, "results")) {
+    throw InputError(file, fault->pointer, fault->message);
+  }
+  std::map<std::string, Named> runs;
+  for (const Json& run : json.at("runs")) {
+    Named& named =
+        runs[run.at("case").get<std::string>() + ":" + run.at("variant").get<std::string>()];
+    for (const auto& item : run.at("quantities").items()) {
+      for (const Json& value : item.value()) {
+        named[item.key()].push_back(value.is_null() ? std::nan("") : value.get<double>());
+      }
+    }
+  }
+  return runs;
+}
+
+/// Only what differs, bit for bit.
+std::pair<Named, Named> differing(const Named& a, const Named& b) {
+  std::pair<Named, Named> left{a, b};
+  for (const auto& [name, values] : a) {
+    const auto other = b.find(name);
+    const bool same =
+        other != b.end() && values.size() == other->second.size() &&
+        std::equal(values.begin(), values.end(), other->second.begin(),
+                   [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+    if (!same) continue;
+    left.first.erase(name);
+    left.second.erase(name);
+  }
+  return left;
+}
+
+/// The points of a study by the titles of its settings.
+std::vector<CostPoint> named_points(const Json& study, std::vector<std::string>& titles) {
+  std::vector<CostPoint> points = cost_points(study);
+  for (CostPoint& point : points) {
+    const auto title = study.at("settings").at(point.setting).at("title").get<std::string>();
+    const auto known = std::find(titles.begin(), titles.end(), title);
+    point.setting = static_cast<std::size_t>(known - titles.begin());
+    if (known == titles.end()) titles.push_back(title);
+  }
+  return points;
+}
+
+/// How near two measurements of the same studies come.
+void compare_costs(const Json& a, const Json& b) {
+  if (!a.contains("cost") || !b.contains("cost")) return;
+  Table table({"study", ">on both fronts", ">of", ">same cheapest", ">of", ">median", ">largest"});
+  for (const Json& study : a.at("cost").at("studies")) {
+    const Json& others = b.at("cost").at("studies");
+    const auto other = std::find_if(others.begin(), others.end(), [&](const Json& candidate) {
+      return candidate.at("id") == study.at("id");
+    });
+    if (other == others.end()) continue;
+    std::vector<std::string> titles;
+    const std::vector<CostPoint> ours = named_points(study, titles);
+    const FrontAgreement both = compare_fronts(ours, named_points(*other, titles));
+    table.add({study.at("id").get<std::string>(), std::to_string(both.shared),
+               std::to_string(both.either), std::to_string(both.same_cheapest),
+               std::to_string(both.asked), rounded(100 * both.median_difference, 2) + " % apart",
+               rounded(100 * both.largest_difference, 2) + " %"});
+  }
+  if (table.empty()) return;
+  std::cout
+      << "what accuracy costs: settings on the efficient fronts, the cheapest setting for each\n"
+         "error asked for, and how far what an accuracy costs is apart\n";
+  table.print(std::cout, "  ");
+}
+
+int compare_results(const std::string& file_a, const Json& json_a, const std::string& file_b,
+                    const Json& json_b) {
+  const auto runs_a = read_runs(file_a, json_a), runs_b = read_runs(file_b, json_b);
+  std::size_t same = 0, different = 0;
+  for (const auto& [name, a] : runs_a) {
+    const auto b = runs_b.find(name);
+    if (b == runs_b.end()) {
+      std::cout << name << ": only in " << file_a << '\n';
+      continue;
+    }
+    const auto [left, right] = differing(a, b->second);
+    if (left.empty() && right.empty()) {
+      ++same;
+      continue;
+    }
+    ++different;
+    std::cout << name << '\n';
+    print_quantities(left, right, "a", "b");
+  }
+  for (const auto& item : runs_b) {
+    if (runs_a.count(item.first) == 0) std::cout << item.first << ": only in " << file_b << '\n';
+  }
+  std::cout << same << " runs are the same bit for bit, " << different << " differ\n";
+  compare_costs(json_a, json_b);
+  return 0;
+}
+
+}  // namespace
+
+int compare_command(const std::string& a, const std::string& b) {
+  const Json json_a = contents(a), json_b = contents(b);
+  const bool results_a = is_results(json_a);
+  if (results_a != is_results(json_b)) {
+    results_a ? refuse_beside_results(b, json_b) : refuse_beside_results(a, json_a);
+  }
+  if (results_a) return compare_results(a, json_a, b, json_b);
+  const References references;
+  const Side side_a = load_side(a, references), side_b = load_side(b, references);
+  if (analysis_kind(side_a.document) != analysis_kind(side_b.document)) {
+    throw InputError("expected two variants of one kind of analysis (got " +
+                     analysis_kind(side_a.document) + " and " + analysis_kind(side_b.document) +
+                     ")");
+  }
+  if (analysis_kind(side_a.document) == "modes" &&
+      side_a.run.result.quantities.count("frequency_Hz") > 0 &&
+      side_b.run.result.quantities.count("frequency_Hz") > 0) {
+    print_modes(side_a, side_b);
+    return 0;
+  }
+  print_quantities(numbers_of(side_a.run.result.quantities),
+                   numbers_of(side_b.run.result.quantities), side_a.label, side_b.label);
+  return 0;
+}
+
+}  // namespace trammel

@@ -1,0 +1,83 @@
+#include <cmath>
+#include <iostream>
+
+#include "harness/input/catalogue.h"
+#include "harness/cli/commands.h"
+#include "harness/base/errors.h"
+#include "harness/cli/print_uncertainty.h"
+#include "harness/run/run.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+std::string note(const Convergence& found, std::size_t k) {
+  if (found.at_roundoff_floor[k]) return "round-off";
+  return found.in_asymptotic_range[k] ? "asymptotic" : "";
+}
+
+/// The two-term law of the relative error in words.
+std::string law(const Convergence& found) {
+  const auto& [a, b] = found.two_term->coefficient;
+  return "error = " + rounded(a, 4) + " h^" + rounded(*found.series.theory) + " + " +
+         rounded(b, 4) + " h^" + rounded(*found.series.lower) + " within " +
+         rounded(100 * found.two_term->worst, 2) + " %";
+}
+
+void print(const Convergence& found) {
+  const Series& series = found.series;
+  std::cout << "  " << (series.statistic.empty() ? "" : series.statistic + " of ")
+            << series.quantity;
+  if (series.statistic.empty()) std::cout << "[" << series.index << "]";
+  if (series.exact)
+    std::cout << ", exact " << shortest(*series.exact) << " (" << series.reference << ")";
+  std::cout << '\n';
+  Table table({">" + series.sweep, ">value", ">error", ">order", ">band", ">factor", ""});
+  for (std::size_t k = 0; k < series.values.size(); ++k) {
+    table.add({rounded(series.parameter[k]), rounded(series.values[k], 12),
+               rounded(found.error[k], 3), rounded(found.order[k], 4), rounded(found.band[k], 3),
+               rounded(found.factor[k], 3), note(found, k)});
+  }
+  table.print(std::cout, "    ");
+  std::string last;
+  if (series.theory) last += "order by theory " + rounded(*series.theory);
+  if (series.lower) last += " and " + rounded(*series.lower);
+  if (found.two_term) last += ", " + law(found);
+  if (found.fitted_order) last += ", fitted " + rounded(*found.fitted_order, 4);
+  if (found.richardson) {
+    last += std::string(last.empty() ? "" : ", ") + "extrapolated " + shortest(*found.richardson);
+    if (series.exact) {
+      last += ", off by " +
+              rounded(std::abs(*found.richardson - *series.exact) / std::abs(*series.exact), 2);
+    }
+  }
+  std::cout << wrapped(last, "    ") << '\n';
+}
+
+}  // namespace
+
+int converge_command(const std::string& name, const std::string& variant, unsigned jobs) {
+  const Case given = load_case(find_case(name));
+  if (!given.document.value().contains("sweeps")) {
+    throw given.document.error("", "expected 'sweeps', which say what to refine");
+  }
+  if (!variant.empty()) (void)patched(given, variant);
+  const References references;
+  const std::vector<Run> runs = run_cases({given}, references, {variant, jobs, Follow::all, {}});
+  for (const Run& run : runs) {
+    if (run.trouble != Run::Trouble::none) {
+      std::cerr << run.reason << '\n';
+      return run.trouble == Run::Trouble::input ? 2 : 3;
+    }
+    std::cout << run.case_id << ":" << run.variant << "\n\n";
+    for (const Convergence& found : run.convergence) print(found);
+  }
+  print_bands(bands_of(runs), std::cout);
+  std::cout
+      << "error: relative, of the exact value or else of the extrapolated one; band: grid\n"
+         "convergence index with Roache's factor, 1.25 where the order is near theory, else 3\n";
+  return exit_status(runs) == 3 ? 3 : 0;
+}
+
+}  // namespace trammel

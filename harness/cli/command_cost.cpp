@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <iostream>
+#include <set>
+
+#include "harness/input/catalogue.h"
+#include "harness/cli/commands.h"
+#include "harness/run/cost_results.h"
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/base/progress.h"
+#include "harness/run/results.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+namespace fs = std::filesystem;
+using Standing = MeasuredSetting::Standing;
+
+/// Studies of the catalogue that a word means: of that family, or of that name.
+std::vector<fs::path> studies_named(const std::string& word, std::vector<std::string>& known) {
+  std::vector<fs::path> found;
+  for (const fs::path& file : cost_study_files()) {
+    const Json json = read_json(file);
+    const std::string id = file.stem().string(), family = json.value("family", "");
+    if (word == id || word == family) found.push_back(file);
+    known.push_back(id);
+    known.push_back(family);
+  }
+  return found;
+}
+
+fs::path find_one(const std::string& word, const std::vector<std::string>& known) {
+  try {
+    return find_case(word);
+  } catch (const InputError&) {
+    if (word.find('/') != std::string::npos || fs::path(word).extension() == ".json") throw;
+    const std::string hint = did_you_mean(word, known);
+    if (hint.empty()) throw;
+    throw InputError("expected a family or study of cases/cost, a case or a file (got '" +
+                     printable(word) + "')" + hint);
+  }
+}
+
+std::vector<CostStudy> read_studies(const CostCommand& command, Sweeping sweeping,
+                                    const References& references) {
+  std::vector<CostStudy> studies;
+  std::set<fs::path> seen;
+  bool any_case = false;
+  const auto add = [&](const fs::path& file) {
+    if (seen.insert(fs::weakly_canonical(file)).second) {
+      studies.push_back(load_cost_study(file, sweeping, references));
+    }
+  };
+  for (const std::string& word : command.what) {
+    std::vector<std::string> known;
+    const std::vector<fs::path> named = studies_named(word, known);
+    std::for_each(named.begin(), named.end(), add);
+    if (!named.empty()) continue;
+    const fs::path file = find_one(word, known);
+    if (is_cost_study(file)) {
+      add(file);
+      continue;
+    }
+    any_case = true;
+    const std::string variant = command.variant.empty() ? base_variant : command.variant;
+    studies.push_back(cost_study_of_sweeps(load_case(file), variant, command.sweeps, references));
+  }
+  if (!any_case && (!command.sweeps.empty() || !command.variant.empty())) {
+    throw InputError("--sweep and --variant: expected a case beside them");
+  }
+  if (!command.what.empty()) return studies;
+  for (const fs::path& file : cost_study_files()) add(file);
+  return studies;
+}
+
+std::string mark(const MeasuredSetting& measured, bool on_front) {
+  if (on_front) return "*";
+  return measured.standing == Standing::measured ? "" : to_string(measured.standing);
+}
+
+void print_settings(const MeasuredStudy& measured) {
+  Table table({"setting", ">error", ">time", ">spread", ">cpu [s]", ">elements", ">factor.",
+               ">solves", ">steps", ""});
+  std::vector<std::string> reasons;
+  for (std::size_t i = 0; i < measured.settings.size(); ++i) {
+    const MeasuredSetting& one = measured.settings[i];
+    const bool on_front = std::any_of(measured.front.begin(), measured.front.end(),
+                                      [i](const CostPoint& point) { return point.setting == i; });
+    const std::string& title = measured.study.settings[i].title;
+    table.add({title, one.error ? rounded(one.error->get(measured.study.norm), 3) : "-",
+               rounded(one.relative, 3), one.timing ? rounded(one.timing->spread(), 2) : "-",
+               rounded(one.cpu_s, 3), std::to_string(one.counters.element_evaluations),
+               std::to_string(one.counters.factorizations), std::to_string(one.counters.solves),
+               std::to_string(one.counters.steps), mark(one, on_front)});
+    if (!one.reason.empty()) reasons.push_back(title + ": " + one.reason);
+  }
+  table.print(std::cout, "  ");
+  for (const std::string& reason : reasons) std::cout << wrapped(reason, "    ");
+}
+
+void print_cheapest(const MeasuredStudy& measured) {
+  Table table({">within", "cheapest setting", ">error", ">time"});
+  for (const double error : asked_errors()) {
+    const auto found = cheapest(measured.points, error);
+    const std::string asked = error < 1e-3 ? rounded(error) : rounded(100 * error) + " %";
+    table.add({asked, found ? measured.study.settings[found->setting].title : "none of these",
+               found ? rounded(found->error, 2) : "", found ? rounded(found->time, 3) : ""});
+  }
+  table.print(std::cout, "  ");
+}
+
+void print(const MeasuredStudy& measured) {
+  const CostStudy& study = measured.study;
+  std::cout << study.family << ": " << study.title << '\n'
+            << wrapped("Error (" + std::string(to_string(study.norm)) + ") against " +
+                           study.truth_words + ", " + study.scale_words + "; time relative to '" +
+                           study.settings[study.baseline].title + "'; * on the efficient front.",
+                       "  ");
+  print_settings(measured);
+  print_cheapest(measured);
+  std::cout << wrapped(measured.words, "  ");
+  const FrontAgreement& both = measured.repeatability;
+  std::cout << wrapped("Odd and even repeats by themselves: " + std::to_string(both.shared) +
+                           " of " + std::to_string(both.either) + " settings on both fronts, " +
+                           std::to_string(both.same_cheapest) + " of " +
+                           std::to_string(both.asked) + " cheapest settings the same, times " +
+                           rounded(100 * both.median_difference, 2) + " % apart (median), " +
+                           rounded(100 * both.largest_difference, 2) + " % at most.",
+                       "  ")
+            << '\n';
+}
+
+TimingOptions timing_of(const CostCommand& command) {
+  TimingOptions timing;
+  timing.repeats = command.repeats;
+  timing.seed = command.seed;
+  return timing;
+}
+
+}  // namespace
+
+int cost_command(const CostCommand& command, const Renderers& renderers) {
+  require_writable(command.out);
+  const References references;
+  const Sweeping sweeping = command.quick ? Sweeping::quick : Sweeping::full;
+  std::vector<CostStudy> studies = read_studies(command, sweeping, references);
+  CostOptions options{timing_of(command), {}};
+  std::vector<MeasuredStudy> measured;
+  for (CostStudy& study : studies) {
+    {
+      Progress progress;
+      options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+      measured.push_back(measure(std::move(study), options, references));
+    }
+    print(measured.back());
+  }
+  Json results = results_of({}, {}, references);
+  results["cost"] = cost_json(measured, sweeping, options.timing);
+  const fs::path file = write_results(results, command.out);
+  const fs::path page = renderers.report ? renderers.report(file, command.out) : file;
+  std::cout << "results in " << file.string() << "\npage in " << page.string() << std::endl;
+  const bool any_lost =
+      std::any_of(measured.begin(), measured.end(),
+                  [](const MeasuredStudy& study) { return study.points.empty(); });
+  return any_lost ? 1 : 0;
+}
+
+Json quick_cost(const References& references, std::vector<std::string>& troubles) {
+  Progress progress;
+  const CostOptions options;
+  const std::vector<fs::path> files = cost_study_files();
+  std::vector<MeasuredStudy> measured;
+  for (const fs::path& file : files) {
+    try {
+      measured.push_back(
+          measure(load_cost_study(file, Sweeping::quick, references), options, references));
+    } catch (const InputError& error) {
+      troubles.emplace_back(error.what());
+    }
+    progress.show(measured.size() + troubles.size(), files.size());
+  }
+  return cost_json(measured, Sweeping::quick, options.timing);
+}
+
+}  // namespace trammel

@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "harness/input/catalogue.h"
+#include "harness/cli/commands.h"
+#include "harness/studies/effect_study.h"
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/cli/print_effects.h"
+#include "harness/base/progress.h"
+#include "harness/studies/random_scenes.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+std::string percent(double share) {
+  return std::isfinite(share) ? rounded(100 * share, 3) : "all";
+}
+
+std::string kinds_of(const Changes& changes) {
+  std::vector<std::string> words;
+  for (const auto& [kind, change] : changes) words.push_back(kind + " " + percent(change));
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string names_of(const std::vector<Effect>& effects) {
+  std::vector<std::string> names;
+  for (const Effect effect : effects) names.emplace_back(name_of(effect));
+  return join(names, "and");
+}
+
+std::string ratio(double part, double whole) {
+  return whole > 0 ? rounded(part / whole, 3) : "";
+}
+
+void add_row(Table& table, const std::string& what, const EffectRun& run, const EffectRun& full) {
+  if (!run.outcome.solved()) {
+    table.add({what, "all", run.outcome.reason, "", "", "", ""});
+    return;
+  }
+  const bool noisy = run.cpu_spread > 0.1;
+  table.add({what, percent(largest(run.changes)), kinds_of(run.changes),
+             ratio(run.cpu_s, full.cpu_s) + (noisy ? " ~" : ""),
+             std::to_string(run.counters.element_evaluations),
+             std::to_string(run.counters.factorizations), std::to_string(run.counters.solves)});
+}
+
+void print_singles(const EffectStudy& study) {
+  Table table(
+      {"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
+  add_row(table, "nothing", study.full, study.full);
+  for (const LeftOut& one : study.singles) {
+    const Effects with_carried = study.full.effects.without(one.run.effects);
+    add_row(table, names_of(with_carried.list()), one.run, study.full);
+  }
+  add_row(table, "all but the chosen", study.chosen, study.full);
+  table.print(std::cout, "  ");
+  std::cout << "  time: over that of the whole scene, medians of runs in turns; ~ spreads by more "
+               "than 10 %\n";
+}
+
+/// Pairs whose joint change is not the larger, nor the sum, of the two.
+void print_pairs(const EffectStudy& study) {
+  const auto single = [&](Effect effect) {
+    for (const LeftOut& one : study.singles) {
+      if (one.effects.front() == effect) return largest(one.run.changes);
+    }
+    return 0.0;
+  };
+  Table table({"pair", ">together [%]", ">one [%]", ">other [%]"});
+  for (const LeftOut& pair : study.pairs) {
+    const double together = largest(pair.run.changes);
+    const double a = single(pair.effects[0]), b = single(pair.effects[1]);
+    const double slack = 0.1 * study.tolerance;
+    const bool interact = std::isfinite(together) && std::isfinite(a) && std::isfinite(b) &&
+                          (together > a + b + slack || together < std::max(a, b) - slack);
+    if (!interact) continue;
+    table.add({names_of(pair.effects), percent(together), percent(a), percent(b)});
+  }
+  if (table.empty()) {
+    std::cout << "\nNo pair interacts: two left out together change no more than the sum, and no "
+                 "less than the larger.\n";
+    return;
+  }
+  std::cout << "\nPairs that interact: together more than the sum, or less than the larger\n";
+  table.print(std::cout, "  ");
+}
+
+void print_verdict(const EffectStudy& study) {
+  std::cout << "\nChosen    " << effect_names(study.choice.chosen) << '\n';
+  const double off = largest(study.chosen.changes);
+  std::cout << "Within    " << (study.within() ? "yes" : "no") << ": " << percent(off)
+            << " % from the whole scene, where " << percent(study.tolerance) << " % are allowed\n";
+  std::cout << "Minimal   " << (study.minimal() ? "yes" : "no");
+  for (const LeftOut& one : study.from_chosen) {
+    const double change = largest(one.run.changes);
+    if (change <= study.tolerance) {
+      std::cout << "; " << percent(change) << " % without " << names_of(one.effects)
+                << (change > 0.9 * study.tolerance ? ", kept by the tenth in hand"
+                                                   : ", which the estimate took for more");
+    }
+  }
+  std::cout << '\n';
+  if (study.full.cpu_s > 0) {
+    std::cout << "Time      " << ratio(study.chosen.cpu_s, study.full.cpu_s)
+              << " of the whole scene's " << rounded(1e3 * study.full.cpu_s, 3)
+              << " ms; to decide took " << rounded(1e3 * study.choice_cpu_s, 3) << " ms\n";
+  }
+}
+
+Document draw_scene(const EffectsCommand& command, std::uint64_t n) {
+  return command.motion ? random_motion(command.seed, n) : random_scene(command.seed, n);
+}
+
+/// What the random scenes come to.
+struct Tally {
+  std::size_t scenes = 0, unsolved = 0, within = 0, minimal = 0;
+  std::vector<std::string> misses;
+};
+
+void judge(const EffectStudy& study, const std::string& name, Tally& tally) {
+  if (!study.full.outcome.solved()) {
+    ++tally.unsolved;
+    return;
+  }
+  ++tally.scenes;
+  if (study.within()) ++tally.within;
+  if (study.minimal()) ++tally.minimal;
+  if (!study.within()) {
+    tally.misses.push_back(name + ": off by " + percent(largest(study.chosen.changes)) + " % (" +
+                           kinds_of(study.chosen.changes) + ") with " +
+                           effect_names(study.choice.chosen));
+  }
+  if (study.minimal()) return;
+  for (const LeftOut& one : study.from_chosen) {
+    const double change = largest(one.run.changes);
+    if (change > study.tolerance) continue;
+    const auto& reason = study.choice.reasons[static_cast<std::size_t>(one.effects.front())];
+    tally.misses.push_back(name + ": could do without " + names_of(one.effects) + ", " +
+                           percent(change) + " %; estimated " + percent(reason.change.value_or(0)) +
+                           " %");
+  }
+}
+
+}  // namespace
+
+int effects_command(const EffectsCommand& command) {
+  const bool random = command.name.empty();
+  const Document document = [&] {
+    if (random) return draw_scene(command, command.scene);
+    const Case given = load_case(find_case(command.name));
+    return patched(given, command.variant.empty() ? base_variant : command.variant);
+  }();
+  const EffectStudy study = study_effects(document, {command.tolerance, true, command.repeats});
+  const Json& json = document.value();
+  std::cout << json.at("id").get<std::string>() << ": " << json.at("title").get<std::string>()
+            << '\n';
+  if (random) std::cout << pretty(json);
+  print_effects(study.choice, analysis_kind(document));
+  if (!study.full.outcome.solved()) {
+    throw InputError(json.at("id").get<std::string>() + ": expected a solution with all effects (" +
+                     study.full.outcome.reason + ")");
+  }
+  std::cout << "\nMeasured against the whole scene\n";
+  print_singles(study);
+  print_pairs(study);
+  print_verdict(study);
+  return study.within() ? 0 : 1;
+}
+
+int labelled_effects_command(const EffectsCommand& command) {
+  Table table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">time", ">deciding",
+               ">elements", ">solves"});
+  bool within = true;
+  std::size_t scenes = 0;
+  for (const Case& given : load_catalogue(command.labels)) {
+    const Document document = patched(given, base_variant);
+    if (!knows_effects(document)) continue;
+    const EffectStudy study = study_effects(document, {command.tolerance, false, command.repeats});
+    if (!study.full.outcome.solved()) continue;
+    ++scenes;
+    within = within && study.within();
+    const Counters &chosen = study.chosen.counters, &full = study.full.counters;
+    table.add({given.id(), effect_names(study.choice.chosen),
+               percent(largest(study.chosen.changes)), percent(study.tolerance),
+               study.minimal() ? "yes" : "no", ratio(study.chosen.cpu_s, study.full.cpu_s),
+               ratio(study.choice_cpu_s, study.full.cpu_s),
+               ratio(static_cast<double>(chosen.element_evaluations),
+                     static_cast<double>(full.element_evaluations)),
+               ratio(static_cast<double>(chosen.solves), static_cast<double>(full.solves))});
+  }
+  if (scenes == 0)
+    throw InputError("expected a case with these labels whose analysis knows effects");
+  table.print(std::cout, "");
+  std::cout << "time, deciding, elements, solves: over those of the whole scene\n";
+  return within ? 0 : 1;
+}
+
+int random_effects_command(const EffectsCommand& command) {
+  Tally tally;
+  {
+    Progress progress;
+    for (std::uint64_t n = 0; tally.scenes < command.random && n < 2 * command.random; ++n) {
+      const Document document = draw_scene(command, n);
+      judge(study_effects(document, {command.tolerance, false, 0}),
+            document.value().at("id").get<std::string>(), tally);
+      progress.show(tally.scenes, command.random);
+    }
+  }
+  for (const std::string& miss : tally.misses) std::cout << wrapped(miss, "  ");
+  const auto share = [&](std::size_t hits) {
+    return static_cast<double>(hits) / static_cast<double>(tally.scenes);
+  };
+  const auto rate = [&](std::size_t hits) {
+    return std::to_string(hits) + " of " + std::to_string(tally.scenes) + ", " +
+           rounded(100 * share(hits), 3) + " %";
+  };
+  std::cout << "Random scenes, seed " << command.seed << ", tolerance "
+            << percent(command.tolerance) << " %\n"
+            << "  within the tolerance of the whole scene  " << rate(tally.within) << '\n'
+            << "  minimal                                  " << rate(tally.minimal) << '\n'
+            << "  without a solution to compare with       " << tally.unsolved << '\n';
+  return share(tally.within) >= 0.99 && share(tally.minimal) >= 0.9 ? 0 : 1;
+}
+
+}  // namespace trammel

@@ -1,0 +1,261 @@
+#include "harness/cli/command_line.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+#include "harness/cli/commands.h"
+#include "harness/base/errors.h"
+#include "harness/base/text.h"
+#include "trammel_build.h"
+
+namespace trammel {
+namespace {
+
+constexpr const char* about =
+    R"(Verification and validation of flexible-link planar parallel manipulators.
+
+A case is a JSON file: a model, an analysis, and checks against references with passports. A name
+is looked up in the catalogue; a path is a file of your own, in any folder.)";
+
+constexpr const char* footer = R"(
+Examples:
+  trammel list                              what there is
+  trammel describe manipulator-modes        what a case models, checks and compares with
+  trammel run manipulator-modes             all its variants, with verdicts
+  trammel run -L verification --jobs 4      every case with that label
+  trammel run ~/my-robot.json               a case file of your own
+  trammel compare manipulator-modes manipulator-modes:rigid-platform
+  trammel converge beam-cantilever          orders, extrapolation, uncertainty bands
+  trammel cost modes                        what accuracy costs in time
+  trammel ledger                            the paper's claims, and a verdict for each
+  trammel effects scene-soft-platform       what each effect is worth in a scene
+  trammel report                            the whole catalogue as a page
+  trammel report ~/my-robot.json            a page of your own case
+
+Exit status: 0 every gate holds, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
+
+/// All words of the command line, and what to do with them.
+class CommandLine {
+ public:
+  explicit CommandLine(const Renderers& renderers) : renderers_(renderers) {
+    app_.name("trammel");
+    app_.footer(footer);
+    app_.set_version_flag("--version", TRAMMEL_VERSION);
+    app_.require_subcommand(1);
+    define_list();
+    define_describe();
+    define_run();
+    define_compare();
+    define_converge();
+    define_cost();
+    define_ledger();
+    define_effects();
+    define_report();
+  }
+
+  int run(const std::vector<std::string>& words) {
+    // CLI11 takes them from the back, and keeps what is left.
+    std::vector<std::string> stack(words.rbegin(), words.rend());
+    try {
+      app_.parse(stack);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() == 0) return app_.exit(error);
+      throw InputError("trammel: " + explained(error, words));
+    }
+    return command_();
+  }
+
+ private:
+  std::string explained(const CLI::ParseError& error, const std::vector<std::string>& words) {
+    std::vector<std::string> names;
+    for (const CLI::App* sub : app_.get_subcommands([](const CLI::App*) { return true; })) {
+      names.push_back(sub->get_name());
+    }
+    const std::string first = words.empty() ? "" : words.front();
+    const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
+    if (first.empty()) return "expected a command (see trammel --help)";
+    if (!is_command && first.front() != '-') {
+      return "expected a command (got '" + printable(first) + "')" + did_you_mean(first, names);
+    }
+    std::string line = printable(error.what(), 200);
+    return line + " (see trammel " + (is_command ? first + " " : "") + "--help)";
+  }
+
+  CLI::App* add(const char* name, const char* what, const char* examples) {
+    CLI::App* sub = app_.add_subcommand(name, what);
+    sub->footer(examples);
+    return sub;
+  }
+  void add_jobs(CLI::App* sub) {
+    sub->add_option("-j,--jobs", run_.jobs,
+                    "Computations at a time; the numbers do not depend on it")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+  }
+  void add_out(CLI::App* sub, const char* what) {
+    sub->add_option("-o,--out", run_.out, what)->capture_default_str();
+  }
+
+  void define_list() {
+    CLI::App* sub = add("list", "The cases of the catalogue",
+                        "\nExamples:\n  trammel list\n  trammel list -L manipulator --json");
+    sub->add_option("-L,--label", run_.labels, "Only cases with one of these labels");
+    sub->add_flag("--json", json_, "As JSON");
+    sub->callback([this] { command_ = [this] { return list_cases(run_.labels, json_); }; });
+  }
+  void define_describe() {
+    CLI::App* sub = add("describe", "Model, analysis, variants, checks and references of a case",
+                        "\nExample:\n  trammel describe manipulator-modes");
+    sub->add_option("case", name_, "Name or file of a case")->required();
+    sub->add_flag("--json", json_, "As JSON: the case with all that it extends");
+    sub->callback([this] { command_ = [this] { return describe_case(name_, json_); }; });
+  }
+  void define_run() {
+    CLI::App* sub = add("run", "Compute cases and judge them",
+                        "\nExamples:\n  trammel run manipulator-modes --variant rigid-platform\n"
+                        "  trammel run my-robot.json other.json --jobs 2\n"
+                        "  trammel run -L beam -L frame --out results");
+    sub->add_option("cases", run_.cases, "Names or files of cases");
+    sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
+    sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
+    add_jobs(sub);
+    add_out(sub, "Folder for results.json and junit.xml");
+    sub->callback([this] {
+      if (run_.cases.empty() && run_.labels.empty()) {
+        throw CLI::RequiredError("a case or a label");
+      }
+      command_ = [this] { return run_command(run_, renderers_); };
+    });
+  }
+  void define_compare() {
+    CLI::App* sub = add("compare", "Two variants, or two result files, quantity by quantity",
+                        "\nModes are matched by shape, repeated ones as a set.\n\nExamples:\n"
+                        "  trammel compare manipulator-modes manipulator-modes:rigid-platform\n"
+                        "  trammel compare before/results.json after/results.json");
+    sub->add_option("a", name_, "case, case:variant, or a results.json")->required();
+    sub->add_option("b", other_, "The same")->required();
+    sub->callback([this] { command_ = [this] { return compare_command(name_, other_); }; });
+  }
+  void define_converge() {
+    CLI::App* sub = add("converge", "What a case's refinements show",
+                        "\nExample:\n  trammel converge beam-cantilever");
+    sub->add_option("case", name_, "Name or file of a case with sweeps")->required();
+    sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
+    add_jobs(sub);
+    sub->callback(
+        [this] { command_ = [this] { return converge_command(name_, run_.variant, run_.jobs); }; });
+  }
+  void define_cost() {
+    CLI::App* sub =
+        add("cost", "What accuracy costs in time: error, time and the efficient front",
+            "\nStudies stand in cases/cost; a case of your own is studied by its sweeps.\n"
+            "Settings are run in shuffled order, one at a time: leave the machine to it.\n\n"
+            "Examples:\n  trammel cost\n  trammel cost modes statics --quick\n"
+            "  trammel cost beam-cantilever --sweep elements\n"
+            "  trammel cost my-study.json --repeats 15 --out cost");
+    sub->add_option("what", cost_.what,
+                    "Families or studies of the catalogue, cases, or files of either; every study "
+                    "by default");
+    sub->add_option("--sweep", cost_.sweeps, "Sweeps of the cases named; all of them by default");
+    sub->add_option("--variant", cost_.variant,
+                    "Of the cases named; 'base', the default, is the case unpatched");
+    sub->add_flag("--quick", cost_.quick, "Few values of each study, as the report shows them");
+    sub->add_option("--repeats", cost_.repeats, "Measurements of each setting")
+        ->check(CLI::Range(7, 10000))
+        ->capture_default_str();
+    sub->add_option("--seed", cost_.seed, "Of the order")->capture_default_str();
+    sub->add_option("-o,--out", cost_.out, "Folder for results.json, the page, figures and data")
+        ->capture_default_str();
+    sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
+  }
+  void define_ledger() {
+    CLI::App* sub =
+        add("ledger", "The paper's claims, and what the results say of each",
+            "\nRuns the cases that the claims rest on. Exit status 1 where a verdict is "
+            "not the recorded one.\n\nExample:\n  trammel ledger");
+    add_jobs(sub);
+    sub->add_flag("--json", json_, "As JSON, with every number");
+    sub->callback([this] { command_ = [this] { return ledger_command(run_.jobs, json_); }; });
+  }
+  void define_effects() {
+    CLI::App* sub = add("effects", "What each effect is worth in a scene, estimated and measured",
+                        "\nThe whole scene against itself without each effect, without pairs, and "
+                        "with only those\nthat its tolerance calls for.\n\nExamples:\n"
+                        "  trammel effects scene-soft-platform\n"
+                        "  trammel effects my-robot.json --tolerance 0.001\n"
+                        "  trammel effects -L effects                 a table of the scenes\n"
+                        "  trammel effects --random 200 --seed 1      hit rate on random scenes\n"
+                        "  trammel effects --random 200 --motion      of scenes in motion\n"
+                        "  trammel effects --seed 1 --scene 17        one of them");
+    sub->add_option("case", name_, "Name or file of a case with statics, modes or elastodynamics");
+    sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
+    sub->add_option("--tolerance", effects_.tolerance,
+                    "Relative, where the case's effects are not automatic")
+        ->check(CLI::Range(1e-12, 1.0))
+        ->capture_default_str();
+    sub->add_option("--repeats", effects_.repeats, "Measurements of time")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    auto* random = sub->add_option("--random", effects_.random, "So many random scenes instead")
+                       ->check(CLI::Range(1, 100000));
+    auto* scene = sub->add_option("--scene", effects_.scene, "This one of the random scenes");
+    sub->add_option("--seed", effects_.seed, "Of random scenes")->capture_default_str();
+    sub->add_flag("--motion", effects_.motion,
+                  "Random scenes in motion: along circles, and spinning links");
+    auto* labels = sub->add_option("-L,--label", effects_.labels,
+                                   "Every case with one of these labels, in a table")
+                       ->allow_extra_args(false);
+    sub->callback([this, random, scene, labels] {
+      const bool many = random->count() > 0, one = scene->count() > 0, all = labels->count() > 0;
+      if (int(many) + int(one) + int(all) + int(!name_.empty()) != 1) {
+        throw CLI::RequiredError("exactly one of a case, --label, --random and --scene");
+      }
+      effects_.name = name_;
+      command_ = [this, many, all] {
+        if (all) return labelled_effects_command(effects_);
+        return many ? random_effects_command(effects_) : effects_command(effects_);
+      };
+    });
+  }
+  void define_report() {
+    CLI::App* sub =
+        add("report", "Run the whole catalogue, or some cases, and write the page",
+            "\nOnly the page of the whole catalogue has the cost studies and the "
+            "claims of the paper.\n\nExamples:\n  trammel report --out report --jobs 4\n"
+            "  trammel report my-robot.json      a page of your own case");
+    sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
+    sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
+    add_jobs(sub);
+    add_out(sub, "Folder for the page, its figures and data, results.json and junit.xml");
+    sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
+  }
+
+  const Renderers& renderers_;
+  CLI::App app_{about};
+  RunCommand run_{{}, {}, "", std::max(1U, std::thread::hardware_concurrency()), "trammel-results"};
+  CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
+  EffectsCommand effects_;
+  std::string name_, other_;
+  bool json_ = false;
+  std::function<int()> command_;
+};
+
+}  // namespace
+
+int run_command_line(const std::vector<std::string>& words, const Renderers& renderers) {
+  try {
+    return CommandLine(renderers).run(words);
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "trammel: a fault of its own: " << error.what() << '\n';
+    return 3;
+  }
+}
+
+}  // namespace trammel

@@ -1,0 +1,232 @@
+#include <iostream>
+
+#include "harness/analysis/analysis.h"
+#include "harness/input/catalogue.h"
+#include "harness/input/check.h"
+#include "harness/cli/commands.h"
+#include "harness/input/json_view.h"
+#include "harness/base/json_file.h"
+#include "harness/cli/print_effects.h"
+#include "harness/input/reference_library.h"
+#include "harness/scene/case_model.h"
+#include "harness/analysis/case_effects.h"
+#include "harness/base/table.h"
+#include "harness/judge/validation_uncertainty.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+std::string family_of(const Case& given) {
+  return given.document.value().value("family", "");
+}
+
+std::string text_of(const Case& given, const char* key) {
+  return given.document.value().value(key, "");
+}
+
+Json summary(const Case& given) {
+  return {{"id", given.id()},
+          {"title", given.title()},
+          {"family", family_of(given)},
+          {"labels", given.labels()},
+          {"analysis", analysis_kind(given.document)},
+          {"variants", given.variants()},
+          {"file", given.file.string()}};
+}
+
+std::string count_of(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string model_words(const Document& document) {
+  const std::string kind = analysis_kind(document);
+  if (kind == "comparison") return "no model: references against each other";
+  if (kind == "options") return "those of other cases";
+  if (kind == "study" && !document.value().contains("model")) return "made by the analysis";
+  if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
+  if (kind == "grnn" && !document.value().contains("model")) return "none: samples of its own";
+  const Scene scene = read_scene(document);
+  const Model model = build_bare_model(scene, 0);
+  std::string text;
+  if (scene.manipulator) {
+    const auto& platform = scene.manipulator->platform;
+    text = platform.kind == PlatformDesign::Kind::rigid
+               ? "3-RRR manipulator with a rigid platform"
+               : "3-RRR manipulator with a platform of triangles";
+    const Pose& pose = scene.motion.front().pose;
+    text += scene.path ? ", along " + count_of(scene.motion.size(), "pose")
+                       : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
+                             " m, phi = " + shortest(pose.phi) + " rad";
+  } else {
+    text = "planar model";
+  }
+  Index elements = 0;
+  for (const Member& member : model.members) elements += member.elements;
+  text += "; " + count_of(model.nodes.size(), "node") + ", " +
+          count_of(model.members.size(), "member") + " in " +
+          count_of(static_cast<std::size_t>(elements), "element");
+  if (!model.triangles.empty()) text += ", " + count_of(model.triangles.size(), "triangle");
+  if (!model.masses.empty()) text += ", " + count_of(model.masses.size(), "point mass");
+  if (!model.springs.empty()) text += ", " + count_of(model.springs.size(), "spring");
+  const large::Scenario& more = scene.mechanism;
+  if (!more.line_springs.empty()) text += ", " + count_of(more.line_springs.size(), "line spring");
+  if (!more.sliders.empty()) text += ", " + count_of(more.sliders.size(), "slider");
+  if (!model.loads.empty()) text += ", " + count_of(model.loads.size(), "load");
+  if (!model.edge_loads.empty()) {
+    text += ", " + count_of(model.edge_loads.size(), "loaded side") + " of triangles";
+  }
+  return text;
+}
+
+std::string windows_in_words(const Check& check) {
+  if (check.windows.empty()) return "recorded, does not gate";
+  if (check.symmetric) return "within " + shortest(check.windows[0].high);
+  std::vector<std::string> each;
+  for (const Window& window : check.windows) {
+    each.push_back("[" + shortest(window.low) + ", " + shortest(window.high) + "]");
+  }
+  return "in " + join(each, "and");
+}
+
+std::string check_words(const Check& check) {
+  std::string text = check.statistic.empty() ? "" : check.statistic + " of ";
+  text += check.quantity;
+  if (!check.index.empty()) {
+    std::vector<std::string> each;
+    for (const std::size_t i : check.index) each.push_back(std::to_string(i));
+    text += "[" + join(each, "and") + "]";
+  }
+  if (!check.reference.empty()) text += " against " + check.reference;
+  if (!check.against_quantity.empty()) text += " against " + check.against_quantity;
+  if (!check.against_variant.empty()) text += " of variant " + check.against_variant;
+  if (check.order && check.order->two_term_within) {
+    return text + ", a law of two orders along sweep " + check.order->sweep + " within " +
+           shortest(*check.order->two_term_within) + " of the errors";
+  }
+  if (check.order) {
+    return text + ", order along sweep " + check.order->sweep + " within " +
+           shortest(check.order->within) + " of theory";
+  }
+  text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
+  text += windows_in_words(check);
+  if (check.expectation == Expectation::known_discrepancy) text += " (a known discrepancy)";
+  return text;
+}
+
+void describe_effects(const Case& given) {
+  const Document base = patched(given, base_variant);
+  if (!knows_effects(base)) return;
+  print_effects(choose_effects(base, read_scene(base)), analysis_kind(base));
+}
+
+void describe_checks(const Case& given, const References& references) {
+  const Document base = patched(given, base_variant);
+  const std::vector<Check> checks = read_checks(base, base_variant, given.variants());
+  if (checks.empty()) return;
+  std::cout << "\nChecks\n";
+  const Cursor places = Cursor(base)["checks"];
+  for (const Check& check : checks) {
+    std::cout << "  " << check.name << "  (" << to_string(check.role) << ")\n"
+              << wrapped(check_words(check), "      ") << wrapped(check.why, "      ");
+    if (!check.reference.empty()) (void)references.get(places[check.name]["reference"]);
+  }
+}
+
+void describe_inputs(const Case& given, const References& references) {
+  const Document base = patched(given, base_variant);
+  if (!base.value().contains("uncertainty")) return;
+  std::cout << "\nInputs, as well as they are known\n";
+  Table table({"input", ">half width", "", "why"});
+  for (const StatedInput& input : stated_inputs(base, references)) {
+    table.add({input.name, rounded(input.half_width),
+               input.nominal ? "in the literal reading alone" : "", input.why});
+  }
+  table.print(std::cout, "  ");
+}
+
+void describe_references(const References& references) {
+  const auto used = references.used();
+  if (used.empty()) return;
+  std::cout << "\nReferences\n";
+  for (const auto& [id, cited] : used) {
+    const Reference& reference = cited.reference;
+    std::cout << "  " << id << "  (" << to_string(reference.kind) << ", "
+              << count_of(reference.values.size(), "value") << " in " << reference.unit << ")\n"
+              << wrapped(reference.title, "      ")
+              << wrapped(cited.source.text + ", " + reference.place +
+                             (cited.source.doi.empty() ? "" : ", doi:" + cited.source.doi),
+                         "      ");
+    for (const std::string& erratum : reference.errata) {
+      std::cout << wrapped("Erratum: " + erratum, "      ");
+    }
+  }
+}
+
+}  // namespace
+
+int list_cases(const std::vector<std::string>& labels, bool json) {
+  const std::vector<Case> cases = load_catalogue(labels);
+  if (json) {
+    Json all = Json::array();
+    for (const Case& one : cases) all.push_back(summary(one));
+    std::cout << pretty(all);
+    return 0;
+  }
+  Table table({"case", "analysis", ">variants", "labels", "title"});
+  for (const Case& one : cases) {
+    std::string labels_text;
+    for (const std::string& label : one.labels()) {
+      labels_text += (labels_text.empty() ? "" : ",") + label;
+    }
+    table.add({one.id(), analysis_kind(one.document), std::to_string(one.variants().size()),
+               labels_text, one.title()});
+  }
+  table.print(std::cout);
+  std::cout << count_of(cases.size(), "case") << '\n';
+  return 0;
+}
+
+int describe_case(const std::string& name, bool json) {
+  const Case given = load_case(find_case(name));
+  if (json) {
+    Json document = given.document.value();
+    document["file"] = given.file.string();
+    std::cout << pretty(document);
+    return 0;
+  }
+  const References references;
+  std::cout << given.id() << ": " << given.title() << '\n';
+  std::cout << wrapped(text_of(given, "description"), "  ");
+  std::cout << "\nModel     " << model_words(patched(given, base_variant)) << '\n';
+  std::cout << "Analysis  " << analysis_kind(given.document) << " "
+            << given.document.value().at("analysis").begin()->dump() << '\n';
+  std::cout << "File      " << given.file.string() << '\n';
+  if (given.variants().size() > 1) {
+    std::cout << "\nVariants\n";
+    Table table({"name", "what it changes"});
+    for (const std::string& variant : given.variants()) {
+      if (variant != base_variant) table.add({variant, given.variant_title(variant)});
+    }
+    table.print(std::cout, "  ");
+  }
+  if (const auto sweeps = Cursor(given.document).find("sweeps")) {
+    std::cout << "\nSweeps\n";
+    for (const auto& [sweep, place] : sweeps->entries()) {
+      std::cout << "  " << sweep << "  " << place["values"].json().dump();
+      if (place.has("theory_order")) {
+        std::cout << ", order " << shortest(place.number("theory_order"));
+        if (place.has("lower_order")) std::cout << " and " << shortest(place.number("lower_order"));
+        std::cout << " by theory";
+      }
+      std::cout << '\n';
+    }
+  }
+  describe_effects(given);
+  describe_inputs(given, references);
+  describe_checks(given, references);
+  describe_references(references);
+  return 0;
+}
+
+}  // namespace trammel

@@ -1,0 +1,8 @@
+#include "harness/cli/command_line.h"
+#include "reports/page/junit.h"
+#include "reports/page/report.h"
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  return trammel::run_command_line(words, {trammel::write_report, trammel::write_junit});
+}

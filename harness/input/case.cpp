@@ -1,0 +1,234 @@
+#include "harness/input/case.h"
+
+#include <algorithm>
+
+#include "harness/input/catalogue.h"
+#include "harness/input/json_view.h"
+#include "harness/base/json_file.h"
+#include "harness/input/schema.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What one case takes from another: how things are computed, not what is judged.
+Json inherited(const Json& base) {
+  Json kept = Json::object();
+  for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {
+    if (base.contains(key)) kept[key] = base.at(key);
+  }
+  if (!kept.contains("variants") || !kept["variants"].is_object()) return kept;
+  for (auto& variant : kept["variants"]) {
+    if (!variant.is_object()) continue;
+    variant.erase("checks");
+    variant.erase("sweeps");
+    variant.erase("expect_status");
+  }
+  return kept;
+}
+
+/// Lays the file over all that it extends, outermost first.
+void lay_with_bases(Document& document, const fs::path& file, std::vector<fs::path> seen) {
+  const Json json = read_json(file);
+  if (!json.is_object()) throw InputError(file.string(), "", "expected an object");
+  seen.push_back(fs::weakly_canonical(file));
+  if (const auto extends = json.find("extends"); extends != json.end()) {
+    if (!extends->is_string()) {
+      throw InputError(file.string(), "/extends", "expected the name or the file of a case");
+    }
+    const fs::path base = find_extended(extends->get<std::string>(), file);
+    if (std::find(seen.begin(), seen.end(), fs::weakly_canonical(base)) != seen.end()) {
+      throw InputError(file.string(), "/extends", "expected a case that does not extend this one");
+    }
+    lay_with_bases(document, base, seen);
+  }
+  const bool outermost = seen.size() == 1;
+  document.lay(file.string(), "", outermost ? json : inherited(json));
+}
+
+void check_names(const Case& given) {
+  const Cursor root(given.document);
+  const std::string stem = given.file.stem().string();
+  if (given.id() != stem) {
+    throw root["id"].error("expected the file's name, '" + printable(stem) + "' (got '" +
+                           printable(given.id()) + "')");
+  }
+  if (!root.has("variants")) return;
+  for (const auto& [name, variant] : root["variants"].entries()) {
+    if (name == base_variant) {
+      throw variant.error("expected another name: 'base' is the case itself");
+    }
+  }
+}
+
+/// Indicators of the battery are checks of the case.
+void check_indicators(const Case& given) {
+  const Cursor root(given.document);
+  if (!root.has("battery")) return;
+  std::vector<std::string> names;
+  if (const auto checks = root.find("checks")) {
+    for (const auto& entry : checks->entries()) names.push_back(entry.first);
+  }
+  for (const auto& [number, place] : root["battery"]["indicators"].entries()) {
+    const auto name = place.get<std::string>();
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw place.error("expected the name of a check of the case (got '" + printable(name) + "')" +
+                      did_you_mean(name, names));
+  }
+}
+
+InputError no_such_place(const Cursor& pointer, const std::string& guess) {
+  return pointer.error("expected a pointer to a value of the case, as /model/elements (got '" +
+                       printable(pointer.get<std::string>()) + "')" + guess);
+}
+
+/// What the schema has against a key that a pointer names and the document does not have: nothing
+/// where the key is one that stands for a default, as /model/elements.
+std::optional<Fault> fault_of_new_key(const Json& document, const JsonPointer& pointer,
+                                      const Json& value) {
+  const Fault nowhere{pointer.to_string(), ""};
+  if (pointer.empty() || !document.contains(pointer.parent_pointer())) return nowhere;
+  if (!document.at(pointer.parent_pointer()).is_object()) return nowhere;
+  Json probe = document;
+  probe[pointer] = value;
+  const auto fault = find_fault(probe, "case");
+  return fault && fault->pointer == pointer.to_string() ? fault : std::nullopt;
+}
+
+/// @throws InputError where the pointer names neither a value nor a key that may be added
+void require_place(const Document& document, const Cursor& pointer, const Json& value) {
+  const auto text = pointer.get<std::string>();
+  try {
+    const JsonPointer place(text);
+    if (!place.empty() && document.value().contains(place)) return;
+    const auto fault = fault_of_new_key(document.value(), place, value);
+    if (!fault) return;
+    const auto guess = fault->message.find("; did you mean");
+    throw no_such_place(pointer, guess == std::string::npos ? "" : fault->message.substr(guess));
+  } catch (const Json::exception&) {
+    throw no_such_place(pointer, "");
+  }
+}
+
+Json patch_of_pointers(const Cursor& sweep, const Json& document, const Json& value) {
+  Json patch = Json::object();
+  for (const auto& [number, at] : sweep["pointers"].entries()) {
+    require_place(sweep.document(), at, value);
+    patch.merge_patch(patch_at(document, at.get<std::string>(), value));
+  }
+  return patch;
+}
+
+}  // namespace
+
+std::vector<std::string> Case::labels() const {
+  return document.value().value("labels", std::vector<std::string>{});
+}
+
+std::vector<std::string> Case::variants() const {
+  std::vector<std::string> names = {base_variant};
+  if (document.value().contains("variants")) {
+    for (const auto& item : document.value().at("variants").items()) names.push_back(item.key());
+  }
+  return names;
+}
+
+std::string Case::variant_title(const std::string& variant) const {
+  if (variant == base_variant) return "As the case has it";
+  return document.value().at("variants").at(variant).value("title", variant);
+}
+
+Case load_case(const fs::path& file) {
+  Case loaded;
+  loaded.file = file;
+  lay_with_bases(loaded.document, file, {});
+  loaded.document.check("case");
+  check_names(loaded);
+  check_indicators(loaded);
+  return loaded;
+}
+
+Document patched(const Case& given, const std::string& variant) {
+  Document document = given.document;
+  const std::string file = given.file.string();
+  if (variant != base_variant) {
+    const std::vector<std::string> names = given.variants();
+    if (std::find(names.begin(), names.end(), variant) == names.end()) {
+      throw InputError(file, "/variants",
+                       "expected the name of a variant (got '" + printable(variant) + "')" +
+                           did_you_mean(variant, names));
+    }
+    Json patch = given.document.value().at("variants").at(variant);
+    patch.erase("title");
+    patch.erase("description");
+    const Origin written = given.document.origin((JsonPointer("/variants") / variant).to_string());
+    document.lay(written.file, written.pointer, patch);
+  }
+  document.lay(file, "", Json{{"variants", nullptr}});
+  document.check("case");
+  return document;
+}
+
+void require_pointer(const Document& document, const Cursor& pointer) {
+  const auto text = pointer.get<std::string>();
+  bool found = false;
+  try {
+    found = document.value().contains(JsonPointer(text));
+  } catch (const Json::exception&) {
+    found = false;
+  }
+  if (!found || text.empty()) throw no_such_place(pointer, "");
+}
+
+Json patch_at(const Json& document, const std::string& pointer, const Json& value) {
+  // From the inside out; a patch replaces arrays whole, so an item is set in a copy of its array.
+  Json nested = value;
+  for (JsonPointer place(pointer); !place.empty(); place.pop_back()) {
+    const Json& around = document.at(place.parent_pointer());
+    Json outer = around.is_array() ? around : Json::object();
+    if (around.is_array()) {
+      outer.at(std::stoul(place.back())) = nested;
+    } else {
+      outer[place.back()] = nested;
+    }
+    nested = std::move(outer);
+  }
+  return nested;
+}
+
+std::vector<Level> levels(const Document& variant, const std::string& sweep_name) {
+  return levels(variant, Cursor(variant)["sweeps"][sweep_name]);
+}
+
+std::vector<Level> levels(const Document& variant, const Cursor& sweep) {
+  const Cursor values = sweep["values"];
+  const bool by_patches = sweep.has("patches");
+  if (by_patches == sweep.has("pointers")) {
+    throw sweep.error("expected either 'pointers' or 'patches'");
+  }
+  if (by_patches && sweep["patches"].size() != values.size()) {
+    throw sweep["patches"].error("expected a patch for each of the " +
+                                 std::to_string(values.size()) + " values (got " +
+                                 std::to_string(sweep["patches"].size()) + ")");
+  }
+  std::vector<Level> found;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Level level{values[i].get<double>(), variant};
+    const Json patch = by_patches ? sweep["patches"][i].json()
+                                  : patch_of_pointers(sweep, variant.value(), values[i].json());
+    const Cursor place = by_patches ? sweep["patches"][i] : values[i];
+    const Origin written = variant.origin(place.pointer());
+    if (by_patches) {
+      level.document.lay(written.file, written.pointer, patch);
+    } else {
+      level.document.lay_value(written.file, written.pointer, patch);
+    }
+    level.document.check("case");
+    found.push_back(std::move(level));
+  }
+  return found;
+}
+
+}  // namespace trammel

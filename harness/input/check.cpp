@@ -1,0 +1,291 @@
+#include "harness/input/check.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+std::vector<std::size_t> read_indices(const Cursor& place, const char* key) {
+  const auto stated = place.find(key);
+  if (!stated) return {};
+  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
+  return {stated->get<std::size_t>()};
+}
+
+void require_variant(const Cursor& place, const std::vector<std::string>& variants) {
+  const auto name = place.get<std::string>();
+  if (std::find(variants.begin(), variants.end(), name) != variants.end()) return;
+  throw place.error("expected a variant of the case (got '" + printable(name) + "')" +
+                    did_you_mean(name, variants));
+}
+
+/// The one key of those that is there.
+std::string exactly_one(const Cursor& place, const std::vector<std::string>& keys) {
+  std::string found;
+  int count = 0;
+  for (const std::string& key : keys) {
+    if (!place.has(key)) continue;
+    found = key;
+    ++count;
+  }
+  if (count == 1) return found;
+  std::vector<std::string> quoted;
+  for (const std::string& key : keys) quoted.push_back("'" + key + "'");
+  throw place.error("expected exactly one of " + join(quoted, "and") + " (got " +
+                    std::to_string(count) + ")");
+}
+
+void read_tolerance(const Cursor& place, Check& check) {
+  const std::string key = exactly_one(place, {"relative", "absolute"});
+  const double limit = place.number(key);
+  check.measure = key == "relative" ? Measure::relative : Measure::absolute;
+  check.windows = {{-limit, limit}};
+  check.symmetric = true;
+  check.why = place.text("why");
+}
+
+void read_bound(const Cursor& place, Check& check) {
+  if (!place.has("at_most") && !place.has("at_least")) {
+    throw place.error("expected 'at_most', 'at_least' or both");
+  }
+  check.measure = Measure::value;
+  check.windows = {{place.get("at_least", -unlimited), place.get("at_most", unlimited)}};
+  if (check.windows[0].low > check.windows[0].high) {
+    throw place.error("expected 'at_least' not above 'at_most'");
+  }
+  check.why = place.text("why");
+}
+
+/// What the sweep says of the quantity alone.
+Json followed(const Json& sweep, const std::string& quantity) {
+  return sweep.value("quantities", Json::object()).value(quantity, Json::object());
+}
+
+OrderDemand read_order(const Cursor& place, const std::string& quantity, const Json& document) {
+  OrderDemand order;
+  order.sweep = place.text("sweep");
+  const Json sweeps = document.value("sweeps", Json::object());
+  if (!sweeps.contains(order.sweep)) {
+    std::vector<std::string> names;
+    for (const auto& item : sweeps.items()) names.push_back(item.key());
+    throw place["sweep"].error("expected a sweep of the case (got '" + printable(order.sweep) +
+                               "')" + did_you_mean(order.sweep, names));
+  }
+  const Json& sweep = sweeps.at(order.sweep);
+  const Json own = followed(sweep, quantity);
+  if (!sweep.contains("theory_order") && !own.contains("theory_order")) {
+    throw place["sweep"].error("expected a sweep with 'theory_order'");
+  }
+  order.of_errors = own.value("is_error", false);
+  if (exactly_one(place, {"within", "two_term_within"}) == "within") {
+    order.within = place.number("within");
+  } else {
+    order.two_term_within = place.number("two_term_within");
+    if (!sweep.contains("lower_order")) {
+      throw place["sweep"].error("expected a sweep with 'lower_order'");
+    }
+  }
+  order.meshes = place.get("meshes", std::size_t{3});
+  if (const auto wave = place.find("wave_number")) {
+    order.wave_number = {wave->text("reference"), read_indices(*wave, "reference_index"),
+                         wave->number("at_most"), wave->pointer()};
+  }
+  if (const auto term = place.find("leading_term")) {
+    if (!order.wave_number) throw term->error("expected 'wave_number' beside it");
+    order.leading_term = {term->number("coefficient"), term->number("within"),
+                          term->get<std::string>("share", ""), term->pointer()};
+  }
+  if (place.has("richardson_within")) order.richardson_within = place.number("richardson_within");
+  return order;
+}
+
+Window read_window(const Cursor& place) {
+  const auto limit = [&](std::size_t side, double open) {
+    return place[side].json().is_null() ? open : place[side].get<double>();
+  };
+  const Window window{limit(0, -unlimited), limit(1, unlimited)};
+  if (window.low > window.high) {
+    throw place.error("expected the lower limit first (got " + shortest(window.low) + ", " +
+                      shortest(window.high) + ")");
+  }
+  return window;
+}
+
+/// A discrepancy that is allowed to be zero could never stop being true.
+void require_discrepancy(const Cursor& place, const Check& check) {
+  const bool is_difference =
+      check.measure == Measure::relative || check.measure == Measure::absolute;
+  if (!is_difference || check.expectation != Expectation::known_discrepancy) return;
+  const bool everywhere = std::all_of(check.windows.begin(), check.windows.end(),
+                                      [](const Window& window) { return window.contains(0); });
+  if (everywhere) {
+    throw place.error(
+        "expected a window without 0: a known discrepancy that allows none can never "
+        "stop being true");
+  }
+}
+
+void read_expectation(const Cursor& place, Check& check) {
+  const std::string kind = exactly_one(place, {"agrees", "known_discrepancy"});
+  check.expectation = kind == "agrees" ? Expectation::agrees : Expectation::known_discrepancy;
+  check.why = place.text(kind);
+  const std::string key = exactly_one(
+      place, {"relative_between", "absolute_between", "ratio_between", "value_between"});
+  check.measure = key == "relative_between"   ? Measure::relative
+                  : key == "absolute_between" ? Measure::absolute
+                  : key == "ratio_between"    ? Measure::ratio
+                                              : Measure::value;
+  const Cursor windows = place[key];
+  if (windows[0].json().is_array()) {
+    for (const auto& entry : windows.entries()) check.windows.push_back(read_window(entry.second));
+  } else {
+    check.windows = {read_window(windows)};
+  }
+  require_discrepancy(windows, check);
+}
+
+void require_target(const Cursor& place, const Check& check) {
+  const int targets = (check.reference.empty() ? 0 : 1) +
+                      (check.against_variant.empty() && check.against_quantity.empty() ? 0 : 1);
+  if (targets > 1) {
+    throw place.error("expected either 'reference' or 'against_variant', 'against_quantity'");
+  }
+  if (!check.reference_index.empty() && check.reference.empty()) {
+    throw place["reference_index"].error("expected 'reference' beside it");
+  }
+  const bool of_errors = check.order && check.order->of_errors;
+  const bool needs = !of_errors && (check.order || check.measure != Measure::value);
+  if (needs && targets == 0) {
+    throw place.error(
+        "expected 'reference', 'against_variant' or 'against_quantity' to compare with");
+  }
+  if (!needs && targets > 0) {
+    throw place.error("expected nothing to compare with: " +
+                      std::string(of_errors ? "the quantity is an error already"
+                                            : "a bound looks at the value alone"));
+  }
+  if (check.order && !of_errors && check.reference.empty()) {
+    throw place.error("expected 'reference' with the exact values for 'order'");
+  }
+}
+
+/// How the role lets the check be judged.
+void read_criterion(const Cursor& place, const Document& document, Check& check) {
+  if (check.role == Role::validation) {
+    for (const char* key : {"tolerance", "bound", "order"}) {
+      if (place.has(key)) {
+        throw place[key].error(
+            "expected 'expect': a validation gates through a recorded "
+            "expectation only");
+      }
+    }
+    check.expectation = Expectation::none;
+    if (place.has("expect")) read_expectation(place["expect"], check);
+    return;
+  }
+  if (place.has("expect")) throw place["expect"].error("expected it in a validation only");
+  const std::string key = exactly_one(place, {"tolerance", "bound", "order"});
+  if (key == "tolerance") read_tolerance(place[key], check);
+  if (key == "bound") read_bound(place[key], check);
+  if (key == "order") {
+    check.order = read_order(place[key], check.quantity, document.value());
+    check.why = place[key].text("why");
+  }
+}
+
+Role read_role(const std::string& word) {
+  if (word == "validation") return Role::validation;
+  return word == "regression" ? Role::regression : Role::verification;
+}
+
+Check read_check(const std::string& name, const Cursor& place, const Document& document) {
+  Check check;
+  check.name = name;
+  check.pointer = place.pointer();
+  check.title = place.get<std::string>("title", "");
+  check.quantity = place.text("quantity");
+  check.index = read_indices(place, "index");
+  check.statistic = place.get<std::string>("statistic", "");
+  check.reference = place.get<std::string>("reference", "");
+  check.reference_index = read_indices(place, "reference_index");
+  check.against_variant = place.get<std::string>("against_variant", "");
+  check.against_quantity = place.get<std::string>("against_quantity", "");
+  check.role = read_role(place.text("role"));
+  read_criterion(place, document, check);
+  require_target(place, check);
+  return check;
+}
+
+bool applies(const Cursor& place, const std::string& variant,
+             const std::vector<std::string>& variants) {
+  if (place.has("against_variant")) {
+    require_variant(place["against_variant"], variants);
+    // A variant is not judged against itself.
+    if (place.text("against_variant") == variant && !place.has("against_quantity")) return false;
+  }
+  if (!place.has("variants")) return true;
+  bool named = false;
+  for (const auto& entry : place["variants"].entries()) {
+    require_variant(entry.second, variants);
+    named = named || entry.second.get<std::string>() == variant;
+  }
+  return named;
+}
+
+}  // namespace
+
+std::vector<Check> read_checks(const Document& document, const std::string& variant,
+                               const std::vector<std::string>& variants) {
+  std::vector<Check> checks;
+  const auto places = Cursor(document).find("checks");
+  if (!places) return checks;
+  for (const auto& [name, place] : places->entries()) {
+    if (applies(place, variant, variants)) checks.push_back(read_check(name, place, document));
+  }
+  return checks;
+}
+
+const char* to_string(Role role) {
+  switch (role) {
+    case Role::verification:
+      return "verification";
+    case Role::validation:
+      return "validation";
+    case Role::regression:
+      return "regression";
+  }
+  return "";
+}
+
+const char* to_string(Measure measure) {
+  switch (measure) {
+    case Measure::relative:
+      return "relative";
+    case Measure::absolute:
+      return "absolute";
+    case Measure::ratio:
+      return "ratio";
+    case Measure::value:
+      return "bound";
+  }
+  return "";
+}
+
+const char* to_string(Expectation expectation) {
+  switch (expectation) {
+    case Expectation::none:
+      return "none";
+    case Expectation::agrees:
+      return "agrees";
+    case Expectation::known_discrepancy:
+      return "known-discrepancy";
+  }
+  return "";
+}
+
+}  // namespace trammel

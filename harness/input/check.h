@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/input/json_view.h"
+
+/// What a case asks to be judged, as read from "checks".
+namespace trammel {
+
+enum class Role { verification, validation, regression };
+
+/// What is measured of a computed value: its difference from the expected one relative to that, the
+/// difference itself, their ratio, or the value.
+enum class Measure { relative, absolute, ratio, value };
+
+enum class Expectation { none, agrees, known_discrepancy };
+
+/// Where the measure must lie; infinite where a side is open.
+struct Window {
+  double low = 0, high = 0;
+  [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
+};
+
+/// Demands on the observed order of convergence.
+struct OrderDemand {
+  struct WaveNumber {
+    std::string reference;
+    std::vector<std::size_t> index;
+    double at_most = 0;
+    std::string pointer;
+  };
+  struct LeadingTerm {
+    double coefficient = 0, within = 0;
+    std::string share;  ///< a reference; empty: 1
+    std::string pointer;
+  };
+  std::string sweep;
+  double within = 0;                      ///< of the order; not used with `two_term_within`
+  std::optional<double> two_term_within;  ///< of the two-term law instead
+  std::size_t meshes = 3;
+  bool of_errors = false;  ///< the quantity is an error itself, and needs no reference
+  std::optional<WaveNumber> wave_number;
+  std::optional<LeadingTerm> leading_term;
+  std::optional<double> richardson_within;
+};
+
+struct Check {
+  std::string name, title, quantity, statistic, reference, against_variant, against_quantity;
+  std::vector<std::size_t> index, reference_index;  ///< empty: all
+  Role role = Role::verification;
+  Measure measure = Measure::relative;
+  std::vector<Window> windows;  ///< one for all entries, or one for each
+  bool symmetric = false;       ///< a tolerance: the window is -t, t
+  Expectation expectation = Expectation::agrees;
+  std::string why;
+  std::optional<OrderDemand> order;
+  std::string pointer;  ///< where it stands in the case
+
+  [[nodiscard]] bool has_target() const {
+    return !reference.empty() || !against_variant.empty() || !against_quantity.empty();
+  }
+};
+
+/// The checks that apply to a variant of the case.
+/// @param document  the case with the variant's patch
+/// @param variants  names of all variants of the case
+/// @throws InputError  where a check contradicts itself.
+[[nodiscard]] std::vector<Check> read_checks(const Document& document, const std::string& variant,
+                                             const std::vector<std::string>& variants);
+
+[[nodiscard]] const char* to_string(Role role);
+[[nodiscard]] const char* to_string(Measure measure);
+[[nodiscard]] const char* to_string(Expectation expectation);
+
+}  // namespace trammel

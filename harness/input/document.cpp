@@ -1,0 +1,68 @@
+#include "harness/input/document.h"
+
+#include <algorithm>
+
+#include "harness/input/schema.h"
+
+namespace trammel {
+
+namespace {
+
+/// One merge patch that does what two do one after the other: unlike a document, a patch keeps its
+/// nulls.
+void compose(Json& patch, const Json& later) {
+  if (!patch.is_object() || !later.is_object()) {
+    patch = later;
+    return;
+  }
+  for (const auto& item : later.items()) compose(patch[item.key()], item.value());
+}
+
+}  // namespace
+
+Document Document::as_it_stands(const std::string& file, const Json& json) {
+  Document document;
+  document.value_ = json;
+  document.layers_.push_back({file, "", json, false});
+  return document;
+}
+
+void Document::lay(const std::string& file, const std::string& origin, const Json& patch) {
+  // Variants are patches themselves, whose nulls mean something later.
+  Json variants = value_.value("variants", Json());
+  value_.merge_patch(patch);
+  if (const auto stated = patch.find("variants"); stated != patch.end() && stated->is_object()) {
+    compose(variants, *stated);
+    value_["variants"] = std::move(variants);
+  }
+  layers_.push_back({file, origin, patch, false});
+}
+
+void Document::lay_value(const std::string& file, const std::string& origin, const Json& patch) {
+  lay(file, origin, patch);
+  layers_.back().is_value = true;
+}
+
+Origin Document::origin(const std::string& pointer) const {
+  for (JsonPointer at(pointer);; at = at.parent_pointer()) {
+    const auto layer = std::find_if(layers_.rbegin(), layers_.rend(), [&](const Layer& candidate) {
+      return candidate.patch.contains(at);
+    });
+    if (layer != layers_.rend()) {
+      return {layer->file, layer->is_value ? layer->origin : layer->origin + pointer,
+              layer->is_value};
+    }
+    if (at.empty()) return {layers_.empty() ? "" : layers_.back().file, pointer, false};
+  }
+}
+
+InputError Document::error(const std::string& pointer, const std::string& message) const {
+  const Origin written = origin(pointer);
+  return {written.file, written.pointer, written.is_value ? message + ", at " + pointer : message};
+}
+
+void Document::check(const std::string& schema) const {
+  if (const auto fault = find_fault(value_, schema)) throw error(fault->pointer, fault->message);
+}
+
+}  // namespace trammel

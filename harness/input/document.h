@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/base/errors.h"
+#include "harness/base/json.h"
+
+namespace trammel {
+
+/// Where something was written.
+struct Origin {
+  std::string file, pointer;
+  bool is_value = false;  ///< `pointer` leads to a sweep's value that stands in for the place
+};
+
+/// A JSON document made of layers, each a merge patch (RFC 7386) over those before it. It remembers
+/// which file said what, so that a message points to where the user wrote it.
+class Document {
+ public:
+  /// A document that nothing is laid over: its nulls are kept.
+  [[nodiscard]] static Document as_it_stands(const std::string& file, const Json& json);
+
+  /// A null removes a key, except inside "variants", which are patches for later.
+  /// @param origin  pointer in `file` where the patch stands; empty: the whole file
+  void lay(const std::string& file, const std::string& origin, const Json& patch);
+  /// A patch that stands in the file as one number of a sweep: errors point to that number.
+  void lay_value(const std::string& file, const std::string& origin, const Json& patch);
+
+  [[nodiscard]] const Json& value() const { return value_; }
+
+  /// Where the value at `pointer`, or the innermost thing around it, was written last.
+  [[nodiscard]] Origin origin(const std::string& pointer) const;
+
+  /// The error of something at `pointer`, in the file and at the pointer where it was written.
+  [[nodiscard]] InputError error(const std::string& pointer, const std::string& message) const;
+
+  /// @throws InputError  where the document does not obey the schema of that name.
+  void check(const std::string& schema) const;
+
+ private:
+  struct Layer {
+    std::string file, origin;
+    Json patch;
+    bool is_value = false;
+  };
+  Json value_ = Json::object();
+  std::vector<Layer> layers_;
+};
+
+}  // namespace trammel

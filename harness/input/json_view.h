@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/input/document.h"
+
+namespace trammel {
+
+/// A place in a document that has passed its schema: reads values, and complains about them by
+/// their file and pointer.
+class Cursor {
+ public:
+  explicit Cursor(const Document& document) : document_(&document), json_(&document.value()) {}
+
+  [[nodiscard]] bool has(const std::string& key) const;
+  [[nodiscard]] Cursor operator[](const std::string& key) const;
+  [[nodiscard]] Cursor operator[](std::size_t index) const;
+  /// The value of that key, if there is one.
+  [[nodiscard]] std::optional<Cursor> find(const std::string& key) const;
+  /// Entries of an object, with their names; of an array, named by their numbers.
+  [[nodiscard]] std::vector<std::pair<std::string, Cursor>> entries() const;
+  [[nodiscard]] std::size_t size() const { return json_->size(); }
+
+  template <class T>
+  [[nodiscard]] T get() const {
+    return json_->template get<T>();
+  }
+  template <class T>
+  [[nodiscard]] T get(const std::string& key, const T& otherwise) const {
+    return has(key) ? (*this)[key].template get<T>() : otherwise;
+  }
+  [[nodiscard]] double number(const std::string& key) const { return (*this)[key].get<double>(); }
+  [[nodiscard]] std::string text(const std::string& key) const {
+    return (*this)[key].get<std::string>();
+  }
+
+  [[nodiscard]] const Json& json() const { return *json_; }
+  [[nodiscard]] const std::string& pointer() const { return pointer_; }
+  [[nodiscard]] const Document& document() const { return *document_; }
+  [[nodiscard]] InputError error(const std::string& message) const {
+    return document_->error(pointer_, message);
+  }
+
+ private:
+  Cursor(const Document& document, const Json& json, std::string pointer)
+      : document_(&document), json_(&json), pointer_(std::move(pointer)) {}
+
+  const Document* document_;
+  const Json* json_;
+  std::string pointer_;
+};
+
+}  // namespace trammel

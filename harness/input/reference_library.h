@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "harness/input/json_view.h"
+#include "references/data/bibliography.h"
+#include "references/data/reference.h"
+
+namespace trammel {
+
+/// A reference with what its source key stands for.
+struct CitedReference {
+  Reference reference;
+  Source source;
+};
+
+/// References by name, read once: from beside the case file, else from the catalogue. Safe to ask
+/// from several threads.
+class References {
+ public:
+  /// @param id      a place that holds the name
+  /// @throws InputError  where there is no such reference or its file is broken.
+  [[nodiscard]] const Reference& get(const Cursor& id) const;
+
+  /// All that were asked for so far, by name.
+  [[nodiscard]] std::map<std::string, CitedReference> used() const;
+
+ private:
+  mutable std::mutex lock_;
+  mutable std::map<std::filesystem::path, CitedReference> read_;
+};
+
+}  // namespace trammel

@@ -1,0 +1,84 @@
+#include "harness/judge/two_term.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trammel {
+namespace {
+
+/// Least squares for 1 = (a h^p + b h^q) / error over levels first, first + 1, ...
+class Fit {
+ public:
+  Fit(const std::vector<double>& h, const std::vector<double>& error, const TwoTermLaw& law)
+      : h_(h), error_(error), law_(law) {}
+
+  [[nodiscard]] std::optional<TwoTermFit> over(const std::vector<bool>& levels) const {
+    double pp = 0, pq = 0, qq = 0, p1 = 0, q1 = 0;
+    for (std::size_t k = 0; k < h_.size(); ++k) {
+      if (!levels[k]) continue;
+      const auto [p, q] = terms(k);
+      pp += p * p, pq += p * q, qq += q * q, p1 += p, q1 += q;
+    }
+    const double determinant = pp * qq - pq * pq;
+    if (!(determinant > 1e-12 * pp * qq)) return std::nullopt;
+    TwoTermFit fit;
+    fit.coefficient = {(qq * p1 - pq * q1) / determinant, (pp * q1 - pq * p1) / determinant};
+    fit.used = levels;
+    for (std::size_t k = 0; k < h_.size(); ++k) {
+      if (!levels[k]) continue;
+      const auto [p, q] = terms(k);
+      const double miss = std::abs(fit.coefficient[0] * p + fit.coefficient[1] * q - 1);
+      fit.worst = std::max(fit.worst, miss);
+    }
+    return fit;
+  }
+
+ private:
+  [[nodiscard]] std::array<double, 2> terms(std::size_t k) const {
+    return {std::pow(h_[k], law_.p) / error_[k], std::pow(h_[k], law_.q) / error_[k]};
+  }
+
+  const std::vector<double>& h_;
+  const std::vector<double>& error_;
+  const TwoTermLaw& law_;
+};
+
+}  // namespace
+
+std::optional<TwoTermFit> fit_two_terms(const std::vector<double>& h,
+                                        const std::vector<double>& error,
+                                        const std::vector<bool>& usable, const TwoTermLaw& law,
+                                        double within) {
+  std::vector<bool> levels = usable;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    levels[k] = levels[k] && std::isfinite(error[k]) && error[k] != 0;
+  }
+  const Fit fit(h, error, law);
+  std::optional<TwoTermFit> found;
+  while (std::count(levels.begin(), levels.end(), true) >= 3) {
+    found = fit.over(levels);
+    if (found && found->worst <= within) break;
+    *std::find(levels.begin(), levels.end(), true) = false;
+  }
+  return found;
+}
+
+double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<double, 3>& v,
+                             const TwoTermLaw& law) {
+  // Differences rid of the limit, then of b: v_i - v_2 = a (h_i^p - h_2^p) + b (h_i^q - h_2^q).
+  const double fine = h[2];
+  const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };
+  const auto q = [&](std::size_t i) { return std::pow(h[i] / fine, law.q) - 1; };
+  const double determinant = p(0) * q(1) - p(1) * q(0);
+  if (determinant == 0 || !std::isfinite(determinant)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double d0 = v[0] - v[2];
+  const double d1 = v[1] - v[2];
+  const double a = (d0 * q(1) - d1 * q(0)) / determinant;
+  const double b = (p(0) * d1 - p(1) * d0) / determinant;
+  return v[2] - a - b;
+}
+
+}  // namespace trammel

@@ -1,0 +1,121 @@
+#include "harness/judge/validation_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace trammel {
+namespace {
+
+constexpr double kRepeated = 1e-6;
+
+std::string digits(double value, int significant = 3) {
+  char text[64];
+  (void)std::snprintf(text, sizeof text, "%.*g", significant, value);
+  return text;
+}
+
+Validation compare(const Comparison& c) {
+  Validation v;
+  v.difference = c.simulation - c.reference;
+  // Not std::hypot of three, which may lose a NaN.
+  v.u_val = std::sqrt(c.u_num * c.u_num + c.u_input * c.u_input + c.u_reference * c.u_reference);
+  v.low = v.difference - coverage_factor * v.u_val;
+  v.high = v.difference + coverage_factor * v.u_val;
+  if (!std::isfinite(v.difference) || !std::isfinite(v.u_val)) {
+    v.verdict = ValidationVerdict::undecided;
+    return v;
+  }
+  const bool within = v.low <= 0 && v.high >= 0;
+  v.verdict = within ? ValidationVerdict::within_noise : ValidationVerdict::model_off;
+  return v;
+}
+
+/// One past the last entry whose computed value is that of `first`.
+std::size_t end_of_repeated(const std::vector<Comparison>& row, std::size_t first) {
+  const double value = row[first].simulation;
+  std::size_t end = first + 1;
+  while (end < row.size() && std::abs(row[end].simulation - value) <= kRepeated * std::abs(value)) {
+    ++end;
+  }
+  return end;
+}
+
+struct Spread {
+  double low, high;
+  bool beyond_digits;  ///< wider than the printed digits allow
+};
+
+Spread printed(const std::vector<Comparison>& row, std::size_t first, std::size_t end) {
+  const auto by_value = [](const Comparison& a, const Comparison& b) {
+    return a.reference < b.reference;
+  };
+  const auto begin = row.begin();
+  const auto [low, high] = std::minmax_element(begin + static_cast<std::ptrdiff_t>(first),
+                                               begin + static_cast<std::ptrdiff_t>(end), by_value);
+  const double digits_allow = coverage_factor * std::hypot(low->u_reference, high->u_reference);
+  return {low->reference, high->reference, high->reference - low->reference > digits_allow};
+}
+
+std::string words(const Validation& v, const std::string& unit) {
+  const double noise = coverage_factor * v.u_val;
+  if (v.verdict == ValidationVerdict::undecided) {
+    return "undecided: the value or one of its uncertainties could not be computed";
+  }
+  if (v.verdict == ValidationVerdict::within_noise) {
+    return "the difference of " + digits(v.difference) + " " + unit + " is within the noise of ±" +
+           digits(noise) + " " + unit;
+  }
+  const double a = std::min(std::abs(v.low), std::abs(v.high));
+  const double b = std::max(std::abs(v.low), std::abs(v.high));
+  return "the model is off by between " + digits(a) + " and " + digits(b) + " " + unit +
+         (v.difference > 0 ? ", too high" : ", too low");
+}
+
+std::string contradiction(const Spread& spread, std::size_t first, std::size_t end,
+                          const std::string& unit) {
+  return "the reference contradicts itself: values " + std::to_string(first + 1) + " to " +
+         std::to_string(end) + " are one repeated value by symmetry, and it has " +
+         digits(spread.low, 6) + " to " + digits(spread.high, 6) + " " + unit;
+}
+
+}  // namespace
+
+std::vector<Validation> judge_row(const std::vector<Comparison>& row, const std::string& unit) {
+  std::vector<Validation> verdicts;
+  for (std::size_t first = 0; first < row.size();) {
+    const std::size_t end = end_of_repeated(row, first);
+    const Spread spread = printed(row, first, end);
+    for (std::size_t i = first; i < end; ++i) {
+      Validation v = compare(row[i]);
+      const double noise = coverage_factor * v.u_val;
+      const bool between =
+          row[i].simulation >= spread.low - noise && row[i].simulation <= spread.high + noise;
+      if (v.verdict == ValidationVerdict::model_off && spread.beyond_digits && between) {
+        v.verdict = ValidationVerdict::reference_contradicts_itself;
+        v.words = contradiction(spread, first, end, unit);
+      } else {
+        v.words = words(v, unit);
+      }
+      verdicts.push_back(std::move(v));
+    }
+    first = end;
+  }
+  return verdicts;
+}
+
+std::string to_string(ValidationVerdict verdict) {
+  switch (verdict) {
+    case ValidationVerdict::within_noise:
+      return "within-noise";
+    case ValidationVerdict::model_off:
+      return "model-off";
+    case ValidationVerdict::reference_contradicts_itself:
+      return "reference-contradicts-itself";
+    case ValidationVerdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+}  // namespace trammel

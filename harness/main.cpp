@@ -1,8 +1,0 @@
-#include "harness/command_line.h"
-#include "reports/junit.h"
-#include "reports/report.h"
-
-int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  return trammel::run_command_line(words, {trammel::write_report, trammel::write_junit});
-}

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/studies/cost.h"
+#include "harness/base/json.h"
+
+namespace trammel {
+
+/// The "cost" of results.json, by its schema.
+[[nodiscard]] Json cost_json(const std::vector<MeasuredStudy>& studies, Sweeping sweeping,
+                             const TimingOptions& timing);
+
+/// The points of a study of results.json that are used for its front.
+[[nodiscard]] std::vector<CostPoint> cost_points(const Json& study);
+
+}  // namespace trammel

@@ -1,0 +1,316 @@
+#include "harness/run/results.h"
+
+#include <cmath>
+#include <fstream>
+
+#include "harness/base/environment.h"
+#include "harness/base/json_file.h"
+
+namespace trammel {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json array = Json::array();
+  for (const double value : values) array.push_back(number(value));
+  return array;
+}
+
+Json points(const std::vector<Vector2d>& all) {
+  Json array = Json::array();
+  for (const Vector2d& point : all) array.push_back({number(point.x()), number(point.y())});
+  return array;
+}
+
+Json tolerance(const Judgement& one) {
+  if (!one.window) return nullptr;
+  if (one.symmetric) return number(one.window->high);
+  return {number(one.window->low), number(one.window->high)};
+}
+
+Json judgement(const Judgement& one) {
+  Json json = {{"name", one.name}};
+  if (!one.title.empty()) json["title"] = one.title;
+  json["quantity"] = one.quantity;
+  json["index"] = one.index ? Json(*one.index) : Json(nullptr);
+  if (!one.statistic.empty()) json["statistic"] = one.statistic;
+  json["computed"] = number(one.computed);
+  json["expected"] = number(one.expected);
+  json["unit"] = one.unit;
+  if (!one.reference.empty()) json["reference"] = one.reference;
+  if (!one.against_variant.empty()) json["against_variant"] = one.against_variant;
+  if (!one.against_quantity.empty()) json["against_quantity"] = one.against_quantity;
+  json["role"] = to_string(one.role);
+  json["measure"] = one.measure;
+  json["difference"] = number(one.difference);
+  json["tolerance"] = tolerance(one);
+  json["why"] = one.why;
+  json["expectation"] = to_string(one.expectation);
+  json["verdict"] = to_string(one.verdict);
+  json["message"] = one.message;
+  return json;
+}
+
+Json convergence(const Convergence& found) {
+  const Series& series = found.series;
+  Json json = {{"sweep", series.sweep},
+               {"parameter", numbers(series.parameter)},
+               {"quantity", series.quantity},
+               {"index", series.index}};
+  if (!series.statistic.empty()) json["statistic"] = series.statistic;
+  json["values"] = numbers(series.values);
+  if (!series.reference.empty()) json["reference"] = series.reference;
+  json["exact"] = number(series.exact);
+  json["error"] = numbers(found.error);
+  json["roundoff"] = numbers(series.roundoff);
+  json["order"] = numbers(found.order);
+  json["in_asymptotic_range"] = found.in_asymptotic_range;
+  json["at_roundoff_floor"] = found.at_roundoff_floor;
+  json["theory_order"] = number(series.theory);
+  if (series.lower) json["lower_order"] = number(series.lower);
+  if (found.two_term) {
+    json["two_term"] = {
+        {"coefficients",
+         {number(found.two_term->coefficient[0]), number(found.two_term->coefficient[1])}},
+        {"worst", number(found.two_term->worst)},
+        {"used", found.two_term->used}};
+  }
+  json["fitted_order"] = number(found.fitted_order);
+  json["richardson"] = number(found.richardson);
+  json["band"] = numbers(found.band);
+  json["factor"] = numbers(found.factor);
+  return json;
+}
+
+Json interval(const Validation& validation) {
+  return {number(validation.low), number(validation.high)};
+}
+
+Json comparison(const ComparedEntry& entry, const std::vector<StatedInput>& inputs) {
+  Json json = {{"check", entry.check},
+               {"quantity", entry.quantity},
+               {"index", entry.index},
+               {"unit", entry.unit},
+               {"reference", entry.reference},
+               {"simulation", number(entry.comparison.simulation)},
+               {"expected", number(entry.comparison.reference)},
+               {"u_num", number(entry.comparison.u_num)},
+               {"u_input", number(entry.comparison.u_input)},
+               {"u_input_sampled", number(entry.u_input_sampled)},
+               {"u_reference", number(entry.comparison.u_reference)},
+               {"contributions", Json::object()}};
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    json["contributions"][inputs[k].name] = number(entry.contribution[k]);
+  }
+  json["dominant_input"] = entry.dominant;
+  json["dominant_share"] = number(entry.dominant_share);
+  json["spread"] = numbers(entry.spread);
+  json["difference"] = number(entry.validation.difference);
+  json["u_val"] = number(entry.validation.u_val);
+  json["interval"] = interval(entry.validation);
+  json["verdict"] = to_string(entry.validation.verdict);
+  json["words"] = entry.validation.words;
+  json["literal"] = {{"u_input", number(entry.literal_comparison.u_input)},
+                     {"u_input_sampled", number(entry.u_input_literal_sampled)},
+                     {"u_val", number(entry.literal.u_val)},
+                     {"interval", interval(entry.literal)},
+                     {"verdict", to_string(entry.literal.verdict)},
+                     {"words", entry.literal.words}};
+  return json;
+}
+
+Json uncertainty(const ValidationUncertainty& found) {
+  Json json = {{"inputs", Json::array()},
+               {"samples", found.samples},
+               {"failed", found.failed},
+               {"literal_samples", found.literal_samples},
+               {"literal_failed", found.literal_failed},
+               {"numerical", Json::array()},
+               {"comparisons", Json::array()}};
+  for (const StatedInput& input : found.inputs) {
+    json["inputs"].push_back({{"name", input.name},
+                              {"pointers", input.pointers},
+                              {"half_width", number(input.half_width)},
+                              {"nominal", input.nominal},
+                              {"why", input.why}});
+  }
+  for (const NumericalEstimate& one : found.numerical) {
+    json["numerical"].push_back({{"refinement", one.refinement},
+                                 {"quantity", one.quantity},
+                                 {"index", one.index},
+                                 {"parameter", numbers(one.parameter)},
+                                 {"values", numbers(one.values)},
+                                 {"order", number(one.order)},
+                                 {"factor", number(one.factor)},
+                                 {"half_width", number(one.half_width)}});
+  }
+  for (const ComparedEntry& entry : found.entries) {
+    json["comparisons"].push_back(comparison(entry, found.inputs));
+  }
+  return json;
+}
+
+Json drawing(const Drawing& drawn) {
+  Json json = {{"nodes_m", points(drawn.nodes)},
+               {"members", drawn.members},
+               {"triangles", drawn.triangles},
+               {"joints", Json::array()},
+               {"shapes", Json::array()}};
+  for (const Drawing::Joint& joint : drawn.joints) {
+    json["joints"].push_back({{"node", joint.node}, {"kind", joint.kind}, {"name", joint.name}});
+  }
+  for (const Drawing::Shape& shape : drawn.shapes) {
+    json["shapes"].push_back(
+        {{"label", shape.label}, {"displacement_m", points(shape.displacement)}});
+  }
+  if (drawn.poses.empty()) return json;
+  json["poses"] = Json::array();
+  for (const Drawing::Pose& pose : drawn.poses) {
+    json["poses"].push_back({{"label", pose.label}, {"nodes_m", points(pose.nodes)}});
+  }
+  return json;
+}
+
+Json cost(const Run& run) {
+  const Counters& counters = run.result.counters;
+  Json json = {{"wall_s", run.wall_s},
+               {"cpu_s", run.cpu_s},
+               {"counters",
+                {{"element_evaluations", counters.element_evaluations},
+                 {"factorizations", counters.factorizations},
+                 {"solves", counters.solves},
+                 {"steps", counters.steps}}}};
+  if (!run.uncertainty.empty()) json["uncertainty_wall_s"] = run.uncertainty_wall_s;
+  for (const EvaluationTime& timing : run.result.timings) {
+    json["timings"][timing.name] = {{"each_s", timing.wall_s}, {"evaluations", timing.evaluations}};
+  }
+  return json;
+}
+
+/// What the computation had, why, and how often it was evaluated.
+Json effects(const Run& run) {
+  Json list = Json::array();
+  for (const EffectReason& one : run.result.effects) {
+    Json json = {{"effect", std::string(name_of(one.effect))},
+                 {"admitted", one.admitted},
+                 {"on", one.on},
+                 {"why", one.why},
+                 {"evaluations", run.result.counters.of(one.effect)}};
+    if (one.number) {
+      json["number"] = number(one.number);
+      json["number_of"] = number_words(one.effect, run.result.analysis);
+    }
+    if (one.change) json["change"] = number(one.change);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json run_json(const Run& run) {
+  Json json = {{"case", run.case_id},  {"variant", run.variant},       {"status", run.status},
+               {"reason", run.reason}, {"quantities", Json::object()}, {"checks", Json::array()}};
+  for (const auto& [name, quantity] : run.result.quantities) {
+    json["quantities"][name] = numbers(quantity.values);
+  }
+  for (const Judgement& one : run.judgements) json["checks"].push_back(judgement(one));
+  json["convergence"] = Json::array();
+  for (const Convergence& found : run.convergence) {
+    json["convergence"].push_back(convergence(found));
+  }
+  if (!run.uncertainty.empty()) json["uncertainty"] = uncertainty(run.uncertainty);
+  if (!run.result.effects.empty()) json["effects"] = effects(run);
+  if (run.result.drawing) json["drawing"] = drawing(*run.result.drawing);
+  json["cost"] = cost(run);
+  return json;
+}
+
+Json case_json(const Case& given) {
+  const Json& document = given.document.value();
+  Json json = {{"title", given.title()}};
+  for (const char* key : {"description", "family", "labels", "battery", "figures", "tables"}) {
+    if (document.contains(key)) json[key] = document.at(key);
+  }
+  json["analysis"] = analysis_kind(given.document);
+  json["variants"] = Json::object();
+  for (const std::string& variant : given.variants()) {
+    json["variants"][variant] = {{"title", given.variant_title(variant)}};
+  }
+  return json;
+}
+
+Json reference_json(const CitedReference& cited) {
+  const Reference& reference = cited.reference;
+  Json json = {{"title", reference.title},
+               {"kind", to_string(reference.kind)},
+               {"unit", reference.unit},
+               {"values", numbers(reference.values)},
+               {"uncertainty", numbers(reference.uncertainty)},
+               {"citation", cited.source.text},
+               {"place", reference.place}};
+  if (!cited.source.doi.empty()) json["doi"] = cited.source.doi;
+  if (!reference.printed.empty()) json["printed"] = reference.printed;
+  if (!reference.derivation.empty()) json["derivation"] = reference.derivation;
+  if (!reference.errata.empty()) json["errata"] = reference.errata;
+  if (!reference.notes.empty()) json["notes"] = reference.notes;
+  return json;
+}
+
+}  // namespace
+
+Json results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
+                const References& references) {
+  Json results = {{"format", 1},
+                  {"environment", environment()},
+                  {"cases", Json::object()},
+                  {"references", Json::object()},
+                  {"runs", Json::array()}};
+  for (const Case& one : cases) results["cases"][one.id()] = case_json(one);
+  for (const auto& [id, cited] : references.used()) {
+    results["references"][id] = reference_json(cited);
+  }
+  if (const BandSummary bands = bands_of(runs); bands.levels > 0) {
+    results["bands"] = {{"levels", bands.levels},
+                        {"hits", bands.hits},
+                        {"hit_rate", number(bands.hit_rate())},
+                        {"least_hit_rate", least_hit_rate},
+                        {"median_ratio", number(bands.median_ratio)},
+                        {"largest_median_ratio", largest_median_ratio},
+                        {"levels_to_judge", levels_to_judge},
+                        {"holds", !bands.fails()}};
+  }
+  for (const Run& run : runs) {
+    if (!results["cases"].contains(run.case_id)) {
+      // A case that could not be read is told of all the same.
+      results["cases"][run.case_id] = {{"title", run.case_id}, {"variants", Json::object()}};
+    }
+    results["runs"].push_back(run_json(run));
+  }
+  return results;
+}
+
+fs::path write_results(const Json& results, const fs::path& folder) {
+  fs::path file = folder / "results.json";
+  write_file(file, pretty(results));
+  return file;
+}
+
+void require_writable(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const fs::path probe = folder / ".trammel-probe";
+  const bool written = static_cast<bool>(std::ofstream(probe) << ' ');
+  fs::remove(probe, error);
+  if (!written)
+    throw InputError("--out " + folder.string() + ": expected a folder that can be written");
+}
+
+}  // namespace trammel

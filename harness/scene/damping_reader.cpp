@@ -1,0 +1,43 @@
+#include "harness/scene/damping_reader.h"
+
+#include <iterator>
+
+namespace trammel {
+
+namespace {
+
+std::size_t count_of(const Cursor& modal, std::optional<Index> known) {
+  if (!modal.has("modes")) throw modal.error("expected the key 'modes': how many have the ratio");
+  const Cursor stated = modal["modes"];
+  if (!stated.json().is_string()) return stated.get<std::size_t>();
+  if (known) return static_cast<std::size_t>(*known);
+  throw stated.error("expected a number: all modes are known with 'modal-superposition' only");
+}
+
+}  // namespace
+
+HarmonicDamping read_damping(const Cursor& analysis, std::optional<Index> modes) {
+  HarmonicDamping read;
+  const auto damping = analysis.find("damping");
+  if (!damping) return read;
+  if (const auto rayleigh = damping->find("rayleigh")) {
+    read.rayleigh = {rayleigh->get("mass_1_per_s", 0.0), rayleigh->get("stiffness_s", 0.0)};
+  }
+  const auto modal = damping->find("modal");
+  if (!modal) return read;
+  const Cursor ratio = (*modal)["ratio"];
+  if (!ratio.json().is_array()) {
+    read.modal_ratio.assign(count_of(*modal, modes), ratio.get<double>());
+  } else if (modal->has("modes")) {
+    throw(*modal)["modes"].error("expected it beside one ratio only (got a ratio for each mode)");
+  } else {
+    read.modal_ratio = ratio.get<std::vector<double>>();
+  }
+  if (modes && std::ssize(read.modal_ratio) > *modes) {
+    throw modal->error("expected at most " + std::to_string(*modes) + " modes (got " +
+                       std::to_string(read.modal_ratio.size()) + ")");
+  }
+  return read;
+}
+
+}  // namespace trammel

@@ -1,0 +1,58 @@
+#include "harness/scene/design_parameter.h"
+
+#include <algorithm>
+#include <map>
+
+namespace trammel {
+namespace {
+
+using Quantity = DesignParameter::Quantity;
+
+void choose(const std::string& link, DesignParameter& parameter) {
+  const auto limb = static_cast<std::size_t>(link[1] - '1');
+  (link[0] == 'A' ? parameter.proximal : parameter.distal)[limb] = true;
+}
+
+}  // namespace
+
+DesignParameter read_design_parameter(const Cursor& parameter) {
+  static const std::map<std::string, Quantity> words = {{"length", Quantity::length},
+                                                        {"thickness", Quantity::thickness},
+                                                        {"width", Quantity::width},
+                                                        {"E", Quantity::E},
+                                                        {"density", Quantity::density}};
+  DesignParameter read{.quantity = words.at(parameter.text("of"))};
+  read.platform = parameter.get("platform", false);
+  if (const auto links = parameter.find("links")) {
+    read.proximal.fill(false);
+    read.distal.fill(false);
+    for (const auto& entry : links->entries()) choose(entry.second.get<std::string>(), read);
+  }
+  const bool platform_has = read.quantity != Quantity::length && read.quantity != Quantity::width;
+  if (read.platform && !platform_has) {
+    throw parameter["platform"].error("expected the thickness, E or density of the platform");
+  }
+  const auto any = [](const std::array<bool, 3>& of) {
+    return std::count(of.begin(), of.end(), true) > 0;
+  };
+  if (!any(read.proximal) && !any(read.distal) && !read.platform) {
+    throw parameter.error("expected a link, or the platform");
+  }
+  return read;
+}
+
+std::string sensitivity_name(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::E:
+      return "sensitivity_Hz_per_Pa";
+    case Quantity::density:
+      return "sensitivity_Hz_m3_per_kg";
+    case Quantity::length:
+    case Quantity::thickness:
+    case Quantity::width:
+      break;
+  }
+  return "sensitivity_Hz_per_m";
+}
+
+}  // namespace trammel

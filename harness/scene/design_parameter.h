@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "harness/input/json_view.h"
+#include "solver/sensitivity/sensitivity.h"
+
+/// Numbers of the manipulator's design, as cases name them.
+namespace trammel {
+
+/// {"of": "length", "links": ["A1-B1", ...], "platform": false}
+/// @throws InputError  where it names no number: the length or width of a platform alone.
+[[nodiscard]] DesignParameter read_design_parameter(const Cursor& parameter);
+
+/// "sensitivity_Hz_per_m", by the parameter's unit.
+[[nodiscard]] std::string sensitivity_name(DesignParameter::Quantity quantity);
+
+}  // namespace trammel

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "harness/scene/drawing.h"
+#include "solver/large_motion/system/geometrically_exact_system.h"
+
+/// Pictures of models in large motion: places, never magnified.
+namespace trammel {
+
+/// The model in its own pose; nothing where there are more nodes than a picture can show.
+[[nodiscard]] std::optional<Drawing> draw_large_model(const large::LargeSystem& system,
+                                                      bool is_manipulator);
+
+/// Where the drawing's nodes are at coordinates q.
+[[nodiscard]] Drawing::Pose draw_large_pose(const large::LargeSystem& system,
+                                            const Eigen::VectorXd& q, const std::string& label);
+
+}  // namespace trammel

@@ -1,0 +1,214 @@
+#include "harness/scene/drawing.h"
+
+#include <algorithm>
+
+namespace trammel {
+namespace {
+
+constexpr std::size_t most_nodes_with_middles = 1500;
+constexpr std::size_t points_a_member = 12;
+
+std::size_t at(Index index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// Pieces that an element is drawn in.
+std::size_t pieces(const System& system, const FrameElement& element) {
+  const auto elements = at(system.model.members[at(element.member)].elements);
+  if (element.is_bar()) return 1;
+  return std::max<std::size_t>(1, (points_a_member + elements - 1) / elements);
+}
+
+/// Nodes of the mesh in the order in which they are drawn, and back (-1: not drawn).
+struct DrawnNodes {
+  std::vector<std::size_t> mesh;
+  std::vector<Index> number;
+
+  [[nodiscard]] std::size_t of(Index node) const { return at(number[at(node)]); }
+};
+
+DrawnNodes drawn_nodes(const System& system) {
+  DrawnNodes drawn;
+  drawn.number.assign(system.mesh.positions.size(), 0);
+  if (drawn.number.size() > most_nodes_with_middles) {
+    for (const Triangle& triangle : system.model.triangles) {
+      for (std::size_t k = 3; triangle.quadratic() && k < 6; ++k) {
+        const Index middle = triangle.nodes[k];
+        if (system.model.nodes[at(middle)].name.empty()) drawn.number[at(middle)] = -1;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < drawn.number.size(); ++i) {
+    if (drawn.number[i] < 0) continue;
+    drawn.number[i] = static_cast<Index>(drawn.mesh.size());
+    drawn.mesh.push_back(i);
+  }
+  return drawn;
+}
+
+void draw_members(const System& system, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const FrameElement& element : system.mesh.frame) {
+    const std::size_t count = pieces(system, element);
+    const Vector2d start = system.mesh.positions[at(element.nodes[0])];
+    const Vector2d span = system.mesh.positions[at(element.nodes[1])] - start;
+    std::size_t before = drawn.of(element.nodes[0]);
+    for (std::size_t k = 1; k < count; ++k) {
+      drawing.nodes.emplace_back(start +
+                                 span * static_cast<double>(k) / static_cast<double>(count));
+      drawing.members.push_back({before, drawing.nodes.size() - 1});
+      before = drawing.nodes.size() - 1;
+    }
+    drawing.members.push_back({before, drawn.of(element.nodes[1])});
+  }
+}
+
+void draw_triangles(const Model& model, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const Triangle& triangle : model.triangles) {
+    std::vector<std::size_t>& around = drawing.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      around.push_back(drawn.of(triangle.nodes[k]));
+      const Index middle = triangle.nodes[3 + k];
+      if (middle >= 0 && drawn.number[at(middle)] >= 0) around.push_back(drawn.of(middle));
+    }
+  }
+}
+
+/// A rigid body is a bar to its one node, or a fan of triangles about its reference.
+void draw_rigid_bodies(const Model& model, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const RigidBody& body : model.rigid_bodies) {
+    const std::size_t reference = drawn.of(body.reference);
+    const std::size_t count = body.attached.size();
+    if (count == 1) drawing.members.push_back({reference, drawn.of(body.attached.front())});
+    for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k) {
+      drawing.triangles.push_back(
+          {reference, drawn.of(body.attached[k]), drawn.of(body.attached[(k + 1) % count])});
+    }
+  }
+}
+
+/// One joint a node; the one that says most wins.
+void draw_joints(const Model& model, bool is_manipulator, const DrawnNodes& drawn,
+                 Drawing& drawing) {
+  std::vector<std::string> kind(model.nodes.size());
+  for (const Member& member : model.members) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      std::string& word = kind[at(member.nodes[end])];
+      if (member.ends[end].fixity == EndFixity::hinged) word = "hinged";
+      if (member.ends[end].fixity == EndFixity::sprung) word = "sprung";
+    }
+  }
+  for (const RigidBody& body : model.rigid_bodies) {
+    std::string& word = kind[at(body.reference)];
+    if (word.empty()) word = "rigid";
+  }
+  for (const Support& support : model.supports) {
+    const bool named = !support.name.empty() && !model.nodes[at(support.node)].name.empty();
+    if (named) kind[at(support.node)] = "support";
+  }
+  if (is_manipulator) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      kind[i] = "active";
+      for (const std::size_t node : {3 + i, 6 + i}) {
+        if (kind[node].empty()) kind[node] = "welded";
+      }
+    }
+  }
+  for (std::size_t i = 0; i < kind.size(); ++i) {
+    if (kind[i].empty()) continue;
+    drawing.joints.push_back({drawn.of(static_cast<Index>(i)), kind[i], model.nodes[i].name});
+  }
+}
+
+void draw_parts(const Model& model, bool is_manipulator, const DrawnNodes& drawn,
+                Drawing& drawing) {
+  draw_triangles(model, drawn, drawing);
+  draw_rigid_bodies(model, drawn, drawing);
+  draw_joints(model, is_manipulator, drawn, drawing);
+}
+
+}  // namespace
+
+void draw_parts(const Model& model, bool is_manipulator, Drawing& drawing) {
+  DrawnNodes all;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    all.mesh.push_back(i);
+    all.number.push_back(static_cast<Index>(i));
+  }
+  draw_parts(model, is_manipulator, all, drawing);
+}
+
+Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& u, double s) {
+  const auto value = [&](std::size_t k) {
+    return element.coordinates[k] < 0 ? 0 : u[element.coordinates[k]];
+  };
+  const Vector2d t = element.direction;
+  const Vector2d n(-t.y(), t.x());
+  const Vector2d first(value(0), value(1));
+  const Vector2d second(value(3), value(4));
+  const double along = (1 - s) * first.dot(t) + s * second.dot(t);
+  const double l = element.length;
+  const double across =
+      (1 - 3 * s * s + 2 * s * s * s) * first.dot(n) + (s - 2 * s * s + s * s * s) * l * value(2) +
+      (3 * s * s - 2 * s * s * s) * second.dot(n) + (s * s * s - s * s) * l * value(5);
+  return along * t + across * n;
+}
+
+std::optional<Drawing> draw_model(const System& system, bool is_manipulator) {
+  Drawing drawing;
+  const DrawnNodes drawn = drawn_nodes(system);
+  if (drawn.mesh.size() > most_drawn_nodes) return std::nullopt;
+  for (const std::size_t node : drawn.mesh) drawing.nodes.push_back(system.mesh.positions[node]);
+  draw_members(system, drawn, drawing);
+  draw_parts(system.model, is_manipulator, drawn, drawing);
+  if (drawing.nodes.size() > most_drawn_nodes) return std::nullopt;
+  return drawing;
+}
+
+Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
+                          const std::string& label) {
+  const Eigen::VectorXd u = system.T * q;
+  Drawing::Shape shape{label, {}};
+  for (const std::size_t node : drawn_nodes(system).mesh) {
+    const auto& coordinates = system.coordinates.node[node];
+    shape.displacement.emplace_back(u[coordinates[0]], u[coordinates[1]]);
+  }
+  for (const FrameElement& element : system.mesh.frame) {
+    const std::size_t count = pieces(system, element);
+    for (std::size_t k = 1; k < count; ++k) {
+      shape.displacement.push_back(
+          displacement_along(element, u, static_cast<double>(k) / static_cast<double>(count)));
+    }
+  }
+  return shape;
+}
+
+Drawing draw_manipulator(const ManipulatorGeometry& geometry,
+                         const std::vector<TrajectoryPoint>& motion) {
+  const auto nodes_at = [&](const Pose& pose) {
+    const Posture posture = inverse_kinematics(geometry, pose);
+    std::vector<Vector2d> nodes(geometry.base.begin(), geometry.base.end());
+    nodes.insert(nodes.end(), posture.B.begin(), posture.B.end());
+    nodes.insert(nodes.end(), posture.C.begin(), posture.C.end());
+    nodes.emplace_back(pose.x, pose.y);
+    return nodes;
+  };
+  Drawing drawing;
+  drawing.nodes = nodes_at(motion.front().pose);
+  for (std::size_t i = 0; i < 3; ++i) {
+    drawing.members.push_back({i, 3 + i});
+    drawing.members.push_back({3 + i, 6 + i});
+    drawing.triangles.push_back({6 + i, 6 + (i + 1) % 3, 9});
+    const std::string limb = std::to_string(i + 1);
+    drawing.joints.push_back({i, "active", "A" + limb});
+    drawing.joints.push_back({3 + i, "hinged", "B" + limb});
+    drawing.joints.push_back({6 + i, "hinged", "C" + limb});
+  }
+  constexpr std::size_t more = 4;
+  for (std::size_t k = 1; k < more && motion.size() >= more; ++k) {
+    const std::size_t point = k * (motion.size() - 1) / more;
+    drawing.poses.push_back({"point " + std::to_string(point), nodes_at(motion[point].pose)});
+  }
+  return drawing;
+}
+
+}  // namespace trammel

@@ -1,0 +1,286 @@
+#include "harness/scene/frame_reader.h"
+
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "harness/scene/material_reader.h"
+#include "harness/scene/member_chain.h"
+#include "harness/scene/symbol_table.h"
+#include "harness/scene/plate_reader.h"
+#include "solver/large_motion/system/linear_joints.h"
+
+namespace trammel {
+namespace {
+
+/// A, I and c of one of the three ways to give a cross-section.
+struct Shape {
+  double area = 0, second_moment = 0, half_depth = 0;
+};
+
+Shape read_shape(const Cursor& section) {
+  const bool plain = section.has("area_m2") || section.has("second_moment_m4");
+  const int ways =
+      (section.has("rectangle") ? 1 : 0) + (section.has("circle") ? 1 : 0) + (plain ? 1 : 0);
+  if (ways != 1 || (plain && !(section.has("area_m2") && section.has("second_moment_m4")))) {
+    throw section.error(
+        "expected exactly one of 'rectangle', 'circle', and 'area_m2' with 'second_moment_m4'");
+  }
+  if (!plain && section.has("half_depth_m")) {
+    throw section["half_depth_m"].error("expected it beside 'area_m2' only");
+  }
+  if (section.has("rectangle")) {
+    const double t = section["rectangle"].number("thickness_m");
+    const double w = section["rectangle"].number("width_m");
+    return {t * w, w * t * t * t / 12, t / 2};
+  }
+  if (section.has("circle")) {
+    const double d = section["circle"].number("diameter_m");
+    return {std::numbers::pi * d * d / 4, std::numbers::pi * d * d * d * d / 64, d / 2};
+  }
+  // A bar has no bending stress; where the outermost fibre is not known, the stress is not finite
+  // and is left out of the quantities.
+  const double second_moment = section.number("second_moment_m4");
+  const double unknown = second_moment > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  return {section.number("area_m2"), second_moment, section.get("half_depth_m", unknown)};
+}
+
+Section read_section(const Cursor& section, const Names& names) {
+  const Material material = look_up(names.material, section["material"], "a material");
+  const Shape shape = read_shape(section);
+  const double shear_modulus = material.E / (2 * (1 + material.nu));
+  Section read;
+  read.EA = material.E * shape.area;
+  read.EI = material.E * shape.second_moment;
+  read.kappa_GA = section.get("shear_coefficient", 5.0 / 6.0) * shear_modulus * shape.area;
+  read.mass_per_length = material.rho * shape.area;
+  read.inertia_per_length = material.rho * shape.second_moment;
+  read.area = shape.area;
+  read.section_modulus = shape.second_moment > 0 ? shape.second_moment / shape.half_depth
+                                                 : std::numeric_limits<double>::infinity();
+  return read;
+}
+
+MemberEnd read_end(const Cursor& end) {
+  if (end.json().is_object()) {
+    return {EndFixity::sprung, end.number("spring_N_m_per_rad"), 0};
+  }
+  return {end.get<std::string>() == "hinged" ? EndFixity::hinged : EndFixity::welded, 0, 0};
+}
+
+Member read_member(const std::string& name, const Cursor& place, const Names& names,
+                   const std::vector<Node>& nodes, Index elements) {
+  Member member;
+  member.name = name;
+  member.nodes = {names.find_node(place["nodes"][0]), names.find_node(place["nodes"][1])};
+  const Vector2d span = nodes[static_cast<std::size_t>(member.nodes[1])].position -
+                        nodes[static_cast<std::size_t>(member.nodes[0])].position;
+  if (!(span.norm() > 0)) {
+    throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
+  }
+  member.section = look_up(names.section, place["section"], "a section");
+  member.end_section = place.has("end_section")
+                           ? look_up(names.section, place["end_section"], "a section")
+                           : member.section;
+  member.theory = read_beam_theory(place);
+  member.mass = read_mass_matrix(place);
+  member.elements = place.get<Index>("elements", elements);
+  member.axially_flexible = read_axial(place);
+  if (place.has("ends")) member.ends = {read_end(place["ends"][0]), read_end(place["ends"][1])};
+  if (place.has("load_N_per_m")) member.load = read_point(place["load_N_per_m"]);
+  return member;
+}
+
+std::array<bool, 3> read_motions(const Cursor& place) {
+  std::array<bool, 3> fixed{};
+  for (const auto& entry : place.entries()) {
+    const auto motion = entry.second.get<std::string>();
+    fixed[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
+  }
+  return fixed;
+}
+
+bool tapers(const Cursor& place) {
+  if (!place.has("taper")) return false;
+  if (!place.has("end_section")) throw place["taper"].error("expected an 'end_section' beside it");
+  return place.text("taper") == "exponential";
+}
+
+MemberChain read_chain(const Cursor& place) {
+  MemberChain chain;
+  if (const auto center = place.find("arc_center_m")) chain.arc_center = read_point(*center);
+  if (const auto held = place.find("held")) chain.held = read_motions(*held);
+  chain.exponential = tapers(place);
+  return chain;
+}
+
+void read_members(const Cursor& members, const Names& names, Index elements, Model& parts) {
+  for (const auto& [name, place] : members.entries()) {
+    const Member member = read_member(name, place, names, parts.nodes, elements);
+    const MemberChain chain = read_chain(place);
+    if (!chain.needed()) {
+      parts.members.push_back(member);
+      continue;
+    }
+    const auto at = [&](std::size_t end) -> Vector2d {
+      return parts.nodes[static_cast<std::size_t>(member.nodes[end])].position;
+    };
+    try {
+      add_chain(member, chain, at(0), at(1), std::ssize(parts.nodes), parts);
+    } catch (const ModelError& error) {
+      throw place["arc_center_m"].error(error.what());
+    }
+  }
+}
+
+RigidBody read_rigid_body(const std::string& name, const Cursor& place, const Names& names) {
+  RigidBody body{name, names.find_node(place["reference"]), {}};
+  for (const auto& entry : place["nodes"].entries()) {
+    body.attached.push_back(names.find_node(entry.second));
+    if (body.attached.back() == body.reference) {
+      throw entry.second.error("expected a node other than the reference");
+    }
+  }
+  return body;
+}
+
+PointMass read_point_mass(const Cursor& place, const Names& names) {
+  PointMass mass;
+  mass.node = names.find_node(place["node"]);
+  mass.mass = place.number("mass_kg");
+  mass.inertia = place.get("inertia_kg_m2", 0.0);
+  if (place.has("offset_m")) mass.offset = read_point(place["offset_m"]);
+  return mass;
+}
+
+Spring read_spring(const std::string& name, const Cursor& place, const Names& names) {
+  Spring spring;
+  spring.name = name;
+  for (std::size_t i = 0; i < place["nodes"].size(); ++i) {
+    spring.nodes[i] = names.find_node(place["nodes"][i]);
+  }
+  if (const auto along = place.find("stiffness_N_per_m")) {
+    spring.stiffness.head<2>() = read_point(*along);
+  }
+  spring.stiffness.z() = place.get("rotational_stiffness_N_m_per_rad", 0.0);
+  return spring;
+}
+
+void read_pin(const std::string& name, const Cursor& place, const Names& names, Model& model) {
+  std::array<Index, 2> nodes{};
+  for (std::size_t i = 0; i < 2; ++i) nodes[i] = names.find_node(place["nodes"][i]);
+  const double apart = (model.nodes[static_cast<std::size_t>(nodes[0])].position -
+                        model.nodes[static_cast<std::size_t>(nodes[1])].position)
+                           .norm();
+  if (apart > 1e-12) {
+    throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
+                               " m between them)");
+  }
+  add_pin(model, name, nodes);
+}
+
+/// Calls `read(name, place)` for every entry of an object that may be missing.
+template <class Read>
+void each(const Cursor& model, const char* key, const Read& read) {
+  const auto places = model.find(key);
+  if (!places) return;
+  for (const auto& [name, place] : places->entries()) read(name, place);
+}
+
+/// Every node on an edge; motions that are already taken away are left out.
+void support_edge(const std::string& name, const Cursor& place, const Edge& edge, Model& model) {
+  const std::array<bool, 3> fixed = read_motions(place);
+  if (fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
+  for (const Index node : nodes_of(edge)) {
+    Support support{name, node, fixed};
+    for (const Support& other : model.supports) {
+      if (other.node != node) continue;
+      for (std::size_t k = 0; k < 3; ++k) support.fixed[k] = support.fixed[k] && !other.fixed[k];
+    }
+    model.supports.push_back(support);
+  }
+}
+
+/// Those of nodes first: they keep their reactions where an edge is supported as well.
+void read_supports(const Cursor& model, const Names& names, Model& parts) {
+  each(model, "supports", [&](const std::string& name, const Cursor& place) {
+    if (names.edge.count(name) > 0) return;
+    const char* what = names.edge.empty() ? "a node" : "a node or edge";
+    parts.supports.push_back({name, look_up(names.node, name, place, what), read_motions(place)});
+  });
+  each(model, "supports", [&](const std::string& name, const Cursor& place) {
+    const auto edge = names.edge.find(name);
+    if (edge != names.edge.end()) support_edge(name, place, edge->second, parts);
+  });
+}
+
+void read_load(const Cursor& place, const Names& names, Model& model) {
+  if (place.has("node") == place.has("edge")) {
+    throw place.error("expected exactly one of 'node' and 'edge'");
+  }
+  const bool on_edge = place.has("edge");
+  for (const char* key : {"force_N", "moment_N_m", "traction_Pa", "normal_Pa"}) {
+    const bool of_edge = std::string(key).ends_with("_Pa");
+    if (!place.has(key) || of_edge == on_edge) continue;
+    throw place[key].error(std::string("expected it beside '") + (of_edge ? "edge" : "node") +
+                           "' only");
+  }
+  if (on_edge) return read_edge_load(place, names, model);
+  NodalLoad load{names.find_node(place["node"]), Vector3d::Zero()};
+  if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
+  load.force.z() = place.get("moment_N_m", 0.0);
+  model.loads.push_back(load);
+}
+
+Names read_names(const Cursor& model, Model& parts) {
+  Names names;
+  const auto add = [&](std::size_t node) {
+    return names.node.emplace(parts.nodes[node].name, static_cast<Index>(node)).second;
+  };
+  for (std::size_t i = 0; i < parts.nodes.size(); ++i) add(i);
+  each(model, "nodes", [&](const std::string& name, const Cursor& place) {
+    parts.nodes.push_back({name, read_point(place)});
+    if (!add(parts.nodes.size() - 1)) {
+      throw place.error("expected another name: the manipulator has a node of that name");
+    }
+  });
+  each(model, "materials", [&](const std::string& name, const Cursor& place) {
+    names.material.emplace(name, read_material(place));
+  });
+  each(model, "sections", [&](const std::string& name, const Cursor& place) {
+    names.section.emplace(name, read_section(place, names));
+  });
+  return names;
+}
+
+}  // namespace
+
+Model read_parts(const Cursor& model, const std::vector<Node>& before) {
+  Model parts;
+  parts.nodes = before;
+  Names names = read_names(model, parts);
+  const Index elements = model.get<Index>("elements", 1);
+  if (const auto members = model.find("members")) read_members(*members, names, elements, parts);
+  read_plates(model, names, parts);
+  each(model, "rigid_bodies", [&](const std::string& name, const Cursor& place) {
+    parts.rigid_bodies.push_back(read_rigid_body(name, place, names));
+  });
+  each(model, "point_masses", [&](const std::string&, const Cursor& place) {
+    parts.masses.push_back(read_point_mass(place, names));
+  });
+  each(model, "springs", [&](const std::string& name, const Cursor& place) {
+    parts.springs.push_back(read_spring(name, place, names));
+  });
+  read_supports(model, names, parts);
+  each(model, "pins",
+       [&](const std::string& name, const Cursor& place) { read_pin(name, place, names, parts); });
+  each(model, "loads",
+       [&](const std::string&, const Cursor& place) { read_load(place, names, parts); });
+  if (model.has("gravity_m_s2")) parts.gravity = read_point(model["gravity_m_s2"]);
+  check_meshed_nodes(model, before.size(), parts);
+  parts.nodes.erase(parts.nodes.begin(), parts.nodes.begin() + static_cast<Index>(before.size()));
+  return parts;
+}
+
+}  // namespace trammel

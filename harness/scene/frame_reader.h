@@ -1,0 +1,14 @@
+#pragma once
+
+#include "harness/input/json_view.h"
+#include "solver/model/model.h"
+
+namespace trammel {
+
+/// Reads the nodes of a planar model and what joins them. Indices count `before` first.
+/// @param model   the place /model
+/// @param before  nodes that are already there, from the manipulator
+/// @throws InputError  where a name leads nowhere or geometry is impossible.
+[[nodiscard]] Model read_parts(const Cursor& model, const std::vector<Node>& before);
+
+}  // namespace trammel

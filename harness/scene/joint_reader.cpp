@@ -1,0 +1,148 @@
+#include "harness/scene/joint_reader.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "harness/scene/material_reader.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+Index find_named(const std::string& word, const Cursor& place, const Model& built) {
+  const Index found = word.empty() ? -1 : built.find_node(word);
+  if (found >= 0) return found;
+  std::vector<std::string> names;
+  for (const Node& node : built.nodes) {
+    if (!node.name.empty()) names.push_back(node.name);
+  }
+  throw place.error("expected the name of a node (got '" + printable(word) + "')" +
+                    did_you_mean(word, names));
+}
+
+large::Slider read_slider(const std::string& name, const Cursor& place, const Model& built) {
+  large::Slider slider{name, find_node(place["node"], built), -1, place.number("direction_rad"),
+                       place.get("keeps_angle", false)};
+  if (place.has("rail")) {
+    slider.rail = find_node(place["rail"], built);
+    if (slider.rail == slider.node) throw place["rail"].error("expected another node");
+  }
+  return slider;
+}
+
+large::LineSpring read_line_spring(const std::string& name, const Cursor& place,
+                                   const Model& built) {
+  large::LineSpring spring;
+  spring.name = name;
+  for (std::size_t i = 0; i < 2; ++i) spring.nodes[i] = find_node(place["nodes"][i], built);
+  spring.stiffness = place.number("stiffness_N_per_m");
+  spring.rest_length = place.get("rest_length_m", spring.rest_length);
+  return spring;
+}
+
+large::FollowerLoad read_follower(const Cursor& place, const Model& built) {
+  large::FollowerLoad load{find_node(place["node"], built), Vector3d::Zero()};
+  if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
+  load.force.z() = place.get("moment_N_m", 0.0);
+  return load;
+}
+
+large::TimeFunction spin_up(double speed, double duration) {
+  return [speed, duration](double t) {
+    const double w = 2 * std::numbers::pi / duration;
+    if (t >= duration) return std::array<double, 3>{speed * (t - duration / 2), speed, 0};
+    // 1 - cos by its half angle: early on it is all there is.
+    const double half = std::sin(w * t / 2);
+    const double turned = t * t / 2 - 2 * half * half / (w * w);
+    return std::array<double, 3>{speed / duration * turned,
+                                 speed / duration * (t - std::sin(w * t) / w),
+                                 speed / duration * 2 * half * half};
+  };
+}
+
+large::TimeFunction rest_to_rest(double travel, double duration) {
+  return [travel, duration](double t) {
+    if (t >= duration) return std::array<double, 3>{travel, 0, 0};
+    const double u = std::max(0.0, t / duration);
+    return std::array<double, 3>{travel * u * u * u * (10 - u * (15 - 6 * u)),
+                                 travel / duration * 30 * u * u * (1 - u) * (1 - u),
+                                 travel / (duration * duration) * 60 * u * (1 - u) * (1 - 2 * u)};
+  };
+}
+
+}  // namespace
+
+large::TimeFunction read_law(const Cursor& law) {
+  if (const auto place = law.find("constant_speed")) {
+    const double speed = place->number("speed_per_s");
+    return [speed](double t) { return std::array<double, 3>{speed * t, speed, 0}; };
+  }
+  if (const auto place = law.find("spin_up")) {
+    return spin_up(place->number("speed_per_s"), place->number("duration_s"));
+  }
+  if (const auto place = law.find("rest_to_rest")) {
+    return rest_to_rest(place->number("travel"), place->number("duration_s"));
+  }
+  const Cursor place = law["harmonic"];
+  const double a = place.number("amplitude"), w = place.number("angular_speed_rad_s");
+  return [a, w](double t) {
+    return std::array<double, 3>{a * std::sin(w * t), a * w * std::cos(w * t),
+                                 -a * w * w * std::sin(w * t)};
+  };
+}
+
+Index find_node(const Cursor& name, const Model& built) {
+  return find_named(name.get<std::string>(), name, built);
+}
+
+large::Scenario read_mechanism(const Cursor& model, const Model& built) {
+  large::Scenario scenario;
+  if (const auto sliders = model.find("sliders")) {
+    for (const auto& [name, place] : sliders->entries()) {
+      scenario.sliders.push_back(read_slider(name, place, built));
+    }
+  }
+  if (const auto springs = model.find("line_springs")) {
+    for (const auto& [name, place] : springs->entries()) {
+      scenario.line_springs.push_back(read_line_spring(name, place, built));
+    }
+  }
+  if (const auto loads = model.find("follower_loads")) {
+    for (const auto& entry : loads->entries()) {
+      scenario.follower_loads.push_back(read_follower(entry.second, built));
+    }
+  }
+  return scenario;
+}
+
+void read_drives(const Cursor& analysis, const Model& built, large::Scenario& scenario) {
+  const auto drives = analysis.find("drives");
+  if (!drives) return;
+  for (const auto& [name, place] : drives->entries()) {
+    const std::string motion = place.text("motion");
+    const int direction = motion == "x" ? 0 : motion == "y" ? 1 : 2;
+    scenario.drives.push_back(
+        {name, find_node(place["node"], built), direction, read_law(place["law"])});
+  }
+}
+
+void read_history(const Cursor& analysis, const Model& built, large::Scenario& scenario) {
+  scenario.mass_damping = analysis.get("mass_damping_per_s", 0.0);
+  scenario.strain_rate_damping = analysis.get("strain_rate_damping_s", 0.0);
+  if (const auto ramp = analysis.find("load_ramp_s")) {
+    const large::TimeFunction law = rest_to_rest(1, ramp->get<double>());
+    scenario.load_history = [law](double t) { return law(t)[0]; };
+  }
+  const auto starts = analysis.find("start_velocities");
+  if (!starts) return;
+  for (const auto& [name, place] : starts->entries()) {
+    const Index node = find_named(name, place, built);
+    int direction = 0;
+    for (const char* key : {"x_m_per_s", "y_m_per_s", "rotation_rad_per_s"}) {
+      if (place.has(key)) scenario.start.push_back({node, direction, place.number(key)});
+      ++direction;
+    }
+  }
+}
+
+}  // namespace trammel

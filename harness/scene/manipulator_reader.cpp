@@ -1,0 +1,155 @@
+#include "harness/scene/manipulator_reader.h"
+
+#include <map>
+
+#include "harness/scene/material_reader.h"
+#include "harness/scene/trajectory_reader.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+std::array<Vector2d, 3> read_vertices(const Cursor& vertices) {
+  return {read_point(vertices[0]), read_point(vertices[1]), read_point(vertices[2])};
+}
+
+std::array<double, 3> read_lengths(const Cursor& lengths) {
+  if (lengths.json().is_number()) {
+    const double length = lengths.get<double>();
+    return {length, length, length};
+  }
+  return {lengths[0].get<double>(), lengths[1].get<double>(), lengths[2].get<double>()};
+}
+
+/// Exactly one of two keys that say the same in two ways.
+bool has_first(const Cursor& place, const char* first, const char* second) {
+  if (place.has(first) == place.has(second)) {
+    throw place.error(std::string("expected either '") + first + "' or '" + second + "' (got " +
+                      (place.has(first) ? "both; null removes one)" : "none)"));
+  }
+  return place.has(first);
+}
+
+ManipulatorGeometry read_geometry(const Cursor& manipulator) {
+  const Cursor links = manipulator["links"];
+  const Cursor platform = manipulator["platform"];
+  ManipulatorGeometry geometry;
+  geometry.base = has_first(manipulator, "base_side_m", "base_m")
+                      ? equilateral_base(manipulator.number("base_side_m"))
+                      : read_vertices(manipulator["base_m"]);
+  geometry.platform = has_first(platform, "side_m", "vertices_m")
+                          ? equilateral_platform(platform.number("side_m"))
+                          : read_vertices(platform["vertices_m"]);
+  geometry.proximal = read_lengths(links["proximal_length_m"]);
+  geometry.distal = read_lengths(links["distal_length_m"]);
+  geometry.working_mode = manipulator.get("working_mode", std::array<int, 3>{-1, -1, -1});
+  return geometry;
+}
+
+/// A number, or a word that stands for "as computed".
+std::optional<double> read_printed(const Cursor& part, const char* key) {
+  const auto value = part.find(key);
+  if (!value || value->json().is_string()) return std::nullopt;
+  return value->get<double>();
+}
+
+LinkDesign read_link(const Cursor& links, const char* which, const Material& material) {
+  const auto difference = links.find(which);
+  const auto at = [&](const char* key) -> const Cursor& {
+    return difference && difference->has(key) ? *difference : links;
+  };
+  LinkDesign link;
+  link.thickness = at("thickness_m").number("thickness_m");
+  link.width = at("width_m").number("width_m");
+  link.material = material;
+  link.shear_coefficient = at("shear_coefficient").get("shear_coefficient", 5.0 / 6.0);
+  link.theory = read_beam_theory(at("beam"));
+  link.mass_matrix = read_mass_matrix(at("mass_matrix"));
+  link.elements = at("elements").get<Index>("elements", 1);
+  link.axially_flexible = read_axial(at("axial"));
+  link.mass = read_printed(at("mass_kg"), "mass_kg");
+  link.inertia = read_printed(at("inertia_kg_m2"), "inertia_kg_m2");
+  return link;
+}
+
+PlatformDesign read_platform(const Cursor& manipulator) {
+  const Cursor platform = manipulator["platform"];
+  PlatformDesign design;
+  design.kind = platform.text("kind") == "rigid" ? PlatformDesign::Kind::rigid
+                                                 : PlatformDesign::Kind::triangles;
+  design.thickness = platform.number("thickness_m");
+  design.material = read_material(
+      manipulator[manipulator.has("platform_material") ? "platform_material" : "material"]);
+  design.refinements = platform.get("refinements", 0);
+  design.pin_radius = platform.get("pin_radius_m", 0.0);
+  design.mass = read_printed(platform, "mass_kg");
+  design.inertia = read_printed(platform, "inertia_kg_m2");
+  return design;
+}
+
+template <class Kind>
+std::array<Joint<Kind>, 3> read_joints(const Cursor& joints, const char* key,
+                                       const std::map<std::string, Kind>& words) {
+  const Cursor choice = joints[key];
+  std::array<Joint<Kind>, 3> read;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Cursor one = choice.json().is_array() ? choice[i] : choice;
+    if (one.json().is_object()) {
+      read[i] = {Kind::sprung, one.number("spring_N_m_per_rad")};
+    } else {
+      read[i] = {words.at(one.get<std::string>()), 0};
+    }
+  }
+  return read;
+}
+
+void read_motion(const Cursor& model, Scene& scene) {
+  const bool single = has_first(model, "pose", "trajectory");
+  if (single) {
+    const Cursor pose = model["pose"];
+    scene.motion = {{0, {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}}};
+  } else {
+    Trajectory trajectory = read_trajectory(model["trajectory"]);
+    scene.path = std::move(trajectory.path);
+    scene.motion = std::move(trajectory.motion);
+  }
+  for (std::size_t i = 0; i < scene.motion.size(); ++i) {
+    const Posture posture = inverse_kinematics(scene.manipulator->geometry, scene.motion[i].pose);
+    if (posture.outcome.solved()) continue;
+    const std::string point = single ? "" : " at point " + std::to_string(i);
+    throw model[single ? "pose" : "trajectory"].error("expected a pose within reach" + point +
+                                                      " (" + posture.outcome.reason + ")");
+  }
+}
+
+}  // namespace
+
+void read_manipulator(const Cursor& model, Scene& scene) {
+  const Cursor manipulator = model["manipulator"];
+  ManipulatorDesign design;
+  design.geometry = read_geometry(manipulator);
+  try {
+    check_geometry(design.geometry);
+  } catch (const ModelError& error) {
+    throw manipulator.error(std::string("expected a geometry that has a meaning: ") + error.what());
+  }
+  const Material material = read_material(manipulator["material"]);
+  design.proximal.fill(read_link(manipulator["links"], "proximal", material));
+  design.distal.fill(read_link(manipulator["links"], "distal", material));
+  design.platform = read_platform(manipulator);
+  const Cursor joints = manipulator["joints"];
+  design.active = read_joints<ActiveKind>(
+      joints, "active", {{"locked", ActiveKind::locked}, {"free", ActiveKind::free}});
+  design.elbow = read_joints<ElbowKind>(
+      joints, "elbow", {{"welded", ElbowKind::welded}, {"hinged", ElbowKind::hinged}});
+  design.platform_joint =
+      read_joints<PlatformJointKind>(joints, "platform",
+                                     {{"hinged", PlatformJointKind::hinged},
+                                      {"welded", PlatformJointKind::welded},
+                                      {"eq25-mean", PlatformJointKind::eq25_mean},
+                                      {"eq25-sum", PlatformJointKind::eq25_sum}});
+  scene.manipulator = design;
+  read_motion(model, scene);
+}
+
+}  // namespace trammel

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "harness/scene/case_model.h"
+
+namespace trammel {
+
+/// Reads /model/manipulator with its pose or trajectory into the scene.
+/// @throws InputError
+void read_manipulator(const Cursor& model, Scene& scene);
+
+}  // namespace trammel

@@ -1,0 +1,28 @@
+#include "harness/scene/material_reader.h"
+
+namespace trammel {
+
+Vector2d read_point(const Cursor& point) {
+  return {point[0].get<double>(), point[1].get<double>()};
+}
+
+Material read_material(const Cursor& material) {
+  return {material.number("E_Pa"), material.number("rho_kg_m3"), material.number("nu")};
+}
+
+BeamTheory read_beam_theory(const Cursor& part) {
+  const std::string word = part.get<std::string>("beam", "euler-bernoulli");
+  return beam_theory(word == "timoshenko" || word == "shear",
+                     word == "timoshenko" || word == "rayleigh");
+}
+
+MassMatrix read_mass_matrix(const Cursor& part) {
+  const std::string word = part.get<std::string>("mass_matrix", "consistent");
+  return word == "lumped" ? MassMatrix::lumped : MassMatrix::consistent;
+}
+
+bool read_axial(const Cursor& part) {
+  return part.get<std::string>("axial", "flexible") == "flexible";
+}
+
+}  // namespace trammel

@@ -1,0 +1,291 @@
+#include "harness/scene/plate_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "harness/scene/material_reader.h"
+#include "solver/mesh/block_mesh.h"
+#include "solver/model/plane.h"
+
+namespace trammel {
+namespace {
+
+/// Two corners, in either order.
+using Ends = std::pair<Index, Index>;
+Ends ends_of(Index a, Index b) {
+  return std::minmax(a, b);
+}
+
+const Vector2d& position(const Model& parts, Index node) {
+  return parts.nodes[static_cast<std::size_t>(node)].position;
+}
+
+std::string point_words(const Vector2d& point) {
+  return "(" + shortest(point.x()) + ", " + shortest(point.y()) + ") m";
+}
+
+double twice_area(const Model& parts, const Triangle& triangle) {
+  const Vector2d& corner = position(parts, triangle.nodes[0]);
+  return cross(position(parts, triangle.nodes[1]) - corner,
+               position(parts, triangle.nodes[2]) - corner);
+}
+
+Triangle read_triangle(const Cursor& place, const Names& names, const Model& parts, Index plate) {
+  if (place.size() != 3 && place.size() != 6) {
+    throw place.error("expected 3 or 6 names (got " + std::to_string(place.size()) + ")");
+  }
+  Triangle triangle;
+  triangle.plate = plate;
+  for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = names.find_node(place[i]);
+  const double area = twice_area(parts, triangle);
+  if (area == 0) throw place.error("expected a triangle with an area (got three points in line)");
+  if (area < 0) {  // clockwise: swap two corners, and the sides with them
+    std::swap(triangle.nodes[1], triangle.nodes[2]);
+    std::swap(triangle.nodes[3], triangle.nodes[5]);
+  }
+  return triangle;
+}
+
+/// The curve of an edge; nothing for a straight one.
+std::optional<Ellipse> read_curve(const Cursor& edge) {
+  if (edge.has("ellipse") && edge.has("circle")) {
+    throw edge.error("expected at most one of 'ellipse' and 'circle'");
+  }
+  if (const auto circle = edge.find("circle")) {
+    const double radius = circle->number("radius_m");
+    return Ellipse{read_point((*circle)["center_m"]), {radius, radius}};
+  }
+  const auto ellipse = edge.find("ellipse");
+  if (!ellipse) return std::nullopt;
+  return Ellipse{read_point((*ellipse)["center_m"]), read_point((*ellipse)["semi_axes_m"])};
+}
+
+/// The edges as they are written: corners, and a curve for each pair of neighbours.
+class Outline {
+ public:
+  Outline(const Cursor& model, const Names& names, const Model& parts) {
+    const auto edges = model.find("edges");
+    if (!edges) return;
+    for (const auto& [name, place] : edges->entries()) {
+      if (names.node.count(name) > 0) {
+        throw place.error("expected another name: there is a node of that name");
+      }
+      std::vector<Index>& corners = corners_[name];
+      const std::optional<Ellipse> curve = read_curve(place);
+      for (const auto& entry : place["nodes"].entries()) {
+        corners.push_back(names.find_node(entry.second));
+        if (curve) check_on_curve(entry.second, *curve, position(parts, corners.back()));
+        if (corners.size() < 2) continue;
+        const Ends ends = ends_of(corners.end()[-2], corners.back());
+        if (ends.first == ends.second) {
+          throw entry.second.error("expected another node than the one before it");
+        }
+        if (!curve_.emplace(ends, curve).second) {
+          throw entry.second.error("expected a piece that no edge has had before");
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] const std::map<std::string, std::vector<Index>>& corners() const {
+    return corners_;
+  }
+  [[nodiscard]] std::optional<Ellipse> curve(Index a, Index b) const {
+    const auto found = curve_.find(ends_of(a, b));
+    return found == curve_.end() ? std::nullopt : found->second;
+  }
+
+ private:
+  static void check_on_curve(const Cursor& place, const Ellipse& curve, const Vector2d& point) {
+    const double radius = (point - curve.centre).cwiseQuotient(curve.semi_axes).norm();
+    if (std::abs(radius - 1) < 1e-6) return;
+    throw place.error("expected a node on the edge's curve (got " + point_words(point) + ", " +
+                      shortest(radius) + " times as far from its centre)");
+  }
+
+  std::map<std::string, std::vector<Index>> corners_;
+  std::map<Ends, std::optional<Ellipse>> curve_;
+};
+
+/// The sides of the blocks of all plates, by their corners.
+class Sides {
+ public:
+  /// @param nodes  with the plate to the left of the way
+  void add(const Cursor& block, Edge::Piece piece) {
+    const Ends ends = ends_of(piece.nodes.front(), piece.nodes.back());
+    std::vector<Edge::Piece>& there = sides_[ends];
+    if (!there.empty()) {
+      const std::vector<Index> back(there.front().nodes.rbegin(), there.front().nodes.rend());
+      if (there.size() > 1 || back != piece.nodes) {
+        throw block.error(
+            "expected the same mesh on both sides of a side that two blocks share "
+            "(their cells, grading or elements differ, or they overlap)");
+      }
+    }
+    there.push_back(std::move(piece));
+  }
+
+  [[nodiscard]] const std::vector<Edge::Piece>* find(Index a, Index b) const {
+    const auto found = sides_.find(ends_of(a, b));
+    return found == sides_.end() ? nullptr : &found->second;
+  }
+
+ private:
+  std::map<Ends, std::vector<Edge::Piece>> sides_;
+};
+
+Block read_block(const Cursor& place, const Names& names, const Outline& outline,
+                 const Model& parts, Index divisions) {
+  Block block;
+  std::array<Index, 4> corners{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i] = names.find_node(place["corners"][i]);
+    block.corners[i] = position(parts, corners[i]);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector2d& here = block.corners[i];
+    const double turn = cross(block.corners[(i + 1) % 4] - here, block.corners[(i + 3) % 4] - here);
+    if (!(turn > 0)) {
+      throw place["corners"].error("expected a convex quadrilateral, counterclockwise");
+    }
+    block.sides[i] = outline.curve(corners[i], corners[(i + 1) % 4]);
+    if (i > 1) continue;
+    block.cells[i] = divisions * (place.has("cells") ? place["cells"][i].get<Index>() : 1);
+    block.grading[i] = place.has("grading") ? place["grading"][i].get<double>() : 1;
+  }
+  return block;
+}
+
+void mesh_plate(const Cursor& place, const Names& names, const Outline& outline, Index plate,
+                Model& parts, Sides& sides) {
+  const bool six_nodes = place.get<std::string>("element", "three-node") == "six-node";
+  const auto divisions = place.get<Index>("divisions", 1);
+  std::vector<Block> blocks;
+  std::vector<Cursor> places;
+  for (const auto& entry : place["blocks"].entries()) {
+    places.push_back(entry.second);
+    blocks.push_back(read_block(entry.second, names, outline, parts, divisions));
+  }
+  const BlockMesh mesh = mesh_blocks(blocks, six_nodes);
+  const std::vector<Index> nodes = append(parts, plate, mesh);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (const std::vector<Index>& of_mesh : mesh.sides[b]) {
+      Edge::Piece piece{plate, {}, six_nodes};
+      for (const Index node : of_mesh) piece.nodes.push_back(nodes[static_cast<std::size_t>(node)]);
+      sides.add(places[b], std::move(piece));
+    }
+  }
+}
+
+void read_plate(const std::string& name, const Cursor& place, const Names& names,
+                const Outline& outline, Model& parts, Sides& sides) {
+  if (place.has("triangles") == place.has("blocks")) {
+    throw place.error("expected exactly one of 'triangles' and 'blocks'");
+  }
+  const auto plate = static_cast<Index>(parts.plates.size());
+  parts.plates.push_back({name, look_up(names.material, place["material"], "a material"),
+                          place.number("thickness_m")});
+  if (place.has("blocks")) return mesh_plate(place, names, outline, plate, parts, sides);
+  for (const char* key : {"element", "divisions"}) {
+    if (place.has(key)) throw place[key].error("expected it beside 'blocks' only");
+  }
+  for (const auto& entry : place["triangles"].entries()) {
+    parts.triangles.push_back(read_triangle(entry.second, names, parts, plate));
+  }
+}
+
+Edge find_edge(const Cursor& place, const std::vector<Index>& corners, const Sides& sides) {
+  Edge edge;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const std::vector<Edge::Piece>* found = sides.find(corners[i], corners[i + 1]);
+    if (found == nullptr) {
+      throw place["nodes"][i + 1].error("expected the other end of a block's side");
+    }
+    edge.pieces.push_back(found->front());
+    if (found->size() > 1) edge.pieces.back().plate = -1;  // inside, where normals are two
+  }
+  return edge;
+}
+
+}  // namespace
+
+void read_plates(const Cursor& model, Names& names, Model& parts) {
+  const Outline outline(model, names, parts);
+  Sides sides;
+  if (const auto plates = model.find("plates")) {
+    for (const auto& [name, place] : plates->entries()) {
+      read_plate(name, place, names, outline, parts, sides);
+    }
+  }
+  for (const auto& [name, corners] : outline.corners()) {
+    names.edge.emplace(name, find_edge(model["edges"][name], corners, sides));
+  }
+}
+
+std::vector<Index> nodes_of(const Edge& edge) {
+  std::vector<Index> nodes;
+  std::set<Index> seen;
+  for (const Edge::Piece& piece : edge.pieces) {
+    for (const Index node : piece.nodes) {
+      if (seen.insert(node).second) nodes.push_back(node);
+    }
+  }
+  return nodes;
+}
+
+void read_edge_load(const Cursor& place, const Names& names, Model& parts) {
+  const Edge& edge = look_up(names.edge, place["edge"], "an edge");
+  EdgeLoad load;
+  if (const auto traction = place.find("traction_Pa")) load.traction = read_point(*traction);
+  load.normal = place.get("normal_Pa", 0.0);
+  for (const Edge::Piece& piece : edge.pieces) {
+    if (piece.plate < 0) {
+      throw place["edge"].error("expected an edge with a plate on one side (it has two)");
+    }
+    load.plate = piece.plate;
+    const std::size_t step = piece.six_nodes ? 2 : 1;
+    for (std::size_t i = 0; i + step < piece.nodes.size(); i += step) {
+      load.nodes = {piece.nodes[i], piece.nodes[i + step],
+                    piece.six_nodes ? piece.nodes[i + 1] : -1};
+      parts.edge_loads.push_back(load);
+    }
+  }
+}
+
+void check_meshed_nodes(const Cursor& model, std::size_t first, const Model& parts) {
+  std::vector<bool> held(parts.nodes.size(), false);
+  const auto hold = [&](Index node) {
+    if (node >= 0) held[static_cast<std::size_t>(node)] = true;
+  };
+  const auto hold_all = [&](const auto& nodes) { std::for_each(nodes.begin(), nodes.end(), hold); };
+  for (const Member& member : parts.members) hold_all(member.nodes);
+  for (const Triangle& triangle : parts.triangles) hold_all(triangle.nodes);
+  for (const Spring& spring : parts.springs) hold_all(spring.nodes);
+  for (const RigidBody& body : parts.rigid_bodies) {
+    hold(body.reference);
+    hold_all(body.attached);
+  }
+  const auto unnamed = [&](Index node) {
+    return node >= 0 && parts.nodes[static_cast<std::size_t>(node)].name.empty();
+  };
+  const bool meshed =
+      std::any_of(parts.triangles.begin(), parts.triangles.end(), [&](const Triangle& triangle) {
+        return std::any_of(triangle.nodes.begin(), triangle.nodes.end(), unnamed);
+      });
+  for (std::size_t i = first; meshed && i < parts.nodes.size(); ++i) {
+    if (held[i]) continue;
+    const Vector2d& here = parts.nodes[i].position;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = first; k < parts.nodes.size(); ++k) {
+      if (held[k]) nearest = std::min(nearest, (parts.nodes[k].position - here).norm());
+    }
+    throw model["nodes"][parts.nodes[i].name].error(
+        "expected a place where the mesh has a node (got " + point_words(here) +
+        ", the nearest is " + shortest(nearest) + " m away)");
+  }
+}
+
+}  // namespace trammel

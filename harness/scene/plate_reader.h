@@ -1,0 +1,27 @@
+#pragma once
+
+#include "harness/scene/symbol_table.h"
+
+/// Plates: triangle by triangle, or meshed from blocks. A block is a quadrilateral between four
+/// named nodes; where an edge names the way between two of them, it may be an arc of an ellipse,
+/// and it can be loaded and supported. Nodes that stand where the mesh has one become part of it,
+/// so that blocks, plates and frames that touch are joined.
+namespace trammel {
+
+/// Adds plates, triangles and the nodes of meshes to `parts`, and the edges to `names`.
+/// @param model  the place /model
+/// @throws InputError  where names lead nowhere or geometry is impossible.
+void read_plates(const Cursor& model, Names& names, Model& parts);
+
+/// Nodes on an edge, each once.
+[[nodiscard]] std::vector<Index> nodes_of(const Edge& edge);
+
+/// A traction on an edge.
+void read_edge_load(const Cursor& place, const Names& names, Model& parts);
+
+/// @param first  nodes of `parts` before this one are the manipulator's
+/// @throws InputError  at a named node that nothing holds on to, where there is a mesh that was
+/// meant to.
+void check_meshed_nodes(const Cursor& model, std::size_t first, const Model& parts);
+
+}  // namespace trammel

@@ -1,0 +1,46 @@
+#include "harness/scene/time_reader.h"
+
+namespace trammel {
+namespace {
+
+TimeScheme scheme_of(const std::string& name, const Cursor& numbers) {
+  if (name == "hht") return hht_alpha(numbers.number("alpha"));
+  if (name == "generalized-alpha") return generalized_alpha(numbers.number("spectral_radius"));
+  return newmark(numbers.number("beta"), numbers.number("gamma"));
+}
+
+}  // namespace
+
+TimeScheme read_time_scheme(const Cursor& scheme) {
+  if (scheme.json().is_string()) {
+    return scheme.get<std::string>() == "linear-acceleration" ? linear_acceleration()
+                                                              : average_acceleration();
+  }
+  const auto [name, numbers] = scheme.entries().front();
+  try {
+    return scheme_of(name, numbers);
+  } catch (const ModelError& error) {
+    throw numbers.error(std::string("expected a scheme that has a meaning: ") + error.what());
+  }
+}
+
+RayleighDamping read_rayleigh(const std::optional<Cursor>& damping) {
+  if (!damping) return {};
+  return {.mass = damping->get("mass_per_s", 0.0), .stiffness = damping->get("stiffness_s", 0.0)};
+}
+
+TransientOptions read_time_options(const Cursor& analysis) {
+  TransientOptions options;
+  options.step = analysis.number("step_s");
+  if (const auto scheme = analysis.find("scheme")) options.scheme = read_time_scheme(*scheme);
+  if (const auto adaptive = analysis.find("adaptive")) {
+    ErrorControl control;
+    control.relative = adaptive->get("relative", control.relative);
+    control.absolute = adaptive->get("absolute", control.absolute);
+    control.finest_level = adaptive->get("finest_level", control.finest_level);
+    options.adaptive = control;
+  }
+  return options;
+}
+
+}  // namespace trammel

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "harness/input/json_view.h"
+#include "solver/assembly/damping.h"
+#include "solver/time/transient.h"
+
+/// What analyses in time have in common.
+namespace trammel {
+
+/// A word or an object with one key: "newmark" (average acceleration), "linear-acceleration",
+/// {"newmark": {"beta", "gamma"}}, {"hht": {"alpha"}}, {"generalized-alpha": {"spectral_radius"}}.
+/// @throws InputError  where the numbers make no scheme.
+[[nodiscard]] TimeScheme read_time_scheme(const Cursor& scheme);
+
+/// {"mass_per_s": w1, "stiffness_s": w2}; none where it is absent.
+[[nodiscard]] RayleighDamping read_rayleigh(const std::optional<Cursor>& damping);
+
+/// "scheme" (newmark by default), "step_s", "adaptive": {"relative", "absolute", "finest_level"}.
+[[nodiscard]] TransientOptions read_time_options(const Cursor& analysis);
+
+}  // namespace trammel

@@ -1,0 +1,60 @@
+#include "harness/scene/trajectory_reader.h"
+
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+Pose read_pose(const Cursor& pose) {
+  return {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")};
+}
+
+Circle read_circle(const Cursor& circle) {
+  const Cursor center = circle["center_m"];
+  return {{center[0].get<double>(), center[1].get<double>()},
+          circle.number("radius_m"),
+          circle.get("angular_speed_rad_s", 1.0),
+          circle.get("phi_rad", 0.0)};
+}
+
+Spline read_spline(const Cursor& spline) {
+  std::vector<double> times;
+  std::vector<Pose> poses;
+  for (const auto& [index, knot] : spline["knots"].entries()) {
+    times.push_back(knot.number("time_s"));
+    poses.push_back(read_pose(knot));
+  }
+  if (times.front() != 0) {
+    throw spline["knots"][0].error("expected the first knot at 0 s (got " +
+                                   shortest(times.front()) + " s)");
+  }
+  const std::string ends = spline.get<std::string>("ends", "natural");
+  return make_spline(times, poses,
+                     ends == "periodic"  ? SplineEnds::periodic
+                     : ends == "at-rest" ? SplineEnds::at_rest
+                                         : SplineEnds::natural);
+}
+
+Path read_path(const std::string& kind, const Cursor& place) {
+  if (kind == "circle") return read_circle(place);
+  if (kind == "spline") return read_spline(place);
+  const Pose from = read_pose(place["from"]);
+  const Pose to = read_pose(place["to"]);
+  const double duration = place.number("duration_s");
+  if (kind == "line") return Line{from, to, duration};
+  return RestToRest{from, to, duration};
+}
+
+}  // namespace
+
+Trajectory read_trajectory(const Cursor& trajectory) {
+  const auto [kind, place] = trajectory.entries().front();
+  try {
+    const Path path = read_path(kind, place);
+    return {path, sample(path, place["points"].get<Index>(), place.number("step_s"))};
+  } catch (const ModelError& error) {
+    throw place.error(std::string("expected a path that has a meaning: ") + error.what());
+  }
+}
+
+}  // namespace trammel

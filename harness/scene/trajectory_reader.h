@@ -1,0 +1,19 @@
+#pragma once
+
+#include "harness/input/json_view.h"
+#include "solver/manipulator/trajectory.h"
+
+namespace trammel {
+
+/// A path, and its points at the times 0, step, 2 step, ...
+struct Trajectory {
+  Path path;
+  std::vector<TrajectoryPoint> motion;
+};
+
+/// Reads /model/trajectory: a circle, a line, a motion from rest to rest, or a spline through
+/// poses.
+/// @throws InputError  where the path has no meaning, or its points go beyond the spline's last.
+[[nodiscard]] Trajectory read_trajectory(const Cursor& trajectory);
+
+}  // namespace trammel

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/studies/cost_study.h"
+#include "harness/studies/pareto_front.h"
+#include "harness/base/timing.h"
+#include "harness/studies/sandboxed_run.h"
+
+/// What accuracy costs: every setting of a study measured for error and for time.
+namespace trammel {
+
+/// Norms of the relative errors over all observed entries; all three are kept.
+struct ErrorNorms {
+  double max = 0, rms = 0, mean = 0;
+  [[nodiscard]] double get(Norm norm) const;
+};
+
+/// @param truth  as many values as `found`; empty lists where the values are errors themselves
+/// @throws std::runtime_error  where they differ in length, or there is nothing to divide by.
+[[nodiscard]] ErrorNorms error_norms(const Observations& found, const Observations& truth,
+                                     const Scale& scale);
+
+/// An error above this is no approximation any more: the computation counts as diverged.
+inline constexpr double diverged_above = 10;
+
+struct MeasuredSetting {
+  enum class Standing {
+    measured,
+    wide,       ///< measured, but the spread is too wide to be used
+    truth,      ///< what the others are measured against
+    diverged,   ///< not finite, or the error is above `diverged_above`
+    timed_out,  ///< not done within the processor time allowed
+    failed      ///< no solution; the reason says why
+  };
+  Standing standing = Standing::failed;
+  std::string reason;
+  std::optional<ErrorNorms> error;
+  std::optional<Timing> timing;
+  double relative = 0;  ///< median time over the baseline's
+  double cpu_s = 0;     ///< median; of the one trial where it was not timed
+  Counters counters;
+};
+
+struct MeasuredStudy {
+  CostStudy study;
+  std::vector<MeasuredSetting> settings;  ///< as in the study
+  std::vector<CostPoint> points;          ///< settings that are used, by the study's norm
+  std::vector<CostPoint> front;
+  std::string words;
+  /// The fronts that odd and even repeats give by themselves.
+  FrontAgreement repeatability;
+  double wall_s = 0;  ///< that the whole study took
+};
+
+struct CostOptions {
+  TimingOptions timing;
+  std::function<void(std::size_t done, std::size_t all)> progress;
+};
+
+/// @throws InputError  where the truth or the baseline cannot be computed: nothing can be said
+/// then.
+[[nodiscard]] MeasuredStudy measure(CostStudy study, const CostOptions& options,
+                                    const References& references);
+
+/// What follows from errors and times: which spreads are too wide, the times relative to the
+/// baseline, the front, the words.
+void conclude(MeasuredStudy& measured);
+
+[[nodiscard]] const char* to_string(MeasuredSetting::Standing standing);
+
+}  // namespace trammel

@@ -1,0 +1,381 @@
+#include "harness/studies/cost_study.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/input/catalogue.h"
+#include "harness/base/data_root.h"
+#include "harness/base/json_file.h"
+#include "harness/judge/judge.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::size_t> indices(const Cursor& place, const char* key) {
+  const auto stated = place.find(key);
+  if (!stated) return {};
+  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
+  return {stated->get<std::size_t>()};
+}
+
+std::vector<double> exact_values(const Cursor& place, const std::string& quantity,
+                                 const References& references) {
+  const Cursor id = place["reference"];
+  const Reference& reference = references.get(id);
+  if (reference.unit != unit_of(quantity)) {
+    throw id.error("expected a reference in " + unit_of(quantity) + " (got " + reference.unit +
+                   ")");
+  }
+  const std::vector<std::size_t> chosen = indices(place, "reference_index");
+  if (chosen.empty()) return reference.values;
+  std::vector<double> values;
+  for (const std::size_t i : chosen) {
+    if (i >= reference.values.size()) {
+      throw place["reference_index"].error("expected numbers below " +
+                                           std::to_string(reference.values.size()));
+    }
+    values.push_back(reference.values[i]);
+  }
+  return values;
+}
+
+std::vector<Observed> read_observed(const Cursor& quantities, const References& references) {
+  std::vector<Observed> observed;
+  for (const auto& [name, place] : quantities.entries()) {
+    Observed one;
+    one.quantity = name;
+    one.plus = place.get<std::string>("plus", "");
+    one.statistic = place.get<std::string>("statistic", "");
+    one.index = indices(place, "index");
+    one.is_error = place.get("is_error", false);
+    if (place.has("reference")) one.exact = exact_values(place, name, references);
+    observed.push_back(std::move(one));
+  }
+  return observed;
+}
+
+/// Cases that studies and curves name, relative to the study's file.
+Document open_case(const Cursor& study, const Cursor& part) {
+  const Cursor name = part.has("case") ? part["case"] : study["case"];
+  const Origin written = study.document().origin(name.pointer());
+  Case given;
+  try {
+    given = load_case(find_extended(name.get<std::string>(), written.file));
+  } catch (const InputError& error) {
+    throw name.error(error.what());
+  }
+  // A curve of another case starts from that case as it stands.
+  const bool own = part.has("case");
+  const std::string otherwise =
+      own ? base_variant : study.get<std::string>("variant", base_variant);
+  return patched(given, part.get<std::string>("variant", otherwise));
+}
+
+void lay(Document& document, const Cursor& patch) {
+  const Origin written = patch.document().origin(patch.pointer());
+  document.lay(written.file, written.pointer, patch.json());
+}
+
+/// The case of a curve (or of the truth) with the study's patch and its own.
+Document start_of(const Cursor& study, const Cursor& part) {
+  Document document = open_case(study, part);
+  if (study.has("patch") && !part.has("case")) lay(document, study["patch"]);
+  if (part.has("patch")) lay(document, part["patch"]);
+  return document;
+}
+
+/// With the patch of one value of a curve.
+Document at_value(const Cursor& curve, const Document& start, std::size_t i) {
+  Document document = start;
+  if (curve.has("patches")) {
+    lay(document, curve["patches"][i]);
+    return document;
+  }
+  const Cursor value = curve["values"][i];
+  Json patch = Json::object();
+  for (const auto& entry : curve["pointers"].entries()) {
+    const auto pointer = entry.second.get<std::string>();
+    bool there = false;
+    try {
+      there = !pointer.empty() && start.value().contains(JsonPointer(pointer));
+    } catch (const Json::exception&) {
+      there = false;
+    }
+    if (!there) {
+      throw entry.second.error("expected a pointer to a value of the case (got '" +
+                               printable(pointer) + "')");
+    }
+    patch.merge_patch(patch_at(start.value(), pointer, value.json()));
+  }
+  const Origin written = curve.document().origin(value.pointer());
+  document.lay_value(written.file, written.pointer, patch);
+  return document;
+}
+
+/// "{} elements a link" of 4, and of 1: "1 element a link".
+std::string named(const std::string& each, double value) {
+  const std::size_t at = each.find("{}");
+  if (at == std::string::npos) return each + " " + shortest(value);
+  std::string after = each.substr(at + 2);
+  const std::size_t end = std::min(after.find(' ', 1), after.size());
+  if (value == 1 && end > 1 && after[end - 1] == 's') after.erase(end - 1, 1);
+  return each.substr(0, at) + shortest(value) + after;
+}
+
+void check_curve(const Cursor& curve) {
+  const bool pointers = curve.has("pointers"), patches = curve.has("patches");
+  if (!curve.has("values")) {
+    if (pointers || patches) throw curve.error("expected 'values' beside the pointers or patches");
+    return;
+  }
+  if (pointers == patches) throw curve.error("expected either 'pointers' or 'patches'");
+  if (patches && curve["patches"].size() != curve["values"].size()) {
+    throw curve["patches"].error("expected a patch for each of the " +
+                                 std::to_string(curve["values"].size()) + " values (got " +
+                                 std::to_string(curve["patches"].size()) + ")");
+  }
+}
+
+bool is_swept(const Cursor& curve, double value, Sweeping sweeping) {
+  if (sweeping == Sweeping::full || !curve.has("quick")) return true;
+  const auto quick = curve["quick"].get<std::vector<double>>();
+  return std::find(quick.begin(), quick.end(), value) != quick.end();
+}
+
+void check_quick(const Cursor& curve) {
+  if (!curve.has("quick") || !curve.has("values")) return;
+  const auto values = curve["values"].get<std::vector<double>>();
+  for (const auto& entry : curve["quick"].entries()) {
+    if (std::find(values.begin(), values.end(), entry.second.get<double>()) == values.end()) {
+      throw entry.second.error("expected one of the curve's values");
+    }
+  }
+}
+
+std::vector<Setting> read_curve(const Cursor& study, const std::string& name, const Cursor& curve,
+                                Sweeping sweeping, const References& references) {
+  check_curve(curve);
+  check_quick(curve);
+  Setting setting;
+  setting.curve = name;
+  setting.curve_title = setting.title = curve.text("title");
+  const Cursor quantities = curve.has("quantities") ? curve["quantities"] : study["quantities"];
+  setting.observed = read_observed(quantities, references);
+  const Document start = start_of(study, curve);
+  std::vector<Setting> settings;
+  if (!curve.has("values")) {
+    const bool left_out = sweeping == Sweeping::quick && curve.has("quick");
+    if (left_out) return {};
+    setting.document = start;
+    setting.document.check("case");
+    settings.push_back(std::move(setting));
+    return settings;
+  }
+  for (std::size_t i = 0; i < curve["values"].size(); ++i) {
+    const auto value = curve["values"][i].get<double>();
+    if (!is_swept(curve, value, sweeping)) continue;
+    Setting one = setting;
+    one.value = value;
+    one.title += ", " + named(curve.get<std::string>("each", "{}"), value);
+    one.document = at_value(curve, start, i);
+    one.document.check("case");
+    settings.push_back(std::move(one));
+  }
+  return settings;
+}
+
+std::size_t find_baseline(const Cursor& place, const std::vector<Setting>& settings) {
+  const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& setting) {
+    const bool same_value = setting.value.has_value() == place.has("value") &&
+                            (!setting.value.has_value() || *setting.value == place.number("value"));
+    return setting.curve == place.text("curve") && same_value;
+  });
+  if (found == settings.end()) {
+    throw place.error("expected a curve and one of its values, also of its quick ones");
+  }
+  return static_cast<std::size_t>(found - settings.begin());
+}
+
+Scale read_scale(const Cursor& study) {
+  const auto place = study.find("scale");
+  if (!place) return {};
+  if (place->json().is_object()) return {Scale::Kind::number, place->number("value")};
+  const bool largest = place->get<std::string>() == "largest";
+  return {largest ? Scale::Kind::largest : Scale::Kind::entry, 0};
+}
+
+void check_scale(const Scale& scale, const Cursor& study) {
+  if (scale.kind == Scale::Kind::entry) return;
+  const auto names = study["quantities"].entries();
+  for (const auto& [name, place] : names) {
+    if (unit_of(name) == unit_of(names.front().first)) continue;
+    throw place.error("expected quantities of one unit, as 'scale' has it");
+  }
+}
+
+std::string words_of(const Scale& scale, const Cursor& study) {
+  switch (scale.kind) {
+    case Scale::Kind::entry:
+      return "relative to each true value";
+    case Scale::Kind::largest:
+      return "relative to the largest true value of all";
+    case Scale::Kind::number:
+      return "relative to " + shortest(scale.number) + ", " + study["scale"].text("why");
+  }
+  return "";
+}
+
+Norm read_norm(const Cursor& study) {
+  const auto norm = study.get<std::string>("norm", "max");
+  return norm == "rms" ? Norm::rms : norm == "mean" ? Norm::mean : Norm::max;
+}
+
+std::string references_of(const Cursor& quantities) {
+  std::vector<std::string> names;
+  for (const auto& entry : quantities.entries()) {
+    if (!entry.second.has("reference")) continue;
+    const auto name = entry.second.text("reference");
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return join(names, "and");
+}
+
+void read_truth(const Cursor& root, CostStudy& study, const References& references) {
+  const std::vector<Observed>& wanted = study.settings.front().observed;
+  const bool needed = std::any_of(wanted.begin(), wanted.end(),
+                                  [](const Observed& one) { return one.needs_truth(); });
+  if (needed != root.has("truth")) {
+    throw root.error(needed ? "expected 'truth', or a reference for each quantity"
+                            : "expected either 'truth' or references, not both");
+  }
+  if (!needed) {
+    const std::string named = references_of(root["quantities"]);
+    study.truth_words = named.empty() ? "the error norms of the computation itself" : named;
+    return;
+  }
+  const Cursor place = root["truth"];
+  Setting truth;
+  truth.title = study.truth_words = place.text("title");
+  const Cursor quantities = place.has("quantities") ? place["quantities"] : root["quantities"];
+  truth.observed = read_observed(quantities, references);
+  truth.document = start_of(root, place);
+  truth.document.check("case");
+  study.truth = std::move(truth);
+}
+
+void check_counts(const Cursor& root, const CostStudy& study) {
+  const std::size_t wanted = study.settings.front().observed.size();
+  for (const Setting& setting : study.settings) {
+    if (setting.observed.size() == wanted) continue;
+    throw root["curves"][setting.curve].error("expected " + std::to_string(wanted) +
+                                              " quantities, as the first curve has");
+  }
+  if (study.truth && study.truth->observed.size() != wanted) {
+    throw root["truth"].error("expected " + std::to_string(wanted) + " quantities");
+  }
+}
+
+[[noreturn]] void wrong_length(const std::string& quantity, std::size_t wanted, std::size_t got) {
+  throw std::runtime_error("expected " + std::to_string(wanted) + " values of " + quantity +
+                           " (got " + std::to_string(got) + ")");
+}
+
+const std::vector<double>& values_of(const Quantities& quantities, const std::string& name) {
+  const auto found = quantities.find(name);
+  if (found == quantities.end()) {
+    std::vector<std::string> names;
+    for (const auto& item : quantities) names.push_back(item.first);
+    throw std::runtime_error("expected a quantity of the computation (got '" + name + "')" +
+                             did_you_mean(name, names));
+  }
+  return found->second.values;
+}
+
+}  // namespace
+
+Observations observe(const Quantities& quantities, const std::vector<Observed>& observed) {
+  Observations all;
+  for (const Observed& one : observed) {
+    std::vector<double> values = values_of(quantities, one.quantity);
+    if (!one.plus.empty()) {
+      const std::vector<double>& more = values_of(quantities, one.plus);
+      if (more.size() != values.size()) wrong_length(one.plus, values.size(), more.size());
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] += more[i];
+    }
+    if (!one.index.empty()) {
+      std::vector<double> chosen;
+      for (const std::size_t i : one.index) {
+        if (i >= values.size()) wrong_length(one.quantity, i + 1, values.size());
+        chosen.push_back(values[i]);
+      }
+      values = std::move(chosen);
+    }
+    if (!one.statistic.empty()) values = {statistic_of(one.statistic, values)};
+    if (!one.exact.empty() && one.exact.size() != values.size()) {
+      wrong_length(one.quantity, one.exact.size(), values.size());
+    }
+    all.push_back(std::move(values));
+  }
+  return all;
+}
+
+CostStudy load_cost_study(const fs::path& file, Sweeping sweeping, const References& references) {
+  const Document document = Document::as_it_stands(file.string(), read_json(file));
+  document.check("cost");
+  const Cursor root(document);
+  if (root.text("id") != file.stem().string()) {
+    throw root["id"].error("expected the file's name, '" + printable(file.stem().string()) + "'");
+  }
+  CostStudy study;
+  study.id = root.text("id");
+  study.family = root.text("family");
+  study.title = root.text("title");
+  study.description = root.get<std::string>("description", "");
+  for (const auto& [name, curve] : root["curves"].entries()) {
+    std::vector<Setting> its = read_curve(root, name, curve, sweeping, references);
+    std::move(its.begin(), its.end(), std::back_inserter(study.settings));
+  }
+  study.baseline = find_baseline(root["baseline"], study.settings);
+  read_truth(root, study, references);
+  check_counts(root, study);
+  study.scale = read_scale(root);
+  check_scale(study.scale, root);
+  study.scale_words = words_of(study.scale, root);
+  study.norm = read_norm(root);
+  study.time_limit_s = root.get("time_limit_s", study.time_limit_s);
+  return study;
+}
+
+bool is_cost_study(const fs::path& file) {
+  const Json json = read_json(file);
+  return json.is_object() && json.contains("curves");
+}
+
+std::vector<fs::path> cost_study_files() {
+  std::vector<fs::path> files;
+  const fs::path folder = home() / "cases" / "cost";
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+const char* to_string(Norm norm) {
+  switch (norm) {
+    case Norm::max:
+      return "max";
+    case Norm::rms:
+      return "rms";
+    case Norm::mean:
+      return "mean";
+  }
+  return "";
+}
+
+}  // namespace trammel

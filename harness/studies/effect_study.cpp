@@ -1,0 +1,224 @@
+#include "harness/studies/effect_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "harness/input/reference_library.h"
+#include "harness/base/stopwatch.h"
+#include "solver/model/nan_max.h"
+
+namespace trammel {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// What a quantity is compared among; empty: it is not compared.
+std::string kind_of(const std::string& quantity) {
+  static const std::vector<std::pair<std::string, std::string>> kinds = {
+      {"displacement_", "displacement"},
+      {"rotation_rad", "rotation"},
+      {"end_rotation_rad", "rotation"},
+      {"reaction_moment_", "moment"},
+      {"reaction_", "force"},
+      {"axial_force_", "force"},
+      {"shear_force_", "force"},
+      {"bending_moment_", "moment"},
+      {"frequency_Hz", "frequency"}};
+  for (const auto& [start, kind] : kinds) {
+    if (quantity.rfind(start, 0) == 0) return kind;
+  }
+  return "";
+}
+
+double largest_of(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Of each kind, what its changes are measured by: not round-off.
+std::map<std::string, double> scales_of(const Quantities& full, double size) {
+  constexpr double kNothing = 1e-9;
+  std::map<std::string, double> scale;
+  for (const auto& [name, quantity] : full) {
+    const std::string kind = kind_of(name);
+    if (!kind.empty()) scale[kind] = std::max(scale[kind], largest_of(quantity.values));
+  }
+  const auto floor = [&](const char* kind, const char* beside, double arm) {
+    if (scale.count(kind) + scale.count(beside) < 2) return;
+    scale[kind] = std::max(scale[kind], kNothing * scale[beside] * arm);
+  };
+  floor("displacement", "rotation", size);
+  floor("rotation", "displacement", 1 / size);
+  floor("force", "moment", 1 / size);
+  floor("moment", "force", size);
+  return scale;
+}
+
+double change(const std::vector<double>& full, const std::vector<double>& other, double scale,
+              bool each) {
+  if (full.size() != other.size()) return kInfinite;
+  double most = 0;
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    const double by = each ? std::abs(full[i]) : scale;
+    const double difference = std::abs(other[i] - full[i]);
+    if (difference == 0) continue;
+    most = larger(most, by > 0 ? difference / by : kInfinite);
+  }
+  return std::isnan(most) ? kInfinite : most;
+}
+
+double size_of(const Scene& scene) {
+  const Model model = build_model(scene, 0);
+  Vector2d low = model.nodes.front().position, high = low;
+  for (const Node& node : model.nodes) {
+    low = low.cwiseMin(node.position);
+    high = high.cwiseMax(node.position);
+  }
+  return (high - low).norm();
+}
+
+class Study {
+ public:
+  Study(const Document& document, const EffectStudyOptions& options)
+      : document_(document), options_(options) {
+    const auto asked = Cursor(document).find("effects");
+    study_.tolerance = asked && asked->json().is_object() ? (*asked)["auto"].number("tolerance")
+                                                          : options.tolerance;
+    const Scene scene = read_scene(document_);
+    size_ = size_of(scene);
+    study_.scope = effect_scope(document_, scene);
+  }
+
+  EffectStudy run() {
+    decide();
+    const Effects all = study_.scope.admitted;
+    study_.full = compute(all);
+    if (!study_.full.outcome.solved()) return std::move(study_);
+    study_.chosen = compute(study_.choice.chosen);
+    const std::vector<Effect> able = all.without(study_.scope.required).list();
+    for (const Effect effect : able) study_.singles.push_back(leave_out(all, {effect}));
+    for (std::size_t i = 0; options_.pairs && i < able.size(); ++i) {
+      for (std::size_t j = i + 1; j < able.size(); ++j) {
+        study_.pairs.push_back(leave_out(all, {able[i], able[j]}));
+      }
+    }
+    const Effects chosen = study_.choice.chosen;
+    for (const Effect effect : chosen.without(study_.scope.required).list()) {
+      study_.from_chosen.push_back(leave_out(chosen, {effect}));
+    }
+    if (options_.repeats > 0) measure_time();
+    return std::move(study_);
+  }
+
+ private:
+  void decide() {
+    const Document automatic = [this] {
+      Document changed = with_effects(document_, Effects());
+      changed.lay(document_.origin("").file, "",
+                  Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
+      return changed;
+    }();
+    const Stopwatch watch;
+    study_.choice = choose_effects(automatic, read_scene(automatic));
+    study_.choice_cpu_s = watch.cpu_s();
+  }
+
+  EffectRun compute(Effects effects) const {
+    const AnalysisResult result = analyse(with_effects(document_, effects), references_, {false});
+    EffectRun run{effects, result.outcome, result.quantities, result.counters, {}, 0, 0};
+    if (run.outcome.solved()) {
+      const Quantities& full = study_.full.quantities;
+      run.changes = changes_between(full.empty() ? run.quantities : full, run.quantities, size_);
+    } else {
+      run.changes["solution"] = kInfinite;
+    }
+    return run;
+  }
+
+  LeftOut leave_out(Effects from, const std::vector<Effect>& out) const {
+    Effects left = from;
+    for (const Effect effect : out) left = study_.scope.without(left, effect);
+    return {out, compute(left)};
+  }
+
+  /// All sets in turns, in random order, so that what slows the machine slows all.
+  void measure_time() {
+    std::vector<EffectRun*> runs = {&study_.full, &study_.chosen};
+    for (LeftOut& one : study_.singles) runs.push_back(&one.run);
+    std::vector<std::vector<double>> times(runs.size());
+    std::vector<std::size_t> order(runs.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::mt19937_64 engine(1);
+    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+      std::shuffle(order.begin(), order.end(), engine);
+      for (const std::size_t i : order) {
+        const Document document = with_effects(document_, runs[i]->effects);
+        const Stopwatch watch;
+        (void)analyse(document, references_, {false});
+        times[i].push_back(watch.cpu_s());
+      }
+    }
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      std::sort(times[i].begin(), times[i].end());
+      const std::size_t n = times[i].size();
+      runs[i]->cpu_s = times[i][n / 2];
+      runs[i]->cpu_spread = (times[i][3 * n / 4] - times[i][n / 4]) / 2 / times[i][n / 2];
+    }
+  }
+
+  const Document& document_;
+  EffectStudyOptions options_;
+  References references_;
+  double size_ = 1;
+  EffectStudy study_;
+};
+
+}  // namespace
+
+Changes changes_between(const Quantities& full, const Quantities& other, double size_m) {
+  const auto scale = scales_of(full, size_m);
+  Changes changes;
+  for (const auto& [kind, by] : scale) changes[kind] = 0;
+  for (const auto& [name, quantity] : full) {
+    const std::string kind = kind_of(name);
+    if (kind.empty()) continue;
+    const auto found = other.find(name);
+    double& most = changes[kind];
+    if (found == other.end()) {  // a part may have no such thing without the effect; a mode is lost
+      if (kind == "frequency") most = kInfinite;
+      continue;
+    }
+    most = std::max(
+        most, change(quantity.values, found->second.values, scale.at(kind), kind == "frequency"));
+  }
+  return changes;
+}
+
+double largest(const Changes& changes) {
+  double most = 0;
+  for (const auto& [kind, change] : changes) most = std::max(most, change);
+  return most;
+}
+
+bool EffectStudy::within() const {
+  return chosen.outcome.solved() && largest(chosen.changes) <= tolerance;
+}
+
+bool EffectStudy::minimal() const {
+  return std::all_of(from_chosen.begin(), from_chosen.end(), [this](const LeftOut& one) {
+    return !(largest(one.run.changes) <= tolerance);
+  });
+}
+
+EffectStudy study_effects(const Document& document, const EffectStudyOptions& options) {
+  if (!knows_effects(document)) {
+    throw Cursor(document)["analysis"].error(
+        std::string("expected an analysis that knows effects: ") + analyses_with_effects);
+  }
+  return Study(document, options).run();
+}
+
+}  // namespace trammel

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "harness/analysis/analysis.h"
+#include "harness/input/document.h"
+
+/// Measures what effects do: the whole scene, and the scene without some of them.
+namespace trammel {
+
+/// Largest change of each kind of quantity: "displacement", "rotation", "force", "moment", each
+/// relative to the largest of its kind, and "frequency", each relative to itself. Infinite where
+/// modes are lost. Quantities that one side does not have, as rotations of a rigid platform, and
+/// those of other kinds are not compared.
+using Changes = std::map<std::string, double>;
+[[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
+                                      double size_m);
+[[nodiscard]] double largest(const Changes& changes);
+
+/// The scene with some effects.
+struct EffectRun {
+  Effects effects;
+  Outcome outcome;
+  Quantities quantities;
+  Counters counters;
+  Changes changes;        ///< from the whole scene
+  double cpu_s = 0;       ///< median of the repeats
+  double cpu_spread = 0;  ///< half of the range between the quartiles, relative
+};
+
+struct LeftOut {
+  std::vector<Effect> effects;  ///< left out with what they carry
+  EffectRun run;
+};
+
+struct EffectStudy {
+  EffectScope scope;
+  EffectChoice choice;
+  double tolerance = 0;
+  EffectRun full, chosen;
+  double choice_cpu_s = 0;              ///< what "auto" took to decide
+  std::vector<LeftOut> singles, pairs;  ///< from the whole scene
+  std::vector<LeftOut> from_chosen;     ///< each chosen effect left out of the chosen set
+
+  [[nodiscard]] bool within() const;   ///< the chosen set is within the tolerance
+  [[nodiscard]] bool minimal() const;  ///< no chosen effect can go
+};
+
+struct EffectStudyOptions {
+  double tolerance = 0.01;
+  bool pairs = true;
+  int repeats = 7;  ///< of each, in turns, after one for warming up; 0: not timed
+};
+
+/// @param document  a case whose analysis knows effects; its own "effects" set the tolerance where
+///                  they are automatic, and are laid aside
+/// @throws InputError  where the scene has no solution with all its effects.
+[[nodiscard]] EffectStudy study_effects(const Document& document,
+                                        const EffectStudyOptions& options);
+
+}  // namespace trammel

@@ -1,0 +1,156 @@
+#include "harness/studies/mode_match.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "harness/scene/drawing.h"
+#include "harness/scene/case_model.h"
+#include "harness/analysis/case_effects.h"
+#include "solver/modes/modes.h"
+
+namespace trammel {
+namespace {
+
+using Places =
+    std::map<std::string, std::vector<Vector2d>>;  ///< place -> displacement of each mode
+
+/// Modes beyond those asked for, so that a set at the end is whole.
+constexpr Index beyond = 4;
+constexpr int stations = 8;
+/// Relative distance within which frequencies are one set.
+constexpr double repeated = 1e-6;
+/// Below this, two sets do not look alike.
+constexpr double alike = 0.5;
+
+void see_nodes(const System& system, const Eigen::VectorXd& u, Places& places) {
+  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
+    const std::string& name = system.model.nodes[i].name;
+    if (name.empty()) continue;
+    const auto& coordinates = system.coordinates.node[i];
+    places["node " + name].emplace_back(u[coordinates[0]], u[coordinates[1]]);
+  }
+}
+
+void see_members(const System& system, const Eigen::VectorXd& u, Places& places) {
+  std::size_t first = 0;
+  for (const Member& member : system.model.members) {
+    const auto count = static_cast<std::size_t>(member.elements);
+    for (int k = 1; k < stations; ++k) {
+      const double along = static_cast<double>(k) / stations * static_cast<double>(count);
+      const std::size_t element = std::min(count - 1, static_cast<std::size_t>(along));
+      places["member " + member.name + " " + std::to_string(k)].push_back(displacement_along(
+          system.mesh.frame[first + element], u, along - static_cast<double>(element)));
+    }
+    first += count;
+  }
+}
+
+std::pair<std::vector<double>, Places> see(const Document& document) {
+  const Cursor analysis = Cursor(document)["analysis"];
+  if (!analysis.has("modes")) throw analysis.error("expected 'modes', to match modes by shape");
+  Scene scene = read_scene(document);
+  scene.effects = choose_effects(document, scene).chosen;
+  const System system = assemble(build_model(scene, 0), scene.effects);
+  ModesOptions options;
+  options.count = std::min(system.K.rows(), analysis["modes"]["count"].get<Index>() + beyond);
+  const ModalSolution modes = solve_modes(system, options);
+  if (!modes.outcome.solved())
+    throw analysis.error("expected modes (" + modes.outcome.reason + ")");
+  std::pair<std::vector<double>, Places> seen;
+  for (Index i = 0; i < modes.frequency.size(); ++i) {
+    seen.first.push_back(modes.frequency[i]);
+    const Eigen::VectorXd u = system.T * modes.shape.col(i);
+    see_nodes(system, u, seen.second);
+    see_members(system, u, seen.second);
+  }
+  return seen;
+}
+
+std::vector<std::vector<std::size_t>> sets_of(const std::vector<double>& frequency) {
+  std::vector<std::vector<std::size_t>> sets;
+  for (std::size_t i = 0; i < frequency.size(); ++i) {
+    const bool same = i > 0 && frequency[i] - frequency[i - 1] <= repeated * frequency[i];
+    if (!same) sets.emplace_back();
+    sets.back().push_back(i);
+  }
+  return sets;
+}
+
+/// Orthonormal basis of the set's shapes.
+Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>& set) {
+  Eigen::MatrixXd shapes(modes.shape.rows(), static_cast<Index>(set.size()));
+  for (std::size_t k = 0; k < set.size(); ++k) {
+    const auto column = static_cast<Index>(k);
+    shapes.col(column) = modes.shape.col(static_cast<Index>(set[k]));
+    const double norm = shapes.col(column).norm();
+    if (norm > 0) shapes.col(column) /= norm;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(shapes);
+  return Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(shapes.rows(), qr.rank()));
+}
+
+}  // namespace
+
+std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Document& b) {
+  const auto [frequency_a, places_a] = see(a);
+  const auto [frequency_b, places_b] = see(b);
+  std::vector<std::string> common;
+  for (const auto& item : places_a) {
+    if (places_b.count(item.first) > 0) common.push_back(item.first);
+  }
+  const auto collect = [&](const std::vector<double>& frequency, const Places& places) {
+    SampledModes modes{frequency, Eigen::MatrixXd(2 * static_cast<Index>(common.size()),
+                                                  static_cast<Index>(frequency.size()))};
+    for (std::size_t p = 0; p < common.size(); ++p) {
+      const std::vector<Vector2d>& at = places.at(common[p]);
+      for (std::size_t m = 0; m < at.size(); ++m) {
+        modes.shape.block<2, 1>(2 * static_cast<Index>(p), static_cast<Index>(m)) = at[m];
+      }
+    }
+    return modes;
+  };
+  return {collect(frequency_a, places_a), collect(frequency_b, places_b)};
+}
+
+std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b) {
+  const auto sets_a = sets_of(a.frequency), sets_b = sets_of(b.frequency);
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < sets_a.size(); ++i) {
+    const Eigen::MatrixXd basis_a = basis(a, sets_a[i]);
+    for (std::size_t j = 0; j < sets_b.size(); ++j) {
+      const Eigen::MatrixXd basis_b = basis(b, sets_b[j]);
+      const auto smaller = std::min(basis_a.cols(), basis_b.cols());
+      const double overlap = smaller == 0 ? 0
+                                          : (basis_a.transpose() * basis_b).squaredNorm() /
+                                                static_cast<double>(smaller);
+      pairs.emplace_back(overlap, i, j);
+    }
+  }
+  // The most alike first; equal ones in the order of their frequencies.
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const auto& x, const auto& y) { return std::get<0>(x) > std::get<0>(y); });
+  std::vector<ModeMatch> matches;
+  // A set has room for as many modes as it has: two that symmetry no longer holds together look
+  // like the set that they were.
+  std::vector<std::size_t> room_a, room_b;
+  for (const auto& set : sets_a) {
+    matches.push_back({set, {}, 0});
+    room_a.push_back(set.size());
+  }
+  for (const auto& set : sets_b) room_b.push_back(set.size());
+  for (const auto& [overlap, i, j] : pairs) {
+    const std::size_t taken = std::min(room_a[i], room_b[j]);
+    if (overlap < alike || taken == 0) continue;
+    room_a[i] -= taken;
+    room_b[j] -= taken;
+    ModeMatch& match = matches[i];
+    match.overlap = match.b.empty() ? overlap : std::min(match.overlap, overlap);
+    match.b.insert(match.b.end(), sets_b[j].begin(), sets_b[j].end());
+    std::sort(match.b.begin(), match.b.end());
+  }
+  return matches;
+}
+
+}  // namespace trammel

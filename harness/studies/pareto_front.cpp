@@ -1,0 +1,127 @@
+#include "harness/studies/pareto_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "harness/base/timing.h"
+#include "harness/base/text.h"
+
+namespace trammel {
+namespace {
+
+/// "1 %", "1e-6".
+std::string percent(double error) {
+  return error < 1e-4 ? rounded(error, 2) : rounded(100 * error, 2) + " %";
+}
+
+/// "1.7", "43", "7900".
+std::string times(double factor) {
+  if (factor < 100) return rounded(factor, 2);
+  const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
+  return std::to_string(std::llround(std::round(factor / unit) * unit));
+}
+
+std::set<std::size_t> settings_of(const std::vector<CostPoint>& points) {
+  std::set<std::size_t> settings;
+  for (const CostPoint& point : points) settings.insert(point.setting);
+  return settings;
+}
+
+}  // namespace
+
+std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const CostPoint& point : points) {
+    if (point.error <= error) least = std::min(least, point.time);
+  }
+  std::optional<CostPoint> best;
+  for (const CostPoint& point : points) {
+    if (point.error > error || point.time > (1 + equal_within) * least) continue;
+    if (!best || point.error < (1 - equal_within) * best->error) best = point;
+  }
+  return best;
+}
+
+std::vector<CostPoint> efficient_front(const std::vector<CostPoint>& points) {
+  std::vector<CostPoint> front;
+  for (const CostPoint& point : points) {
+    const CostPoint best = *cheapest(points, (1 + equal_within) * point.error);
+    const bool known = std::any_of(front.begin(), front.end(), [&](const CostPoint& other) {
+      return other.setting == best.setting;
+    });
+    if (!known) front.push_back(best);
+  }
+  std::sort(front.begin(), front.end(),
+            [](const CostPoint& a, const CostPoint& b) { return a.time < b.time; });
+  return front;
+}
+
+const std::vector<double>& asked_errors() {
+  static const std::vector<double> errors = {0.05, 0.01, 1e-3, 1e-6};
+  return errors;
+}
+
+FrontAgreement compare_fronts(const std::vector<CostPoint>& a, const std::vector<CostPoint>& b) {
+  const auto front_a = efficient_front(a), front_b = efficient_front(b);
+  const auto in_a = settings_of(front_a), in_b = settings_of(front_b);
+  FrontAgreement agreement;
+  std::set<std::size_t> either = in_a;
+  either.insert(in_b.begin(), in_b.end());
+  agreement.either = either.size();
+  agreement.shared = in_a.size() + in_b.size() - either.size();
+  std::vector<double> differences;
+  const auto look = [&](double error) {
+    // Settings whose errors differ in the last digits are not told apart.
+    const double within = (1 + equal_within) * error;
+    const auto at_a = cheapest(front_a, within), at_b = cheapest(front_b, within);
+    if (at_a && at_b) differences.push_back(std::abs(std::log(at_a->time / at_b->time)));
+  };
+  for (const CostPoint& point : front_a) look(point.error);
+  for (const CostPoint& point : front_b) look(point.error);
+  if (!differences.empty()) {
+    agreement.median_difference = std::expm1(quantile(differences, 0.5));
+    agreement.largest_difference = std::expm1(quantile(differences, 1));
+  }
+  for (const double error : asked_errors()) {
+    const auto at_a = cheapest(a, error), at_b = cheapest(b, error);
+    if (!at_a || !at_b) continue;
+    ++agreement.asked;
+    if (at_a->setting == at_b->setting) ++agreement.same_cheapest;
+  }
+  return agreement;
+}
+
+std::string front_in_words(const std::vector<CostPoint>& points,
+                           const std::vector<std::string>& titles, std::size_t baseline) {
+  const std::vector<CostPoint> front = efficient_front(points);
+  if (front.empty()) return "No setting could be measured.";
+  const auto title = [&](const CostPoint& point) { return "'" + titles[point.setting] + "'"; };
+  const auto first = cheapest(points, 0.01);
+  if (!first) {
+    return "No setting comes within 1 %: the best, " + title(front.back()) + ", is off by " +
+           percent(front.back().error) + ".";
+  }
+  std::string words = "Within 1 %, " + title(*first) + " is cheapest";
+  if (std::abs(std::log(first->time)) <= std::log1p(equal_within)) {
+    if (first->setting != baseline) words += ", as quick as '" + titles[baseline] + "'";
+  } else {
+    words += ", at " + times(first->time) + " times the time of '" + titles[baseline] + "'";
+  }
+  const auto fine = cheapest(points, 1e-6);
+  if (fine && fine->setting == first->setting) {
+    return words + ", and it is good to 1e-6 at no further cost.";
+  }
+  if (fine) {
+    return words + "; 1e-6 takes " + title(*fine) + " and " + times(fine->time / first->time) +
+           " times as long.";
+  }
+  const CostPoint& best = front.back();
+  if (best.setting == first->setting) {
+    return words + "; nothing more accurate is to be had than its " + percent(best.error) + ".";
+  }
+  return words + "; no setting reaches 1e-6, the best is " + title(best) + ", off by " +
+         percent(best.error) + ", " + times(best.time / first->time) + " times as long.";
+}
+
+}  // namespace trammel

@@ -1,0 +1,288 @@
+#include "harness/studies/random_scenes.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace trammel {
+namespace {
+
+/// Numbers drawn in an order that the scene fixes; std distributions differ between libraries.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  double logarithmic(double low, double high) {
+    return std::exp(uniform(std::log(low), std::log(high)));
+  }
+  bool chance(double probability) { return uniform(0, 1) < probability; }
+  Json direction(double size) {
+    const double angle = uniform(-std::numbers::pi, std::numbers::pi);
+    return {size * std::cos(angle), size * std::sin(angle)};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+constexpr double kE = 7e10, kDensity = 2700, kPoisson = 0.33;
+
+Json material() {
+  return {{"E_Pa", kE}, {"rho_kg_m3", kDensity}, {"nu", kPoisson}};
+}
+
+/// Stiffness of a joint, over E I / L of a link: from one that is felt to one that is not.
+Json joint(Draw& draw, const char* otherwise, double thickness, double width, double length) {
+  if (!draw.chance(0.4)) return otherwise;
+  const double bending = kE * width * std::pow(thickness, 3) / 12 / length;
+  return {{"spring_N_m_per_rad", bending * draw.logarithmic(1, 1e5)}};
+}
+
+/// A load that would turn a link of that bending stiffness by about so much [N].
+double bending_load(Draw& draw, double thickness, double width, double length) {
+  const double bending = kE * width * std::pow(thickness, 3) / 12;
+  return draw.logarithmic(1e-5, 0.3) * bending / (length * length);
+}
+
+Json analysis(bool modes, Draw& draw) {
+  if (!modes) return {{"statics", Json::object()}};
+  return {{"modes", {{"count", draw.chance(0.5) ? 1 : 3}}}};
+}
+
+/// Three equal limbs of Timoshenko links, and what joins and carries them.
+Json manipulator_of(double length, double thickness, double width, int elements,
+                    const Json& platform, const Json& joints) {
+  return {{"base_side_m", 0.5},
+          {"links",
+           {{"proximal_length_m", length},
+            {"distal_length_m", length},
+            {"thickness_m", thickness},
+            {"width_m", width},
+            {"beam", "timoshenko"},
+            {"elements", elements}}},
+          {"platform", platform},
+          {"material", material()},
+          {"joints", joints}};
+}
+
+Json manipulator(bool modes, Draw& draw) {
+  const double length = draw.uniform(0.17, 0.25);
+  const double thickness = length * draw.logarithmic(0.003, 0.3);
+  const double width = length * draw.logarithmic(0.03, 0.3);
+  const bool soft = draw.chance(0.7);
+  Json platform = {{"kind", soft ? "triangles" : "rigid"},
+                   {"side_m", draw.uniform(0.12, 0.22)},
+                   {"thickness_m", width * draw.logarithmic(0.003, 3)}};
+  if (soft) platform["refinements"] = 1;
+  platform["mass_kg"] = kDensity * thickness * width * length * draw.logarithmic(0.1, 1e4);
+  Json joints = {{"active", joint(draw, "locked", thickness, width, length)},
+                 {"elbow", joint(draw, "welded", thickness, width, length)},
+                 {"platform", "hinged"}};
+  Json model = {{"manipulator", manipulator_of(length, thickness, width, 4, platform, joints)},
+                {"pose",
+                 {{"x_m", draw.uniform(0.23, 0.27)},
+                  {"y_m", draw.uniform(0.125, 0.165)},
+                  {"phi_rad", draw.uniform(-0.2, 0.2)}}}};
+  if (!modes) {
+    model["loads"] = {
+        {"P",
+         {{"node", "P"},
+          {"force_N", draw.direction(bending_load(draw, thickness, width, length))}}}};
+    if (draw.chance(0.5)) model["gravity_m_s2"] = {0, -draw.logarithmic(0.001, 10)};
+  }
+  return model;
+}
+
+/// A beam: a cantilever, or clamped at both ends, with a lump on it.
+Json beam(bool modes, Draw& draw) {
+  const double length = draw.logarithmic(0.2, 5);
+  const double thickness = length * draw.logarithmic(0.002, 0.3);
+  const double width = thickness * draw.logarithmic(0.5, 5);
+  const bool clamped = draw.chance(0.4);
+  Json model = {{"materials", {{"alloy", material()}}},
+                {"sections",
+                 {{"s",
+                   {{"material", "alloy"},
+                    {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
+                {"elements", 8},
+                {"nodes", {{"A", {0, 0}}, {"B", {length, 0}}}},
+                {"members", Json::object()},
+                {"supports", {{"A", {"x", "y", "rotation"}}}}};
+  const Json root = joint(draw, "welded", thickness, width, length);
+  std::string loaded = "B";
+  if (clamped) {
+    loaded = "C";
+    model["nodes"]["C"] = {length * draw.uniform(0.3, 0.7), 0};
+    model["members"]["AC"] = {{"nodes", {"A", "C"}},
+                              {"section", "s"},
+                              {"beam", "timoshenko"},
+                              {"ends", {root, "welded"}}};
+    model["members"]["CB"] = {{"nodes", {"C", "B"}}, {"section", "s"}, {"beam", "timoshenko"}};
+    model["supports"]["B"] = {"x", "y", "rotation"};
+  } else {
+    model["members"]["AB"] = {{"nodes", {"A", "B"}},
+                              {"section", "s"},
+                              {"beam", "timoshenko"},
+                              {"ends", {root, "welded"}}};
+  }
+  const double mass = kDensity * thickness * width * length;
+  if (modes || draw.chance(0.5)) {
+    model["point_masses"] = {
+        {"lump", {{"node", loaded}, {"mass_kg", mass * draw.logarithmic(0.1, 1e4)}}}};
+  }
+  const double load = bending_load(draw, thickness, width, length);
+  if (!modes) {
+    model["loads"] = {{"force", {{"node", loaded}, {"force_N", draw.direction(load)}}}};
+    if (draw.chance(0.5)) {
+      model["gravity_m_s2"] = {0, -draw.logarithmic(1e-4, 1) * load / mass};
+    }
+  }
+  return model;
+}
+
+Json portal(bool modes, Draw& draw) {
+  const double height = draw.uniform(0.5, 2), span = draw.uniform(0.5, 3);
+  const double thickness = height * draw.logarithmic(0.003, 0.2);
+  const double width = thickness * draw.logarithmic(0.5, 3);
+  const auto member = [](const char* a, const char* b, const Json& first) {
+    return Json{
+        {"nodes", {a, b}}, {"section", "s"}, {"beam", "timoshenko"}, {"ends", {first, "welded"}}};
+  };
+  Json model = {
+      {"materials", {{"alloy", material()}}},
+      {"sections",
+       {{"s",
+         {{"material", "alloy"},
+          {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
+      {"elements", 4},
+      {"nodes", {{"A", {0, 0}}, {"B", {0, height}}, {"C", {span, height}}, {"D", {span, 0}}}},
+      {"members", Json::object()},
+      {"supports", {{"A", {"x", "y", "rotation"}}, {"D", {"x", "y", "rotation"}}}}};
+  model["members"]["AB"] = member("A", "B", joint(draw, "welded", thickness, width, height));
+  model["members"]["BC"] = member("B", "C", joint(draw, "welded", thickness, width, height));
+  model["members"]["DC"] = member("D", "C", joint(draw, "welded", thickness, width, height));
+  const double mass = kDensity * thickness * width * (2 * height + span);
+  if (modes || draw.chance(0.5)) {
+    model["point_masses"] = {
+        {"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(0.1, 1e3)}}}};
+  }
+  const double load = bending_load(draw, thickness, width, height);
+  if (!modes) {
+    model["loads"] = {{"force", {{"node", "B"}, {"force_N", draw.direction(load)}}}};
+    if (draw.chance(0.5)) {
+      model["gravity_m_s2"] = {0, -draw.logarithmic(1e-4, 1) * load / mass};
+    }
+  }
+  return model;
+}
+
+/// A manipulator that swings as it follows a circle, slow or fast, damped or not.
+Json moving_manipulator(Draw& draw, Json& scene) {
+  const double length = draw.uniform(0.18, 0.22);
+  const double thickness = length * draw.logarithmic(0.004, 0.1);
+  const double width = length * draw.logarithmic(0.05, 0.3);
+  const bool soft = draw.chance(0.5);
+  Json platform = {{"kind", soft ? "triangles" : "rigid"},
+                   {"side_m", 0.2},
+                   {"thickness_m", width * draw.logarithmic(0.003, 1)}};
+  platform["mass_kg"] = kDensity * thickness * width * length * draw.logarithmic(0.1, 1e3);
+  constexpr int kPoints = 33;
+  const double speed = draw.logarithmic(0.3, 60);
+  const double step = 2 * std::numbers::pi / speed / (kPoints - 1);
+  const Json joints = {{"active", joint(draw, "locked", thickness, width, length)},
+                       {"elbow", draw.chance(0.5) ? "welded" : "hinged"},
+                       {"platform", "hinged"}};
+  Json model = {{"manipulator", manipulator_of(length, thickness, width, 2, platform, joints)},
+                {"trajectory",
+                 {{"circle",
+                   {{"center_m", {0.25, 0.144}},
+                    {"radius_m", draw.logarithmic(0.002, 0.015)},
+                    {"points", kPoints},
+                    {"step_s", step},
+                    {"angular_speed_rad_s", speed},
+                    {"phi_rad", 0}}}}}};
+  if (draw.chance(0.6)) {
+    const double load = 0.1 * bending_load(draw, thickness, width, length);
+    model["loads"] = {{"P", {{"node", "P"}, {"force_N", draw.direction(load)}}}};
+  }
+  if (draw.chance(0.3)) model["gravity_m_s2"] = {0, -draw.logarithmic(0.01, 10)};
+  Json motion = {{"scheme", {{"generalized-alpha", {{"spectral_radius", 0.8}}}}},
+                 {"step_s", step / 16},
+                 {"start", draw.chance(0.75) ? "quasi-static" : "at-rest"}};
+  if (draw.chance(0.75)) {
+    motion["damping"] = {{"mass_per_s", draw.logarithmic(1e-3, 1)},
+                         {"stiffness_s", draw.logarithmic(1e-6, 3e-3)}};
+  }
+  scene["analysis"] = {{"elastodynamics", motion}};
+  return model;
+}
+
+/// A link that spins about its root, with a lump at its end.
+Json spinning_link(Draw& draw, Json& scene) {
+  const double length = draw.logarithmic(0.1, 1);
+  const double thickness = length * draw.logarithmic(0.003, 0.2);
+  const double width = thickness * draw.logarithmic(0.5, 10);
+  const double own = 3.516 * thickness / (length * length) * std::sqrt(kE / (12 * kDensity));
+  const double mass = kDensity * thickness * width * length;
+  const double hub = length * draw.uniform(0, 1);
+  scene["analysis"] = {
+      {"modes",
+       {{"count", draw.chance(0.5) ? 1 : 3},
+        {"rotating", {{"angular_speed_rad_s", own * draw.logarithmic(0.003, 0.6)}}}}}};
+  return {{"materials", {{"alloy", material()}}},
+          {"sections",
+           {{"s",
+             {{"material", "alloy"},
+              {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
+          {"elements", 8},
+          {"nodes", {{"A", {hub, 0}}, {"B", {hub + length, 0}}}},
+          {"members",
+           {{"AB",
+             {{"nodes", {"A", "B"}},
+              {"section", "s"},
+              {"beam", "timoshenko"},
+              {"ends", {joint(draw, "welded", thickness, width, length), "welded"}}}}}},
+          {"supports", {{"A", {"x", "y", "rotation"}}}},
+          {"point_masses",
+           {{"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(0.01, 1e3)}}}}}};
+}
+
+/// So that neighbours have nothing in common.
+constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15;
+
+Document written(const std::string& name, const Json& scene) {
+  Document document;
+  document.lay(name, "", scene);
+  document.check("case");
+  return document;
+}
+
+}  // namespace
+
+Document random_motion(std::uint64_t seed, std::uint64_t n) {
+  Draw draw((seed + 1) * kSpread + n);
+  const std::string name = "random-motion-" + std::to_string(seed) + "-" + std::to_string(n);
+  Json scene = {{"id", name}, {"title", "Random scene in motion"}};
+  const bool spins = draw.chance(0.25);
+  Json model = spins ? spinning_link(draw, scene) : moving_manipulator(draw, scene);
+  scene["model"] = std::move(model);
+  return written(name, scene);
+}
+
+Document random_scene(std::uint64_t seed, std::uint64_t n) {
+  Draw draw((seed + 1) * kSpread + n);
+  const bool modes = draw.chance(0.5);
+  const double kind = draw.uniform(0, 1);
+  const std::string name = "random-" + std::to_string(seed) + "-" + std::to_string(n);
+  Json scene = {{"id", name}, {"title", "Random scene"}};
+  scene["model"] = kind < 0.5    ? manipulator(modes, draw)
+                   : kind < 0.75 ? beam(modes, draw)
+                                 : portal(modes, draw);
+  scene["analysis"] = analysis(modes, draw);
+  return written(name, scene);
+}
+
+}  // namespace trammel

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "harness/studies/cost_study.h"
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+/// What one computation of a setting came to.
+struct Trial {
+  enum class Ending { solved, failed, timed_out };
+  Ending ending = Ending::failed;
+  std::string reason;  ///< of a failure
+  Observations values;
+  Counters counters;
+  double cpu_s = 0;
+};
+
+/// Computes a setting once, in a process of its own that is ended when it has used up its processor
+/// time: an endless loop or a crash costs no more than that.
+[[nodiscard]] Trial try_setting(const Setting& setting, int time_limit_s,
+                                const References& references);
+
+}  // namespace trammel

@@ -1,0 +1,117 @@
+#include "references/beams/annular_membrane.h"
+
+#include <gsl/gsl_sf_bessel.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/bessel.hpp>
+#include <map>
+
+#include "references/numerics/roots.h"
+
+namespace trammel::derive {
+
+namespace {
+
+double bessel(bool second_kind, int n, double x) {
+  return second_kind ? gsl_sf_bessel_Yn(n, x) : gsl_sf_bessel_Jn(n, x);
+}
+
+Real bessel(bool second_kind, int n, const Real& x) {
+  return second_kind ? boost::math::cyl_neumann(n, x) : boost::math::cyl_bessel_j(n, x);
+}
+
+/// Z(k r), and its first two derivatives by r.
+template <class T>
+std::array<T, 3> radial(bool second_kind, int n, const T& k, const T& r) {
+  const T x = k * r;
+  const T value = bessel(second_kind, n, x);
+  const T slope = n * value / x - bessel(second_kind, n + 1, x);
+  return {value, k * slope, k * k * ((n * n / (x * x) - 1) * value - slope / x)};
+}
+
+template <class T>
+T determinant(std::array<std::array<T, 4>, 4> m) {
+  using std::abs;
+  T det = 1;
+  for (int k = 0; k < 4; ++k) {
+    int p = k;
+    for (int i = k + 1; i < 4; ++i) {
+      if (abs(m[i][k]) > abs(m[p][k])) p = i;
+    }
+    if (p != k) {
+      std::swap(m[p], m[k]);
+      det = -det;
+    }
+    det *= m[k][k];
+    for (int i = k + 1; i < 4 && det != 0; ++i) {
+      const T factor = m[i][k] / m[k][k];
+      for (int j = k; j < 4; ++j) m[i][j] -= factor * m[k][j];
+    }
+  }
+  return det;
+}
+
+struct Annulus {
+  Real inner, outer, c_p, c_s, nu;
+};
+
+/// Rows: s_r and t_rt at both radii, times r^2; columns: phi by J, Y, psi by J, Y.
+template <class T>
+T characteristic(const Annulus& annulus, int n, const T& w) {
+  const T a = w / static_cast<T>(annulus.c_p);
+  const T b = w / static_cast<T>(annulus.c_s);
+  const T nu = static_cast<T>(annulus.nu);
+  std::array<std::array<T, 4>, 4> m;
+  for (int edge = 0; edge < 2; ++edge) {
+    const T r = static_cast<T>(edge == 0 ? annulus.inner : annulus.outer);
+    for (int kind = 0; kind < 2; ++kind) {
+      const auto [f, f1, f2] = radial(kind == 1, n, a, r);
+      m[2 * edge][kind] = r * r * f2 + nu * (r * f1 - n * n * f);
+      m[2 * edge + 1][kind] = -2 * n * (r * f1 - f);
+      const auto [g, g1, g2] = radial(kind == 1, n, b, r);
+      m[2 * edge][2 + kind] = (1 - nu) * n * (r * g1 - g);
+      m[2 * edge + 1][2 + kind] = -(r * r * g2 - r * g1 + n * n * g);
+    }
+  }
+  return determinant(m);
+}
+
+}  // namespace
+
+std::vector<double> annular_membrane_program(const Json& json) {
+  const Arguments arguments(
+      json, "", {"inner_radius_m", "outer_radius_m", "E_Pa", "rho_kg_m3", "nu", "modes"});
+  const Real e = arguments.positive("E_Pa") / arguments.positive("rho_kg_m3");
+  const Real nu = arguments.number("nu");
+  const Annulus annulus{arguments.positive("inner_radius_m"), arguments.positive("outer_radius_m"),
+                        sqrt(e / (1 - nu * nu)), sqrt(e / (2 * (1 + nu))), nu};
+  if (annulus.inner >= annulus.outer) {
+    arguments.fail("outer_radius_m", "expected more than the inner radius");
+  }
+  const Json& modes = arguments["modes"];
+  std::map<int, int> wanted;  // waves -> how many frequencies
+  for (const Json& mode : modes) {
+    if (!mode.is_array() || mode.size() != 2 || !mode[0].is_number_unsigned() ||
+        !mode[1].is_number_unsigned() || mode[1] < 1) {
+      arguments.fail("modes", "expected pairs of waves and a number from 1");
+    }
+    int& count = wanted[mode[0].get<int>()];
+    count = std::max(count, mode[1].get<int>());
+  }
+  const auto scale = static_cast<double>(annulus.c_s / annulus.outer);
+  std::map<int, std::vector<Real>> roots;
+  for (const auto& [n, count] : wanted) {
+    const int waves = n;
+    roots[n] = first_roots(
+        equation([&annulus, waves](const auto& w) { return characteristic(annulus, waves, w); }),
+        0.02 * scale, 0.02 * scale, count);
+  }
+  std::vector<Real> values;
+  for (const Json& mode : modes) {
+    values.push_back(roots[mode[0].get<int>()][mode[1].get<int>() - 1] / (2 * pi<Real>()));
+  }
+  return rounded(values);
+}
+
+}  // namespace trammel::derive

@@ -1,0 +1,102 @@
+#include "references/beams/beam_modes.h"
+
+#include <type_traits>
+
+#include "references/numerics/roots.h"
+
+namespace trammel::derive {
+
+namespace {
+
+using std::cos;
+using std::cosh;
+using std::sin;
+using std::tanh;
+
+Equation characteristic_equation(const BeamEnds& ends) {
+  const std::string& kind = ends.kind;
+  if (kind == "pinned-pinned") {
+    return equation([](const auto& b) { return sin(b); });
+  }
+  if (kind == "clamped-clamped" || kind == "free-free") {
+    return equation([](const auto& b) { return cos(b) - 1 / cosh(b); });
+  }
+  if (kind == "clamped-pinned" || kind == "pinned-free") {
+    return equation([](const auto& b) { return sin(b) - cos(b) * tanh(b); });
+  }
+  if (kind == "clamped-guided") {
+    return equation([](const auto& b) { return sin(b) + cos(b) * tanh(b); });
+  }
+  return equation([ends](const auto& b) {
+    const auto mu = static_cast<std::decay_t<decltype(b)>>(ends.tip_mass_ratio);
+    const auto j = static_cast<std::decay_t<decltype(b)>>(ends.tip_inertia_ratio);
+    const auto sech = 1 / cosh(b);
+    const auto moment = sin(b) + cos(b) * tanh(b);
+    const auto force = cos(b) * tanh(b) - sin(b);
+    return sech + cos(b) + mu * b * force - j * b * b * b * moment +
+           mu * j * b * b * b * b * (sech - cos(b));
+  });
+}
+
+BeamEnds read_ends(const Arguments& arguments) {
+  BeamEnds ends;
+  ends.kind = arguments.choice("ends", "",
+                               {"clamped-free", "pinned-pinned", "clamped-clamped",
+                                "clamped-pinned", "pinned-free", "free-free", "clamped-guided"});
+  ends.tip_mass_ratio = arguments.not_negative("tip_mass_ratio", 0);
+  ends.tip_inertia_ratio = arguments.not_negative("tip_inertia_ratio", 0);
+  if (ends.kind != "clamped-free") {
+    for (const char* key : {"tip_mass_ratio", "tip_inertia_ratio"}) {
+      if (arguments.has(key)) arguments.fail(key, "only a clamped-free beam carries a tip mass");
+    }
+  }
+  return ends;
+}
+
+}  // namespace
+
+std::vector<Real> beam_roots(const BeamEnds& ends, int count) {
+  return first_roots(characteristic_equation(ends), 1e-3, 1e-2, count);
+}
+
+std::vector<double> beam_share_program(const Json& json) {
+  const Arguments arguments(json, "", {"count", "tip_mass_ratio"});
+  const Real mu = arguments.positive("tip_mass_ratio");
+  std::vector<Real> shares;
+  for (const Real& b : beam_roots({"clamped-free", mu, 0}, arguments.count("count"))) {
+    const Real sech = 1 / cosh(b);
+    const Real force = cos(b) * tanh(b) - sin(b);
+    const Real by_mu = b * force;
+    const Real by_b = -sech * tanh(b) - sin(b) + mu * force +
+                      mu * b * (cos(b) * sech * sech - sin(b) * tanh(b) - cos(b));
+    shares.push_back(1 - 4 * (mu / b) * by_mu / by_b);
+  }
+  return rounded(shares);
+}
+
+std::vector<double> beam_roots_program(const Json& json) {
+  const Arguments arguments(json, "", {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio"});
+  const BeamEnds ends = read_ends(arguments);
+  return rounded(beam_roots(ends, arguments.count("count")));
+}
+
+std::vector<double> beam_frequencies_program(const Json& json) {
+  const Arguments arguments(json, "",
+                            {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio", "length_m",
+                             "E_Pa", "rho_kg_m3", "thickness_m", "width_m"});
+  static_cast<void>(arguments.positive("width_m"));  // cancels from EI / rho A
+  const Real length = arguments.positive("length_m");
+  const Real thickness = arguments.positive("thickness_m");
+  const Real radius_of_gyration = thickness / sqrt(Real(12));
+  const Real wave_speed = sqrt(arguments.positive("E_Pa") / arguments.positive("rho_kg_m3"));
+  const BeamEnds ends = read_ends(arguments);
+  std::vector<double> frequencies;
+  for (const Real& b : beam_roots(ends, arguments.count("count"))) {
+    const Real wave_number = b / length;
+    frequencies.push_back(static_cast<double>(wave_number * wave_number * radius_of_gyration *
+                                              wave_speed / (2 * pi<Real>())));
+  }
+  return frequencies;
+}
+
+}  // namespace trammel::derive

@@ -1,0 +1,157 @@
+#include "references/beams/deep_beam.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
+
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace trammel::derive {
+
+namespace {
+
+constexpr int highest_wave = 4001;  // stresses fall off as n^-3
+const double pi_double = std::acos(-1.0);
+
+/// One mode: its share of the static answer at mid-span, and how it moves.
+struct Mode {
+  double w, damping;            ///< circular frequency [rad/s], damping ratio
+  double displacement, stress;  ///< static share [m], [Pa]
+};
+
+std::vector<Mode> modes(const Arguments& arguments) {
+  const auto value = [&](const char* key) { return static_cast<double>(arguments.positive(key)); };
+  const double L = value("length_m");
+  const double E = value("E_Pa");
+  const double rho = value("rho_kg_m3");
+  const double thickness = value("thickness_m");
+  const double area = thickness * value("width_m");
+  const double r2 = thickness * thickness / 12;
+  const double kG =
+      value("shear_coefficient") * E / (2 * (1 + static_cast<double>(arguments.number("nu"))));
+  const double load = value("load_N_per_m");
+  const bool rayleigh = arguments.has("rayleigh_mass_1_s");
+  const double of_mass = rayleigh ? value("rayleigh_mass_1_s") : 0;
+  const double of_stiffness = rayleigh ? value("rayleigh_stiffness_s") : 0;
+  const double ratio =
+      rayleigh ? 0 : static_cast<double>(arguments.not_negative("damping_ratio", 0));
+
+  std::vector<Mode> result;
+  for (int n = 1; n <= highest_wave; n += 2) {
+    const double a = n * pi_double / L;
+    const double half = (kG * (a * a + 1 / r2) + E * a * a) / (2 * rho);
+    const double product = kG * E / (rho * rho) * std::pow(a, 4);
+    const double upper = half + std::sqrt(half * half - product);
+    for (const double w2 : {product / upper, upper}) {
+      const double s = a - rho * w2 / (kG * a);
+      const double mass = L / 2 * rho * area * (1 + r2 * s * s);
+      const double force = load * 2 * L / (n * pi_double);
+      const double sign = n % 4 == 1 ? 1 : -1;  // of the sine at mid-span
+      const double share = sign * force / (mass * w2);
+      const double w = std::sqrt(w2);
+      result.push_back({w, rayleigh ? of_mass / (2 * w) + of_stiffness * w / 2 : ratio, share,
+                        share * E * a * s * thickness / 2});
+    }
+  }
+  return result;
+}
+
+/// Sum over the modes, smallest first.
+template <class T>
+T sum(const std::vector<Mode>& modes, double Mode::*share, const std::function<T(const Mode&)>& f) {
+  T total = 0;
+  for (std::size_t i = modes.size(); i-- > 0;) total += modes[i].*share * f(modes[i]);
+  return total;
+}
+
+double amplitude(const std::vector<Mode>& modes, double Mode::*share, double w) {
+  return std::abs(sum<std::complex<double>>(modes, share, [w](const Mode& mode) {
+    const double ratio = w / mode.w;
+    return 1.0 / std::complex<double>(1 - ratio * ratio, 2 * mode.damping * ratio);
+  }));
+}
+
+/// 1 - exp(-d w t)(cos(v t) + d w/v sin(v t)), v = w sqrt(1 - d^2), and its overdamped twin.
+double step_response(const Mode& mode, double t) {
+  const double d = mode.damping;
+  if (d < 1) {
+    const double v = mode.w * std::sqrt(1 - d * d);
+    return 1 - std::exp(-d * mode.w * t) * (std::cos(v * t) + d * mode.w / v * std::sin(v * t));
+  }
+  const double root = std::sqrt(d * d - 1);
+  const double slow = mode.w / (d + root);  // = w (d - root)
+  const double fast = mode.w * (d + root);
+  return 1 - (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (fast - slow);
+}
+
+double at_time(const std::vector<Mode>& modes, double Mode::*share, double t) {
+  return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
+}
+
+double call(double x, void* f) {
+  return -(*static_cast<std::function<double(double)>*>(f))(x);
+}
+
+/// Where f is largest between lo and hi: the best of a grid, refined by Brent's method.
+double largest(std::function<double(double)> f, double lo, double hi, int grid) {
+  gsl_set_error_handler_off();
+  int best = 1;
+  std::vector<double> values(grid + 1);
+  const double step = (hi - lo) / grid;
+  for (int i = 0; i <= grid; ++i) values[i] = f(lo + i * step);
+  for (int i = 1; i < grid; ++i) {
+    if (values[i] > values[best]) best = i;
+  }
+  const std::unique_ptr<gsl_min_fminimizer, void (*)(gsl_min_fminimizer*)> minimizer(
+      gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent), gsl_min_fminimizer_free);
+  gsl_function function{&call, &f};
+  const double at = lo + best * step;
+  if (gsl_min_fminimizer_set(minimizer.get(), &function, at, at - step, at + step) != GSL_SUCCESS) {
+    throw DerivationError("no maximum was found");
+  }
+  for (int i = 0; i < 60; ++i) gsl_min_fminimizer_iterate(minimizer.get());
+  return gsl_min_fminimizer_x_minimum(minimizer.get());
+}
+
+}  // namespace
+
+std::vector<double> deep_beam_program(const Json& json) {
+  const Arguments arguments(json, "",
+                            {"length_m", "thickness_m", "width_m", "E_Pa", "rho_kg_m3", "nu",
+                             "shear_coefficient", "load_N_per_m", "damping_ratio",
+                             "rayleigh_mass_1_s", "rayleigh_stiffness_s", "response", "outputs"});
+  const std::vector<Mode> all = modes(arguments);
+  const std::string response =
+      arguments.choice("response", "", {"static", "harmonic-peak", "step-peak"});
+  const double first = all[0].w;
+  const auto history = [&](double Mode::*share) -> std::function<double(double)> {
+    if (response == "harmonic-peak")
+      return [&, share](double w) { return amplitude(all, share, w); };
+    return [&, share](double t) { return at_time(all, share, t); };
+  };
+  const auto peak_at = [&](double Mode::*share) {
+    if (response == "harmonic-peak") return largest(history(share), 0.9 * first, 1.1 * first, 40);
+    return largest(history(share), 0.2 * pi_double / first, 1.8 * pi_double / first, 400);
+  };
+  std::vector<double> values;
+  for (const std::string& output : arguments.texts("outputs")) {
+    double Mode::*const share = output == "stress_Pa" ? &Mode::stress : &Mode::displacement;
+    if (output == "displacement_m" || output == "stress_Pa") {
+      values.push_back(response == "static"
+                           ? sum<double>(all, share, [](const Mode&) { return 1.0; })
+                           : history(share)(peak_at(share)));
+    } else if (output == "frequency_Hz" && response == "harmonic-peak") {
+      values.push_back(peak_at(share) / (2 * pi_double));
+    } else if (output == "time_s" && response == "step-peak") {
+      values.push_back(peak_at(share));
+    } else {
+      arguments.fail("outputs", "'" + output + "' is no output of this response");
+    }
+  }
+  return values;
+}
+
+}  // namespace trammel::derive

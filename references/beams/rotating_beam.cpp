@@ -1,0 +1,112 @@
+#include "references/beams/rotating_beam.h"
+
+#include <algorithm>
+#include <array>
+
+#include "references/numerics/roots.h"
+
+namespace trammel::derive {
+
+namespace {
+
+/// What the series of one solution gives at the tip: V'', V''' and U', which must all vanish.
+using Tip = std::array<Real, 3>;
+
+/// The solution that starts at the clamped hub with V'' = a, V''' = b, U' = c.
+Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
+  const Real eta2 = beam.eta * beam.eta;
+  const Real at_hub = Real(1) / 2 + beam.hub_ratio;  // tension over eta^2: at_hub - r x - x^2/2
+  const Real m2 = beam.axial_ratio ? Real(mu * mu + eta2) : Real(mu * mu);
+  const Real coupling = beam.axial_ratio ? Real(2 * beam.eta * mu) : Real(0);
+  const Real s = beam.axial_ratio.value_or(Real(1));
+  std::vector<Real> V = {0, 0, start[0] / 2, start[1] / 6};
+  std::vector<Real> U = {0, start[2]};
+  Tip tip = {start[0] + start[1], start[1], start[2]};
+  Real largest = 1;
+  int small_terms = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Real k1 = k + 1;
+    const Real k2 = k + 2;
+    const Real tension =
+        at_hub * k1 * k2 * V[k + 2] - beam.hub_ratio * k1 * k1 * V[k + 1] - Real(k) * k1 / 2 * V[k];
+    V.push_back((eta2 * tension + m2 * V[k] + coupling * U[k]) / (k1 * k2 * (k + 3) * (k + 4)));
+    U.push_back(-(m2 * U[k] + coupling * V[k]) / (s * k1 * k2));
+    const Tip step = {V[k + 4] * (k + 4) * (k + 3), V[k + 4] * (k + 4) * (k + 3) * k2,
+                      U[k + 2] * k2};
+    for (int i = 0; i < 3; ++i) tip[i] += step[i];
+    largest = std::max({largest, Real(abs(step[1])), Real(abs(step[2]))});
+    // powers of different remainders by four may decouple: four small terms in a row
+    const bool small = abs(step[0]) + abs(step[1]) + abs(step[2]) < Real(1e-60) * largest;
+    small_terms = small ? small_terms + 1 : 0;
+    if (small_terms == 4) break;
+  }
+  return tip;
+}
+
+Real characteristic(const RotatingBeam& beam, const Real& mu) {
+  const Tip a = tip_of_series(beam, mu, {1, 0, 0});
+  const Tip b = tip_of_series(beam, mu, {0, 1, 0});
+  if (!beam.axial_ratio) return a[0] * b[1] - a[1] * b[0];
+  const Tip c = tip_of_series(beam, mu, {0, 0, 1});
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
+         c[0] * (a[1] * b[2] - a[2] * b[1]);
+}
+
+RotatingBeam read_plane(const Arguments& arguments) {
+  RotatingBeam beam;
+  beam.in_plane = arguments.choice("plane", "", {"flap", "lag"}) == "lag";
+  return beam;
+}
+
+}  // namespace
+
+std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
+  // The two solutions grow like exp(eta sqrt(r + 1/2)) and nearly alike: that many digits cancel.
+  if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
+    throw DerivationError("the beam turns too fast for fifty digits");
+  }
+  const auto fine = [&](const Real& m) { return characteristic(beam, m); };
+  const Equation f{[&](double m) { return static_cast<double>(fine(Real(m))); }, fine};
+  std::vector<Real> roots = first_roots(f, 0.1, 0.5, count);
+  if (!beam.in_plane || beam.axial_ratio) return roots;
+  for (Real& root : roots) {
+    const Real squared = root * root - beam.eta * beam.eta;
+    if (!(squared > 0)) throw DerivationError("the beam diverges in the plane of rotation");
+    root = sqrt(squared);
+  }
+  return roots;
+}
+
+std::vector<double> rotating_beam_roots_program(const Json& json) {
+  const Arguments arguments(json, "", {"eta", "hub_ratio", "plane", "count", "axial_ratio"});
+  RotatingBeam beam = read_plane(arguments);
+  beam.eta = arguments.not_negative("eta", 0);
+  beam.hub_ratio = arguments.not_negative("hub_ratio", 0);
+  if (arguments.has("axial_ratio")) beam.axial_ratio = arguments.positive("axial_ratio");
+  if (beam.axial_ratio && !beam.in_plane) {
+    arguments.fail("axial_ratio", "axial motion couples with bending in the plane alone");
+  }
+  return rounded(rotating_beam_roots(beam, arguments.count("count")));
+}
+
+std::vector<double> rotating_beam_frequencies_program(const Json& json) {
+  const Arguments arguments(json, "",
+                            {"length_m", "hub_radius_m", "E_Pa", "rho_kg_m3", "thickness_m",
+                             "angular_speed_rad_s", "plane", "count", "axial"});
+  const Real L = arguments.positive("length_m");
+  const Real scale = arguments.positive("thickness_m") *
+                     sqrt(arguments.positive("E_Pa") / (12 * arguments.positive("rho_kg_m3"))) /
+                     (L * L);  // sqrt(EI / rho A L^4)
+  RotatingBeam beam = read_plane(arguments);
+  beam.eta = arguments.not_negative("angular_speed_rad_s", 0) / scale;
+  beam.hub_ratio = arguments.not_negative("hub_radius_m", 0) / L;
+  if (arguments.choice("axial", "rigid", {"rigid", "flexible"}) == "flexible" && beam.in_plane) {
+    const Real thickness = arguments.positive("thickness_m");
+    beam.axial_ratio = 12 * L * L / (thickness * thickness);
+  }
+  std::vector<Real> values = rotating_beam_roots(beam, arguments.count("count"));
+  for (Real& value : values) value *= scale / (2 * pi<Real>());
+  return rounded(values);
+}
+
+}  // namespace trammel::derive

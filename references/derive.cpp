@@ -1,7 +1,0 @@
-#include <iostream>
-
-#include "references/derivations/command.h"
-
-int main(int argc, char** argv) {
-  return trammel::derive::derive_command({argv + 1, argv + argc}, std::cout, std::cerr);
-}

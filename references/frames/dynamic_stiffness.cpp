@@ -1,0 +1,169 @@
+#include "references/frames/dynamic_stiffness.h"
+
+#include <cmath>
+
+namespace trammel::derive {
+
+namespace {
+
+/// Adds factor * (a - b)(a - b)^T; an index of -1 is the ground.
+void add_between(RealMatrix& K, int a, int b, const Real& factor) {
+  if (a >= 0) K(a, a) += factor;
+  if (b >= 0) K(b, b) += factor;
+  if (a >= 0 && b >= 0) {
+    K(a, b) -= factor;
+    K(b, a) -= factor;
+  }
+}
+
+/// Negative pivots and log |det| of a symmetric matrix, by L D L^T without interchanges: fifty
+/// digits leave room for the growth that a small pivot brings.
+template <class T>
+std::pair<int, T> inertia_of(Dense<T>& D) {
+  using std::abs;
+  using std::log;
+  const std::size_t n = D.rows();
+  int negative = 0;
+  T log_determinant = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const T pivot = D(k, k);
+    negative += pivot < 0 ? 1 : 0;
+    log_determinant += log(abs(pivot));
+    for (std::size_t i = k + 1; i < n; ++i) {
+      if (D(i, k) == 0) continue;
+      const T factor = D(i, k) / pivot;
+      for (std::size_t j = k + 1; j <= i; ++j) D(i, j) -= factor * D(j, k);
+    }
+  }
+  return {negative, log_determinant};
+}
+
+}  // namespace
+
+template <class T>
+DynamicStiffness<T>::DynamicStiffness(const Frame& frame) {
+  const FrameCoordinates coordinates(frame, true);
+  place_members(frame, coordinates);
+  add_springs(frame, coordinates);
+  add_inertia(frame, coordinates);
+}
+
+template <class T>
+void DynamicStiffness<T>::place_members(const Frame& frame, const FrameCoordinates& coordinates) {
+  const RealMatrix& N = coordinates.N();
+  for (std::size_t e = 0; e < frame.members.size(); ++e) {
+    const MemberAxis axis = member_axis(frame, frame.members[e]);
+    const auto u = coordinates.of_member(static_cast<int>(e));
+    PlacedMember placed{MemberData<T>(frame.members[e].section, axis.length), {}};
+    for (std::size_t row = 0; row < 6; ++row) {
+      const int x = u[row < 3 ? 0 : 3];
+      const int y = u[row < 3 ? 1 : 4];
+      for (std::size_t q = 0; q < N.columns(); ++q) {
+        const Real value = row % 3 == 0   ? Real(axis.cosine * N(x, q) + axis.sine * N(y, q))
+                           : row % 3 == 1 ? Real(axis.cosine * N(y, q) - axis.sine * N(x, q))
+                                          : N(u[row], q);
+        if (value != 0) placed.local_of_q[row].emplace_back(q, static_cast<T>(value));
+      }
+    }
+    members_.push_back(placed);
+  }
+}
+
+template <class T>
+void DynamicStiffness<T>::add_springs(const Frame& frame, const FrameCoordinates& coordinates) {
+  RealMatrix K(coordinates.size(), coordinates.size());
+  for (const FrameSpring& spring : frame.springs) {
+    for (int motion = 0; motion < 3; ++motion) {
+      const Real& k = spring.stiffness[motion];
+      if (k == 0) continue;
+      const int b = spring.nodes[1] < 0 ? -1 : coordinates.of_node(spring.nodes[1], motion);
+      add_between(K, coordinates.of_node(spring.nodes[0], motion), b, k);
+    }
+  }
+  for (std::size_t e = 0; e < frame.members.size(); ++e) {
+    for (int end = 0; end < 2; ++end) {
+      const FrameEnd& joint = frame.members[e].ends[end];
+      if (joint.fixity != Fixity::sprung) continue;
+      add_between(K, coordinates.of_end(static_cast<int>(e), end),
+                  coordinates.of_node(frame.members[e].nodes[end], 2), joint.stiffness);
+    }
+  }
+  stiffness_ = reduced(K, coordinates.N());
+}
+
+template <class T>
+void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates& coordinates) {
+  RealMatrix M(coordinates.size(), coordinates.size());
+  for (const FrameMass& mass : frame.masses) {
+    const int x = coordinates.of_node(mass.node, 0);
+    const int y = coordinates.of_node(mass.node, 1);
+    const int r = coordinates.of_node(mass.node, 2);
+    M(x, x) += mass.mass;
+    M(y, y) += mass.mass;
+    if (r < 0) continue;
+    const Real& dx = mass.offset[0];
+    const Real& dy = mass.offset[1];
+    M(r, r) += mass.inertia + mass.mass * (dx * dx + dy * dy);
+    M(x, r) -= mass.mass * dy;
+    M(r, x) -= mass.mass * dy;
+    M(y, r) += mass.mass * dx;
+    M(r, y) += mass.mass * dx;
+  }
+  for (std::size_t e = 0; e < frame.members.size(); ++e) {
+    for (int end = 0; end < 2; ++end) {
+      const int r = coordinates.of_end(static_cast<int>(e), end);
+      M(r, r) += frame.members[e].ends[end].inertia;
+    }
+  }
+  inertia_ = reduced(M, coordinates.N());
+}
+
+/// N^T A N.
+template <class T>
+Dense<T> DynamicStiffness<T>::reduced(const RealMatrix& full, const RealMatrix& N) const {
+  const RealMatrix AN = transpose_product(full, N);  // full is symmetric
+  const RealMatrix R = transpose_product(N, AN);
+  Dense<T> result(R.rows(), R.columns());
+  for (std::size_t i = 0; i < R.rows(); ++i) {
+    for (std::size_t j = 0; j < R.columns(); ++j) result(i, j) = static_cast<T>(R(i, j));
+  }
+  return result;
+}
+
+template <class T>
+typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
+                                                               const T& load_factor) const {
+  const T w2 = w * w;
+  Dense<T> D = stiffness_;
+  const std::size_t n = D.rows();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      if (inertia_(i, j) != 0) D(i, j) -= w2 * inertia_(i, j);
+    }
+  }
+  Count count;
+  for (const PlacedMember& member : members_) {
+    const MemberStiffness<T> stiffness = member_stiffness(member.data, w2, load_factor);
+    count.clamped_below += stiffness.clamped_below;
+    const auto K = member_matrix(stiffness);
+    for (std::size_t a = 0; a < 6; ++a) {
+      for (std::size_t b = 0; b < 6; ++b) {
+        if (K[a][b] == 0) continue;
+        for (const auto& [i, left] : member.local_of_q[a]) {
+          for (const auto& [j, right] : member.local_of_q[b]) {
+            if (j <= i) D(i, j) += left * K[a][b] * right;
+          }
+        }
+      }
+    }
+  }
+  const auto [negative, log_determinant] = inertia_of(D);
+  count.below = count.clamped_below + negative;
+  count.log_determinant = log_determinant;
+  return count;
+}
+
+template class DynamicStiffness<double>;
+template class DynamicStiffness<Real>;
+
+}  // namespace trammel::derive

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "references/numerics/dense.h"
+#include "references/frames/frame.h"
+#include "references/frames/frame_coordinates.h"
+#include "references/frames/member_dynamics.h"
+
+/// The dynamic stiffness matrix D(w) of a frame in its free coordinates, and the Wittrick-Williams
+/// count (W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl. Math. 24, 1971, 263-284): the natural
+/// frequencies below w number
+///   J(w) = J0(w) + s(D(w)),
+/// J0 those of the members with all their ends clamped, s the negative pivots of D.
+namespace trammel::derive {
+
+template <class T>
+class DynamicStiffness {
+ public:
+  explicit DynamicStiffness(const Frame& frame);
+
+  struct Count {
+    int below = 0;          ///< J
+    int clamped_below = 0;  ///< J0
+    T log_determinant = 0;  ///< log |det D|
+  };
+  /// @param w  > 0 [rad/s]
+  /// @param load_factor  multiplies the tension of every member
+  [[nodiscard]] Count count(const T& w, const T& load_factor = T(1)) const;
+
+ private:
+  /// A row of a member's transformation: its value of q, as (column, factor).
+  using SparseRow = std::vector<std::pair<std::size_t, T>>;
+  struct PlacedMember {
+    MemberData<T> data;
+    std::array<SparseRow, 6> local_of_q;
+  };
+
+  void place_members(const Frame& frame, const FrameCoordinates& coordinates);
+  void add_inertia(const Frame& frame, const FrameCoordinates& coordinates);
+  void add_springs(const Frame& frame, const FrameCoordinates& coordinates);
+  [[nodiscard]] Dense<T> reduced(const RealMatrix& full, const RealMatrix& N) const;
+
+  std::vector<PlacedMember> members_;
+  Dense<T> stiffness_;  ///< of springs
+  Dense<T> inertia_;    ///< of point masses and member ends
+};
+
+extern template class DynamicStiffness<double>;
+extern template class DynamicStiffness<Real>;
+
+}  // namespace trammel::derive

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "references/numerics/real.h"
+
+/// A planar frame as the derivations see it: SI units, world axes, indices into its own vectors.
+namespace trammel::derive {
+
+/// Per unit length of a member: stiffnesses as compliances, so that "rigid" is zero.
+struct FrameSection {
+  Real axial_compliance = 0;  ///< 1 / EA [1/N]; 0: inextensible
+  Real EI = 0;                ///< [N m^2]
+  Real shear_compliance = 0;  ///< 1 / (kappa G A) [1/N]; 0: Euler-Bernoulli
+  Real mass = 0;              ///< rho A [kg/m]
+  Real rotary_inertia = 0;    ///< rho I [kg m]; 0: Euler-Bernoulli
+  Real tension = 0;           ///< axial force in the state about which it vibrates [N]
+};
+
+enum class Fixity { welded, hinged, sprung };
+
+struct FrameEnd {
+  Fixity fixity = Fixity::welded;
+  Real stiffness = 0;  ///< of the spring between end and node [N m/rad]; sprung only
+  Real inertia = 0;    ///< turns with the member's end [kg m^2]
+};
+
+struct FrameMember {
+  std::string name;
+  std::array<int, 2> nodes{};
+  FrameSection section;
+  std::array<FrameEnd, 2> ends{};
+  std::array<Real, 2> load{};  ///< per unit length, world axes [N/m]
+};
+
+struct FrameNode {
+  std::string name;
+  std::array<Real, 2> at{};  ///< [m]
+};
+
+struct FrameBody {
+  int reference = 0;
+  std::vector<int> attached;
+};
+
+struct FrameMass {
+  int node = 0;
+  Real mass = 0;     ///< [kg]
+  Real inertia = 0;  ///< about the centre of mass [kg m^2]
+  std::array<Real, 2> offset{};
+};
+
+struct FrameSpring {
+  std::array<int, 2> nodes{-1, -1};  ///< second -1: the ground
+  std::array<Real, 3> stiffness{};   ///< x, y [N/m], rotation [N m/rad]
+};
+
+struct FrameSupport {
+  int node = 0;
+  std::array<bool, 3> fixed{};
+};
+
+struct FrameLoad {
+  int node = 0;
+  std::array<Real, 3> force{};  ///< Fx, Fy [N], moment [N m]
+};
+
+/// The rotation of `node`, or (member >= 0) of an end of a member.
+struct FrameRotation {
+  int node = -1;
+  int member = -1;
+  int end = 0;
+};
+
+/// sum of coefficient * rotation = 0.
+using RotationConstraint = std::vector<std::pair<FrameRotation, Real>>;
+
+struct Frame {
+  std::vector<FrameNode> nodes;
+  std::vector<FrameMember> members;
+  std::vector<FrameBody> bodies;
+  std::vector<FrameMass> masses;
+  std::vector<FrameSpring> springs;
+  std::vector<FrameSupport> supports;
+  std::vector<FrameLoad> loads;
+  std::vector<RotationConstraint> constraints;
+  std::array<Real, 2> gravity{};  ///< [m/s^2]
+
+  [[nodiscard]] int find_node(const std::string& name) const;    ///< -1 where there is none
+  [[nodiscard]] int find_member(const std::string& name) const;  ///< -1 where there is none
+};
+
+/// Length and direction cosines of a member.
+struct MemberAxis {
+  Real length, cosine, sine;
+};
+[[nodiscard]] MemberAxis member_axis(const Frame& frame, const FrameMember& member);
+
+}  // namespace trammel::derive

@@ -1,0 +1,147 @@
+#include "references/frames/frame_coordinates.h"
+
+#include <tuple>
+#include <utility>
+
+#include "references/numerics/arguments.h"
+
+namespace trammel::derive {
+
+namespace {
+
+/// Which nodes have a rotation of their own: those that something turns with.
+std::vector<bool> turning_nodes(const Frame& frame) {
+  std::vector<bool> turns(frame.nodes.size(), false);
+  for (const FrameMember& member : frame.members) {
+    for (int end = 0; end < 2; ++end) {
+      if (member.ends[end].fixity != Fixity::hinged) turns[member.nodes[end]] = true;
+    }
+  }
+  for (const FrameBody& body : frame.bodies) turns[body.reference] = true;
+  for (const FrameMass& mass : frame.masses) {
+    if (mass.inertia > 0 || mass.offset[0] != 0 || mass.offset[1] != 0) turns[mass.node] = true;
+  }
+  for (const FrameSpring& spring : frame.springs) {
+    for (const int node : spring.nodes) {
+      if (node >= 0 && spring.stiffness[2] > 0) turns[node] = true;
+    }
+  }
+  return turns;
+}
+
+}  // namespace
+
+FrameCoordinates::FrameCoordinates(const Frame& frame, bool hold_inextensible) {
+  number(frame);
+  solve(equations(frame, hold_inextensible));
+}
+
+void FrameCoordinates::number(const Frame& frame) {
+  const std::vector<bool> turns = turning_nodes(frame);
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+    node_.push_back({size_, size_ + 1, turns[i] ? size_ + 2 : -1});
+    size_ += turns[i] ? 3 : 2;
+  }
+  for (const FrameMember& member : frame.members) {
+    member_nodes_.push_back(member.nodes);
+    std::array<int, 2> ends{};
+    for (int end = 0; end < 2; ++end) {
+      const bool welded = member.ends[end].fixity == Fixity::welded;
+      ends[end] = welded ? node_[member.nodes[end]][2] : size_++;
+    }
+    end_.push_back(ends);
+  }
+}
+
+std::array<int, 6> FrameCoordinates::of_member(int member) const {
+  const auto& a = node_[member_nodes_[member][0]];
+  const auto& b = node_[member_nodes_[member][1]];
+  return {a[0], a[1], end_[member][0], b[0], b[1], end_[member][1]};
+}
+
+int FrameCoordinates::of_rotation(const FrameRotation& rotation) const {
+  const int index =
+      rotation.member >= 0 ? end_[rotation.member][rotation.end] : node_[rotation.node][2];
+  if (index < 0) throw DerivationError("a constraint names a rotation that a node does not have");
+  return index;
+}
+
+std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& frame,
+                                                               bool hold_inextensible) const {
+  std::vector<Row> rows;
+  for (const FrameSupport& support : frame.supports) {
+    for (int motion = 0; motion < 3; ++motion) {
+      const int index = node_[support.node][motion];
+      if (support.fixed[motion] && index >= 0) rows.push_back({{index, Real(1)}});
+    }
+  }
+  for (const FrameBody& body : frame.bodies) {
+    const auto& r = node_[body.reference];
+    for (const int node : body.attached) {
+      const auto& a = node_[node];
+      const Real dx = frame.nodes[node].at[0] - frame.nodes[body.reference].at[0];
+      const Real dy = frame.nodes[node].at[1] - frame.nodes[body.reference].at[1];
+      rows.push_back({{a[0], Real(1)}, {r[0], Real(-1)}, {r[2], dy}});
+      rows.push_back({{a[1], Real(1)}, {r[1], Real(-1)}, {r[2], -dx}});
+      if (a[2] >= 0) rows.push_back({{a[2], Real(1)}, {r[2], Real(-1)}});
+    }
+  }
+  for (const FrameMember& member : frame.members) {
+    if (!hold_inextensible || member.section.axial_compliance > 0) continue;
+    const MemberAxis axis = member_axis(frame, member);
+    const auto& a = node_[member.nodes[0]];
+    const auto& b = node_[member.nodes[1]];
+    rows.push_back(
+        {{a[0], -axis.cosine}, {a[1], -axis.sine}, {b[0], axis.cosine}, {b[1], axis.sine}});
+  }
+  for (const RotationConstraint& constraint : frame.constraints) {
+    Row row;
+    for (const auto& [rotation, coefficient] : constraint) {
+      row[of_rotation(rotation)] += coefficient;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void FrameCoordinates::solve(const std::vector<Row>& equations) {
+  const std::size_t n = size_;
+  RealMatrix C(equations.size(), n);
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    for (const auto& [column, coefficient] : equations[i]) C(i, column) = coefficient;
+  }
+  std::vector<int> pivot_column;  // of row i, in reduced row echelon form
+  std::vector<bool> dependent(n, false);
+  for (std::size_t row = 0; row < C.rows(); ++row) {
+    std::size_t p = row;
+    std::size_t q = 0;
+    for (std::size_t i = row; i < C.rows(); ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (abs(C(i, j)) > abs(C(p, q))) std::tie(p, q) = std::make_pair(i, j);
+      }
+    }
+    if (abs(C(p, q)) < Real(1e-30)) break;  // the rest repeats what stands above
+    for (std::size_t j = 0; j < n; ++j) std::swap(C(p, j), C(row, j));
+    const Real pivot = C(row, q);
+    for (std::size_t j = 0; j < n; ++j) C(row, j) /= pivot;
+    for (std::size_t i = 0; i < C.rows(); ++i) {
+      if (i == row || C(i, q) == 0) continue;
+      const Real factor = C(i, q);
+      for (std::size_t j = 0; j < n; ++j) C(i, j) -= factor * C(row, j);
+    }
+    pivot_column.push_back(static_cast<int>(q));
+    dependent[q] = true;
+  }
+  N_ = RealMatrix(n, n - pivot_column.size());
+  for (std::size_t j = 0, k = 0; j < n; ++j) {
+    if (dependent[j]) continue;
+    N_(j, k) = 1;
+    for (std::size_t row = 0; row < pivot_column.size(); ++row) {
+      const Real value = -C(row, j);
+      N_(pivot_column[row], k) = abs(value) < Real(1e-40) ? Real(0) : value;
+    }
+    ++k;
+  }
+}
+
+}  // namespace trammel::derive

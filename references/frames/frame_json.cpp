@@ -1,0 +1,237 @@
+#include "references/frames/frame_json.h"
+
+#include <map>
+
+namespace trammel::derive {
+
+namespace {
+
+struct MaterialData {
+  Real E, rho, nu;
+};
+
+/// A section as read: what a member makes of it depends on the member's beam theory.
+struct SectionData {
+  MaterialData material;
+  Real area, second_moment, shear_coefficient;
+};
+
+using Sections = std::map<std::string, SectionData>;
+
+Arguments object_at(const Arguments& parent, const std::string& key) {
+  return {parent.has(key) ? parent[key] : Json::object(), parent.pointer(key)};
+}
+
+MaterialData read_material(const Arguments& materials, const std::string& name,
+                           const Arguments& section) {
+  if (!materials.has(name)) section.fail("material", "there is no material '" + name + "'");
+  const Arguments material(materials[name], materials.pointer(name), {"E_Pa", "rho_kg_m3", "nu"});
+  return {material.positive("E_Pa"), material.not_negative("rho_kg_m3", 0),
+          material.number("nu", 0)};
+}
+
+SectionData read_section(const Arguments& materials, const Arguments& section) {
+  SectionData data;
+  data.material = read_material(materials, section.text("material"), section);
+  data.shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
+  if (section.has("rectangle")) {
+    const Arguments r(section["rectangle"], section.pointer("rectangle"),
+                      {"thickness_m", "width_m"});
+    const Real thickness = r.positive("thickness_m");
+    data.area = thickness * r.positive("width_m");
+    data.second_moment = data.area * thickness * thickness / 12;
+  } else if (section.has("circle")) {
+    const Arguments c(section["circle"], section.pointer("circle"), {"diameter_m"});
+    const Real diameter = c.positive("diameter_m");
+    data.area = pi<Real>() * diameter * diameter / 4;
+    data.second_moment = data.area * diameter * diameter / 16;
+  } else {
+    data.area = section.positive("area_m2");
+    data.second_moment = section.positive("second_moment_m4");
+  }
+  return data;
+}
+
+Sections read_sections(const Arguments& model) {
+  const Arguments materials = object_at(model, "materials");
+  const Arguments sections = object_at(model, "sections");
+  Sections result;
+  for (const std::string& name : sections.keys()) {
+    result[name] = read_section(
+        materials, Arguments(sections[name], sections.pointer(name),
+                             {"material", "rectangle", "circle", "area_m2", "second_moment_m4",
+                              "half_depth_m", "shear_coefficient"}));
+  }
+  return result;
+}
+
+FrameSection section_of_member(const SectionData& data, bool timoshenko, bool extensible) {
+  FrameSection section;
+  const MaterialData& m = data.material;
+  if (extensible) section.axial_compliance = 1 / (m.E * data.area);
+  section.EI = m.E * data.second_moment;
+  section.mass = m.rho * data.area;
+  if (timoshenko) {
+    const Real G = m.E / (2 * (1 + m.nu));
+    section.shear_compliance = 1 / (data.shear_coefficient * G * data.area);
+    section.rotary_inertia = m.rho * data.second_moment;
+  }
+  return section;
+}
+
+int node_named(const Frame& frame, const Json& name, const Arguments& where,
+               const std::string& key) {
+  const int node = name.is_string() ? frame.find_node(name.get<std::string>()) : -1;
+  if (node < 0) where.fail(key, "expected the name of a node");
+  return node;
+}
+
+FrameEnd read_end(const Json& end, const Arguments& member) {
+  if (end == "welded") return {};
+  if (end == "hinged") return {Fixity::hinged, 0, 0};
+  if (!end.is_object()) {
+    member.fail("ends", R"(expected "welded", "hinged" or {"spring_N_m_per_rad": k})");
+  }
+  const Arguments spring(end, member.pointer("ends"), {"spring_N_m_per_rad"});
+  return {Fixity::sprung, spring.positive("spring_N_m_per_rad"), 0};
+}
+
+std::array<Real, 2> read_pair(const Arguments& object, const std::string& key) {
+  if (!object.has(key)) return {};
+  const std::vector<Real> values = object.numbers(key, 2);
+  return {values[0], values[1]};
+}
+
+FrameMember read_member(const Frame& frame, const Sections& sections, const std::string& name,
+                        const Arguments& object) {
+  FrameMember member;
+  member.name = name;
+  const Json& nodes = object["nodes"];
+  if (!nodes.is_array() || nodes.size() != 2) object.fail("nodes", "expected two names of nodes");
+  for (std::size_t i = 0; i < 2; ++i)
+    member.nodes[i] = node_named(frame, nodes[i], object, "nodes");
+  const auto section = sections.find(object.text("section"));
+  if (section == sections.end()) object.fail("section", "expected the name of a section");
+  const bool timoshenko =
+      object.choice("beam", "euler-bernoulli", {"euler-bernoulli", "timoshenko"}) == "timoshenko";
+  const bool extensible =
+      object.choice("axial", "flexible", {"flexible", "inextensible"}) == "flexible";
+  member.section = section_of_member(section->second, timoshenko, extensible);
+  member.section.tension = object.number("axial_force_N", 0);
+  if (timoshenko && member.section.tension != 0) {
+    object.fail("axial_force_N", "only an Euler-Bernoulli member is derived with an axial force");
+  }
+  if (object.has("ends")) {
+    const Json& ends = object["ends"];
+    if (!ends.is_array() || ends.size() != 2) object.fail("ends", "expected two ends");
+    for (std::size_t i = 0; i < 2; ++i) member.ends[i] = read_end(ends[i], object);
+  }
+  member.load = read_pair(object, "load_N_per_m");
+  return member;
+}
+
+void read_nodes(const Arguments& model, Frame& frame) {
+  const Arguments nodes(model["nodes"], model.pointer("nodes"));
+  for (const std::string& name : nodes.keys()) {
+    const std::vector<Real> at = nodes.numbers(name, 2);
+    frame.nodes.push_back({name, {at[0], at[1]}});
+  }
+}
+
+void read_members(const Arguments& model, Frame& frame) {
+  const Sections sections = read_sections(model);
+  const Arguments members = object_at(model, "members");
+  for (const std::string& name : members.keys()) {
+    const Arguments object(members[name], members.pointer(name),
+                           {"nodes", "section", "beam", "axial", "ends", "load_N_per_m",
+                            "axial_force_N", "elements", "mass_matrix"});
+    frame.members.push_back(read_member(frame, sections, name, object));
+  }
+}
+
+void read_bodies(const Arguments& model, Frame& frame) {
+  const Arguments bodies = object_at(model, "rigid_bodies");
+  for (const std::string& name : bodies.keys()) {
+    const Arguments object(bodies[name], bodies.pointer(name), {"reference", "nodes"});
+    FrameBody body;
+    body.reference = node_named(frame, object["reference"], object, "reference");
+    for (const std::string& node : object.texts("nodes")) {
+      body.attached.push_back(node_named(frame, node, object, "nodes"));
+    }
+    frame.bodies.push_back(body);
+  }
+}
+
+void read_masses(const Arguments& model, Frame& frame) {
+  const Arguments masses = object_at(model, "point_masses");
+  for (const std::string& name : masses.keys()) {
+    const Arguments object(masses[name], masses.pointer(name),
+                           {"node", "mass_kg", "inertia_kg_m2", "offset_m"});
+    frame.masses.push_back(
+        {node_named(frame, object["node"], object, "node"), object.not_negative("mass_kg", 0),
+         object.not_negative("inertia_kg_m2", 0), read_pair(object, "offset_m")});
+  }
+}
+
+void read_springs(const Arguments& model, Frame& frame) {
+  const Arguments springs = object_at(model, "springs");
+  for (const std::string& name : springs.keys()) {
+    const Arguments object(springs[name], springs.pointer(name),
+                           {"nodes", "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad"});
+    FrameSpring spring;
+    const std::vector<std::string> nodes = object.texts("nodes");
+    if (nodes.size() > 2) object.fail("nodes", "expected one or two names of nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      spring.nodes[i] = node_named(frame, nodes[i], object, "nodes");
+    }
+    const auto k = read_pair(object, "stiffness_N_per_m");
+    spring.stiffness = {k[0], k[1], object.not_negative("rotational_stiffness_N_m_per_rad", 0)};
+    frame.springs.push_back(spring);
+  }
+}
+
+void read_supports(const Arguments& model, Frame& frame) {
+  const Arguments supports = object_at(model, "supports");
+  for (const std::string& name : supports.keys()) {
+    FrameSupport support;
+    support.node = node_named(frame, name, supports, name);
+    for (const std::string& motion : supports.texts(name)) {
+      if (motion != "x" && motion != "y" && motion != "rotation") {
+        supports.fail(name, "expected x, y or rotation");
+      }
+      support.fixed[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
+    }
+    frame.supports.push_back(support);
+  }
+}
+
+void read_loads(const Arguments& model, Frame& frame) {
+  const Arguments loads = object_at(model, "loads");
+  for (const std::string& name : loads.keys()) {
+    const Arguments object(loads[name], loads.pointer(name), {"node", "force_N", "moment_N_m"});
+    const auto force = read_pair(object, "force_N");
+    frame.loads.push_back({node_named(frame, object["node"], object, "node"),
+                           {force[0], force[1], object.number("moment_N_m", 0)}});
+  }
+}
+
+}  // namespace
+
+Frame read_frame(const Json& json, const std::string& pointer) {
+  const Arguments model(
+      json, pointer,
+      {"materials", "sections", "nodes", "members", "rigid_bodies", "point_masses", "springs",
+       "supports", "loads", "gravity_m_s2", "elements"});
+  Frame frame;
+  read_nodes(model, frame);
+  read_members(model, frame);
+  read_bodies(model, frame);
+  read_masses(model, frame);
+  read_springs(model, frame);
+  read_supports(model, frame);
+  read_loads(model, frame);
+  frame.gravity = read_pair(model, "gravity_m_s2");
+  return frame;
+}
+
+}  // namespace trammel::derive

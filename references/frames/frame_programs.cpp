@@ -1,0 +1,41 @@
+#include "references/frames/frame_programs.h"
+
+#include "references/frames/frame_json.h"
+#include "references/frames/manipulator_frame.h"
+
+namespace trammel::derive {
+
+namespace {
+
+void add_loads(const Arguments& arguments, Frame& frame) {
+  if (!arguments.has("loads")) return;
+  const Arguments loads(arguments["loads"], "/loads");
+  for (const std::string& name : loads.keys()) {
+    const Arguments load(loads[name], loads.pointer(name), {"node", "force_N", "moment_N_m"});
+    const int node = frame.find_node(load.text("node"));
+    if (node < 0) load.fail("node", "expected the name of a node");
+    const std::vector<Real> force =
+        load.has("force_N") ? load.numbers("force_N", 2) : std::vector<Real>(2, Real(0));
+    frame.loads.push_back({node, {force[0], force[1], load.number("moment_N_m", 0)}});
+  }
+}
+
+}  // namespace
+
+Frame frame_of(const Arguments& arguments) {
+  if (arguments.has("model")) {
+    for (const char* key : {"manipulator", "pose", "loads"}) {
+      if (arguments.has(key)) arguments.fail(key, "does not go with a model");
+    }
+    return read_frame(arguments["model"], "/model");
+  }
+  const Arguments manipulator(
+      arguments["manipulator"], "/manipulator",
+      {"base_side_m", "links", "platform", "material", "joints", "working_mode"});
+  const Arguments pose(arguments["pose"], "/pose", {"x_m", "y_m", "phi_rad"});
+  Frame frame = manipulator_frame(manipulator, pose);
+  add_loads(arguments, frame);
+  return frame;
+}
+
+}  // namespace trammel::derive

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "references/numerics/arguments.h"
+#include "references/frames/frame.h"
+
+/// What the derivations of frames share: where the frame comes from.
+namespace trammel::derive {
+
+/// The frame of the arguments: "model", or "manipulator" with "pose" (and "loads").
+/// @throws DerivationError  with the JSON pointer.
+[[nodiscard]] Frame frame_of(const Arguments& arguments);
+
+}  // namespace trammel::derive

@@ -1,0 +1,83 @@
+#include "references/frames/frame_sensitivity.h"
+
+#include <sstream>
+
+#include "references/frames/frame_programs.h"
+#include "references/numerics/roots.h"
+#include "references/frames/wittrick_williams.h"
+
+namespace trammel::derive {
+
+namespace {
+
+/// A decimal of twelve digits, so that what is read back is what was meant.
+Json decimal(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return Json::parse(text.str());
+}
+
+class Differences {
+ public:
+  Differences(const Json& json, const Arguments& arguments)
+      : json_(json), count_(arguments.count("count")) {
+    for (const std::string& text : arguments.texts("pointers")) {
+      const Json::json_pointer pointer(text);
+      if (!json.contains(pointer) || !json[pointer].is_number()) {
+        arguments.fail("pointers", "expected pointers to numbers (got " + text + ")");
+      }
+      if (!pointers_.empty() && json[pointer] != json[pointers_.front()]) {
+        arguments.fail("pointers", "expected pointers to equal numbers");
+      }
+      pointers_.push_back(pointer);
+    }
+    if (pointers_.empty()) arguments.fail("pointers", "expected at least one pointer");
+  }
+
+  [[nodiscard]] std::vector<Real> central(double step) const {
+    const std::vector<Real> above = frequencies(step);
+    const std::vector<Real> below = frequencies(-step);
+    std::vector<Real> rate;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      rate.push_back((above[i] - below[i]) / (2 * Real(decimal(step).dump())));
+    }
+    return rate;
+  }
+
+ private:
+  [[nodiscard]] std::vector<Real> frequencies(double change) const {
+    Json json = json_;
+    for (const auto& pointer : pointers_) {
+      json[pointer] = decimal(json_[pointer].get<double>() + change);
+    }
+    const Arguments arguments(json, "",
+                              {"model", "manipulator", "pose", "pointers", "step", "count"});
+    return frame_frequencies(frame_of(arguments), count_).frequencies;
+  }
+
+  const Json& json_;
+  int count_;
+  std::vector<Json::json_pointer> pointers_;
+};
+
+}  // namespace
+
+std::vector<double> frame_sensitivity_program(const Json& json) {
+  const Arguments arguments(json, "",
+                            {"model", "manipulator", "pose", "pointers", "step", "count"});
+  const auto step = static_cast<double>(arguments.positive("step"));
+  const Differences differences(json, arguments);
+  const std::vector<Real> a = differences.central(step);
+  const std::vector<Real> b = differences.central(step / 2);
+  const std::vector<Real> c = differences.central(step / 4);
+  std::vector<Real> rate;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Real ab = (4 * b[i] - a[i]) / 3;
+    const Real bc = (4 * c[i] - b[i]) / 3;
+    rate.push_back((16 * bc - ab) / 15);
+  }
+  return rounded(rate);
+}
+
+}  // namespace trammel::derive

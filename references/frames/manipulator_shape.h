@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+
+#include "references/numerics/arguments.h"
+
+/// Where the joints of a planar 3-RRR are, in closed form. Number: Real, or Jet for a motion.
+namespace trammel::derive {
+
+template <class Number>
+using Place = std::array<Number, 2>;
+
+/// Vertices of an equilateral triangle about `centre`, at 210, 330 and 90 degrees plus `angle`.
+template <class Number>
+[[nodiscard]] std::array<Place<Number>, 3> triangle(const Place<Number>& centre, const Real& side,
+                                                    const Number& angle) {
+  const Real radius = side / sqrt(Real(3));
+  std::array<Place<Number>, 3> vertices;
+  for (int i = 0; i < 3; ++i) {
+    const Number direction = angle + Real(pi<Real>() * (7 + 4 * i) / 6);
+    vertices[i] = {centre[0] + radius * cos(direction), centre[1] + radius * sin(direction)};
+  }
+  return vertices;
+}
+
+/// The intersection of the circles about A and C; mode -1 lies clockwise of the line A C.
+/// @throws DerivationError  where there is none.
+template <class Number>
+[[nodiscard]] Place<Number> elbow(const Place<Number>& A, const Place<Number>& C,
+                                  const Real& proximal, const Real& distal, int mode) {
+  const Number dx = C[0] - A[0];
+  const Number dy = C[1] - A[1];
+  const Number r2 = dx * dx + dy * dy;
+  const Real squares = proximal * proximal - distal * distal;
+  const Number along = (squares + r2) / (Real(2) * r2);  // of A C
+  const Number height2 = Real(proximal * proximal) / r2 - along * along;
+  if (height2 < Real(0)) throw DerivationError("a limb cannot reach its platform joint");
+  const Number across = Real(mode) * sqrt(height2);
+  return {A[0] + along * dx - across * dy, A[1] + along * dy + across * dx};
+}
+
+}  // namespace trammel::derive

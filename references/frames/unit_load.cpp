@@ -1,0 +1,220 @@
+#include "references/frames/unit_load.h"
+
+#include <gsl/gsl_integration.h>
+
+#include <functional>
+#include <memory>
+
+#include "references/frames/frame_coordinates.h"
+
+namespace trammel::derive {
+
+namespace {
+
+using RealVector = std::vector<Real>;
+
+/// Internal forces along a member under one unit cause.
+struct Diagram {
+  std::function<double(double)> n, v, m;
+};
+
+/// The causes: N, V, M at the start, and the distributed load (last).
+std::array<Diagram, 4> diagrams(double axial_load, double transverse_load) {
+  const auto zero = [](double) { return 0.0; };
+  const auto one = [](double) { return 1.0; };
+  return {Diagram{one, zero, zero}, Diagram{zero, one, [](double x) { return -x; }},
+          Diagram{zero, zero, one},
+          Diagram{[=](double x) { return -axial_load * x; },
+                  [=](double x) { return -transverse_load * x; },
+                  [=](double x) { return transverse_load * x * x / 2; }}};
+}
+
+double call(double x, void* f) {
+  return (*static_cast<std::function<double(double)>*>(f))(x);
+}
+
+/// Gauss-Legendre with four points: exact for the quartics that occur here.
+double integral(std::function<double(double)> f, double length) {
+  static const std::unique_ptr<gsl_integration_glfixed_table,
+                               void (*)(gsl_integration_glfixed_table*)>
+      table(gsl_integration_glfixed_table_alloc(4), gsl_integration_glfixed_table_free);
+  gsl_function function{&call, &f};
+  return gsl_integration_glfixed(&function, 0, length, table.get());
+}
+
+double compliance(const Diagram& a, const Diagram& b, const FrameSection& section, double length) {
+  const auto EI = static_cast<double>(section.EI);
+  const auto axial = static_cast<double>(section.axial_compliance);
+  const auto shear = static_cast<double>(section.shear_compliance);
+  return integral(
+      [&](double x) {
+        return a.m(x) * b.m(x) / EI + a.n(x) * b.n(x) * axial + a.v(x) * b.v(x) * shear;
+      },
+      length);
+}
+
+/// Load per unit length in the member's axes, weight included: along it and to its left.
+std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
+  const MemberAxis axis = member_axis(frame, member);
+  const Real x = member.load[0] + member.section.mass * frame.gravity[0];
+  const Real y = member.load[1] + member.section.mass * frame.gravity[1];
+  return {x * axis.cosine + y * axis.sine, y * axis.cosine - x * axis.sine};
+}
+
+/// A spring: its force is +s on coordinate `from` and -s on `to` (-1: the ground).
+struct Link {
+  int from, to;
+  Real compliance;
+};
+
+std::vector<Link> links(const Frame& frame, const FrameCoordinates& coordinates) {
+  std::vector<Link> result;
+  for (const FrameSpring& spring : frame.springs) {
+    for (int motion = 0; motion < 3; ++motion) {
+      if (spring.stiffness[motion] == 0) continue;
+      const int to = coordinates.of_node(spring.nodes[0], motion);
+      const int from = spring.nodes[1] < 0 ? -1 : coordinates.of_node(spring.nodes[1], motion);
+      result.push_back({from, to, 1 / spring.stiffness[motion]});
+    }
+  }
+  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+    const FrameMember& member = frame.members[i];
+    for (int end = 0; end < 2; ++end) {
+      if (member.ends[end].fixity != Fixity::sprung) continue;
+      result.push_back({coordinates.of_node(member.nodes[end], 2),
+                        coordinates.of_end(static_cast<int>(i), end),
+                        1 / member.ends[end].stiffness});
+    }
+  }
+  return result;
+}
+
+/// Equations of the force method: B f + p on every coordinate, compliances Phi f + phi0.
+struct Equations {
+  RealMatrix B, Phi;
+  RealVector p, phi0;
+};
+
+void add_member(const Frame& frame, int index, const FrameCoordinates& coordinates, Equations& e) {
+  const FrameMember& member = frame.members[index];
+  const MemberAxis axis = member_axis(frame, member);
+  const auto load = member_load(frame, member);
+  const Real L = axis.length;
+  const auto u = coordinates.of_member(index);
+  const std::array<Real, 3> x_of = {axis.cosine, -axis.sine, 0};  // world x of unit N, V, M
+  const std::array<Real, 3> y_of = {axis.sine, axis.cosine, 0};
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t f = 3 * static_cast<std::size_t>(index) + k;
+    e.B(u[0], f) += x_of[k];
+    e.B(u[1], f) += y_of[k];
+    e.B(u[3], f) -= x_of[k];
+    e.B(u[4], f) -= y_of[k];
+    e.B(u[2], f) += k == 2 ? 1 : 0;
+    e.B(u[5], f) -= k == 2 ? Real(1) : k == 1 ? Real(-L) : Real(0);
+  }
+  e.p[u[3]] += (load[0] * x_of[0] + load[1] * x_of[1]) * L;
+  e.p[u[4]] += (load[0] * y_of[0] + load[1] * y_of[1]) * L;
+  e.p[u[5]] -= load[1] * L * L / 2;
+
+  const auto length = static_cast<double>(L);
+  const auto causes = diagrams(static_cast<double>(load[0]), static_cast<double>(load[1]));
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t row = 3 * static_cast<std::size_t>(index) + i;
+    for (int j = 0; j < 3; ++j) {
+      e.Phi(row, 3 * static_cast<std::size_t>(index) + j) =
+          compliance(causes[i], causes[j], member.section, length);
+    }
+    e.phi0[row] = compliance(causes[i], causes[3], member.section, length);
+  }
+}
+
+void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equations& e) {
+  const auto add = [&](int node, int motion, const Real& force) {
+    const int index = coordinates.of_node(node, motion);
+    if (index >= 0) {
+      e.p[index] += force;
+    } else if (force != 0) {
+      throw DerivationError("a moment on node " + frame.nodes[node].name + ", which cannot turn");
+    }
+  };
+  for (const FrameLoad& load : frame.loads) {
+    for (int motion = 0; motion < 3; ++motion) add(load.node, motion, load.force[motion]);
+  }
+  for (const FrameMass& mass : frame.masses) {
+    const Real fx = mass.mass * frame.gravity[0];
+    const Real fy = mass.mass * frame.gravity[1];
+    add(mass.node, 0, fx);
+    add(mass.node, 1, fy);
+    add(mass.node, 2, mass.offset[0] * fy - mass.offset[1] * fx);
+  }
+}
+
+Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
+  const std::vector<Link> springs = links(frame, coordinates);
+  const std::size_t forces = 3 * frame.members.size() + springs.size();
+  const std::size_t n = coordinates.size();
+  Equations e{RealMatrix(n, forces), RealMatrix(forces, forces), RealVector(n, Real(0)),
+              RealVector(forces, Real(0))};
+  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+    add_member(frame, static_cast<int>(i), coordinates, e);
+  }
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const std::size_t f = 3 * frame.members.size() + i;
+    if (springs[i].from >= 0) e.B(springs[i].from, f) += 1;
+    e.B(springs[i].to, f) -= 1;
+    e.Phi(f, f) = springs[i].compliance;
+  }
+  add_loads(frame, coordinates, e);
+  return e;
+}
+
+/// Phi f + B^T N q = -phi0, N^T (B f + p) = 0; returns f, then q.
+RealVector least_complementary_energy(const Equations& e, const RealMatrix& N) {
+  const RealMatrix G = transpose_product(N, e.B);
+  const std::size_t forces = e.Phi.rows();
+  const std::size_t all = forces + N.columns();
+  RealMatrix system(all, all);
+  RealVector x(all, Real(0));
+  for (std::size_t i = 0; i < forces; ++i) {
+    for (std::size_t j = 0; j < forces; ++j) system(i, j) = e.Phi(i, j);
+    for (std::size_t j = forces; j < all; ++j) {
+      system(i, j) = system(j, i) = G(j - forces, i);
+    }
+    x[i] = -e.phi0[i];
+  }
+  for (std::size_t k = 0; k < N.rows(); ++k) {
+    for (std::size_t j = forces; j < all; ++j) x[j] -= N(k, j - forces) * e.p[k];
+  }
+  if (!solve_in_place(system, x, Real(1e-35))) {
+    throw DerivationError("the frame can move freely, or a rigid part's forces are not determined");
+  }
+  return x;
+}
+
+}  // namespace
+
+FrameStatics unit_load_statics(const Frame& frame) {
+  const FrameCoordinates coordinates(frame, false);
+  const Equations e = equations(frame, coordinates);
+  const RealVector x = least_complementary_energy(e, coordinates.N());
+  const auto forces = static_cast<std::ptrdiff_t>(e.Phi.rows());
+  const RealVector f(x.begin(), x.begin() + forces);
+  const RealVector q(x.begin() + forces, x.end());
+
+  FrameStatics statics;
+  statics.displacement = product(coordinates.N(), q);
+  statics.unbalanced = product(e.B, f);
+  for (std::size_t i = 0; i < e.p.size(); ++i) statics.unbalanced[i] += e.p[i];
+  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+    const auto load = member_load(frame, frame.members[i]);
+    const Real L = member_axis(frame, frame.members[i]).length;
+    const Real N = f[3 * i];
+    const Real V = f[3 * i + 1];
+    const Real M = f[3 * i + 2];
+    statics.members.push_back(
+        {{N, N - load[0] * L}, {V, V - load[1] * L}, {M, M - V * L + load[1] * L * L / 2}});
+  }
+  return statics;
+}
+
+}  // namespace trammel::derive

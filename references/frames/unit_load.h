@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "references/numerics/arguments.h"
+#include "references/frames/frame.h"
+
+/// Exact statics of a frame by the unit-load (force) method: the unknowns are the internal forces
+/// at each member's start; their compliances are the integrals of unit-load diagrams
+///   phi_ij = integral m_i m_j / EI + n_i n_j / EA + v_i v_j / (kappa GA) dx   (GSL quadrature),
+/// and complementary energy is least among all forces in equilibrium (Castigliano, Engesser). The
+/// multipliers of the equations of equilibrium are the displacements. No stiffness matrix occurs.
+///
+/// Along a member, x from start to end, w to the left: N tension, V = kappa GA (w' - psi) the force
+/// along w on the face towards +x, M = EI psi'; so V' = -q_w and M' = -V.
+namespace trammel::derive {
+
+struct MemberForces {
+  std::array<Real, 2> N, V, M;  ///< at start and end [N, N, N m]
+};
+
+struct FrameStatics {
+  std::vector<Real> displacement;  ///< of every coordinate of FrameCoordinates(frame, false)
+  std::vector<Real> unbalanced;    ///< force on every coordinate by all but its support
+  std::vector<MemberForces> members;
+};
+
+/// @throws DerivationError  where the frame can move freely, or its forces are not determined.
+[[nodiscard]] FrameStatics unit_load_statics(const Frame& frame);
+
+/// Arguments: model (or manipulator and pose, with loads), outputs (array of names). Names:
+/// displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start,
+/// reaction_x_N:NODE, reaction_y_N:NODE, reaction_moment_N_m:NODE, axial_force_N:MEMBER.start,
+/// bending_moment_N_m:MEMBER.end.
+[[nodiscard]] std::vector<double> frame_statics_program(const Json& arguments);
+
+}  // namespace trammel::derive

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "references/numerics/arguments.h"
+#include "references/manipulator/newton_euler.h"
+
+/// Torques of the planar 3-RRR along a path.
+namespace trammel::derive {
+
+/// "manipulator", as a case file's, with "gravity_m_s2" beside it.
+[[nodiscard]] PlaneManipulator read_plane_manipulator(const Arguments& arguments);
+
+/// "force_N" and "moment_N_m".
+[[nodiscard]] PlaneWrench read_wrench(const Arguments& arguments);
+
+/// Arguments: manipulator (as a case file's; masses and inertias as numbers, or from density),
+/// trajectory (circle | line | rest_to_rest | spline), times_s, force_N and moment_N_m (on the
+/// platform at P; none by default), gravity_m_s2.
+/// Values: the torque at A1 at every time, then at A2, then at A3 [N m].
+[[nodiscard]] std::vector<double> manipulator_torques_program(const Json& arguments);
+
+}  // namespace trammel::derive

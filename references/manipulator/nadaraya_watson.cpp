@@ -1,0 +1,115 @@
+#include "references/manipulator/nadaraya_watson.h"
+
+#include "references/manipulator/manipulator_torques.h"
+#include "references/manipulator/platform_path.h"
+#include "references/numerics/roots.h"
+
+namespace trammel::derive {
+
+namespace {
+
+using Rows = std::vector<std::vector<Real>>;
+
+Rows read_rows(const Arguments& arguments, const std::string& key) {
+  const Json& list = arguments[key];
+  if (!list.is_array() || list.empty()) arguments.fail(key, "expected rows of numbers");
+  Rows rows;
+  for (const Json& row : list) {
+    rows.push_back(Arguments({{"row", row}}, arguments.pointer(key)).numbers("row"));
+    if (rows.back().size() != rows.front().size()) arguments.fail(key, "rows differ in length");
+  }
+  return rows;
+}
+
+Real read_sigma(const Arguments& arguments) {
+  if (!arguments.has("spread")) return arguments.positive("sigma");
+  return arguments.positive("spread") / (sqrt(Real(2)) * Real("0.8326"));
+}
+
+/// Torques, and angles and velocities of the active joints, at one time.
+struct Sample {
+  std::vector<Real> torques, joints;
+};
+
+Sample sample_at(const PlaneManipulator& manipulator, const Arguments& trajectory,
+                 const PlaneWrench& wrench, const Real& time) {
+  const auto motion = platform_motion(trajectory, time);
+  const auto torques = newton_euler_torques(manipulator, motion, wrench);
+  Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto joints = limb_joints(manipulator.limbs[i], motion);
+    const Jet x = joints[1][0] - joints[0][0], y = joints[1][1] - joints[0][1];
+    sample.joints[i] = atan2(y.value, x.value);
+    sample.joints[3 + i] =
+        (x.value * y.rate - y.value * x.rate) / (x.value * x.value + y.value * y.value);
+  }
+  return sample;
+}
+
+}  // namespace
+
+std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
+                                  const std::vector<Real>& query, const Real& sigma) {
+  std::vector<Real> squared;
+  for (const auto& input : inputs) {
+    Real sum = 0;
+    for (std::size_t f = 0; f < query.size(); ++f) {
+      sum += (query[f] - input[f]) * (query[f] - input[f]);
+    }
+    squared.push_back(sum);
+  }
+  Real least = squared.front();
+  for (const Real& d : squared) least = d < least ? d : least;
+  std::vector<Real> estimate(outputs.front().size(), Real(0));
+  Real weights = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const Real weight = exp(-(squared[i] - least) / (2 * sigma * sigma));
+    weights += weight;
+    for (std::size_t j = 0; j < estimate.size(); ++j) estimate[j] += weight * outputs[i][j];
+  }
+  for (Real& value : estimate) value /= weights;
+  return estimate;
+}
+
+std::vector<double> grnn_program(const Json& json) {
+  const Arguments arguments(json, "", {"inputs", "outputs", "queries", "sigma", "spread"});
+  const Rows inputs = read_rows(arguments, "inputs");
+  const Rows outputs = read_rows(arguments, "outputs");
+  const Real sigma = read_sigma(arguments);
+  if (inputs.size() != outputs.size()) arguments.fail("outputs", "expected one row an input row");
+  std::vector<Real> values;
+  for (const auto& query : read_rows(arguments, "queries")) {
+    if (query.size() != inputs.front().size()) arguments.fail("queries", "as long as the inputs");
+    for (const Real& y : nadaraya_watson(inputs, outputs, query, sigma)) values.push_back(y);
+  }
+  return rounded(values);
+}
+
+std::vector<double> manipulator_grnn_program(const Json& json) {
+  const Arguments arguments(json, "",
+                            {"manipulator", "trajectory", "force_N", "moment_N_m", "gravity_m_s2",
+                             "step_s", "train", "sigma", "queries", "output"});
+  const PlaneManipulator manipulator = read_plane_manipulator(arguments);
+  const PlaneWrench wrench = read_wrench(arguments);
+  const Arguments trajectory(arguments["trajectory"], "/trajectory",
+                             {"circle", "line", "rest_to_rest", "spline"});
+  const Real step = arguments.positive("step_s");
+  Rows inputs, outputs;
+  for (int k = 0; k < arguments.count("train"); ++k) {
+    const Sample sample = sample_at(manipulator, trajectory, wrench, k * step);
+    inputs.push_back(sample.torques);
+    outputs.push_back(sample.joints);
+  }
+  const std::vector<Real> queries = arguments.numbers("queries");
+  const std::string output = arguments.choice("output", "", {"angles", "velocities"});
+  const std::size_t first = output == "angles" ? 0 : 3;
+  std::vector<Real> values(3 * queries.size());
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    const Sample asked = sample_at(manipulator, trajectory, wrench, queries[q] * step);
+    const auto found = nadaraya_watson(inputs, outputs, asked.torques, arguments.positive("sigma"));
+    for (std::size_t j = 0; j < 3; ++j) values[j * queries.size() + q] = found[first + j];
+  }
+  return rounded(values);
+}
+
+}  // namespace trammel::derive

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+
+#include "references/numerics/jet.h"
+#include "references/frames/manipulator_shape.h"
+
+/// Inverse dynamics of the planar 3-RRR by the laws of Newton and Euler for each of its seven
+/// bodies cut free: 21 equations for the forces in the nine joints and the three torques. Motions
+/// are differentiated by carrying derivatives along (Jet); no Lagrangian, no Jacobian, no mass
+/// matrix.
+namespace trammel::derive {
+
+struct LinkBody {
+  Real mass = 0;
+  Real center = 0;   ///< of mass, from the link's first joint along it
+  Real inertia = 0;  ///< about the centre of mass
+};
+
+struct LimbBodies {
+  Place<Real> base;    ///< A
+  Place<Real> corner;  ///< C from P, in platform axes
+  Real proximal_length = 0, distal_length = 0;
+  int mode = -1;  ///< side of the elbow, as in `elbow`
+  LinkBody proximal, distal;
+};
+
+struct PlaneManipulator {
+  std::array<LimbBodies, 3> limbs;
+  Real platform_mass = 0;
+  Real platform_inertia = 0;     ///< about its centre of mass
+  Place<Real> platform_center;   ///< of mass, from P, in platform axes
+  Place<Real> gravity = {0, 0};  ///< acceleration
+};
+
+struct PlaneWrench {
+  Real x = 0, y = 0, moment = 0;  ///< on the platform, at P
+};
+
+/// A_i, B_i and C_i of a limb.
+/// @param motion  of the platform: x, y of P and its orientation, with their derivatives
+/// @throws DerivationError  where the limb cannot reach.
+[[nodiscard]] std::array<Place<Jet>, 3> limb_joints(const LimbBodies& limb,
+                                                    const std::array<Jet, 3>& motion);
+
+/// Torques of the base on the three proximal links, counterclockwise, in SI.
+/// @param motion  as in `limb_joints`
+/// @throws DerivationError  where a limb cannot reach, or the posture is singular.
+[[nodiscard]] std::array<Real, 3> newton_euler_torques(const PlaneManipulator& manipulator,
+                                                       const std::array<Jet, 3>& motion,
+                                                       const PlaneWrench& wrench);
+
+}  // namespace trammel::derive

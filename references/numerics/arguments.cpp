@@ -1,0 +1,138 @@
+#include "references/numerics/arguments.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace trammel::derive {
+
+namespace {
+
+std::string joined(std::initializer_list<const char*> words) {
+  std::string text;
+  for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text;
+}
+
+Real decimal(const Json& number) {
+  return Real(number.dump());
+}
+
+}  // namespace
+
+Arguments::Arguments(const Json& object, std::string pointer)
+    : object_(object), pointer_(std::move(pointer)) {
+  if (!object_.is_object()) {
+    throw DerivationError((pointer_.empty() ? "/" : pointer_) + ": expected an object");
+  }
+}
+
+Arguments::Arguments(const Json& object, std::string pointer,
+                     std::initializer_list<const char*> known)
+    : Arguments(object, std::move(pointer)) {
+  for (const auto& item : object_.items()) {
+    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
+      fail(item.key(), "no such key; expected one of " + joined(known));
+    }
+  }
+}
+
+void Arguments::fail(const std::string& key, const std::string& expected) const {
+  throw DerivationError(pointer(key) + ": " + expected);
+}
+
+std::string Arguments::pointer(const std::string& key) const {
+  return pointer_ + "/" + key;
+}
+
+std::vector<std::string> Arguments::keys() const {
+  std::vector<std::string> names;
+  for (const auto& item : object_.items()) names.push_back(item.key());
+  return names;
+}
+
+const Json& Arguments::operator[](const std::string& key) const {
+  const auto found = object_.find(key);
+  if (found == object_.end()) fail(key, "is missing");
+  return *found;
+}
+
+Real Arguments::number(const std::string& key) const {
+  const Json& value = (*this)[key];
+  if (!value.is_number()) fail(key, "expected a number");
+  return decimal(value);
+}
+
+Real Arguments::number(const std::string& key, const Real& absent) const {
+  return has(key) ? number(key) : absent;
+}
+
+Real Arguments::positive(const std::string& key) const {
+  Real value = number(key);
+  if (!(value > 0)) fail(key, "expected a positive number");
+  return value;
+}
+
+Real Arguments::not_negative(const std::string& key, const Real& absent) const {
+  Real value = number(key, absent);
+  if (value < 0) fail(key, "expected a number that is not negative");
+  return value;
+}
+
+int Arguments::count(const std::string& key) const {
+  const Json& value = (*this)[key];
+  if (!value.is_number_integer() || value.get<long>() < 1 || value.get<long>() > 1000) {
+    fail(key, "expected a whole number from 1 to 1000");
+  }
+  return value.get<int>();
+}
+
+bool Arguments::flag(const std::string& key, bool absent) const {
+  if (!has(key)) return absent;
+  if (!(*this)[key].is_boolean()) fail(key, "expected true or false");
+  return (*this)[key].get<bool>();
+}
+
+std::string Arguments::text(const std::string& key) const {
+  if (!(*this)[key].is_string()) fail(key, "expected a text");
+  return (*this)[key].get<std::string>();
+}
+
+std::string Arguments::choice(const std::string& key, const std::string& absent,
+                              std::initializer_list<const char*> choices) const {
+  if (!has(key) && !absent.empty()) return absent;
+  const Json& value = (*this)[key];
+  const auto* const found =
+      std::find_if(choices.begin(), choices.end(), [&](const char* word) { return value == word; });
+  if (found == choices.end()) fail(key, "expected one of " + joined(choices));
+  return *found;
+}
+
+std::vector<Real> Arguments::numbers(const std::string& key) const {
+  const Json& value = (*this)[key];
+  if (!value.is_array() || value.empty()) fail(key, "expected an array of numbers");
+  std::vector<Real> result;
+  for (const Json& entry : value) {
+    if (!entry.is_number()) fail(key, "expected an array of numbers");
+    result.push_back(decimal(entry));
+  }
+  return result;
+}
+
+std::vector<Real> Arguments::numbers(const std::string& key, std::size_t size) const {
+  std::vector<Real> result = numbers(key);
+  if (result.size() != size) fail(key, "expected " + std::to_string(size) + " numbers");
+  return result;
+}
+
+std::vector<std::string> Arguments::texts(const std::string& key) const {
+  const Json& value = (*this)[key];
+  if (!value.is_array() || value.empty()) fail(key, "expected an array of texts");
+  std::vector<std::string> result;
+  for (const Json& entry : value) {
+    if (!entry.is_string()) fail(key, "expected an array of texts");
+    result.push_back(entry.get<std::string>());
+  }
+  return result;
+}
+
+}  // namespace trammel::derive

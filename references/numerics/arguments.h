@@ -1,0 +1,58 @@
+#pragma once
+
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "references/numerics/real.h"
+
+/// Reading the arguments of a derivation: every error names the JSON pointer and what was expected.
+namespace trammel::derive {
+
+using Json = nlohmann::json;
+
+/// Arguments that a derivation cannot use, or a model that it cannot solve.
+class DerivationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A JSON object whose keys are all known.
+class Arguments {
+ public:
+  /// @param pointer  where the object stands, for messages.
+  /// @throws DerivationError  where `object` is none, or has a key that is not in `known`.
+  Arguments(const Json& object, std::string pointer, std::initializer_list<const char*> known);
+  /// As above, for an object keyed by names of the user's choice.
+  Arguments(const Json& object, std::string pointer);
+
+  [[nodiscard]] bool has(const std::string& key) const { return object_.contains(key); }
+  [[nodiscard]] const Json& operator[](const std::string& key) const;
+  [[nodiscard]] std::string pointer(const std::string& key) const;
+  [[nodiscard]] std::vector<std::string> keys() const;
+
+  // Numbers are the decimals that the reader sees: 0.0015 is 15/10000, not the nearest double.
+  [[nodiscard]] Real number(const std::string& key) const;
+  [[nodiscard]] Real number(const std::string& key, const Real& absent) const;
+  [[nodiscard]] Real positive(const std::string& key) const;
+  [[nodiscard]] Real not_negative(const std::string& key, const Real& absent) const;
+  [[nodiscard]] int count(const std::string& key) const;  ///< 1 ... 1000
+  [[nodiscard]] bool flag(const std::string& key, bool absent) const;
+  [[nodiscard]] std::string text(const std::string& key) const;
+  /// One of `choices`; `absent` where the key is missing.
+  [[nodiscard]] std::string choice(const std::string& key, const std::string& absent,
+                                   std::initializer_list<const char*> choices) const;
+  [[nodiscard]] std::vector<Real> numbers(const std::string& key) const;
+  [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size) const;
+  [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
+
+  [[noreturn]] void fail(const std::string& key, const std::string& expected) const;
+
+ private:
+  Json object_;
+  std::string pointer_;
+};
+
+}  // namespace trammel::derive

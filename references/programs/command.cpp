@@ -1,0 +1,117 @@
+#include "references/programs/command.h"
+
+#include <cmath>
+#include <exception>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+#include "references/programs/program.h"
+#include "references/programs/stored.h"
+
+namespace trammel::derive {
+
+namespace {
+
+const char* const usage =
+    "Usage: trammel_derive REFERENCE-FILE...\n"
+    "       trammel_derive --program NAME [--arguments JSON]\n"
+    "       trammel_derive --list\n"
+    "\n"
+    "With reference files: prints every stored value, the derived one and their difference, each\n"
+    "against the stated uncertainty. With --program: prints the derived values alone.\n"
+    "Exit status: 0 everything holds, 1 a stored value is not what comes out, 2 bad usage or "
+    "input.\n";
+
+std::string in_column(double value, int width, int digits) {
+  std::ostringstream text;
+  text << std::setw(width) << std::setprecision(digits) << value;
+  return text.str();
+}
+
+int list_programs(std::ostream& out) {
+  for (const auto& [name, program] : programs()) {
+    out << name << "\n    " << program.summary << "\n    arguments: " << program.arguments << "\n";
+  }
+  return 0;
+}
+
+int run_program(const std::string& name, const std::string& text, std::ostream& out) {
+  const Json arguments = Json::parse(text, nullptr, false);
+  if (arguments.is_discarded()) throw DerivationError("--arguments: not JSON");
+  for (const double value : derive(name, arguments)) out << in_column(value, 0, 17) << "\n";
+  return 0;
+}
+
+void print_values(const Comparison& comparison, std::ostream& out) {
+  out << "  " << std::setw(24) << "stored" << std::setw(25) << "derived" << std::setw(12)
+      << "difference" << std::setw(13) << "uncertainty"
+      << "\n";
+  for (std::size_t i = 0; i < comparison.stored.size(); ++i) {
+    const double derived = i < comparison.derived.size() ? comparison.derived[i] : NAN;
+    out << "  " << in_column(comparison.stored[i], 24, 17) << in_column(derived, 25, 17)
+        << in_column(derived - comparison.stored[i], 12, 2)
+        << in_column(comparison.uncertainty[i], 13, 3) << "\n";
+  }
+  if (comparison.derived.size() > comparison.stored.size()) {
+    out << "  " << comparison.derived.size() - comparison.stored.size()
+        << " more derived than stored\n";
+  }
+}
+
+bool print_comparison(const std::string& file, std::ostream& out) {
+  Comparison comparison;
+  const Json reference = read_json(file);
+  try {
+    comparison = compare_with_derivation(reference);
+  } catch (const DerivationError& error) {
+    throw DerivationError(file + ": " + error.what());
+  }
+  out << comparison.id << " [" << comparison.unit << "]";
+  if (comparison.program.empty()) {
+    out << ": no derivation\n";
+    return true;
+  }
+  out << " by " << comparison.program << "\n";
+  print_values(comparison, out);
+  out << "  " << (comparison.holds() ? "holds" : "DOES NOT HOLD") << "\n";
+  return comparison.holds();
+}
+
+int run(const std::vector<std::string>& words, std::ostream& out, std::ostream& err) {
+  if (words.empty()) {
+    err << usage;
+    return 2;
+  }
+  if (words[0] == "--help" || words[0] == "-h") {
+    out << usage;
+    return 0;
+  }
+  if (words[0] == "--list" && words.size() == 1) return list_programs(out);
+  if (words[0] == "--program" && words.size() == 2) return run_program(words[1], "{}", out);
+  if (words[0] == "--program" && words.size() == 4 && words[2] == "--arguments") {
+    return run_program(words[1], words[3], out);
+  }
+  for (const std::string& word : words) {
+    if (word.rfind("--", 0) == 0) throw DerivationError("cannot use '" + word + "' here");
+  }
+  bool holds = true;
+  for (const std::string& file : words) holds = print_comparison(file, out) && holds;
+  return holds ? 0 : 1;
+}
+
+}  // namespace
+
+int derive_command(const std::vector<std::string>& words, std::ostream& out, std::ostream& err) {
+  try {
+    return run(words, out, err);
+  } catch (const DerivationError& error) {
+    err << "trammel_derive: " << error.what() << "\n";
+    return 2;
+  } catch (const std::exception& error) {
+    err << "trammel_derive: our own fault: " << error.what() << "\n";
+    return 3;
+  }
+}
+
+}  // namespace trammel::derive

@@ -1,0 +1,7 @@
+#include <iostream>
+
+#include "references/programs/command.h"
+
+int main(int argc, char** argv) {
+  return trammel::derive::derive_command({argv + 1, argv + argc}, std::cout, std::cerr);
+}

@@ -1,0 +1,155 @@
+#include "references/programs/program.h"
+
+#include "references/beams/annular_membrane.h"
+#include "references/beams/beam_modes.h"
+#include "references/beams/column_buckling.h"
+#include "references/beams/deep_beam.h"
+#include "references/beams/elastica.h"
+#include "references/beams/exponential_beam.h"
+#include "references/numerics/expression.h"
+#include "references/frames/frame_sensitivity.h"
+#include "references/manipulator/manipulator_torques.h"
+#include "references/manipulator/nadaraya_watson.h"
+#include "references/beams/parallelogram_chain.h"
+#include "references/beams/pendulum.h"
+#include "references/beams/rotating_beam.h"
+#include "references/programs/swept.h"
+#include "references/frames/unit_load.h"
+#include "references/beams/wedge.h"
+#include "references/frames/wittrick_williams.h"
+
+namespace trammel::derive {
+
+const std::map<std::string, Program>& programs() {
+  static const std::map<std::string, Program> table = {
+      {"annular-membrane",
+       {"in-plane frequencies of a free annular plate [Hz] by Bessel functions (Love)",
+        "inner_radius_m, outer_radius_m, E_Pa, rho_kg_m3, nu, modes (pairs [waves, number])",
+        annular_membrane_program}},
+      {"column-buckling",
+       {"critical loads of one uniform column (Timoshenko and Gere, chapter 2)",
+        "ends, load (end | self-weight), count, EI_N_m2, length_m, weight_N_per_m",
+        column_buckling_program}},
+      {"deep-beam-response",
+       {"simply supported Timoshenko beam under a uniform load, by its exact modes (NAFEMS 5H, 5T)",
+        "length_m, thickness_m, width_m, E_Pa, rho_kg_m3, nu, shear_coefficient, load_N_per_m, "
+        "damping_ratio (or rayleigh_mass_1_s, rayleigh_stiffness_s), response (static | "
+        "harmonic-peak | step-peak), outputs (displacement_m, stress_Pa, frequency_Hz, time_s)",
+        deep_beam_program}},
+      {"elastica-column",
+       {"cantilever column beyond buckling: F/Fcr, lateral and axial displacement over L",
+        "tip_angle_deg (array), output (all | load | lateral | axial), length_m",
+        elastica_column_program}},
+      {"elastica-tip-force",
+       {"cantilever under a transverse dead load: v/L, u/L, tip angle (Bisshopp and Drucker 1945)",
+        "load_parameter (array of P L^2/EI), output (all | transverse | shortening | angle), "
+        "length_m",
+        elastica_tip_force_program}},
+      {"exponential-beam",
+       {"frequencies of a clamped-clamped beam of exponential width [Hz]",
+        "length_m, thickness_m, width_rate_1_m, E_Pa, rho_kg_m3, count, beam; for timoshenko nu, "
+        "shear_coefficient",
+        exponential_beam_program}},
+      {"parallelogram-chain",
+       {"the chain of N four-bar loops of the IFToMM benchmark A02 by elliptic functions",
+        "loops, length_m, gravity_m_s2, start_speed_m_s, times_s, output (position | velocity)",
+        parallelogram_chain_program}},
+      {"pendulum",
+       {"plane pendulum of any amplitude by elliptic functions: period [s] or x, y [m]",
+        "length_m, gravity_m_s2, start_angle_deg, output (period | position | tension of 1 kg), "
+        "times_s",
+        pendulum_program}},
+      {"rotating-beam-frequencies",
+       {"a steadily rotating cantilever's bending frequencies [Hz] by power series",
+        "length_m, hub_radius_m, E_Pa, rho_kg_m3, thickness_m (in the direction of bending), "
+        "angular_speed_rad_s, plane (flap | lag), count, axial (rigid | flexible)",
+        rotating_beam_frequencies_program}},
+      {"rotating-beam-roots",
+       {"the same without dimension: w sqrt(rho A L^4/EI)",
+        "eta, hub_ratio, plane, count, axial_ratio", rotating_beam_roots_program}},
+      {"beam-frequencies",
+       {"frequencies of one uniform Euler-Bernoulli beam [Hz] (Blevins 1979, Table 8-1)",
+        "ends, count, length_m, E_Pa, rho_kg_m3, thickness_m (in the plane), width_m; clamped-free "
+        "also tip_mass_ratio, tip_inertia_ratio",
+        beam_frequencies_program}},
+      {"beam-roots",
+       {"roots beta L of its characteristic equation (Blevins 1979, Table 8-1)",
+        "ends, count; clamped-free also tip_mass_ratio M/(rho A L), tip_inertia_ratio J/(rho A "
+        "L^3)",
+        beam_roots_program}},
+      {"beam-share",
+       {"the beam's share of the modal mass of a cantilever with a tip mass",
+        "count, tip_mass_ratio M/(rho A L)", beam_share_program}},
+      {"frame-buckling",
+       {"factors of the loads at which a planar frame buckles, by the count of Wittrick and "
+        "Williams "
+        "at vanishing frequency",
+        "model (as in a case file; or manipulator, pose, loads), count", frame_buckling_program}},
+      {"frame-count",
+       {"how many natural frequencies of a planar frame lie below one, rigid motions included, by "
+        "Wittrick and Williams (1971)",
+        "model (as in a case file; or manipulator, pose), below_Hz", frame_count_program}},
+      {"frame-frequencies",
+       {"exact elastic natural frequencies of a planar frame [Hz] by the dynamic stiffness method "
+        "and "
+        "the count of Wittrick and Williams (1971)",
+        "model (as in a case file; or manipulator, pose), count", frame_frequencies_program}},
+      {"frame-frequency-sensitivity",
+       {"derivatives of a planar frame's exact natural frequencies with respect to its numbers, by "
+        "extrapolated differences in 50 digits",
+        "model (as in a case file; or manipulator, pose), pointers (to numbers that change "
+        "together), step, count",
+        frame_sensitivity_program}},
+      {"frame-statics",
+       {"exact statics of a planar frame by the unit-load method",
+        "model (as in a case file; or manipulator, pose, loads), outputs (displacement_x_m:NODE, "
+        "rotation_rad:NODE, reaction_y_N:NODE, bending_moment_N_m:MEMBER.end, ...)",
+        frame_statics_program}},
+      {"grnn",
+       {"general regression neural network by its printed formula (Specht 1991; paper Eq. 36, 37)",
+        "inputs, outputs, queries (arrays of rows), sigma or spread (MATLAB's newgrnn); the "
+        "outputs at the first query, then at the next",
+        grnn_program}},
+      {"manipulator-grnn",
+       {"the same, trained with the torques along a path as inputs and the angles and velocities "
+        "of "
+        "the active joints as outputs",
+        "manipulator, trajectory, step_s, train (points, from the first), sigma, queries (points), "
+        "output (angles | velocities), force_N, moment_N_m, gravity_m_s2; at A1 at every query, at "
+        "A2, at A3",
+        manipulator_grnn_program}},
+      {"manipulator-torques",
+       {"torques of the rigid planar 3-RRR along a path [N m], Newton and Euler for each of its "
+        "seven bodies",
+        "manipulator, trajectory (circle | line | rest_to_rest | spline), times_s, force_N, "
+        "moment_N_m, gravity_m_s2; torques at A1 at all times, then A2, then A3",
+        manipulator_torques_program}},
+      {"wedge-exponent",
+       {"the power of the distance with which displacements grow from a corner between a clamped "
+        "and "
+        "a free side (Williams 1952)",
+        "clamped_side, free_side (directions from the corner), nu, plane (stress | strain)",
+        wedge_exponent_program}},
+      {"formula",
+       {"closed formulas, one value each, in extended precision",
+        "formulas (array of texts: + - * / ^, parentheses, sqrt, sin, cos, tan, exp, log, pi), "
+        "values (object of numbers by name)",
+        formula_program}},
+      {"swept",
+       {"another program at each of several values: the truth of a parameter study",
+        "program, arguments, pointers (into the arguments) and values, or patches", swept_program}},
+  };
+  return table;
+}
+
+std::vector<double> derive(const std::string& program, const Json& arguments) {
+  const auto found = programs().find(program);
+  if (found == programs().end()) {
+    std::string names;
+    for (const auto& entry : programs()) names += (names.empty() ? "" : ", ") + entry.first;
+    throw DerivationError("no program '" + program + "'; there are " + names);
+  }
+  return found->second.run(arguments);
+}
+
+}  // namespace trammel::derive

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "references/numerics/arguments.h"
+
+/// The programs that re-derive references, by the name that a reference file gives in
+/// "derivation": {"program": NAME, "arguments": {...}}.
+namespace trammel::derive {
+
+struct Program {
+  std::string summary;    ///< what it derives, with its equation's source
+  std::string arguments;  ///< what it takes, in one line
+  std::function<std::vector<double>(const Json&)> run;
+};
+
+[[nodiscard]] const std::map<std::string, Program>& programs();
+
+/// The values that a program gives, in SI.
+/// @throws DerivationError  unknown program or unusable arguments; the pointer is relative to them.
+[[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
+
+}  // namespace trammel::derive

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "references/numerics/arguments.h"
+
+/// A stored reference beside what its derivation gives today.
+namespace trammel::derive {
+
+struct Comparison {
+  std::string id;
+  std::string program;  ///< empty: the file has no derivation
+  std::string unit;
+  std::vector<double> stored;
+  std::vector<double> uncertainty;  ///< absolute, one a value
+  std::vector<double> derived;      ///< empty where there is no derivation
+
+  /// Every derived value lies within the stated uncertainty of the stored one.
+  [[nodiscard]] bool holds() const;
+};
+
+/// @param reference  the content of a file of references/values/.
+/// @throws DerivationError  with the JSON pointer inside it.
+[[nodiscard]] Comparison compare_with_derivation(const Json& reference);
+
+/// @throws DerivationError  with the file and the pointer, or the byte where it is not JSON.
+[[nodiscard]] Json read_json(const std::filesystem::path& file);
+
+}  // namespace trammel::derive

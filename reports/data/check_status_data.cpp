@@ -1,0 +1,37 @@
+#include "reports/text/number.h"
+#include "reports/page/sections.h"
+
+namespace trammel::reports {
+
+void set_standing(Data& data, Standing standing) {
+  data.set("standing", in_words(standing));
+  data.set("standing_class", css_class(standing));
+  data.set("sign", sign(standing));
+}
+
+Data counts_list(const Counts& counts) {
+  Data out = list();
+  const auto all = static_cast<double>(total(counts));
+  for (const Standing which : all_standings) {
+    const std::size_t n = count_of(counts, which);
+    if (n == 0) continue;
+    Data entry = object();
+    set_standing(entry, which);
+    entry.set("n", std::to_string(n));
+    entry.set("percent", shortest(100.0 * static_cast<double>(n) / all));
+    out.push_back(entry);
+  }
+  return out;
+}
+
+std::string case_anchor(const std::string& id) {
+  return "case-" + slug(id);
+}
+std::string family_anchor(const std::string& id) {
+  return "family-" + slug(id);
+}
+std::string reference_anchor(const std::string& id) {
+  return "ref-" + slug(id);
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,172 @@
+#include "reports/data/check_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "reports/text/number.h"
+#include "reports/text/quantity.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr int most_target_digits = 8;
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+  const std::string people = unit_for_people(unit);
+  return people.empty() ? number : number + "\u202f" + people;
+}
+
+int digits_in(const std::string& text) {
+  const std::string mantissa = text.substr(0, text.find('e'));
+  const std::size_t first = mantissa.find_first_of("123456789");
+  if (first == std::string::npos) return 1;
+  return static_cast<int>(std::count_if(mantissa.begin() + static_cast<long>(first), mantissa.end(),
+                                        [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+int digits_for(const Check& check) {
+  if (!check.expected || !check.computed) return 4;
+  return telling_digits(*check.expected, *check.computed);
+}
+
+/// The part of an order check that judges the extrapolated value.
+bool is_extrapolated(const Check& check) {
+  const std::string end = ".richardson";
+  return check.name.size() > end.size() &&
+         check.name.compare(check.name.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string statistic_words(std::string statistic) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> words = {{
+      {"max_abs", "largest magnitude"},
+      {"max", "largest"},
+      {"min", "smallest"},
+      {"rms", "root mean square"},
+  }};
+  for (const auto& [key, people] : words)
+    if (statistic == key) return people;
+  std::replace(statistic.begin(), statistic.end(), '_', ' ');
+  return statistic;
+}
+
+/// As many as show how far from 1 it is.
+int ratio_digits(double ratio) {
+  return telling_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
+}
+
+/// A limit or difference in the check's own measure.
+std::string measured(const Check& check, double x, bool sign) {
+  if (check.measure == "relative") return relative(x, 3, sign);
+  if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
+  const std::string number = sign ? with_sign(x, 3) : trimmed(x, 4);
+  const bool plain = check.measure == "order" || check.measure == "leading-term";
+  return plain ? number : with_unit(number, check.unit);
+}
+
+std::string bound_text(const Check& check) {
+  const Tolerance& t = *check.tolerance;
+  const auto limit = [&](double x) { return with_unit(trimmed(x, 4), check.unit); };
+  if (t.low && t.high && *t.low == *t.high) return limit(*t.low);
+  if (t.low && t.high) return trimmed(*t.low, 4) + " to " + limit(*t.high);
+  if (t.high) return "≤ " + limit(*t.high);
+  return t.low ? "≥ " + limit(*t.low) : "";
+}
+
+}  // namespace
+
+std::string check_title(const Check& check) {
+  return check.title.empty() ? check.name : check.title;
+}
+
+std::string target_text(const Check& check) {
+  if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
+  // A value that was printed with few digits is shown with those; a long one as far as it tells.
+  const int own = digits_in(shortest(*check.expected));
+  if (own <= most_target_digits) return significant(*check.expected, own);
+  return significant(*check.expected, digits_for(check));
+}
+
+std::string computed_text(const Check& check) {
+  if (check.measure == "status") return check.message.substr(0, check.message.find(':'));
+  if (!check.computed) return check.verdict == Verdict::not_run ? "–" : "none";
+  const double x = *check.computed;
+  if (x == std::round(x) && std::abs(x) < 1e6) return trimmed(x, 7);
+  return significant(x, digits_for(check));
+}
+
+std::string difference_text(const Check& check, double difference) {
+  if (check.measure == "ratio") return "×\u202f" + measured(check, difference, false);
+  return measured(check, difference, true);
+}
+
+std::string difference_text(const Check& check) {
+  if (check.measure == "bound") {
+    // Of an upper limit the share used; a range is only kept or not.
+    const double used = tolerance_used(check);
+    if (!std::isfinite(used)) return "–";
+    if (check.tolerance->low) return used <= 1 ? "within" : "outside";
+    return relative(used, 2, false) + " of limit";
+  }
+  return check.difference ? difference_text(check, *check.difference) : "–";
+}
+
+std::string tolerance_text(const Check& check) {
+  if (!check.tolerance) return "–";
+  const Tolerance& t = *check.tolerance;
+  if (check.measure == "bound") return bound_text(check);
+  if (t.symmetric && *t.high == 0) return "exactly";
+  if (t.symmetric) return "± " + measured(check, *t.high, false);
+  const bool sign = check.measure != "ratio";
+  if (t.low && t.high)
+    return measured(check, *t.low, sign) + " to " + measured(check, *t.high, sign);
+  if (t.high) return "≤ " + measured(check, *t.high, sign);
+  return t.low ? "≥ " + measured(check, *t.low, sign) : "–";
+}
+
+std::string quantity_text(const Check& check) {
+  const Quantity quantity = parse_quantity(check.quantity);
+  std::string text = in_words(quantity);
+  if (check.measure == "status") return "how the run ends";
+  if (check.measure == "order") return "order of convergence of " + text;
+  if (check.measure == "leading-term")
+    return "error of " + text + " over the leading term of theory";
+  if (is_extrapolated(check)) text = "extrapolated " + text;
+  if (!check.statistic.empty()) text = statistic_words(check.statistic) + " of " + text;
+  if (!check.against_quantity.empty())
+    text += ", against " + in_words(parse_quantity(check.against_quantity));
+  if (!check.against_variant.empty()) text += ", against " + check.against_variant;
+  return axis_label(text, check.unit.empty() ? quantity.unit : unit_for_people(check.unit));
+}
+
+std::string entry_text(const Check& check, std::size_t of) {
+  if (!check.index) return "";
+  const std::string number = std::to_string(*check.index + 1);
+  if (check.quantity.rfind("frequency", 0) == 0) return "mode " + number;
+  if (of > 20 || *check.index > 20) return "point " + number;
+  return of > 1 || *check.index > 0 ? number : "";
+}
+
+std::string trouble_text(const CheckGroup& group) {
+  const Check& worst = group.worst();
+  const auto bad = static_cast<std::size_t>(
+      std::count_if(group.checks.begin(), group.checks.end(), [](const Check* check) {
+        return check->verdict == Verdict::fail || check->verdict == Verdict::error;
+      }));
+  std::string text;
+  if (group.checks.size() > 1) {
+    text = std::to_string(bad) + " of " + std::to_string(group.checks.size()) + "; worst: ";
+    const std::string entry = entry_text(worst, group.checks.size());
+    if (!entry.empty()) text += entry + ", ";
+  }
+  if (!worst.computed) return text + (worst.message.empty() ? "nothing computed" : worst.message);
+  text += "computed " + computed_text(worst) + " against " + target_text(worst);
+  if (worst.measure != "bound")
+    text += ", " + difference_text(worst) + " where " + tolerance_text(worst) +
+            (worst.known_discrepancy ? " is expected" : " is allowed");
+  return worst.message.empty() ? text : text + " (" + worst.message + ")";
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,97 @@
+#include <gnuplot-iostream.h>
+
+#include <csignal>
+#include <sstream>
+#include <stdexcept>
+
+#include "reports/drawing/figure.h"
+#include "reports/text/files.h"
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
+#include "reports/drawing/svg.h"
+
+namespace trammel::reports {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A gnuplot that gives up closes its pipe; the write that follows shall fail, not kill us.
+class NoBrokenPipe {
+ public:
+  NoBrokenPipe() : previous_(std::signal(SIGPIPE, SIG_IGN)) {}
+  ~NoBrokenPipe() { std::signal(SIGPIPE, previous_); }
+  NoBrokenPipe(const NoBrokenPipe&) = delete;
+  NoBrokenPipe& operator=(const NoBrokenPipe&) = delete;
+
+ private:
+  void (*previous_)(int);
+};
+
+/// A path may hold an apostrophe, which is doubled; it never starts with one.
+std::string quoted_path(const fs::path& path) {
+  std::string out = "'";
+  for (const char c : fs::absolute(path).string()) out += c == '\'' ? "''" : std::string(1, c);
+  return out + '\'';
+}
+
+/// What all figures have in common. Nothing is marked up in texts (noenhanced).
+std::string preamble(const Figure& figure, const fs::path& svg) {
+  std::ostringstream out;
+  out << "reset session\n"
+      << "set encoding utf8\nset minussign\n"
+      << "set terminal svg size " << figure.width << ',' << figure.height
+      << " dynamic noenhanced font 'Helvetica,15' linewidth 1 rounded background '"
+      << palette::paper << "'\n"
+      << "set output " << quoted_path(svg) << '\n'
+      << "set border 3" << lc(palette::structure) << '\n'
+      << "set tics nomirror out scale 0.5 textcolor rgb '" << palette::muted << "'\n"
+      << "set grid" << lc(palette::grid) << " lw 1 lt 1," << lc(palette::grid) << " lw 1 lt 1\n"
+      << "set xtics offset 0,0.35\nset ytics offset 0.3,0\n"
+      << "set xlabel offset 0,0.7 textcolor rgb '" << palette::ink << "'\n"
+      << "set ylabel offset 0.6,0 textcolor rgb '" << palette::ink << "'\n"
+      << "set key outside below center horizontal Left reverse samplen 1.6 spacing 1.15 textcolor "
+         "rgb '"
+      << palette::ink << "'\n"
+      << "set style fill solid 1 noborder\n";
+  return out.str();
+}
+
+}  // namespace
+
+std::string slug(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) {
+      out += c;
+    } else if (c >= 'A' && c <= 'Z') {
+      out += static_cast<char>(c - 'A' + 'a');
+    } else if (!out.empty() && out.back() != '-') {
+      out += '-';
+    }
+  }
+  while (!out.empty() && out.back() == '-') out.pop_back();
+  return out.empty() ? "x" : out;
+}
+
+void draw(const std::vector<Figure*>& figures, const fs::path& folder) {
+  fs::create_directories(folder);
+  if (figures.empty()) return;
+  const auto svg_path = [&](const Figure& figure) { return folder / (figure.id + ".svg"); };
+  for (const Figure* figure : figures) fs::remove(svg_path(*figure));
+  {
+    const NoBrokenPipe guard;
+    Gnuplot gnuplot("gnuplot -d");  // without the user's own settings
+    for (const Figure* figure : figures)
+      gnuplot << preamble(*figure, svg_path(*figure)) << figure->commands << "unset output\n";
+  }
+  for (Figure* figure : figures) {
+    const fs::path path = svg_path(*figure);
+    if (!fs::exists(path)) throw std::runtime_error("gnuplot did not draw " + path.string());
+    figure->svg = tidy_svg(read_file(path), figure->id, figure->title, figure->alt);
+    write_file(path, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n" + figure->svg);
+    write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
+  }
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/text/csv.h"
+
+namespace trammel::reports {
+
+/// A figure before it is drawn: what gnuplot is told, and the same data as a table.
+struct Figure {
+  std::string id;       ///< a slug, unique within the report: names the files and the anchor
+  std::string title;    ///< what is shown
+  std::string caption;  ///< what to conclude
+  std::string alt;      ///< the picture in words, for those who do not see it
+  int width = 500, height = 360;  ///< of the drawing; on the page it scales with its column
+  std::string commands;           ///< gnuplot commands of a PlotScript
+  Table data;
+  int number = 0;   ///< in the order of the page, from 1
+  std::string svg;  ///< the drawing, once drawn: an element for inlining, with ids of its own
+};
+
+/// Lower-case letters, digits and single hyphens.
+[[nodiscard]] std::string slug(const std::string& text);
+
+/// Draws all figures with one gnuplot process: sets `svg`, and writes <id>.svg and <id>.csv for
+/// each into `folder`.
+/// @throws std::runtime_error if a figure could not be drawn or written.
+void draw(const std::vector<Figure*>& figures, const std::filesystem::path& folder);
+
+}  // namespace trammel::reports

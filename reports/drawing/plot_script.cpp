@@ -1,0 +1,133 @@
+#include "reports/drawing/plot_script.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t longest_key = 38;  ///< characters that gnuplot finds room for
+
+/// Eight digits are finer than any pixel; a break where there is no finite point.
+std::string row_text(const std::vector<double>& row) {
+  std::string out;
+  for (const double x : row) {
+    if (!std::isfinite(x)) return "";
+    std::array<char, 40> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
+                                   std::chars_format::general, 8);
+    out += (out.empty() ? "" : " ") + std::string(buffer.data(), end.ptr);
+  }
+  return out;
+}
+
+/// UTF-8: every byte that does not continue another.
+bool starts_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+}
+
+std::string titled(const std::string& title) {
+  return title.empty() ? " notitle" : " title " + quoted(shortened(title, longest_key));
+}
+
+}  // namespace
+
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      out += "’";
+    } else {
+      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out + '\'';
+}
+
+std::string tic(const std::string& text, double at) {
+  std::string format;  // gnuplot reads it as one
+  for (const char c : text) format += c == '%' ? "%%" : std::string(1, c);
+  return quoted(format) + " " + shortest(at);
+}
+
+std::size_t characters(const std::string& utf8) {
+  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), starts_character));
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+  if (characters(text) <= most) return text;
+  std::size_t seen = 0;
+  std::size_t end = 0;
+  while (end < text.size() && (seen += starts_character(text[end])) < most) ++end;
+  return text.substr(0, end) + "…";
+}
+
+std::string lc(const std::string& color) {
+  return " lc rgb " + quoted(color);
+}
+
+void PlotScript::command(const std::string& line) {
+  commands_ += line + '\n';
+}
+
+void PlotScript::curve(const Rows& rows, const std::string& style, const std::string& title) {
+  if (rows.empty()) return;
+  const std::string block = "$d" + std::to_string(blocks_++);
+  command(block + " << EOD");
+  for (const auto& row : rows) command(row_text(row));
+  command("EOD");
+  curves_.push_back(block + " " + style + titled(title));
+}
+
+void PlotScript::key_entry(const std::string& style, const std::string& title) {
+  curves_.push_back("keyentry " + style + titled(title));
+}
+
+void PlotScript::label(const std::string& text, const std::string& place) {
+  command("set label " + quoted(text) + " at " + place);
+}
+
+void PlotScript::plot() {
+  std::string line = "plot ";
+  for (std::size_t i = 0; i < curves_.size(); ++i) line += (i ? ", " : "") + curves_[i];
+  command(line);
+  curves_.clear();
+}
+
+int PlotScript::key_below(const std::vector<std::string>& titles) {
+  std::size_t longest = 1;
+  for (const std::string& title : titles)
+    longest = std::max(longest, std::min(characters(title), longest_key));
+  const std::size_t columns = std::clamp<std::size_t>(56 / (longest + 7), 1, 4);
+  command("set key maxcols " + std::to_string(columns));
+  return 22 * static_cast<int>((titles.size() + columns - 1) / columns);
+}
+
+void PlotScript::range(const std::string& axis, double low, double high) {
+  command("set " + axis + "range [" + shortest(low) + ":" + shortest(high) + "]");
+}
+
+void PlotScript::axis_label(const std::string& axis, const std::string& text) {
+  command("set " + axis + "label " + quoted(text));
+}
+
+void PlotScript::log_axis(const std::string& axis, double low, double high, int most_labels) {
+  const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
+  const int last = static_cast<int>(std::ceil(std::log10(high) - 1e-9));
+  int step = 1;
+  while ((last - first) / step + 1 > most_labels) ++step;
+  command("set logscale " + axis);
+  range(axis, std::pow(10.0, first), std::pow(10.0, last));
+  std::string tics;
+  for (int exponent = first; exponent <= last; ++exponent)
+    if ((last - exponent) % step == 0)
+      tics += (tics.empty() ? "" : ", ") + tic(power_of_ten(exponent), std::pow(10.0, exponent));
+  command("set " + axis + "tics (" + tics + ")");
+}
+
+}  // namespace trammel::reports

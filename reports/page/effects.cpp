@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include "reports/text/number.h"
+#include "reports/page/sections.h"
+
+namespace trammel::reports {
+
+namespace {
+
+bool chose_effects(const Run* run) {
+  return std::any_of(run->effects.begin(), run->effects.end(),
+                     [](const EffectRow& effect) { return effect.change.has_value(); });
+}
+
+/// "axial-flexibility" -> "axial flexibility"
+std::string words_of(std::string name) {
+  std::replace(name.begin(), name.end(), '-', ' ');
+  return name;
+}
+
+std::string title_of(const Run& run) {
+  std::string on;
+  std::size_t off = 0;
+  for (const EffectRow& effect : run.effects) {
+    if (effect.on) on += (on.empty() ? "" : ", ") + words_of(effect.name);
+    if (effect.admitted && !effect.on) ++off;
+  }
+  return "Computed with " + (on.empty() ? "bending alone" : on) + "; " +
+         count(off, "other effect was left out", "other effects were left out");
+}
+
+Data row_of(const EffectRow& effect) {
+  Data row = object();
+  row.set("effect", words_of(effect.name));
+  row.set("state", effect.on ? "on" : "off");
+  set_text(row, "number", effect.number ? trimmed(*effect.number, 3) : "");
+  set_text(row, "number_of", effect.number_of);
+  set_text(row, "change", effect.change ? relative(*effect.change, 3, false) : "");
+  row.set("why", effect.why);
+  return row;
+}
+
+}  // namespace
+
+void set_effects(Data& data, const std::vector<const Run*>& runs) {
+  const auto found = std::find_if(runs.begin(), runs.end(), chose_effects);
+  set_text(data, "effects_title", found == runs.end() ? "" : title_of(**found));
+  Data rows = list();
+  if (found != runs.end()) {
+    for (const EffectRow& effect : (*found)->effects) {
+      if (effect.admitted) rows.push_back(row_of(effect));
+    }
+  }
+  data.set("effects", rows);
+}
+
+}  // namespace trammel::reports

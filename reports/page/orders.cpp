@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reports/text/number.h"
+#include "reports/text/quantity.h"
+#include "reports/page/sections.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr double a_tenth = 0.1;
+constexpr std::size_t most_open = 24;  ///< rows of a family's table that is not folded
+
+/// How many bands hold the exact value, and how wide they are for the error that there is.
+struct BandCount {
+  std::size_t levels = 0, hits = 0;
+  std::vector<double> ratios;
+
+  void add(const Convergence& c) {
+    if (!c.exact || *c.exact == 0) return;
+    for (std::size_t k = 0; k < c.band.size(); ++k) {
+      if (!c.band[k] || !c.values[k] || !c.error[k]) continue;
+      // The band is relative to the value, the error to the exact one.
+      const double band = *c.band[k] * std::abs(*c.values[k] / *c.exact);
+      ++levels;
+      hits += band >= *c.error[k] ? 1 : 0;
+      if (!c.at_roundoff_floor[k] && *c.error[k] > 0) ratios.push_back(band / *c.error[k]);
+    }
+  }
+  void add(const BandCount& more) {
+    levels += more.levels;
+    hits += more.hits;
+    ratios.insert(ratios.end(), more.ratios.begin(), more.ratios.end());
+  }
+  [[nodiscard]] Number median() const {
+    if (ratios.empty()) return std::nullopt;
+    std::vector<double> sorted = ratios;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    return *middle;
+  }
+};
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+
+  void add(const Number& x) {
+    if (!x || !std::isfinite(*x)) return;
+    low = std::min(low, *x);
+    high = std::max(high, *x);
+  }
+  [[nodiscard]] bool empty() const { return low > high; }
+  [[nodiscard]] std::string text(int digits) const {
+    if (empty()) return "–";
+    const std::string from = trimmed(low, digits), to = trimmed(high, digits);
+    return from == to ? from : from + " to " + to;
+  }
+};
+
+/// Entries of one quantity along one sweep of one run.
+struct Row {
+  const Run* run;
+  std::vector<const Convergence*> entries;
+
+  [[nodiscard]] const Convergence& front() const { return *entries.front(); }
+};
+
+std::vector<Row> rows_of(const Run& run) {
+  std::vector<Row> rows;
+  for (const Convergence& c : run.convergence) {
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+      return row.front().sweep == c.sweep && row.front().quantity == c.quantity;
+    });
+    if (same == rows.end()) {
+      rows.push_back({&run, {&c}});
+    } else {
+      same->entries.push_back(&c);
+    }
+  }
+  return rows;
+}
+
+double largest_finite(const Numbers& numbers, bool first) {
+  double found = 0;
+  for (const Number& x : numbers) {
+    if (!x || !std::isfinite(*x)) continue;
+    found = *x;
+    if (first) break;
+  }
+  return found;
+}
+
+/// What a row has to say, over its entries.
+struct Findings {
+  Range order, law;
+  double first = 0, last = 0;
+  double off = -1;  ///< of the extrapolated value from the exact one; below 0: not known
+  std::size_t fitted = 0, near = 0;  ///< entries with a fitted order, and with one near theory
+  BandCount bands;
+};
+
+Findings findings(const Row& row) {
+  Findings found;
+  for (const Convergence* c : row.entries) {
+    found.order.add(c->lower_order ? std::nullopt : c->fitted_order);
+    found.law.add(c->law_within);
+    found.first = std::max(found.first, largest_finite(c->error, true));
+    found.last = std::max(found.last, largest_finite(c->error, false));
+    if (c->exact && *c->exact != 0 && c->richardson)
+      found.off = std::max(found.off, std::abs(*c->richardson / *c->exact - 1));
+    if (!c->lower_order && c->fitted_order && c->theory_order) {
+      ++found.fitted;
+      const double apart = std::abs(*c->fitted_order - *c->theory_order);
+      found.near += apart <= a_tenth * std::max(1.0, *c->theory_order) ? 1 : 0;
+    }
+    found.bands.add(*c);
+  }
+  return found;
+}
+
+std::string theory_text(const Convergence& c) {
+  if (!c.theory_order) return "–";
+  const std::string order = trimmed(*c.theory_order, 4);
+  return c.lower_order ? order + " and " + trimmed(*c.lower_order, 4) : order;
+}
+
+std::string observed_text(const Findings& found) {
+  if (!found.law.empty()) return "law within " + relative(found.law.high, 2, false);
+  return found.order.text(3);
+}
+
+Data data_of(const Row& row, const Findings& found, const CaseInfo& info) {
+  const Quantity quantity = parse_quantity(row.front().quantity);
+  Data data = object();
+  data.set("quantity", in_words(quantity));
+  set_text(data, "entries",
+           row.entries.size() > 1 ? count(row.entries.size(), "entry", "entries") : "");
+  set_text(data, "variant", row.run->variant == "base" ? "" : info.variant_title(row.run->variant));
+  data.set("theory", theory_text(row.front()));
+  data.set("observed", observed_text(found));
+  data.set("error", significant(found.first, 2) + " to " + significant(found.last, 2));
+  data.set("off", found.off < 0 ? "–" : significant(found.off, 2));
+  const bool counted = found.bands.levels > 0;
+  data.set("hits",
+           counted ? std::to_string(found.bands.hits) + " of " + std::to_string(found.bands.levels)
+                   : "–");
+  data.set("ratio", or_dash(found.bands.median(), 3));
+  return data;
+}
+
+std::string bands_words(const BandCount& bands) {
+  if (bands.levels == 0) return "";
+  std::string text = "Bands hold the exact value on " + std::to_string(bands.hits) + " of " +
+                     count(bands.levels, "level");
+  if (const Number median = bands.median())
+    text += " and are " + trimmed(*median, 3) + " times the error (median)";
+  return text + ".";
+}
+
+struct Totals {
+  std::size_t rows = 0, series = 0, fitted = 0, near = 0;
+  double law = 0;
+  BandCount bands;
+};
+
+std::string orders_words(const Totals& totals) {
+  std::string text = count(totals.series, "refinement") + ".";
+  if (totals.fitted > 0)
+    text += " The fitted order lies within a tenth of theory for " + std::to_string(totals.near) +
+            " of " + std::to_string(totals.fitted) + ".";
+  if (totals.law > 0)
+    text += " Where two orders mix, their law meets the errors within " +
+            relative(totals.law, 2, false) + ".";
+  return text;
+}
+
+Data family_of(const Family& family, Totals& totals) {
+  Data data = object();
+  Data cases = list();
+  for (const CaseInfo* info : family.cases) {
+    Data rows = list();
+    bool any = false;
+    for (const Run* run : family.runs_of(info->id)) {
+      for (const Row& row : rows_of(*run)) {
+        const Findings found = findings(row);
+        rows.push_back(data_of(row, found, *info));
+        any = true;
+        ++totals.rows;
+        totals.series += row.entries.size();
+        totals.fitted += found.fitted;
+        totals.near += found.near;
+        if (!found.law.empty()) totals.law = std::max(totals.law, found.law.high);
+        totals.bands.add(found.bands);
+      }
+    }
+    if (!any) continue;
+    Data one = object();
+    one.set("case_title", family.short_title(*info));
+    one.set("case_anchor", case_anchor(info->id));
+    one.set("rows", rows);
+    cases.push_back(one);
+  }
+  data.set("family_title", family.title);
+  data.set("cases", cases);
+  data.set("words", orders_words(totals) + " " + bands_words(totals.bands));
+  data.set("folded_title", count(totals.rows, "row"));
+  set_flag(data, "open", totals.rows <= most_open);
+  return data;
+}
+
+}  // namespace
+
+Data orders_section(const Results& results, const std::vector<Family>& families) {
+  Data section = object();
+  Data list_of_families = list();
+  std::size_t series = 0;
+  for (const Family& family : families) {
+    Totals totals;
+    const Data data = family_of(family, totals);
+    if (totals.rows == 0) continue;
+    series += totals.series;
+    list_of_families.push_back(data);
+  }
+  set_flag(section, "has_rows", series > 0);
+  section.set("words", count(series, "quantity", "quantities") +
+                           " followed along a refinement, with the order that theory promises and "
+                           "the one that is seen.");
+  std::string bands;
+  if (results.bands && results.bands->levels > 0) {
+    const Bands& found = *results.bands;
+    const double rate = static_cast<double>(found.hits) / found.levels;
+    bands =
+        "The band of numerical uncertainty, which is made from the computed values alone, holds "
+        "the exact value on " +
+        std::to_string(found.hits) + " of " + std::to_string(found.levels) + " levels (" +
+        relative(rate, 3, false) + ")";
+    if (found.least_hit_rate)
+      bands += "; " + relative(*found.least_hit_rate, 3, false) + " is asked for";
+    if (found.median_ratio)
+      bands += ". In the median it is " + trimmed(*found.median_ratio, 3) + " times the true error";
+    if (found.largest_median_ratio)
+      bands += "; more than " + trimmed(*found.largest_median_ratio, 3) +
+               " would be a band that is right because it is wide";
+    bands += ".";
+  }
+  set_text(section, "bands", bands);
+  section.set("families", list_of_families);
+  return section;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,118 @@
+#include "reports/page/report.h"
+
+#include <stdexcept>
+
+#include "reports/text/files.h"
+#include "reports/page/gallery.h"
+#include "reports/text/html.h"
+#include "reports/page/sections.h"
+#include "reports/text/templates.h"
+
+namespace trammel {
+
+namespace {
+
+using namespace reports;
+namespace fs = std::filesystem;
+
+constexpr const char* generator = R"(<meta name="generator" content="trammel">)";
+
+Data page_data(const Results& results, const std::vector<Family>& families,
+               const std::vector<CostPanel>& panels) {
+  Data page = object();
+  for (const char* name : {"summary", "claims", "family", "case", "variants", "figure", "checks",
+                           "matrix", "cost", "battery", "targets", "orders", "noise", "references",
+                           "counts", "rows", "head", "matrix_row", "cell"})
+    page.set(std::string(name) + "_partial",
+             kainjow::mustache::partial(
+                 [file = std::string(name) + ".mustache"] { return template_text(file); }));
+  page.set("style", template_text("style.css"));
+  page.set("script", template_text("page.js"));
+  page.set("environment", environment_section(results));
+  const Data claims = claims_section(results);
+  const Data cost = cost_section(results, families, panels);
+  const Data battery = battery_section(families);
+  const Data targets = targets_section(results, families);
+  const Data orders = orders_section(results, families);
+  const Data noise = noise_section(results, families);
+  std::vector<Answer> answers;
+  const auto answer = [&](const std::string& title, const std::string& anchor, const Data& section,
+                          const char* key) {
+    const Data* words = section.get(key);
+    const Data* rows = section.get("has_rows");
+    if (words != nullptr && words->is_string() && (rows == nullptr || rows->is_true()))
+      answers.push_back({title, anchor, words->string_value()});
+  };
+  answer("The paper's claims", "claims", claims, "overview");
+  answer("What accuracy costs", "cost", cost, "words");
+  answer("The battery of hard cases", "battery", battery, "words");
+  answer("Published targets", "targets", targets, "words");
+  answer("Orders and bands", "orders", orders, "words");
+  answer("Difference and noise", "noise", noise, "words");
+  page.set("summary", summary_section(results, families, answers));
+  page.set("claims", claims);
+  set_flag(page, "has_claims", results.ledger.has_value());
+  page.set("cost", cost);
+  page.set("battery", battery);
+  page.set("targets", targets);
+  page.set("orders", orders);
+  page.set("noise", noise);
+  Data family_list = list();
+  for (const Family& family : families) family_list.push_back(family_section(family, results));
+  page.set("families", family_list);
+  set_flag(page, "has_runs", !results.runs.empty() || panels.empty());
+  set_flag(page, "has_references", !results.references.empty());
+  page.set("references", references_section(results));
+  return page;
+}
+
+std::string render(const Data& data) {
+  kainjow::mustache::mustache page(template_text("page.mustache"));
+  std::string html = page.render(data);
+  if (!page.is_valid()) throw std::logic_error("page.mustache: " + page.error_message());
+  return html;
+}
+
+/// Takes away what an earlier report in the same folder has written and links to.
+void remove_earlier(const fs::path& out) {
+  const fs::path page = out / "index.html";
+  if (!fs::exists(page)) return;
+  const std::string html = read_file(page);
+  if (html.find(generator) == std::string::npos) return;
+  for (const std::string folder : {"figures/", "checks/"}) {
+    const std::string link = "href=\"" + folder;
+    for (std::size_t at = html.find(link); at != std::string::npos; at = html.find(link, at + 1)) {
+      const std::size_t from = at + link.size();
+      const std::string name = html.substr(from, html.find('"', from) - from);
+      if (name.find('/') == std::string::npos) fs::remove(out / folder / name);
+    }
+  }
+}
+
+void write_checks(const std::vector<Family>& families, const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const Family& family : families)
+    for (const CaseInfo* info : family.cases)
+      write_file(folder / (slug(info->id) + ".csv"),
+                 to_csv(checks_table(*info, family.runs_of(info->id))));
+}
+
+}  // namespace
+
+fs::path write_report(const fs::path& results_json, const fs::path& out) {
+  const Results results = read_results(results_json);
+  std::vector<Family> families = plan_families(results);
+  remove_earlier(out);
+  std::vector<CostPanel> panels = plan_cost(results);
+  std::vector<Figure*> figures;
+  for (CostPanel& panel : panels) figures.push_back(&panel.figure);
+  for (Figure* figure : all_figures(families)) figures.push_back(figure);
+  number_figures(figures);
+  draw(figures, fs::absolute(out) / "figures");
+  write_checks(families, out / "checks");
+  const fs::path page = out / "index.html";
+  write_file(page, render(page_data(results, families, panels)));
+  return page;
+}
+
+}  // namespace trammel

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "reports/data/check_text.h"
+#include "reports/text/number.h"
+#include "reports/page/sections.h"
+
+namespace trammel::reports {
+
+namespace {
+
+/// An indicator of a case: one check, over all variants that it judges.
+struct Indicator {
+  const Check* worst = nullptr;
+  const Run* run = nullptr;       ///< that of the worst
+  std::size_t entries = 0;        ///< of all runs together
+  std::set<const Run*> variants;  ///< that have it
+};
+
+Indicator indicator_of(const std::string& check, const std::vector<const Run*>& runs) {
+  Indicator found;
+  for (const Run* run : runs) {
+    for (const Check& one : run->checks) {
+      if (one.name != check) continue;
+      ++found.entries;
+      found.variants.insert(run);
+      if (found.worst && !worse(one, *found.worst)) continue;
+      found.worst = &one;
+      found.run = run;
+    }
+  }
+  return found;
+}
+
+std::string of_what(const Indicator& indicator, const CaseInfo& info) {
+  std::string text =
+      indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
+  if (indicator.entries > 1) {
+    text += (text.empty() ? "" : "; ") + ("worst of " + std::to_string(indicator.entries));
+  }
+  return text;
+}
+
+/// What was allowed; a bound is its own target.
+std::string bound_of(const Check& check) {
+  return check.measure == "bound" ? target_text(check) : tolerance_text(check);
+}
+
+/// How far it is from what it is compared with, or itself where it is only bounded.
+std::string value_of(const Check& check) {
+  const bool compared = check.measure != "bound" && check.difference;
+  return compared ? difference_text(check) : computed_text(check);
+}
+
+Data row_of(const Indicator& indicator, const CaseInfo& info) {
+  const Check& check = *indicator.worst;
+  Data row = object();
+  row.set("quantity", check.title.empty() ? quantity_text(check) : check.title);
+  set_text(row, "of_what", of_what(indicator, info));
+  row.set("value", value_of(check));
+  row.set("bound", bound_of(check));
+  set_text(row, "why", check.why);
+  set_standing(row, standing(check));
+  return row;
+}
+
+Data missing_row(const std::string& check) {
+  Data row = object();
+  row.set("quantity", check);
+  set_text(row, "of_what", "no run has it");
+  row.set("value", "–");
+  row.set("bound", "–");
+  set_text(row, "why", "");
+  set_standing(row, Standing::not_run);
+  return row;
+}
+
+/// Links to the figures that the case asks for.
+Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
+  Data pictures = list();
+  for (const PlotRequest& request : info.figures) {
+    const auto figure =
+        std::find_if(gallery.shown.begin(), gallery.shown.end(),
+                     [&](const Figure& one) { return one.id == slug(info.id + "-" + request.id); });
+    if (figure == gallery.shown.end()) continue;
+    Data picture = object();
+    picture.set("id", figure->id);
+    picture.set("number", std::to_string(figure->number));
+    pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+/// "Battery 7: from 1 to 10,000 elements" stands under item 7 without its first two words.
+std::string title_of(const CaseInfo& info) {
+  const std::string prefix = "Battery " + std::to_string(info.battery->item) + ": ";
+  if (info.title.rfind(prefix, 0) != 0) return info.title;
+  std::string title = info.title.substr(prefix.size());
+  if (title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
+}
+
+Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
+  Data data = object();
+  data.set("item", std::to_string(info.battery->item));
+  data.set("case_title", title_of(info));
+  data.set("case_anchor", case_anchor(info.id));
+  data.set("pictures", pictures_of(info, family.galleries.at(info.id)));
+  Data rows = list();
+  for (const std::string& check : info.battery->indicators) {
+    const Indicator indicator = indicator_of(check, family.runs_of(info.id));
+    ++counts[indicator.worst ? standing(*indicator.worst) : Standing::not_run];
+    rows.push_back(indicator.worst ? row_of(indicator, info) : missing_row(check));
+  }
+  data.set("rows", rows);
+  return data;
+}
+
+std::string words_of(const Counts& counts, std::size_t items, std::size_t cases) {
+  std::string text = count(items, "item") + ", " + count(cases, "case") + ", " +
+                     count(total(counts), "indicator") + ":";
+  for (const Standing one : all_standings) {
+    if (count_of(counts, one) == 0) continue;
+    text += (text.back() == ':' ? " " : ", ") + std::to_string(count_of(counts, one)) + " " +
+            (one == Standing::holds && count_of(counts, one) > 1 ? "hold" : in_words(one));
+  }
+  return text + ".";
+}
+
+}  // namespace
+
+Data battery_section(const std::vector<Family>& families) {
+  std::multimap<int, Data> cases;
+  std::set<int> items;
+  Counts counts;
+  for (const Family& family : families) {
+    for (const CaseInfo* info : family.cases) {
+      if (!info->battery) continue;
+      cases.emplace(info->battery->item, case_of(*info, family, counts));
+      items.insert(info->battery->item);
+    }
+  }
+  Data section = object();
+  Data in_order = list();
+  for (const auto& [item, data] : cases) in_order.push_back(data);
+  set_flag(section, "has_rows", !cases.empty());
+  section.set("cases", in_order);
+  section.set("words", words_of(counts, items.size(), cases.size()));
+  std::string gaps;
+  for (int item = 1; !items.empty() && item < *items.rbegin(); ++item) {
+    if (!items.contains(item)) gaps += (gaps.empty() ? "" : ", ") + std::to_string(item);
+  }
+  set_text(section, "gaps", gaps);
+  return section;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,325 @@
+#include <algorithm>
+
+#include "reports/data/check_text.h"
+#include "reports/text/number.h"
+#include "reports/page/sections.h"
+
+namespace trammel::reports {
+
+namespace {
+
+struct Role {
+  const char *name, *meaning;
+};
+constexpr std::array<Role, 3> roles = {{
+    {"verification", "against exact or independent truth"},
+    {"validation", "against the published results under examination"},
+    {"regression", "against our own earlier results"},
+}};
+
+Counts counts_of(const Results& results, const std::string& role) {
+  Counts counts;
+  for (const Run& run : results.runs)
+    for (const Check& check : run.checks)
+      if (role.empty() || check.role == role) ++counts[standing(check)];
+  return counts;
+}
+
+/// All but what few results have and none of these does.
+std::vector<Standing> role_columns(const Counts& all) {
+  std::vector<Standing> columns;
+  for (const Standing which : all_standings)
+    if (which != Standing::recorded || count_of(all, which) > 0) columns.push_back(which);
+  return columns;
+}
+
+Data role_row(const std::string& name, const std::string& meaning, const Counts& counts,
+              const std::vector<Standing>& columns) {
+  Data row = object();
+  row.set("role", name);
+  set_text(row, "meaning", meaning);
+  Data cells = list();
+  for (const Standing which : columns) {
+    Data cell = object();
+    const std::size_t n = count_of(counts, which);
+    set_standing(cell, which);
+    set_text(cell, "n", n ? std::to_string(n) : "");
+    cells.push_back(cell);
+  }
+  row.set("cells", cells);
+  row.set("total", std::to_string(total(counts)));
+  return row;
+}
+
+Data role_table(const Results& results) {
+  Data rows = list();
+  const Counts all = counts_of(results, "");
+  const std::vector<Standing> columns = role_columns(all);
+  for (const Role& role : roles) {
+    const Counts counts = counts_of(results, role.name);
+    if (total(counts) > 0) rows.push_back(role_row(role.name, role.meaning, counts, columns));
+  }
+  rows.push_back(role_row("all", "", all, columns));
+  return rows;
+}
+
+Data item(const CaseInfo& info, const Run& run, const std::string& what, const std::string& text) {
+  Data data = object();
+  data.set("case_title", info.title);
+  data.set("case_anchor", case_anchor(info.id));
+  set_text(data, "variant_title", info.variants.size() > 1 ? info.variant_title(run.variant) : "");
+  set_text(data, "what", what);
+  set_text(data, "text", text);
+  return data;
+}
+
+/// Runs that did not end as their case expects, and checks that fail or could not be judged.
+Data troubles(const Results& results, std::size_t& runs_without) {
+  Data out = list();
+  for (const Run& run : results.runs) {
+    const CaseInfo& info = results.case_info(run.case_id);
+    const Standing ending = standing(run);
+    if (ending == Standing::fails || ending == Standing::error) {
+      ++runs_without;
+      Data data = item(info, run, to_string(run.status), run.reason);
+      set_standing(data, ending);
+      out.push_back(data);
+    }
+    for (const CheckGroup& group : group_checks(run)) {
+      const Standing worst = standing(group.worst());
+      if (worst != Standing::fails && worst != Standing::error) continue;
+      Data data = item(info, run, check_title(group.front()), trouble_text(group));
+      set_standing(data, worst);
+      out.push_back(data);
+    }
+  }
+  return out;
+}
+
+/// Differences with one and the same reason.
+struct Reason {
+  std::string text;
+  const Check* least;
+  const Check* most;
+  std::vector<const Run*> runs;
+};
+
+/// Known discrepancies of a family under one name and with one reference.
+struct Known {
+  const Family* family;
+  const Check* first;
+  std::size_t checks = 0;
+  std::vector<const CaseInfo*> cases;
+  std::vector<Reason> reasons;
+};
+
+template <typename Item, typename Is>
+Item& find_or_add(std::vector<Item>& items, Is is, const Item& fresh) {
+  const auto found = std::find_if(items.begin(), items.end(), is);
+  return found == items.end() ? items.emplace_back(fresh) : *found;
+}
+
+void add(Known& known, const Run& run, const Check& check, const CaseInfo& info) {
+  ++known.checks;
+  find_or_add(
+      known.cases, [&](const CaseInfo* c) { return c == &info; }, &info);
+  Reason& reason = find_or_add(
+      known.reasons, [&](const Reason& r) { return r.text == check.why; },
+      Reason{check.why, &check, &check, {}});
+  if (check.difference < reason.least->difference) reason.least = &check;
+  if (check.difference > reason.most->difference) reason.most = &check;
+  find_or_add(
+      reason.runs, [&](const Run* r) { return r == &run; }, &run);
+}
+
+std::vector<Known> known_discrepancies(const Results& results,
+                                       const std::vector<Family>& families) {
+  std::vector<Known> out;
+  for (const Family& family : families) {
+    for (const Run* run : family.runs) {
+      for (const Check& check : run->checks) {
+        if (standing(check) != Standing::known) continue;
+        const auto same = [&](const Known& known) {
+          return known.family == &family && known.first->name == check.name &&
+                 known.first->reference == check.reference && known.first->measure == check.measure;
+        };
+        add(find_or_add(out, same, Known{&family, &check, 0, {}, {}}), *run, check,
+            results.case_info(run->case_id));
+      }
+    }
+  }
+  return out;
+}
+
+std::string span_text(const Check& least, const Check& most) {
+  if (!least.difference || !most.difference) return "";
+  const std::string low = difference_text(least, *least.difference);
+  const std::string high = difference_text(most, *most.difference);
+  return low == high ? low : low + " to " + high;
+}
+
+std::string span_text(const Known& known) {
+  const Check* least = known.first;
+  const Check* most = known.first;
+  for (const Reason& reason : known.reasons) {
+    if (reason.least->difference < least->difference) least = reason.least;
+    if (reason.most->difference > most->difference) most = reason.most;
+  }
+  return span_text(*least, *most);
+}
+
+/// What does not agree: as the case puts it, else what it is compared with.
+std::string known_title(const Check& check, const Reference* reference) {
+  if (!check.title.empty()) return check.title;
+  return reference ? reference->title : check.name;
+}
+
+std::string run_names(const Reason& reason, const Known& known, const Results& results) {
+  std::string text;
+  for (const Run* run : reason.runs) {
+    const CaseInfo& info = results.case_info(run->case_id);
+    text += (text.empty() ? "" : "; ") + info.variant_title(run->variant);
+    if (known.cases.size() > 1) text += " (" + known.family->short_title(info) + ")";
+  }
+  return text;
+}
+
+Data reasons_data(const Known& known, const Results& results) {
+  Data out = list();
+  for (const Reason& reason : known.reasons) {
+    Data data = object();
+    set_text(data, "span", span_text(*reason.least, *reason.most));
+    set_text(data, "text", reason.text);
+    data.set("variants", run_names(reason, known, results));
+    out.push_back(data);
+  }
+  return out;
+}
+
+/// One reason stands as it is; many stand folded, under what they come to.
+Data known_data(const Known& known, const Results& results) {
+  Data data = object();
+  const Reference* reference = results.reference(known.first->reference);
+  Data cases = list();
+  std::size_t variants = 0;
+  for (const Reason& reason : known.reasons) variants += reason.runs.size();
+  for (const CaseInfo* info : known.cases) {
+    Data entry = object();
+    entry.set("case_title", info->title);
+    entry.set("case_anchor", case_anchor(info->id));
+    cases.push_back(entry);
+  }
+  data.set("cases", cases);
+  data.set("what", known_title(*known.first, reference));
+  set_text(data, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(data, "span", span_text(known));
+  std::string extent = count(known.checks, "check");
+  if (variants > 1) extent += " of " + count(variants, "variant");
+  data.set("extent", extent);
+  const bool one = known.reasons.size() == 1;
+  set_text(data, "reason",
+           one ? known.reasons.front().text
+               : comparison_conclusion(*known.family, results, *known.first));
+  set_text(data, "reasons_title", one ? "" : count(known.reasons.size(), "reason"));
+  data.set("reasons", one ? list() : reasons_data(known, results));
+  return data;
+}
+
+/// Families with known discrepancies, each with its list.
+Data known_by_family(const Results& results, const std::vector<Family>& families) {
+  const std::vector<Known> all = known_discrepancies(results, families);
+  Data out = list();
+  for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+    std::size_t checks = 0;
+    Data entries = list();
+    for (to = from; to < all.size() && all[to].family == all[from].family; ++to) {
+      checks += all[to].checks;
+      entries.push_back(known_data(all[to], results));
+    }
+    Data family = object();
+    family.set("family_title", all[from].family->title);
+    family.set("extent",
+               count(to - from, "discrepancy", "discrepancies") + " in " + count(checks, "check"));
+    family.set("known", entries);
+    out.push_back(family);
+  }
+  return out;
+}
+
+Data answers_list(const std::vector<Answer>& answers) {
+  Data out = list();
+  for (const Answer& answer : answers) {
+    Data data = object();
+    data.set("title", answer.title);
+    data.set("anchor", answer.anchor);
+    data.set("words", answer.words);
+    out.push_back(data);
+  }
+  return out;
+}
+
+std::string verdict_words(const Counts& counts, std::size_t runs_without) {
+  const std::size_t fails = count_of(counts, Standing::fails);
+  const std::size_t errors = count_of(counts, Standing::error);
+  if (total(counts) == 0) return "Nothing was checked.";
+  std::string text;
+  const auto add_part = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (fails > 0) add_part(count(fails, "check fails", "checks fail"));
+  if (errors > 0) add_part(std::to_string(errors) + " could not be judged");
+  if (runs_without > 0)
+    add_part(count(runs_without, "run did not end as expected", "runs did not end as expected"));
+  return text.empty() ? "Every gate holds." : text + ".";
+}
+
+std::string overview_words(const Results& results, const std::vector<Family>& families,
+                           const Counts& counts) {
+  std::size_t cases = 0;
+  for (const Family& family : families) cases += family.cases.size();
+  std::string text = count(cases, "case") + " in " + count(families.size(), "family", "families") +
+                     " were solved in " + count(results.runs.size(), "variant") + " and " +
+                     count(total(counts), "check") + " made. ";
+  text += count(count_of(counts, Standing::holds), "check holds", "checks hold") +
+          " within a reasoned tolerance.";
+  if (const std::size_t known = count_of(counts, Standing::known))
+    text += " " + count(known, "comparison is", "comparisons are") + " known not to agree and " +
+            (known == 1 ? "does" : "do") + " not, by as much as recorded; the reasons are below.";
+  if (const std::size_t recorded = count_of(counts, Standing::recorded))
+    text += " " + count(recorded, "comparison is", "comparisons are") +
+            " recorded without an expectation.";
+  if (const std::size_t skipped = count_of(counts, Standing::not_run))
+    text += " " + count(skipped, "check was", "checks were") + " not run.";
+  return text;
+}
+
+}  // namespace
+
+Data summary_section(const Results& results, const std::vector<Family>& families,
+                     const std::vector<Answer>& answers) {
+  const Counts counts = counts_of(results, "");
+  std::size_t runs_without = 0;
+  Data summary = object();
+  const Data trouble_list = troubles(results, runs_without);
+  const bool good = gate_holds(counts) && runs_without == 0 && total(counts) > 0;
+  summary.set("verdict", verdict_words(counts, runs_without));
+  summary.set("verdict_class", good ? "holds" : "fails");
+  summary.set("overview", overview_words(results, families, counts));
+  summary.set("bar", counts_list(counts));
+  summary.set("roles", role_table(results));
+  set_flag(summary, "has_troubles", trouble_list.is_non_empty_list());
+  summary.set("troubles", trouble_list);
+  set_flag(summary, "has_answers", !answers.empty());
+  summary.set("answers", answers_list(answers));
+  const Data known = known_by_family(results, families);
+  set_flag(summary, "has_known", known.is_non_empty_list());
+  summary.set("known_families", known);
+  Data heads = list();
+  for (const Standing which : role_columns(counts)) {
+    Data head = object();
+    set_standing(head, which);
+    heads.push_back(head);
+  }
+  summary.set("heads", heads);
+  return summary;
+}
+
+}  // namespace trammel::reports

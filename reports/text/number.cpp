@@ -1,0 +1,112 @@
+#include "reports/text/number.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace trammel::reports {
+
+namespace {
+
+std::string format(double x, std::chars_format style, int precision) {
+  std::array<char, 400> buffer{};
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, style, precision).ptr;
+  return {buffer.data(), end};
+}
+
+void drop_zeros(std::string& text) {
+  if (text.find('.') == std::string::npos) return;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+}
+
+std::string minus_sign(std::string text) {
+  if (!text.empty() && text.front() == '-') text.replace(0, 1, "\u2212");
+  return text;
+}
+
+std::string scientific(double x, int digits, bool trim) {
+  const std::string text = format(x, std::chars_format::scientific, digits - 1);
+  const std::size_t e = text.find('e');
+  std::string mantissa = text.substr(0, e);
+  if (trim) drop_zeros(mantissa);
+  const std::string power = power_of_ten(std::stoi(text.substr(e + 1)));
+  if (mantissa == "1") return power;
+  if (mantissa == "-1") return "\u2212" + power;
+  return minus_sign(mantissa) + "\u202f×\u202f" + power;
+}
+
+std::string written(double x, int digits, bool trim) {
+  if (!std::isfinite(x)) return std::isnan(x) ? "not a number" : (x > 0 ? "∞" : "\u2212∞");
+  if (x == 0) return "0";
+  // The exponent after rounding: 9.9996 to four digits is 10.00.
+  const std::string rounded = format(x, std::chars_format::scientific, digits - 1);
+  const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
+  if (exponent < -4 || exponent >= std::max(6, digits)) return scientific(x, digits, trim);
+  std::string text = format(x, std::chars_format::fixed, std::max(0, digits - 1 - exponent));
+  if (trim) drop_zeros(text);
+  return minus_sign(text);
+}
+
+}  // namespace
+
+std::string significant(double x, int digits) {
+  return written(x, digits, false);
+}
+
+std::string trimmed(double x, int digits) {
+  return written(x, digits, true);
+}
+
+std::string with_sign(double x, int digits) {
+  return (x > 0 ? "+" : "") + written(x, digits, true);
+}
+
+std::string relative(double x, int digits, bool sign) {
+  const auto text = [&](double value) {
+    return sign ? with_sign(value, digits) : trimmed(value, digits);
+  };
+  if (x == 0) return "0";
+  if (std::abs(x) < 1e-5) return text(x);
+  return text(100 * x) + "\u202f%";
+}
+
+int telling_digits(double a, double b) {
+  const double scale = std::max(std::abs(a), std::abs(b));
+  if (scale == 0 || a == b || !std::isfinite(a) || !std::isfinite(b)) return 6;
+  const double digits = std::ceil(-std::log10(std::abs(a - b) / scale)) + 1;
+  return digits > 10 ? 6 : static_cast<int>(std::max(digits, 4.0));
+}
+
+std::string shortest(double x) {
+  std::array<char, 40> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr};
+}
+
+std::string power_of_ten(int exponent) {
+  static const std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴",
+                                                     "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out = exponent < 0 ? "10⁻" : "10";
+  for (const char c : std::to_string(std::abs(exponent))) out += digits[c - '0'];
+  return out;
+}
+
+std::string count(std::size_t n, const std::string& singular, const std::string& plural) {
+  return std::to_string(n) + " " + (n == 1 ? singular : (plural.empty() ? singular + "s" : plural));
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1e-3) return trimmed(1e6 * seconds, 2) + " µs";
+  if (seconds < 1) return trimmed(1e3 * seconds, 3) + " ms";
+  if (seconds < 100) return trimmed(seconds, 3) + " s";
+  const long total = std::lround(seconds);
+  return std::to_string(total / 60) + " min " + std::to_string(total % 60) + " s";
+}
+
+std::string or_dash(const std::optional<double>& x, int digits) {
+  return x ? trimmed(*x, digits) : "–";
+}
+
+}  // namespace trammel::reports

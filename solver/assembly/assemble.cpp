@@ -1,0 +1,231 @@
+#include <cmath>
+#include <limits>
+
+#include "solver/elements/edge_load.h"
+#include "solver/assembly/element_mass.h"
+#include "solver/assembly/inertia.h"
+#include "solver/model/plane.h"
+#include "solver/assembly/projection.h"
+#include "solver/assembly/strain.h"
+#include "solver/linalg/symmetric_builder.h"
+#include "solver/assembly/system.h"
+#include "solver/assembly/validate.h"
+
+namespace trammel {
+namespace {
+
+/// Free coordinates that carry nothing keep their place on the diagonal.
+void reserve_diagonal(SymmetricBuilder& builder, Index size) {
+  for (Index i = 0; i < size; ++i) builder.add(i, i, 0.0);
+}
+
+std::vector<SpringElement> spring_elements(const Model& model, const Coordinates& coordinates) {
+  std::vector<SpringElement> springs;
+  const auto of = [&](Index node, std::size_t k) {
+    return node < 0 ? Index{-1} : coordinates.node[static_cast<std::size_t>(node)][k];
+  };
+  for (const Spring& spring : model.springs) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double stiffness = spring.stiffness[static_cast<Index>(k)];
+      if (stiffness == 0) continue;
+      springs.push_back({{of(spring.nodes[1], k), of(spring.nodes[0], k)}, stiffness});
+    }
+  }
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const MemberEnd& joint = model.members[i].ends[end];
+      if (joint.fixity != EndFixity::sprung || joint.stiffness == 0) continue;
+      springs.push_back(
+          {{of(model.members[i].nodes[end], 2), coordinates.member_end[i][end]}, joint.stiffness});
+    }
+  }
+  return springs;
+}
+
+class Assembler {
+ public:
+  Assembler(Model model, Effects kept) : kept_(kept) {
+    validate(model);
+    Discretisation discretisation = discretise(model);
+    system_.constraints = constrain(model, discretisation);
+    system_.mesh = std::move(discretisation.mesh);
+    system_.coordinates = std::move(discretisation.coordinates);
+    system_.springs = spring_elements(model, system_.coordinates);
+    system_.model = std::move(model);
+    system_.T = system_.constraints.T;
+  }
+
+  System run() {
+    stiffness();
+    if (kept_.has(Effect::inertia)) mass();
+    loads();
+    return std::move(system_);
+  }
+
+ private:
+  [[nodiscard]] Index free_count() const { return system_.constraints.free_count; }
+  [[nodiscard]] std::size_t entries() const {
+    const auto& triangles = system_.model.triangles;
+    const bool quadratic = !triangles.empty() && triangles.front().quadratic();
+    return 21 * system_.mesh.frame.size() + (quadratic ? 78 : 21) * triangles.size();
+  }
+
+  void stiffness() {
+    SymmetricBuilder builder(free_count());
+    builder.reserve(entries() + static_cast<std::size_t>(free_count()));
+    reserve_diagonal(builder, free_count());
+    Projection projection(system_.constraints, builder);
+    for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
+      projection.add(coordinates, (B.transpose() * c.asDiagonal() * B).eval());
+      ++system_.counters.element_evaluations;
+    });
+    system_.K = builder.build();
+    count_stiffness();
+  }
+
+  void count_stiffness() {
+    Counters& counters = system_.counters;
+    for (const FrameElement& e : system_.mesh.frame) {
+      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
+      if (e.is_bar()) continue;
+      if (member.axially_flexible) counters.count(Effect::axial_flexibility, 1);
+      if (shears(member.theory)) counters.count(Effect::shear, 1);
+    }
+    for (const Member& member : system_.model.members) {
+      for (const MemberEnd& end : member.ends) {
+        if (end.fixity == EndFixity::sprung) counters.count(Effect::joint_compliance, 1);
+      }
+    }
+    counters.count(Effect::platform_flexibility,
+                   static_cast<std::int64_t>(system_.model.triangles.size()));
+  }
+
+  void mass() {
+    SymmetricBuilder builder(free_count());
+    builder.reserve(entries() + static_cast<std::size_t>(free_count()));
+    reserve_diagonal(builder, free_count());
+    Projection projection(system_.constraints, builder);
+    for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
+      projection.add(coordinates, m);
+      if (coordinates.size() >= 6) ++system_.counters.element_evaluations;
+    });
+    count_link_inertia();
+    system_.M = builder.build();
+    system_.counters.count(Effect::inertia, 1);
+  }
+
+  void count_link_inertia() {
+    for (const FrameElement& e : system_.mesh.frame) {
+      if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
+      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
+      system_.counters.count(Effect::link_mass, 1);
+      const bool rotary = has_rotary_inertia(member.theory) && e.section.inertia_per_length > 0;
+      if (rotary) system_.counters.count(Effect::rotary_inertia, 1);
+    }
+  }
+
+  template <std::size_t n, class Vector>
+  void add_load(const std::array<Index, n>& coordinates, const Vector& force) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (coordinates[i] >= 0) system_.load[coordinates[i]] += force[static_cast<Index>(i)];
+    }
+  }
+
+  void loads() {
+    const Model& model = system_.model;
+    system_.load = Eigen::VectorXd::Zero(system_.coordinates.size);
+    for (const NodalLoad& load : model.loads) {
+      if (load.force[2] != 0) {  // asks for the rotation, so that a node without one is an error
+        (void)system_.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
+      }
+      add_load(system_.coordinates.node[static_cast<std::size_t>(load.node)], load.force);
+    }
+    for (const FrameElement& e : system_.mesh.frame) {
+      const Member& member = model.members[static_cast<std::size_t>(e.member)];
+      const Vector2d weight = e.section.mass_per_length * model.gravity;
+      if (!weight.isZero(0)) {
+        system_.counters.count(Effect::gravity, 1);
+        system_.counters.count(Effect::link_mass, 1);
+      }
+      const Vector2d q = member.load + weight;
+      if (!q.isZero(0)) add_load(e.coordinates, element_load(e, q));
+    }
+    edge_loads();
+    if (!model.gravity.isZero(0)) weights();
+    system_.f = system_.T.transpose() * system_.load;
+  }
+
+  void edge_loads() {
+    for (const EdgeLoad& load : system_.model.edge_loads) {
+      const std::array<Vector2d, 3> forces = edge_forces(system_.model, load);
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (load.nodes[i] < 0) continue;
+        const auto& node = system_.coordinates.node[static_cast<std::size_t>(load.nodes[i])];
+        add_load(std::array<Index, 2>{node[0], node[1]}, forces[i]);
+      }
+    }
+  }
+
+  void weights() {
+    const Model& model = system_.model;
+    system_.counters.count(Effect::gravity,
+                           static_cast<std::int64_t>(model.triangles.size() + model.masses.size()));
+    for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
+      Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
+      for (Index i = 0; i < fall.size(); ++i) fall[i] = model.gravity[i % 2];
+      add_load(coordinates, (m * fall).eval());
+    });
+    for (const PointMass& lump : model.masses) {
+      const Vector2d weight = lump.mass * model.gravity;
+      add_load(system_.coordinates.node[static_cast<std::size_t>(lump.node)],
+               Vector3d(weight.x(), weight.y(), cross(lump.offset, weight)));
+    }
+  }
+
+  Effects kept_;
+  System system_;
+};
+
+}  // namespace
+
+Vector6d element_load(const FrameElement& element, const Vector2d& load) {
+  if (element.is_bar()) {
+    Vector6d f;
+    f << load * (element.length / 2), 0, load * (element.length / 2), 0;
+    return f;
+  }
+  const Matrix6d R = frame_rotation(element.direction);
+  return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * load, element.length);
+}
+
+System assemble(const Model& model, Effects kept) {
+  return Assembler(reduced(model, kept), kept).run();
+}
+
+Counters& Counters::operator+=(const Counters& more) {
+  element_evaluations += more.element_evaluations;
+  factorizations += more.factorizations;
+  solves += more.solves;
+  steps += more.steps;
+  for (std::size_t i = 0; i < effect_count; ++i) effects[i] += more.effects[i];
+  return *this;
+}
+
+Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {
+  const Eigen::VectorXd u = system.T * q;
+  Eigen::MatrixX3d motion(static_cast<Index>(system.mesh.positions.size()), 3);
+  for (Index node = 0; node < motion.rows(); ++node) {
+    const auto& coordinates = system.coordinates.node[static_cast<std::size_t>(node)];
+    motion(node, 0) = u[coordinates[0]];
+    motion(node, 1) = u[coordinates[1]];
+    motion(node, 2) =
+        coordinates[2] < 0 ? std::numeric_limits<double>::quiet_NaN() : u[coordinates[2]];
+  }
+  return motion;
+}
+
+Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q) {
+  return mesh_motion(system, q).topRows(static_cast<Index>(system.model.nodes.size()));
+}
+
+}  // namespace trammel

@@ -1,0 +1,312 @@
+#include "solver/assembly/constraints.h"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "solver/model/labels.h"
+
+namespace trammel {
+namespace {
+
+using Terms = std::vector<std::pair<Index, double>>;
+
+constexpr double kRedundant = 1e-11;      // what is left of a row that follows from the others
+constexpr double kPivotThreshold = 0.25;  // of the largest entry; bounds the growth of T
+
+double model_size(const Model& model) {
+  Vector2d low = model.nodes.front().position;
+  Vector2d high = low;
+  for (const Node& node : model.nodes) {
+    low = low.cwiseMin(node.position);
+    high = high.cwiseMax(node.position);
+  }
+  const double size = (high - low).norm();
+  return size > 0 ? size : 1.0;
+}
+
+std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& coordinates) {
+  std::vector<ConstraintRow> rows;
+  for (std::size_t i = 0; i < model.supports.size(); ++i) {
+    const Support& support = model.supports[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!support.fixed[k]) continue;
+      const Index u = coordinates.node[static_cast<std::size_t>(support.node)][k];
+      if (u < 0) {
+        throw ModelError("the support of " + node_label(model, support.node) +
+                         " fixes its rotation, but it has none: no member ends there");
+      }
+      rows.push_back({ConstraintRow::Source::support, static_cast<Index>(i), {{u, 1.0}}});
+    }
+  }
+  return rows;
+}
+
+void add_linear_rows(const Model& model, const Coordinates& coordinates,
+                     std::vector<ConstraintRow>& rows) {
+  for (std::size_t i = 0; i < model.constraints.size(); ++i) {
+    ConstraintRow row{ConstraintRow::Source::linear, static_cast<Index>(i), {}};
+    for (const auto& [coordinate, coefficient] : model.constraints[i].terms) {
+      if (!std::isfinite(coefficient)) {
+        throw ModelError(part_label("constraint", model.constraints[i].name, i) +
+                         " has a coefficient that is not a finite number");
+      }
+      row.terms.emplace_back(coordinates.number(model, coordinate), coefficient);
+    }
+    rows.push_back(std::move(row));
+  }
+}
+
+void add_rigid_rows(const Model& model, const Coordinates& coordinates,
+                    std::vector<ConstraintRow>& rows) {
+  for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
+    const RigidBody& body = model.rigid_bodies[i];
+    const auto& reference = coordinates.node[static_cast<std::size_t>(body.reference)];
+    for (const Index node : body.attached) {
+      if (node == body.reference) continue;
+      const auto& attached = coordinates.node[static_cast<std::size_t>(node)];
+      const Vector2d arm = model.nodes[static_cast<std::size_t>(node)].position -
+                           model.nodes[static_cast<std::size_t>(body.reference)].position;
+      const auto add = [&](Terms terms) {
+        rows.push_back(
+            {ConstraintRow::Source::rigid_body, static_cast<Index>(i), std::move(terms)});
+      };
+      add({{attached[0], 1.0}, {reference[0], -1.0}, {reference[2], arm.y()}});
+      add({{attached[1], 1.0}, {reference[1], -1.0}, {reference[2], -arm.x()}});
+      if (attached[2] >= 0) add({{attached[2], 1.0}, {reference[2], -1.0}});
+    }
+  }
+}
+
+void add_inextensible_rows(const Model& model, const Mesh& mesh, std::vector<ConstraintRow>& rows) {
+  for (std::size_t i = 0; i < mesh.frame.size(); ++i) {
+    const FrameElement& e = mesh.frame[i];
+    if (model.members[static_cast<std::size_t>(e.member)].axially_flexible) continue;
+    rows.push_back({ConstraintRow::Source::inextensible,
+                    static_cast<Index>(i),
+                    {{e.coordinates[3], e.direction.x()},
+                     {e.coordinates[4], e.direction.y()},
+                     {e.coordinates[0], -e.direction.x()},
+                     {e.coordinates[1], -e.direction.y()}}});
+  }
+}
+
+/// Gaussian elimination of sparse rows. Coordinates are scaled: rotation times size of the model.
+class Elimination {
+ public:
+  Elimination(const Coordinates& coordinates, double size)
+      : scale_(static_cast<std::size_t>(coordinates.size), 1.0),
+        occurrences_(scale_.size(), 0),
+        row_of_(scale_.size(), -1) {
+    for (std::size_t u = 0; u < scale_.size(); ++u) {
+      if (coordinates.is_rotation[u]) scale_[u] = 1 / size;  // u = scale * scaled u
+    }
+  }
+
+  std::vector<Index> run(const std::vector<ConstraintRow>& rows) {
+    for (const ConstraintRow& row : rows) {
+      for (const auto& term : row.terms) ++occurrences_[static_cast<std::size_t>(term.first)];
+    }
+    std::vector<Index> pivots;
+    pivots.reserve(rows.size());
+    for (const ConstraintRow& row : rows) pivots.push_back(eliminate(row));
+    resolve();
+    return pivots;
+  }
+
+  /// u = sum over free coordinates, for an eliminated u; null where u is free.
+  [[nodiscard]] const Terms* expression(Index u) const {
+    const Index row = row_of_[static_cast<std::size_t>(u)];
+    return row < 0 ? nullptr : &expressions_[static_cast<std::size_t>(row)].terms;
+  }
+
+ private:
+  struct Expression {
+    Index pivot;
+    Terms terms;
+  };
+  struct Entry {
+    double value = 0;
+    double magnitude = 0;  ///< sum of what was added up, to tell a small value from round-off
+  };
+  using Row = std::map<Index, Entry>;
+
+  static void add(Row& row, Index u, double value, double magnitude) {
+    Entry& entry = row[u];
+    entry.value += value;
+    entry.magnitude += magnitude;
+  }
+
+  /// Replaces the eliminated coordinates of a row until none is left.
+  void substitute(Row& row) const {
+    for (bool again = true; again;) {
+      again = false;
+      for (auto it = row.begin(); it != row.end();) {
+        const Index expression = row_of_[static_cast<std::size_t>(it->first)];
+        if (expression < 0) {
+          ++it;
+          continue;
+        }
+        const Entry entry = it->second;
+        it = row.erase(it);
+        for (const auto& [u, c] : expressions_[static_cast<std::size_t>(expression)].terms) {
+          add(row, u, c * entry.value, std::abs(c) * entry.magnitude);
+        }
+        again = true;
+      }
+    }
+  }
+
+  Index eliminate(const ConstraintRow& constraint) {
+    Row row;
+    double size = 0;
+    for (const auto& [u, coefficient] : constraint.terms) {
+      const double value = coefficient * scale_[static_cast<std::size_t>(u)];
+      add(row, u, value, std::abs(value));
+      size = std::max(size, std::abs(value));
+    }
+    substitute(row);
+    double largest = 0;
+    for (const auto& [u, entry] : row) largest = std::max(largest, std::abs(entry.value));
+    if (!(largest > kRedundant * size)) return -1;
+    const Index pivot = choose_pivot(row, largest);
+    const double value = row[pivot].value;
+    Expression expression{pivot, {}};
+    for (const auto& [u, entry] : row) {
+      if (u == pivot || std::abs(entry.value) <= 1e-14 * entry.magnitude) continue;
+      expression.terms.emplace_back(u, -entry.value / value);
+    }
+    row_of_[static_cast<std::size_t>(pivot)] = static_cast<Index>(expressions_.size());
+    expressions_.push_back(std::move(expression));
+    return pivot;
+  }
+
+  /// Of the entries large enough, the coordinate that the fewest rows name (it spreads least), then
+  /// the larger entry, then the later coordinate.
+  [[nodiscard]] Index choose_pivot(const Row& row, double largest) const {
+    Index best = -1;
+    for (const auto& [u, entry] : row) {
+      if (std::abs(entry.value) < kPivotThreshold * largest) continue;
+      if (best < 0) {
+        best = u;
+        continue;
+      }
+      const auto count = occurrences_[static_cast<std::size_t>(u)];
+      const auto best_count = occurrences_[static_cast<std::size_t>(best)];
+      const double gain = std::abs(entry.value) - std::abs(row.at(best).value);
+      if (count < best_count || (count == best_count && gain > -1e-9 * largest)) best = u;
+    }
+    return best;
+  }
+
+  /// An expression names only coordinates eliminated after it, or free ones; so backwards.
+  void resolve() {
+    for (std::size_t i = expressions_.size(); i-- > 0;) {
+      Expression& expression = expressions_[i];
+      const auto eliminated = [this](const auto& term) {
+        return row_of_[static_cast<std::size_t>(term.first)] >= 0;
+      };
+      if (std::none_of(expression.terms.begin(), expression.terms.end(), eliminated)) continue;
+      Row row;
+      for (const auto& [u, c] : expression.terms) add(row, u, c, std::abs(c));
+      substitute(row);
+      expression.terms.clear();
+      for (const auto& [u, entry] : row) {
+        if (std::abs(entry.value) > 1e-14 * entry.magnitude) {
+          expression.terms.emplace_back(u, entry.value);
+        }
+      }
+    }
+    for (Expression& expression : expressions_) {  // back to the coordinates' own units
+      const double scale = scale_[static_cast<std::size_t>(expression.pivot)];
+      for (auto& [u, c] : expression.terms) c *= scale / scale_[static_cast<std::size_t>(u)];
+    }
+  }
+
+  std::vector<double> scale_;
+  std::vector<Index> occurrences_;
+  std::vector<Index> row_of_;  // coordinate -> expression
+  std::vector<Expression> expressions_;
+};
+
+void build_T(const Elimination& elimination, Constraints& constraints, Index size) {
+  constraints.free.assign(static_cast<std::size_t>(size), -1);
+  Index entries = 0;
+  for (Index u = 0; u < size; ++u) {
+    const Terms* terms = elimination.expression(u);
+    entries += terms ? static_cast<Index>(terms->size()) : 1;
+    if (!terms) constraints.free[static_cast<std::size_t>(u)] = constraints.free_count++;
+  }
+  constraints.T.resize(size, constraints.free_count);
+  constraints.T.reserve(entries);
+  for (Index u = 0; u < size; ++u) {
+    constraints.T.startVec(u);
+    const Terms* terms = elimination.expression(u);
+    if (!terms) {
+      constraints.T.insertBack(u, constraints.free[static_cast<std::size_t>(u)]) = 1;
+      continue;
+    }
+    for (const auto& [v, c] : *terms) {  // ascending, as is the numbering of the free ones
+      constraints.T.insertBack(u, constraints.free[static_cast<std::size_t>(v)]) = c;
+    }
+  }
+  constraints.T.finalize();
+}
+
+}  // namespace
+
+Constraints constrain(const Model& model, const Discretisation& discretisation) {
+  const Coordinates& coordinates = discretisation.coordinates;
+  Constraints constraints;
+  constraints.rows = support_rows(model, coordinates);
+  add_linear_rows(model, coordinates, constraints.rows);
+  add_rigid_rows(model, coordinates, constraints.rows);
+  add_inextensible_rows(model, discretisation.mesh, constraints.rows);
+  Elimination elimination(coordinates, model_size(model));
+  constraints.pivot = elimination.run(constraints.rows);
+  build_T(elimination, constraints, coordinates.size);
+  return constraints;
+}
+
+Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
+  // Square system of the kept rows and their pivots; supports, one entry each, come last.
+  std::vector<Index> kept;
+  std::vector<Index> number_of_pivot(static_cast<std::size_t>(T.rows()), -1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (pivot[i] < 0 || rows[i].source == ConstraintRow::Source::support) continue;
+    number_of_pivot[static_cast<std::size_t>(pivot[i])] = static_cast<Index>(kept.size());
+    kept.push_back(static_cast<Index>(i));
+  }
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Index>(rows.size()));
+  Eigen::VectorXd rest = force;
+  if (!kept.empty()) {
+    const auto n = static_cast<Index>(kept.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right(n);
+    for (Index k = 0; k < n; ++k) {
+      const auto row = static_cast<std::size_t>(kept[static_cast<std::size_t>(k)]);
+      right[k] = force[pivot[row]];
+      for (const auto& [u, c] : rows[row].terms) {
+        const Index equation = number_of_pivot[static_cast<std::size_t>(u)];
+        if (equation >= 0) entries.emplace_back(equation, k, c);
+      }
+    }
+    Eigen::SparseMatrix<double> matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
+    const Eigen::VectorXd solution = lu.solve(right);
+    for (Index k = 0; k < n; ++k) {
+      const auto row = static_cast<std::size_t>(kept[static_cast<std::size_t>(k)]);
+      lambda[static_cast<Index>(row)] = solution[k];
+      for (const auto& [u, c] : rows[row].terms) rest[u] -= c * solution[k];
+    }
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (pivot[i] < 0 || rows[i].source != ConstraintRow::Source::support) continue;
+    lambda[static_cast<Index>(i)] = rest[pivot[i]];
+  }
+  return lambda;
+}
+
+}  // namespace trammel

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/assembly/system.h"
+
+/// Viscous damping: what its numbers mean, and its matrix.
+namespace trammel {
+
+/// C = mass * M + stiffness * K (paper Eq. 19, where they are w1 and w2).
+struct RayleighDamping {
+  double mass = 0;       ///< >= 0 [1/s]
+  double stiffness = 0;  ///< >= 0 [s]
+};
+
+/// The two factors with given damping ratios at two angular frequencies [rad/s].
+/// @throws ModelError  for frequencies that are not positive and distinct.
+[[nodiscard]] RayleighDamping rayleigh_through(double omega_1, double ratio_1, double omega_2,
+                                               double ratio_2);
+
+/// ratio(w) = (mass / w + stiffness * w) / 2.   @param omega  > 0 [rad/s]
+[[nodiscard]] double damping_ratio(const RayleighDamping& damping, double omega);
+
+/// Half of the modal damping, ratio * w = (mass + stiffness * w^2) / 2 [1/s]; also at w = 0.
+[[nodiscard]] Eigen::VectorXd decay_rates(const RayleighDamping& damping,
+                                          const Eigen::VectorXd& omega);
+
+/// Modes do not vibrate, their ratio is 1 or more, up to `below` and from `above` [rad/s]:
+///   w = (1 -+ sqrt(1 - mass * stiffness)) / stiffness.
+/// Without mass factor `below` is 0; without stiffness factor `above` is infinite; with
+/// mass * stiffness >= 1 every mode is overdamped and both are 1 / stiffness.
+struct OverdampedRange {
+  double below = 0, above = 0;
+};
+[[nodiscard]] OverdampedRange overdamped_range(const RayleighDamping& damping);
+
+/// mass * M + stiffness * K, on the union of the two patterns.
+[[nodiscard]] SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& M,
+                                          const SparseMatrix& K);
+
+/// Modal damping as a matrix, C = sum over modes of 2 ratio w (M x)(M x)^T with x^T M x = 1: the
+/// given modes have their ratio, all others none. Dense in the coordinates that the modes move;
+/// large models take `superpose` instead.
+/// @param omega  [rad/s];  @param shape  coordinate x mode;  @param ratio  mode
+/// @throws ModelError  where the sizes differ.
+[[nodiscard]] SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
+                                                const Eigen::MatrixXd& shape,
+                                                const Eigen::VectorXd& ratio);
+
+}  // namespace trammel

@@ -1,0 +1,218 @@
+#include "solver/assembly/prestress.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "solver/assembly/projection.h"
+#include "solver/elements/triangle_interpolation.h"
+
+namespace trammel {
+namespace {
+
+using Eigen::VectorXd;
+
+/// L H of prestress.h.
+Eigen::Matrix3d turning_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
+  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+  H(0, 0) = N;
+  if (!e.is_bar()) {
+    const double g = 1 / (1 + shear_ratio(e.section, theory, e.length));
+    H(1, 1) = N / 12;
+    H(2, 2) = g * g * N / 20;
+    H(0, 1) = H(1, 0) = n / 12;
+    H(1, 2) = H(2, 1) = g * n / 60;
+  }
+  return e.length * H;
+}
+
+/// Gradients of u and v along the principal axes of the stress, at one point of a triangle.
+template <int n>
+struct PlateTurning {
+  Eigen::Matrix<double, 4, n> B = Eigen::Matrix<double, 4, n>::Zero();
+  Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
+};
+
+template <int n>
+PlateTurning<n> plate_turning(const TriangleInterpolation& at, const Eigen::RowVector3d& stress,
+                              double volume) {
+  Eigen::Matrix2d tensor;
+  tensor << stress[0], stress[2], stress[2], stress[1];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(tensor);
+  const Eigen::Matrix<double, 2, 6> along = principal.eigenvectors().transpose() * at.gradient;
+  PlateTurning<n> turning;
+  for (Index i = 0; i < n / 2; ++i) {
+    turning.B(0, 2 * i) = turning.B(1, 2 * i + 1) = along(0, i);
+    turning.B(2, 2 * i) = turning.B(3, 2 * i + 1) = along(1, i);
+  }
+  const Vector2d s = volume * principal.eigenvalues();
+  turning.H.diagonal() << s[0], s[0], s[1], s[1];
+  return turning;
+}
+
+/// Calls visit(coordinates, B, H) for every part B^T H B of the geometric stiffness.
+template <class Visit>
+void for_each_turning(const System& system, const Prestress& state, Visit&& visit) {
+  const Model& model = system.model;
+  for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
+    const FrameElement& e = system.mesh.frame[i];
+    const double axial = state.axial[static_cast<Index>(i)];
+    const double growth = state.growth[static_cast<Index>(i)];
+    if (axial == 0 && growth == 0) continue;
+    const BeamTheory theory = model.members[static_cast<std::size_t>(e.member)].theory;
+    visit(e.coordinates, frame_turning(e.direction, e.length),
+          turning_rigidity(e, theory, axial, growth));
+  }
+  const double h = 0.5;
+  for (std::size_t i = 0; i < model.triangles.size(); ++i) {
+    const Triangle& triangle = model.triangles[i];
+    const Eigen::RowVector3d stress = state.stress.row(static_cast<Index>(i));
+    if (stress.isZero(0)) continue;
+    const double t = model.plates[static_cast<std::size_t>(triangle.plate)].thickness;
+    if (triangle.quadratic()) {  // the middles of the sides: exact to degree 2
+      for (const Vector3d& at : {Vector3d(h, h, 0), Vector3d(0, h, h), Vector3d(h, 0, h)}) {
+        const TriangleInterpolation point = interpolate(model, triangle, at);
+        const auto turning = plate_turning<12>(point, stress, t * point.area / 3);
+        visit(system.coordinates.of<12>(triangle), turning.B, turning.H);
+      }
+    } else {
+      const TriangleInterpolation point = interpolate(model, triangle, Vector3d::Constant(1 / 3.0));
+      const auto turning = plate_turning<6>(point, stress, t * point.area);
+      visit(system.coordinates.of<6>(triangle), turning.B, turning.H);
+    }
+  }
+  using One = Eigen::Matrix<double, 1, 1>;
+  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
+    if (state.arm[static_cast<Index>(i)] == 0) continue;
+    const Index rotation = system.constraints.rows[i].terms[2].first;
+    visit(std::array<Index, 1>{rotation}, One(1), One(state.arm[static_cast<Index>(i)]));
+  }
+  for (std::size_t i = 0; i < model.masses.size(); ++i) {
+    if (state.offset[static_cast<Index>(i)] == 0) continue;
+    const auto& node = system.coordinates.node[static_cast<std::size_t>(model.masses[i].node)];
+    visit(std::array<Index, 1>{node[2]}, One(1), One(state.offset[static_cast<Index>(i)]));
+  }
+}
+
+/// A rigid arm R carries its end to x_r + R: turning by θ shifts the end by -R θ^2 / 2 as well, so
+/// that the force F which the arm's end feels does the work -F R θ^2 / 2. The constraint's
+/// multiplier is the opposite of F.
+VectorXd arm_moments(const System& system, const VectorXd& multipliers) {
+  VectorXd arm = VectorXd::Zero(static_cast<Index>(system.constraints.rows.size()));
+  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
+    const ConstraintRow& row = system.constraints.rows[i];
+    if (row.source != ConstraintRow::Source::rigid_body || row.terms.size() != 3) continue;
+    const Index attached = row.terms[0].first;
+    const Index node = system.coordinates.node_of[static_cast<std::size_t>(attached)];
+    const Index reference =
+        system.coordinates.node_of[static_cast<std::size_t>(row.terms[1].first)];
+    const Vector2d R = system.mesh.positions[static_cast<std::size_t>(node)] -
+                       system.mesh.positions[static_cast<std::size_t>(reference)];
+    const bool x = system.coordinates.node[static_cast<std::size_t>(node)][0] == attached;
+    arm[static_cast<Index>(i)] = -multipliers[static_cast<Index>(i)] * (x ? R.x() : R.y());
+  }
+  return arm;
+}
+
+Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
+  const Model& model = system.model;
+  Eigen::MatrixX3d stress(static_cast<Index>(model.triangles.size()), 3);
+  for (std::size_t i = 0; i < model.triangles.size(); ++i) {
+    const Triangle& triangle = model.triangles[i];
+    const Material& material = model.plates[static_cast<std::size_t>(triangle.plate)].material;
+    Vector3d d;
+    if (triangle.quadratic()) {
+      d = triangle6_deformation(model, triangle, Vector3d::Constant(1 / 3.0)) *
+          detail::gather(system.coordinates.of<12>(triangle), u);
+    } else {
+      d = triangle_deformation(corners(model, triangle)) *
+          detail::gather(system.coordinates.of<6>(triangle), u);
+    }
+    stress.row(static_cast<Index>(i)) = membrane_stress(material, d);
+  }
+  return stress;
+}
+
+}  // namespace
+
+FrameDeformation frame_turning(const Vector2d& direction, double length) {
+  const double c = direction.x() / length;
+  const double s = direction.y() / length;
+  FrameDeformation B = frame_deformation(direction, length);
+  B.row(0) << s, -c, 0, -s, c, 0;
+  return B;
+}
+
+BodyForces body_forces(const System& system) {
+  const Model& model = system.model;
+  BodyForces body;
+  for (const FrameElement& e : system.mesh.frame) {
+    const Vector2d& load = model.members[static_cast<std::size_t>(e.member)].load;
+    body.element.emplace_back(load + e.section.mass_per_length * model.gravity);
+  }
+  for (const PointMass& lump : model.masses) body.lump.emplace_back(lump.mass * model.gravity);
+  return body;
+}
+
+VectorXd axial_forces(const System& system, const VectorXd& u, const VectorXd& multipliers) {
+  VectorXd axial(static_cast<Index>(system.mesh.frame.size()));
+  for (Index i = 0; i < axial.size(); ++i) {
+    const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
+    const Vector2d shift(u[e.coordinates[3]] - u[e.coordinates[0]],
+                         u[e.coordinates[4]] - u[e.coordinates[1]]);
+    axial[i] = e.section.EA / e.length * e.direction.dot(shift);
+  }
+  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
+    const ConstraintRow& row = system.constraints.rows[i];
+    if (row.source == ConstraintRow::Source::inextensible) {
+      axial[row.index] = -multipliers[static_cast<Index>(i)];
+    }
+  }
+  return axial;
+}
+
+Prestress prestress(const System& system, const VectorXd& u, const VectorXd& multipliers,
+                    const BodyForces& body) {
+  Prestress state;
+  state.axial = axial_forces(system, u, multipliers);
+  state.growth.resize(state.axial.size());
+  for (Index i = 0; i < state.growth.size(); ++i) {
+    const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
+    state.growth[i] = -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
+  }
+  state.stress = centroid_stress(system, u);
+  state.arm = arm_moments(system, multipliers);
+  state.offset.setZero(static_cast<Index>(system.model.masses.size()));
+  for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
+    state.offset[static_cast<Index>(i)] = body.lump[i].dot(system.model.masses[i].offset);
+  }
+  return state;
+}
+
+SparseMatrix geometric_stiffness(const System& system, const Prestress& state) {
+  SymmetricBuilder builder(system.constraints.free_count);
+  Projection projection(system.constraints, builder);
+  for_each_turning(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
+    projection.add(coordinates, (B.transpose() * H * B).eval());
+  });
+  return builder.build();
+}
+
+VectorXd turning_forces(const System& system, const Prestress& state, const VectorXd& u) {
+  VectorXd force = VectorXd::Zero(u.size());
+  for_each_turning(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
+    const auto local = (B.transpose() * (H * (B * detail::gather(coordinates, u)))).eval();
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
+    }
+  });
+  return force;
+}
+
+Vector6d turning_forces(const FrameElement& element, BeamTheory theory, double axial, double growth,
+                        const Vector6d& u) {
+  const Vector3d d = frame_turning(element.direction, element.length) * u;
+  return frame_turning(Vector2d::UnitX(), element.length).transpose() *
+         (turning_rigidity(element, theory, axial, growth) * d);
+}
+
+}  // namespace trammel

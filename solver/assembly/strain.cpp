@@ -1,0 +1,55 @@
+#include "solver/assembly/strain.h"
+
+#include <limits>
+
+namespace trammel {
+
+Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    const auto local = (B.transpose() * c.cwiseProduct(B * detail::gather(coordinates, u))).eval();
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
+    }
+  });
+  return force;
+}
+
+Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) {
+  const Index k = U.cols();
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(k, k);
+  Eigen::MatrixXd d(18, k);  // the most that an element has
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    const Index m = c.size();
+    for (Index j = 0; j < k; ++j) {
+      d.col(j).head(m) = B * detail::gather(coordinates, U.col(j));
+    }
+    for (Index i = 0; i < k; ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        products(i, j) += d.col(i).head(m).cwiseProduct(c).dot(d.col(j).head(m));
+      }
+    }
+  });
+  return products.selfadjointView<Eigen::Lower>();
+}
+
+double strain_roundoff(const System& system, const Eigen::VectorXd& u) {
+  double sum = 0;
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    const auto local = detail::gather(coordinates, u);
+    const auto size = (B.cwiseAbs() * local.cwiseAbs()).eval();
+    sum += (B * local).cwiseAbs().cwiseProduct(c).dot(size);
+  });
+  return 2 * std::numeric_limits<double>::epsilon() * sum;
+}
+
+double strain_magnitude(const System& system, const Eigen::VectorXd& u) {
+  double sum = 0;
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    const auto size = (B.cwiseAbs() * detail::gather(coordinates, u).cwiseAbs()).eval();
+    sum += size.cwiseProduct(c).dot(size);
+  });
+  return sum;
+}
+
+}  // namespace trammel

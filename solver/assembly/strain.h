@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "solver/elements/frame_element.h"
+#include "solver/assembly/system.h"
+#include "solver/elements/triangle6_element.h"
+#include "solver/elements/triangle_element.h"
+
+/// Strain energy, internal forces and their round-off straight from the elements' deformations
+/// d = B u, without an assembled stiffness: k = B^T C B with C diagonal and positive, so that what
+/// is added up are squares. Bending keeps its digits beside a stiff axial part; a rigid motion
+/// stores no energy but that of its own rounding.
+namespace trammel {
+
+namespace detail {
+
+template <std::size_t n, class Vector>
+auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
+  Eigen::Matrix<double, static_cast<int>(n), 1> local;
+  for (std::size_t i = 0; i < n; ++i) {
+    local[static_cast<Index>(i)] = coordinates[i] < 0 ? 0.0 : u[coordinates[i]];
+  }
+  return local;
+}
+
+}  // namespace detail
+
+/// Calls visit(coordinates, B, c) for every element: coordinates (array of n indices into u, -1
+/// for none), B (m x n) and the diagonal c (m) of its stiffness B^T diag(c) B.
+template <class Visit>
+void for_each_deformation(const System& system, Visit&& visit) {
+  for (const FrameElement& e : system.mesh.frame) {
+    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+    Vector3d c = frame_rigidity(e.section, member.theory, e.length);
+    if (!member.axially_flexible) c[0] = 0;
+    visit(e.coordinates, frame_deformation(e.direction, e.length), c);
+  }
+  for (const Triangle& triangle : system.model.triangles) {
+    if (triangle.quadratic()) {
+      const Triangle6Stiffness k = triangle6_stiffness(system.model, triangle);
+      visit(system.coordinates.of<12>(triangle), k.deformation, k.rigidity);
+      continue;
+    }
+    const TrianglePoints points = corners(system.model, triangle);
+    const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
+    const double volume = plate.thickness * std::abs(signed_area(points));
+    visit(system.coordinates.of<6>(triangle), triangle_deformation(points),
+          membrane_rigidity(plate.material, volume));
+  }
+  for (const SpringElement& spring : system.springs) {
+    visit(spring.coordinates, Eigen::RowVector2d(-1, 1),
+          Eigen::Matrix<double, 1, 1>(spring.stiffness));
+  }
+}
+
+/// Nodal forces in world axes of a uniform load per unit length [N/m, world axes] on an element.
+[[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
+
+/// K u on the unconstrained coordinates.
+[[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);
+
+/// U^T K U for the columns of U (u x k): twice the strain energies.
+[[nodiscard]] Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U);
+
+/// What rounding u to doubles can change in u^T K u: 2 eps sum over elements of |d|^T C |B| |u|.
+[[nodiscard]] double strain_roundoff(const System& system, const Eigen::VectorXd& u);
+
+/// Rounding level of the deformation energy: sum over elements of (|B| |u|)^T C (|B| |u|). A motion
+/// whose u^T K u is below about eps^2 times this does not deform anything.
+[[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
+
+}  // namespace trammel

@@ -1,0 +1,354 @@
+#include "solver/effects/dynamic_effect_estimates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "solver/effects/energy_shares.h"
+#include "solver/linalg/factorization.h"
+#include "solver/modes/modes.h"
+
+namespace trammel {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr std::size_t kPoses = 4;
+constexpr Index kElements = 8;
+
+/// The whole motion, on a mesh that is good enough to decide by.
+ElastodynamicsOptions sampled(ElastodynamicsOptions options) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (LinkDesign* link : {&options.design.proximal[i], &options.design.distal[i]}) {
+      link->elements = std::min(link->elements, kElements);
+    }
+  }
+  return options;
+}
+
+/// How fast the path turns [rad/s].
+double path_rate(const ElastodynamicsOptions& options) {
+  constexpr int kSamples = 64;
+  double velocity = 0, acceleration = 0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double share = static_cast<double>(i) / kSamples;
+    const double time = options.time.start + share * (options.time.end - options.time.start);
+    const TrajectoryPoint point = at(options.path, time);
+    velocity = std::max(velocity, point.velocity.norm());
+    acceleration = std::max(acceleration, point.acceleration.norm());
+  }
+  return velocity > 0 ? acceleration / velocity : 0;
+}
+
+/// The system built at a pose of the path, which moves on from there.
+class PoseAt {
+ public:
+  PoseAt(const ElastodynamicsOptions& options, double time)
+      : options_(options),
+        rigid_(rigid_manipulator(options.design)),
+        moving_(model_at(options, time), true) {
+    rigid_.gravity = options.gravity;
+    start_ = inverse_dynamics(rigid_, at(options.path, time), options.wrench).q;
+  }
+
+  [[nodiscard]] Outcome go_to(double time, const Vector2d& gravity) {
+    const TrajectoryPoint point = at(options_.path, time);
+    const InverseDynamics dynamics = inverse_dynamics(rigid_, point, options_.wrench);
+    if (!dynamics.outcome.solved()) return dynamics.outcome;
+    const Outcome outcome = moving_.move_to(
+        nominal_motion(options_.design, moving_.start().model, dynamics, start_, point, gravity));
+    for (const auto* parts : {&moving_.motion().member, &moving_.motion().rigid_body}) {
+      for (const PartMotion& part : *parts) turning = std::max(turning, std::abs(part.rate));
+    }
+    return outcome;
+  }
+
+  [[nodiscard]] VectorXd load() const {
+    VectorXd f = moving_.load();
+    if (options_.nominal_inertia) f += moving_.inertia_load();
+    return f;
+  }
+  [[nodiscard]] const MovingSystem& system() const { return moving_; }
+
+  double turning = 0;  ///< fastest of a part so far [rad/s]
+
+ private:
+  static Model model_at(const ElastodynamicsOptions& options, double time) {
+    Model model = build_manipulator(options.design, at(options.path, time).pose);
+    if (!options.wrench.isZero(0)) model.loads.push_back({model.find_node("P"), options.wrench});
+    return model;
+  }
+
+  const ElastodynamicsOptions& options_;
+  RigidManipulator rigid_;
+  MovingSystem moving_;
+  Vector9d start_;
+};
+
+/// A response to a load, by its largest translation [m] and by its energy, which stands for forces.
+struct Size {
+  double translation = 0, energy = 0;
+
+  void grow(const Size& other) {
+    translation = std::max(translation, other.translation);
+    energy = std::max(energy, other.energy);
+  }
+};
+
+/// Largest over the poses.
+struct Sizes {
+  Size response;
+  std::map<Effect, Size> change;
+  std::map<Effect, double> share;  ///< of the strain energy, or of that of all loads
+};
+
+class MotionEstimates {
+ public:
+  MotionEstimates(const ElastodynamicsOptions& options, Effects admitted)
+      : options_(sampled(options)), admitted_(admitted), rate_(path_rate(options)) {}
+
+  EffectEstimates run() {
+    for (std::size_t k = 0; k < kPoses && estimates_.outcome.solved(); ++k) {
+      const double share = (static_cast<double>(k) + 0.5) / kPoses;
+      look_at(options_.time.start + share * (options_.time.end - options_.time.start));
+    }
+    if (estimates_.outcome.solved() && frequency_ <= 0) {
+      estimates_.outcome = {Status::singular, "nothing vibrates"};
+    }
+    if (estimates_.outcome.solved()) conclude();
+    return std::move(estimates_);
+  }
+
+ private:
+  [[nodiscard]] static double translation_of(const MovingSystem& system, const VectorXd& q) {
+    const VectorXd u = system.constraints().T * q;
+    double largest = 0;
+    for (const auto& node : system.start().coordinates.node) {
+      largest = std::max(largest, std::hypot(u[node[0]], u[node[1]]));
+    }
+    return largest;
+  }
+  [[nodiscard]] static Size size_of(const MovingSystem& system, const VectorXd& q) {
+    return {translation_of(system, q), std::sqrt(std::max(0.0, q.dot(system.K() * q)))};
+  }
+
+  void keep(Effect effect, const Size& change) {
+    if (admitted_.has(effect)) sizes_.change[effect].grow(change);
+  }
+
+  /// K q = F + f; empty where it has no solution.
+  VectorXd respond(PoseAt& pose, double time, const Vector2d& gravity) {
+    estimates_.outcome = pose.go_to(time, gravity);
+    if (!estimates_.outcome.solved()) return {};
+    factorization_.compute(pose.system().K());
+    ++estimates_.counters.factorizations;
+    ++estimates_.counters.solves;
+    if (!factorization_.exists() || !(factorization_.smallest_pivot() > 0)) {
+      estimates_.outcome = {Status::singular, "the stiffness is singular"};
+      return {};
+    }
+    return factorization_.solve(pose.load());
+  }
+
+  void look_at(double time) {
+    PoseAt pose(options_, time);
+    const double step = rate_ > 0 ? 1e-3 / rate_ : 1e-4 * (options_.time.end - options_.time.start);
+    const VectorXd before = respond(pose, time - step, options_.gravity);
+    if (!estimates_.outcome.solved()) return;
+    const VectorXd after = respond(pose, time + step, options_.gravity);
+    if (!estimates_.outcome.solved()) return;
+    const VectorXd q = respond(pose, time, options_.gravity);
+    if (!estimates_.outcome.solved()) return;
+    const VectorXd v = (after - before) / (2 * step);
+    const VectorXd a = (after - 2 * q + before) / (step * step);
+    const MovingSystem& system = pose.system();
+    const SparseMatrix& K = system.K();
+    const Size whole = size_of(system, q);
+    sizes_.response.grow(whole);
+    const auto answer = [&](const VectorXd& load) -> VectorXd {
+      ++estimates_.counters.solves;
+      return factorization_.solve(load);
+    };
+    const VectorXd inertia = system.M() * a;
+    const VectorXd damping =
+        options_.damping.mass * (system.M() * v) + options_.damping.stiffness * (K * v);
+    // What drags is held by the same loads: only displacements change.
+    const VectorXd dragged = answer(damping), shaken = answer(inertia);
+    keep(Effect::damping, {translation_of(system, dragged), 0});
+    keep(Effect::inertia,
+         {translation_of(system, dragged + shaken), size_of(system, shaken).energy});
+    keep(Effect::gyroscopic, size_of(system, answer(system.convective_damping() * v +
+                                                    system.convective_stiffness() * q)));
+    const double energy = q.dot(K * q);
+    const EnergyShares shares(system.start(), q, energy);
+    for (const Effect effect : flexibilities()) {
+      const double share = energy > 0 ? shares.elastic(effect) : 0;
+      sizes_.share[effect] = std::max(sizes_.share[effect], share);
+      const VectorXd lost = answer(system.start().T.transpose() * shares.forces(effect));
+      keep(effect, {translation_of(system, lost), share * whole.energy});
+    }
+    const VectorXd load = pose.load();
+    without_masses(time, load, system);
+    turning_ = std::max(turning_, pose.turning);
+    if (estimates_.outcome.solved()) look_at_modes(system);
+    if (!admitted_.has(Effect::gravity) || !estimates_.outcome.solved()) return;
+    estimates_.outcome = pose.go_to(time, Vector2d::Zero());
+    if (!estimates_.outcome.solved()) return;
+    const Size weight = size_of(system, answer(load - pose.load()));
+    double& of_all = sizes_.share[Effect::gravity];
+    if (whole.energy > 0) of_all = std::max(of_all, weight.energy / whole.energy);
+    keep(Effect::gravity, weight);
+  }
+
+  [[nodiscard]] std::vector<Effect> flexibilities() const {
+    std::vector<Effect> all;
+    for (const Effect effect : {Effect::axial_flexibility, Effect::shear,
+                                Effect::platform_flexibility, Effect::joint_compliance}) {
+      if (admitted_.has(effect)) all.push_back(effect);
+    }
+    return all;
+  }
+
+  /// The same model without masses of links, or the turning of their sections: other loads.
+  void without_masses(double time, const VectorXd& load, const MovingSystem& system) {
+    for (const Effect effect : {Effect::link_mass, Effect::rotary_inertia}) {
+      if (!admitted_.has(effect)) continue;
+      ElastodynamicsOptions light = options_;
+      light.design = reduced(light.design, Effects::all().without(effect));
+      PoseAt pose(light, time);
+      estimates_.outcome = pose.go_to(time, options_.gravity);
+      if (!estimates_.outcome.solved()) return;
+      ++estimates_.counters.solves;
+      keep(effect, size_of(system, factorization_.solve(load - pose.load())));
+    }
+  }
+
+  /// The first modes that are no rigid motions, and what the first one's frequency owes to each
+  /// effect.
+  void look_at_modes(const MovingSystem& moving) {
+    const System& system = moving.start();
+    const ModalSolution modes = solve_modes(system, {.count = 4});
+    estimates_.counters += modes.counters;
+    estimates_.outcome = modes.outcome;
+    if (!modes.outcome.solved()) return;
+    Index first = 0;
+    while (first < modes.frequency.size() && !(modes.frequency[first] > 0)) ++first;
+    if (first == modes.frequency.size()) return;
+    const double omega = 2 * std::numbers::pi * modes.frequency[first];
+    couple(moving, modes, first);
+    if (frequency_ > 0 && omega >= frequency_) return;
+    frequency_ = omega;
+    damping_ = damping_ratio(options_.damping, omega);
+    const EnergyShares shares(system, modes.shape.col(first), omega * omega);
+    for (const Effect effect : flexibilities()) tuning_[effect] = faster(shares.elastic(effect));
+    const double rotary = shares.kinetic(true), all = shares.kinetic(false);
+    tuning_[Effect::link_mass] = faster(all - rotary);
+    tuning_[Effect::rotary_inertia] = faster(rotary);
+    sizes_.share[Effect::link_mass] = all - rotary;
+    sizes_.share[Effect::rotary_inertia] = rotary;
+  }
+
+  /// By how much gyroscopic forces change one of the first modes while it lasts, or turn it into
+  /// another: the slower, the nearer their frequencies.
+  void couple(const MovingSystem& moving, const ModalSolution& modes, Index first) {
+    const SparseMatrix& C = moving.convective_damping();
+    const SparseMatrix& S = moving.convective_stiffness();
+    const auto omega = [&](Index i) { return 2 * std::numbers::pi * modes.frequency[i]; };
+    const double time = lasts(omega(first), damping_ratio(options_.damping, omega(first)));
+    for (Index i = first; i < modes.shape.cols(); ++i) {
+      for (Index j = first; j < modes.shape.cols(); ++j) {
+        const double rate = (std::abs(modes.shape.col(i).dot(C * modes.shape.col(j))) +
+                             std::abs(modes.shape.col(i).dot(S * modes.shape.col(j))) / omega(i)) /
+                            2;
+        const double apart = std::abs(omega(i) - omega(j));
+        coupling_ = std::max(coupling_, rate * (apart * time > 1 ? 1 / apart : time));
+      }
+    }
+  }
+
+  /// Whether a load sets in at once: the plate takes it before the links do.
+  [[nodiscard]] bool struck() const {
+    return !options_.time.quasi_static_start && !options_.wrench.isZero(0);
+  }
+
+  /// How long a vibration lasts.
+  [[nodiscard]] double lasts(double omega, double damping) const {
+    const double time = options_.time.end - options_.time.start;
+    return damping > 0 ? std::min(time, 1 / (std::numbers::e * damping * omega)) : time;
+  }
+
+  /// Of a change that the quasi-static response shows; nothing moves without a load.
+  [[nodiscard]] double of_response(Effect effect) const {
+    const auto found = sizes_.change.find(effect);
+    const Size& whole = sizes_.response;
+    if (found == sizes_.change.end() || !(whole.translation > 0 && whole.energy > 0)) return 0;
+    return std::max(found->second.translation / whole.translation,
+                    found->second.energy / whole.energy);
+  }
+  [[nodiscard]] double translation_share(Effect effect) const {
+    const auto found = sizes_.change.find(effect);
+    if (found == sizes_.change.end() || !(sizes_.response.translation > 0)) return 0;
+    return found->second.translation / sizes_.response.translation;
+  }
+
+  void conclude() {
+    const double r = rate_ / frequency_;
+    const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
+    const double time = options_.time.end - options_.time.start;
+    // What starts on q_s swings about the response beside it: half a period later it is twice as
+    // far.
+    const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
+    const double swings = lasts(frequency_, damping_) * frequency_;
+    const double vibrates = options_.time.quasi_static_start
+                                ? std::min(1.0, translation_share(Effect::inertia) * amplified)
+                                : 1;
+    for (const Effect effect : admitted_.list()) {
+      double change = of_response(effect) * amplified;
+      double number = sizes_.share[effect];
+      switch (effect) {
+        case Effect::inertia:
+          number = r * r;
+          change = std::max(change * from_start, vibrates);
+          break;
+        case Effect::damping:
+          number = damping_;
+          change *= from_start;
+          change += vibrates * -std::expm1(-damping_ * frequency_ * time);
+          break;
+        case Effect::gyroscopic:
+          number = 2 * turning_ / frequency_;
+          change += vibrates * std::min(2.0, coupling_);
+          break;
+        case Effect::gravity:
+          break;
+        default:
+          if (effect == Effect::axial_flexibility && admitted_.has(Effect::damping)) {
+            change += options_.damping.stiffness * turning_;
+          }
+          change += vibrates * std::min(2.0, std::abs(tuning_[effect]) * swings);
+          if (effect == Effect::platform_flexibility && struck()) change = std::max(change, 1.0);
+      }
+      estimates_.effects.push_back({effect, number, VectorXd::Constant(1, change)});
+    }
+  }
+
+  ElastodynamicsOptions options_;
+  Effects admitted_;
+  double rate_;
+  Factorization factorization_;
+  Sizes sizes_;
+  double frequency_ = 0, damping_ = 0, turning_ = 0;
+  std::map<Effect, double> tuning_;  ///< relative change of the first frequency
+  double coupling_ = 0;
+  EffectEstimates estimates_;
+};
+
+}  // namespace
+
+EffectEstimates estimate_motion_effects(const ElastodynamicsOptions& options, Effects admitted) {
+  return MotionEstimates(options, admitted).run();
+}
+
+}  // namespace trammel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "solver/effects/effect_estimates.h"
+#include "solver/manipulator/elastodynamics.h"
+#include "solver/modes/rotating_modes.h"
+
+/// What a motion would lose without an effect, to first order. Numbers without dimension: with the
+/// first angular frequency w1 and damping ratio z, how fast the path turns W, the time T.
+namespace trammel {
+
+/// Elastodynamics along a path, at some poses of it. The quasi-static response q_s, K q_s = F + f,
+/// and its rates say what is left out as a small load would:
+///   inertia -K^-1 (M q_s.. + C q_s.), damping -K^-1 C q_s., gyroscopic forces -K^-1 (G q_s. + S
+///   q_s), weights and masses of links by the loads that they are; a flexibility by the load K_e
+///   q_s of its part K_e of K, and its share of the strain energy (springs in series). C = w2 K in
+///   world axes drags along what turns: members that stretch give way by w2 theta. of their
+///   deflection;
+/// each by the largest translation and, where loads change, in the norm of K, over the largest q_s,
+/// times the amplification of a steady vibration, 1 / sqrt((1 - r^2)^2 + (2 z r)^2), r = W / w1,
+/// where that is larger than one.
+/// Inertia and damping count 1 + exp(-pi z) times: what starts on q_s swings about the response
+/// beside it. What the start or the motion sets vibrating, a share v of q_s (1 where load and
+/// inertia set in at once), loses step with itself by the change of w1 that the effect means
+/// (Rayleigh), for as long as it lasts, the smaller of T and 1 / (e z w1); undamped it does not die
+/// away, by 1 - exp(-z w1 T); gyroscopic forces turn the first modes into each other at the rate
+/// x_i^T (G + S / w_i) x_j / 2, for no longer than they keep step, 1 / |w_i - w_j|. A load that
+/// sets in at once is taken by the plate before the links, whose forces it changes wholly.
+///   Source: quasi-static expansion, e.g. L. Meirovitch, Analytical Methods in Vibrations (1967).
+/// @param options  the whole motion, convective terms included; what `admitted` lacks is not there
+[[nodiscard]] EffectEstimates estimate_motion_effects(const ElastodynamicsOptions& options,
+                                                      Effects admitted);
+
+/// Modes of a frame that rotates steadily, from the whole ones: with x^H of the complex shape,
+///   Q(w) = K + K_G - W^2 S + 2 i w W G - w^2 M, Q(w) x = 0, a part R of Q left out changes w by
+///   x^H R x / (x^H Q'(w) x); half of it for Coriolis forces, which count by their square.
+///   Source: P. Lancaster, Lambda-Matrices and Vibrating Systems (1966).
+/// Flexibilities and masses by their shares of the energies, as in modes at rest.
+/// @param speeds  [rad/s]
+[[nodiscard]] EffectEstimates estimate_rotating_effects(const Model& model, Effects admitted,
+                                                        const RotatingOptions& options,
+                                                        const std::vector<double>& speeds);
+
+}  // namespace trammel

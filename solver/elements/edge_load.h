@@ -1,0 +1,14 @@
+#pragma once
+
+#include <array>
+
+#include "solver/model/model.h"
+
+namespace trammel {
+
+/// Consistent forces [N] on the nodes of a loaded side, t integral N^T traction ds; the third is
+/// zero where the side has no middle node. The side may be curved: it is the parabola through its
+/// nodes, and the pressure follows its normal.
+[[nodiscard]] std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load);
+
+}  // namespace trammel

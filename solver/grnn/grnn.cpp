@@ -1,0 +1,88 @@
+#include "solver/grnn/grnn.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/grnn/grnn_weights.h"
+
+namespace trammel {
+
+namespace {
+
+void require(bool holds, const char* sentence) {
+  if (!holds) throw ModelError(sentence);
+}
+
+bool squarable(const Eigen::MatrixXd& m) {
+  return m.allFinite() && (m.size() == 0 || m.cwiseAbs().maxCoeff() < 1e150);
+}
+
+Eigen::VectorXd scale_of(const Eigen::MatrixXd& inputs, InputScaling scaling) {
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(inputs.cols());
+  if (scaling == InputScaling::none) return scale;
+  for (Index f = 0; f < inputs.cols(); ++f) {
+    const Eigen::VectorXd column = inputs.col(f);
+    const double range = column.maxCoeff() - column.minCoeff();
+    if (range == 0) continue;  // a constant input: the mean could differ from it by a rounding
+    const double deviation = std::sqrt((column.array() - column.mean()).square().mean());
+    scale(f) = scaling == InputScaling::range ? range : deviation;
+  }
+  return scale;
+}
+
+}  // namespace
+
+Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double sigma,
+               const Eigen::VectorXd& scale) {
+  require(inputs.rows() >= 1, "a GRNN needs at least one sample");
+  require(inputs.rows() == outputs.rows(), "a GRNN needs one output row for each input row");
+  require(inputs.cols() >= 1 && outputs.cols() >= 1, "a GRNN needs an input and an output");
+  require(outputs.allFinite(), "an output of a GRNN's sample is not finite");
+  require(scale.size() == inputs.cols(), "a GRNN needs one scale for each input");
+  require(scale.allFinite() && (scale.array() > 0).all(),
+          "the scale of a GRNN's input must be positive");
+  require(squarable(inputs * scale.cwiseInverse().asDiagonal()),
+          "a scaled input of a GRNN's sample is not finite or too large to be squared");
+  return {inputs, outputs, scale, sigma};
+}
+
+Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double sigma,
+               InputScaling scaling) {
+  require(inputs.rows() >= 1, "a GRNN needs at least one sample");
+  require(squarable(inputs), "an input of a GRNN's sample is not finite or too large");
+  return make_grnn(inputs, outputs, sigma, scale_of(inputs, scaling));
+}
+
+double sigma_of_spread(double spread) {
+  return spread / (std::sqrt(2.0) * 0.8326);
+}
+
+Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
+  require(queries.cols() == network.inputs.cols(), "a query has the wrong number of inputs");
+  require(network.sigma >= std::numeric_limits<double>::min() && std::isfinite(network.sigma),
+          "the sigma of a GRNN must be a positive normal number");
+  const Eigen::VectorXd inverse = network.scale.cwiseInverse();
+  const Eigen::MatrixXd samples = network.inputs * inverse.asDiagonal();
+  const Eigen::MatrixXd scaled = inverse.asDiagonal() * queries.transpose();  // input x query
+  require(squarable(scaled), "a query is not finite or too large to be squared");
+
+  // Queries in blocks: the weights of a block meet the outputs in one matrix product.
+  constexpr Index kBlock = 32;
+  Eigen::MatrixXd result(queries.rows(), network.outputs.cols());
+  Eigen::MatrixXd weights(samples.rows(), std::min(kBlock, queries.rows()));
+  ExcessDistances excess(samples);
+  for (Index first = 0; first < queries.rows(); first += kBlock) {
+    const Index count = std::min(kBlock, queries.rows() - first);
+    for (Index k = 0; k < count; ++k) {
+      const Eigen::ArrayXd& e = excess.of(scaled.col(first + k));
+      kernel_weights(e, network.sigma, weights.col(k));
+      weights.col(k) /= weights.col(k).sum();
+    }
+    result.middleRows(first, count).noalias() =
+        weights.leftCols(count).transpose() * network.outputs;
+  }
+  return result;
+}
+
+}  // namespace trammel

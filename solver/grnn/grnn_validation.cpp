@@ -1,0 +1,162 @@
+#include "solver/grnn/grnn_validation.h"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "solver/grnn/grnn_weights.h"
+
+namespace trammel {
+
+namespace {
+
+void require(bool holds, const char* sentence) {
+  if (!holds) throw ModelError(sentence);
+}
+
+Eigen::MatrixXd scaled_inputs(const Grnn& network) {
+  return network.inputs * network.scale.cwiseInverse().asDiagonal();
+}
+
+/// 1 / standard deviation of each output.
+Eigen::RowVectorXd output_weights(const Eigen::MatrixXd& outputs) {
+  Eigen::RowVectorXd weights = Eigen::RowVectorXd::Ones(outputs.cols());
+  for (Index j = 0; j < outputs.cols(); ++j) {
+    const Eigen::VectorXd column = outputs.col(j);
+    if (column.maxCoeff() == column.minCoeff()) continue;
+    weights(j) = 1 / std::sqrt((column.array() - column.mean()).square().mean());
+  }
+  return weights;
+}
+
+void check_sigmas(const Eigen::VectorXd& sigmas) {
+  require(sigmas.size() >= 1, "no sigma to try");
+  require(sigmas.allFinite() && (sigmas.array() >= std::numeric_limits<double>::min()).all(),
+          "every sigma to try must be a positive normal number");
+}
+
+/// Fisher-Yates; the library's shuffle is not the same everywhere.
+void shuffle(std::vector<Index>& values, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random() % i]);
+}
+
+}  // namespace
+
+std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validation) {
+  const Index folds = validation.folds == 0 ? samples : validation.folds;
+  require(folds >= 2, "cross-validation needs at least two folds");
+  require(samples >= folds, "cross-validation needs at least one sample in each fold");
+  std::vector<Index> place(static_cast<std::size_t>(samples));
+  std::iota(place.begin(), place.end(), Index{0});
+  if (validation.order == FoldOrder::shuffled) shuffle(place, validation.seed);
+  const bool blocks = validation.order == FoldOrder::blocks;
+  for (Index& p : place) p = blocks ? p * folds / samples : p % folds;
+  return place;
+}
+
+std::vector<bool> training_part(Index samples, Index train, Split split, std::uint64_t seed) {
+  require(train >= 1 && train <= samples, "expected to train with at least one and at most all");
+  std::vector<Index> order(static_cast<std::size_t>(samples));
+  std::iota(order.begin(), order.end(), Index{0});
+  if (split == Split::shuffled) shuffle(order, seed);
+  std::vector<bool> trains(order.size(), false);
+  for (Index k = 0; k < train; ++k) {
+    // The middle of the k-th of `train` equal pieces.
+    const Index place = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
+    trains[static_cast<std::size_t>(order[static_cast<std::size_t>(place)])] = true;
+  }
+  return trains;
+}
+
+Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorXd& sigmas,
+                                       const CrossValidation& validation) {
+  check_sigmas(sigmas);
+  const Index n = network.inputs.rows();
+  const std::vector<Index> fold = fold_of_samples(n, validation);
+  const Eigen::Map<const Eigen::Array<Index, Eigen::Dynamic, 1>> folds(fold.data(), n);
+  const Eigen::MatrixXd samples = scaled_inputs(network);
+  const Eigen::RowVectorXd importance = output_weights(network.outputs);
+
+  ExcessDistances excess(samples);
+  Eigen::Array<bool, Eigen::Dynamic, 1> own(n);
+  Eigen::VectorXd query(samples.cols());
+  Eigen::VectorXd weights(n);
+  Eigen::RowVectorXd miss(network.outputs.cols());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(sigmas.size());
+  for (Index i = 0; i < n; ++i) {
+    own = folds == folds(i);
+    query = samples.row(i).transpose();
+    const Eigen::ArrayXd& e = excess.of(query, &own);
+    for (Index s = 0; s < sigmas.size(); ++s) {
+      kernel_weights(e, sigmas(s), weights);
+      miss.noalias() = weights.transpose() * network.outputs;
+      miss = (miss / weights.sum() - network.outputs.row(i)).cwiseProduct(importance);
+      sum(s) += miss.squaredNorm();
+    }
+  }
+  return (sum / static_cast<double>(n * network.outputs.cols())).cwiseSqrt();
+}
+
+Eigen::VectorXd logarithmic_grid(double from, double to, Index count) {
+  require(from > 0 && to > from && std::isfinite(to), "a grid of sigmas needs 0 < from < to");
+  require(count >= 3, "a grid of sigmas needs at least three");
+  return Eigen::VectorXd::LinSpaced(count, std::log(from), std::log(to)).array().exp().matrix();
+}
+
+Eigen::VectorXd default_grid(const Grnn& network, Index count) {
+  const Eigen::MatrixXd samples = scaled_inputs(network);
+  const double extent = (samples.colwise().maxCoeff() - samples.colwise().minCoeff()).norm();
+  if (extent == 0) return logarithmic_grid(0.1, 10, count);  // all samples at one place
+  std::vector<double> nearest;
+  for (Index i = 0; i < samples.rows(); ++i) {
+    double least = extent;
+    for (Index j = 0; j < samples.rows(); ++j) {
+      const double distance = (samples.row(i) - samples.row(j)).norm();
+      if (distance > 0) least = std::min(least, distance);
+    }
+    nearest.push_back(least);
+  }
+  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle, nearest.end());
+  return logarithmic_grid(*middle / 10, extent, count);
+}
+
+SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
+                         const CrossValidation& validation) {
+  check_sigmas(grid);
+  for (Index k = 1; k < grid.size(); ++k)
+    require(grid(k) > grid(k - 1), "the sigmas of a grid must ascend");
+  SigmaSearch search;
+  search.grid = grid;
+  search.grid_error = cross_validation_error(network, grid, validation);
+  search.evaluations = grid.size();
+  Index best = 0;
+  search.error = search.grid_error.minCoeff(&best);
+  search.sigma = grid(best);
+  search.bracketed = best > 0 && best + 1 < grid.size();
+  if (!search.bracketed) return search;
+
+  const auto error_at = [&](double log_sigma) {
+    ++search.evaluations;
+    const double sigma = std::exp(log_sigma);
+    const double error =
+        cross_validation_error(network, Eigen::VectorXd::Constant(1, sigma), validation)(0);
+    if (error < search.error) {
+      search.error = error;
+      search.sigma = sigma;
+    }
+    return error;
+  };
+  constexpr int kBits = 16;  // of the logarithm: sigma to better than 1e-3
+  std::uintmax_t evaluations = 100;
+  boost::math::tools::brent_find_minima(error_at, std::log(grid(best - 1)),
+                                        std::log(grid(best + 1)), kBits, evaluations);
+  return search;
+}
+
+}  // namespace trammel

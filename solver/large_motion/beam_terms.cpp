@@ -1,9 +1,0 @@
-#include "solver/large_motion/terms.h"
-
-namespace trammel::large {
-
-template class RowTerm<Beam<1>>;
-template class RowTerm<Beam<2>>;
-template class RowTerm<Beam<3>>;
-
-}  // namespace trammel::large

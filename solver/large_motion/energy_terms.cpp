@@ -1,9 +1,0 @@
-#include "solver/large_motion/terms.h"
-
-namespace trammel::large {
-
-template class EnergyTerm<Triangle2d<3>>;
-template class EnergyTerm<Triangle2d<6>>;
-template class EnergyTerm<CoordinateSpring>;
-
-}  // namespace trammel::large

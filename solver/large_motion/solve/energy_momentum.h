@@ -1,0 +1,40 @@
+#pragma once
+
+#include "solver/large_motion/solve/stepper.h"
+
+namespace trammel::large {
+
+/// Energy-momentum method (J. C. Simo, N. Tarnow, ZAMP 43, 1992; O. Gonzalez, CMAME 190, 2000):
+///
+///     q1 - q0 = h (v0 + v1)/2,     M (v1 - v0)/h = f(q0, q1) - D(q0, q1)^T lambda,     g(q1) = 0,
+///
+/// with discrete gradients f and D, so that energy and momentum stay as they are to round-off for
+/// any step, without numerical damping. Order 2. Velocities meet their constraint on the mean of
+/// each step; multipliers are means too, carried to the step's end.
+class EnergyMomentum final : public Stepper {
+ public:
+  explicit EnergyMomentum(const ConservativeSystem& system);
+
+  [[nodiscard]] StepReport attempt(double h) override;
+  void begin(const State& state) override;
+  void accept() override;
+  [[nodiscard]] const State& state() const override { return from_; }
+  [[nodiscard]] const State& next() const override { return to_; }
+  [[nodiscard]] const KktMatrix& matrix() const override { return matrix_; }
+
+ private:
+  [[nodiscard]] StepReport newton(double h, bool exact);
+  [[nodiscard]] bool factor(double h, bool exact);
+  void residuals(double h);
+  void set_end_multipliers(double h);
+
+  const ConservativeSystem& system_;
+  KktMatrix matrix_;
+  State from_, to_, middle_;
+  VectorXd mean_, last_mean_;  ///< multipliers of this step and the last
+  double factored_step_ = 0, last_step_ = 0;
+  bool first_ = true;
+  VectorXd gap_, rate_, gap_before_, step_, change_;
+};
+
+}  // namespace trammel::large

@@ -1,0 +1,144 @@
+#include "solver/large_motion/solve/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace trammel::large {
+
+void advance(State& state, const VectorXd& step, double factor) {
+  state.q += factor * step.head(state.q.size());
+  state.lambda += factor * step.tail(state.lambda.size());
+}
+
+Equilibrium::Equilibrium(const LargeSystem& system, const NewtonOptions& options)
+    : system_(system),
+      options_(options),
+      matrix_(system.coordinates(), system.constraints(), system.blocks()),
+      gap_(VectorXd::Zero(system.constraints())),
+      rate_(VectorXd::Zero(system.constraints())),
+      step_(VectorXd::Zero(system.coordinates() + system.constraints())) {}
+
+double Equilibrium::size(const Eigen::Ref<const VectorXd>& dq) const {
+  if (dq.size() == 0) return 0;
+  return dq.cwiseQuotient(system_.scale()).norm() / std::sqrt(static_cast<double>(dq.size()));
+}
+
+bool Equilibrium::settled(const std::vector<double>& correction, double whole) const {
+  const std::size_t count = correction.size();
+  const double last = correction[count - 1];
+  // What is left after a correction is its square, so 1e-15 of the model's size is no loss however
+  // small the displacement.
+  if (last <= options_.tolerance * whole + 1e-15) return true;
+  return count > 1 && last < 1e-8 * whole && last > 0.3 * correction[count - 2];
+}
+
+bool Equilibrium::factor(const State& state) {
+  matrix_.clear();
+  system_.tangent(state, Weights{}, matrix_);
+  return matrix_.factor(system_.symmetric());
+}
+
+void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& history) {
+  const Index n = system_.coordinates(), m = system_.constraints();
+  step.resize(n + m);
+  system_.balance(state, step.head(n));
+  system_.gaps(state, gap_, rate_);
+  step.tail(m) = gap_ - system_.compliance().cwiseProduct(state.lambda);
+  history.residual.push_back(n > 0 ? step.head(n).cwiseProduct(system_.scale()).norm() : 0.0);
+  history.gap.push_back(step.tail(m).norm());
+  step = -step;
+  matrix_.solve(step);
+  history.correction.push_back(size(step.head(n)));
+}
+
+void Equilibrium::load_direction(const State& state, VectorXd& direction) {
+  const Index n = system_.coordinates(), m = system_.constraints();
+  direction.resize(n + m);
+  system_.load_rate(state, direction.head(n));
+  State still = state;
+  still.v.setZero(n);
+  system_.gaps(still, gap_, rate_);
+  direction.tail(m) = rate_;
+  direction = -direction;
+  matrix_.solve(direction);
+}
+
+double Equilibrium::softest(VectorXd& shape) {
+  const Index n = system_.coordinates(), m = system_.constraints();
+  if (n == 0) return 0;
+  // A start without symmetry, so that no shape is missed.
+  VectorXd x(n + m);
+  for (Index i = 0; i < n; ++i) {
+    x[i] = system_.scale()[i] * (1 + 0.37 * std::sin(1.7 * static_cast<double>(i) + 0.4));
+  }
+  double eigenvalue = 0;
+  for (int pass = 0; pass < 12; ++pass) {
+    const double norm = x.head(n).cwiseQuotient(system_.scale()).norm();
+    x.head(n) = (x.head(n) / norm).cwiseQuotient(system_.scale().cwiseAbs2());
+    x.tail(m).setZero();
+    matrix_.solve(x);
+    const double next = 1 / x.head(n).cwiseQuotient(system_.scale()).norm();
+    const bool settled = std::abs(next - eigenvalue) < 1e-10 * next;
+    eigenvalue = next;
+    if (settled) break;
+  }
+  shape = x.head(n) * eigenvalue;
+  return eigenvalue;
+}
+
+NewtonResult Equilibrium::solve(State& state, double load) {
+  NewtonResult result;
+  const State before = state;
+  const Index n = system_.coordinates();
+  state.t = state.load = state.gravity = load;
+  const auto fail = [&](Status status, std::string words) {
+    state = before;
+    result.outcome = {status, std::move(words)};
+    return result;
+  };
+  for (int i = 0; i < options_.iterations; ++i) {
+    if (!factor(state)) return fail(Status::singular, "the tangent is singular");
+    correction(state, step_, result);
+    if (!step_.allFinite()) return fail(Status::singular, "the tangent is singular");
+    advance(state, step_);
+    const double last = result.correction.back(), whole = size(state.q.head(n));
+    if (settled(result.correction, whole)) return result;
+    if (last > 1e6 * (1 + whole)) break;
+  }
+  std::ostringstream words;
+  words << "Newton's method did not converge at load factor " << load << " in "
+        << result.correction.size() << " iterations; last correction " << result.correction.back()
+        << ", residual " << result.residual.back() << " N m";
+  return fail(Status::not_converged, words.str());
+}
+
+std::string describe_motion(const LargeSystem& system, const VectorXd& shape) {
+  const Layout& layout = system.layout();
+  static constexpr std::array<const char*, 3> names = {"motion along x", "motion along y",
+                                                       "rotation"};
+  double largest = -1;
+  std::string words = "a motion inside a member";
+  const auto consider = [&](Index k, const std::string& what) {
+    if (k < 0 || k >= layout.free) return;
+    const double amount = std::abs(shape[k]) / system.scale()[k];
+    if (amount <= largest * (1 + 1e-9)) return;
+    largest = amount;
+    words = what;
+  };
+  for (std::size_t i = 0; i < layout.node.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      consider(layout.node[i][k],
+               std::string(names[k]) + " of node " + system.model().nodes[i].name);
+    }
+  }
+  for (std::size_t i = 0; i < layout.end_rotation.size(); ++i) {
+    for (const Index k : layout.end_rotation[i]) {
+      consider(k, "rotation of an end of member " + system.model().members[i].name);
+    }
+  }
+  return words;
+}
+
+}  // namespace trammel::large

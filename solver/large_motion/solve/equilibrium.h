@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/model/outcome.h"
+
+namespace trammel::large {
+
+struct NewtonOptions {
+  int iterations = 30;
+  double tolerance = 1e-13;  ///< last correction over the displacement [-]
+};
+
+/// One Newton solution; each list has an entry an iteration.
+struct NewtonResult {
+  Outcome outcome;
+  std::vector<double> correction;  ///< size of the correction: translations over the model's size
+  std::vector<double> residual;    ///< of equilibrium, forces times the model's size [N m]
+  std::vector<double> gap;         ///< of the constraints and of the beams' stretch and shear [m]
+};
+
+/// Static equilibrium by Newton's method with exact tangents. Its memory is reused by every solve.
+class Equilibrium {
+ public:
+  explicit Equilibrium(const LargeSystem& system, const NewtonOptions& options = {});
+
+  /// Solves at `load` (also the time of drives) from the state given; on failure the state is what
+  /// it was.
+  [[nodiscard]] NewtonResult solve(State& state, double load);
+
+  /// Factors the tangent at a state. @return false: singular to working precision.
+  [[nodiscard]] bool factor(const State& state);
+  /// dq/dload and dlambda/dload with the tangent factored last, as (dq, dlambda).
+  void load_direction(const State& state, VectorXd& direction);
+  /// One corrector: solution of the tangent equation for minus the residual.
+  void correction(const State& state, VectorXd& step, NewtonResult& history);
+  /// Smallest eigenvalue (absolute) of the tangent over the squared scale, and its shape (by
+  /// inverse iteration with the tangent factored last) [N m].
+  double softest(VectorXd& shape);
+
+  /// True where the corrections so far end the iteration at a displacement of that size: the last
+  /// is small enough, or they have stopped to shrink at round-off.
+  [[nodiscard]] bool settled(const std::vector<double>& correction, double whole) const;
+  /// Root mean square of a change of coordinates over their scale.
+  [[nodiscard]] double size(const Eigen::Ref<const VectorXd>& dq) const;
+  [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
+
+ private:
+  const LargeSystem& system_;
+  NewtonOptions options_;
+  KktMatrix matrix_;
+  VectorXd gap_, rate_, step_;
+};
+
+/// Adds a correction (dq, dlambda) times a factor.
+void advance(State& state, const VectorXd& step, double factor = 1);
+
+/// The coordinate that moves most in a shape, in words: "rotation of node P".
+[[nodiscard]] std::string describe_motion(const LargeSystem& system, const VectorXd& shape);
+
+}  // namespace trammel::large

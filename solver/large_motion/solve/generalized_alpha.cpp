@@ -1,0 +1,153 @@
+#include "solver/large_motion/solve/generalized_alpha.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/large_motion/solve/start.h"
+
+namespace trammel::large {
+
+GeneralizedAlpha::GeneralizedAlpha(const ConstrainedSystem& system, double spectral_radius)
+    : system_(system),
+      alpha_m_((2 * spectral_radius - 1) / (spectral_radius + 1)),
+      alpha_f_(spectral_radius / (spectral_radius + 1)),
+      beta_(std::pow(1 - alpha_m_ + alpha_f_, 2) / 4),
+      gamma_(0.5 - alpha_m_ + alpha_f_),
+      matrix_(system.coordinates(), system.constraints(), system.blocks()),
+      gap_(VectorXd::Zero(system.constraints())),
+      rate_(VectorXd::Zero(system.constraints())),
+      motion_(VectorXd::Zero(system.coordinates() + system.constraints())),
+      place_(VectorXd::Zero(system.coordinates() + system.constraints())) {}
+
+void GeneralizedAlpha::begin(const State& state) {
+  from_ = to_ = state;
+  A0_ = A1_ = state.a;
+  first_ = true;
+  last_step_ = factored_step_ = 0;
+}
+
+void GeneralizedAlpha::accept() {
+  std::swap(from_, to_);
+  std::swap(A0_, A1_);
+  last_step_ = from_.t - to_.t;
+  first_ = false;
+}
+
+StepReport GeneralizedAlpha::attempt(double h) {
+  stored_ = A0_;
+  // A0 stands for the acceleration at t0 + (am - af) h.
+  const double delay = alpha_m_ - alpha_f_;
+  if (first_) {
+    A0_ = from_.a;
+    const StepReport trial = newton(h);
+    if (!trial.converged) return trial;
+    A0_ = from_.a + delay * (to_.a - from_.a);
+  } else if (h != last_step_) {
+    A0_ = from_.a + h / last_step_ * (A0_ - from_.a);
+  }
+  StepReport report = newton(h);
+  report.error = std::abs(delay / 2 + beta_ - 1.0 / 6) * h * h * weighted_size(system_, A1_ - A0_);
+  // A rejected step must not scale A0 twice; an accepted one has no more use for it.
+  A0_ = stored_;
+  return report;
+}
+
+StepReport GeneralizedAlpha::newton(double h) {
+  StepReport report = newton(h, false);
+  if (report.converged) return report;
+  const int spent = report.iterations;
+  report = newton(h, true);
+  report.iterations += spent;
+  if (!report.converged) factored_step_ = 0;
+  return report;
+}
+
+void GeneralizedAlpha::predict(double h) {
+  to_.t = from_.t + h;
+  to_.load = system_.load_factor(to_.t);
+  to_.gravity = from_.gravity;
+  to_.a = from_.a;
+  to_.lambda = from_.lambda;
+  A1_ = ((1 - alpha_f_) * to_.a + alpha_f_ * from_.a - alpha_m_ * A0_) / (1 - alpha_m_);
+  to_.q = from_.q + h * from_.v + h * h * ((0.5 - beta_) * A0_ + beta_ * A1_);
+  to_.v = from_.v + h * ((1 - gamma_) * A0_ + gamma_ * A1_);
+}
+
+bool GeneralizedAlpha::factor(double h) {
+  const double per_acceleration = (1 - alpha_m_) / ((1 - alpha_f_) * beta_ * h * h);
+  const double per_velocity = gamma_ / (beta_ * h);
+  const double tau = system_.strain_rate_damping();
+  Weights weights;
+  weights.mass = 1;
+  weights.damping = per_velocity / per_acceleration;
+  weights.stiffness = 1 / per_acceleration;
+  weights.compliance = per_acceleration / (1 + tau * per_velocity);
+  matrix_.clear();
+  system_.tangent(to_, weights, matrix_);
+  factored_step_ = h;
+  return matrix_.factor(system_.symmetric());
+}
+
+/// One correction. The positions are solved for first, with the constraints themselves; then the
+/// accelerations, with the rates that the new positions give. Both take the same matrix, the second
+/// sees what the first has done, so the corrections shrink quadratically, next to a singular
+/// position too. What the two differ by is p.
+void GeneralizedAlpha::correct(double h) {
+  const Index n = system_.coordinates(), m = system_.constraints();
+  const double per_acceleration = (1 - alpha_m_) / ((1 - alpha_f_) * beta_ * h * h);
+  const double per_velocity = gamma_ / (beta_ * h);
+  const double tau = system_.strain_rate_damping();
+  system_.balance(to_, motion_.head(n));
+  motion_.head(n) /= -per_acceleration;
+  system_.gaps(to_, gap_, rate_);
+  place_.head(n) = motion_.head(n);
+  for (Index r = 0; r < m; ++r) {
+    const double c = system_.compliance()[r];
+    motion_[n + r] =
+        c > 0 ? -(gap_[r] + tau * rate_[r] - c * to_.lambda[r]) / (1 + tau * per_velocity)
+              : -gap_[r];
+    place_[n + r] = motion_[n + r];
+  }
+  matrix_.solve(place_);
+  to_.q += place_.head(n);
+  system_.gaps(to_, gap_, rate_);
+  for (Index r = 0; r < m; ++r) {
+    if (system_.compliance()[r] == 0) motion_[n + r] = -rate_[r] / per_velocity;
+  }
+  matrix_.solve(motion_);
+  to_.v += per_velocity * motion_.head(n);
+  to_.a += per_acceleration * motion_.head(n);
+  A1_ += 1 / (beta_ * h * h) * motion_.head(n);
+  to_.lambda += per_acceleration * motion_.tail(m);
+}
+
+StepReport GeneralizedAlpha::newton(double h, bool exact) {
+  StepReport report;
+  const Index n = system_.coordinates();
+  predict(h);
+  StepConvergence convergence;
+  bool fresh = false;
+  for (int i = 0; i < 20; ++i) {
+    if (exact || factored_step_ != h || (!fresh && convergence.slow())) {
+      if (!factor(h)) return report;
+      fresh = true;
+    }
+    correct(h);
+    if (!motion_.allFinite() || !place_.allFinite()) return report;
+    report.iterations = i + 1;
+    convergence.record(weighted_size(system_, motion_.head(n)),
+                       weighted_size(system_, place_.head(n) - motion_.head(n)));
+    report.residual = convergence.last();
+    if (convergence.done(beta_ * h * h * weighted_size(system_, A1_),
+                         h * weighted_size(system_, to_.v), weighted_size(system_, to_.q))) {
+      report.converged = true;
+      // A factorization that has aged is renewed before it costs another iteration.
+      if (i > 3) factored_step_ = 0;
+      return report;
+    }
+    if (convergence.hopeless()) return report;
+  }
+  return report;
+}
+
+}  // namespace trammel::large

@@ -1,0 +1,62 @@
+#include "solver/large_motion/solve/large_statics.h"
+
+#include "solver/large_motion/solve/state_results.h"
+#include "solver/large_motion/solve/static_path.h"
+
+namespace trammel {
+namespace {
+
+/// Evaluations of a tangent's elements, by effect.
+void count_tangents(const large::LargeSystem& system, std::int64_t tangents, Counters& counters) {
+  const Model& model = system.model();
+  std::int64_t all = static_cast<std::int64_t>(model.triangles.size());
+  std::int64_t stretching = 0, shearing = 0, sprung = 0;
+  for (const Member& member : model.members) {
+    all += member.elements;
+    if (member.section.EI > 0 && member.axially_flexible) stretching += member.elements;
+    if (member.section.EI > 0 && shears(member.theory)) shearing += member.elements;
+    for (const MemberEnd& end : member.ends) sprung += end.fixity == EndFixity::sprung ? 1 : 0;
+  }
+  counters.element_evaluations += tangents * all;
+  counters.count(Effect::large_displacement, tangents * all);
+  counters.count(Effect::geometric_stiffening, tangents * all);
+  counters.count(Effect::axial_flexibility, tangents * stretching);
+  counters.count(Effect::shear, tangents * shearing);
+  counters.count(Effect::joint_compliance, tangents * sprung);
+  counters.count(Effect::platform_flexibility,
+                 tangents * static_cast<std::int64_t>(model.triangles.size()));
+  if (model.gravity.isZero(0)) return;
+  counters.count(Effect::gravity, all);
+  for (const Member& member : model.members) {
+    if (member.section.mass_per_length > 0) counters.count(Effect::link_mass, member.elements);
+  }
+}
+
+}  // namespace
+
+StaticSolution static_solution(const large::LargeSystem& system, const large::State& state) {
+  StaticSolution solution;
+  solution.displacement = node_motion(system, state.q);
+  solution.end_rotation = end_rotations(system, state.q);
+  large::Resultants resultants = member_resultants(system, state);
+  solution.resultant_start = std::move(resultants.start);
+  solution.resultant_end = std::move(resultants.end);
+  solution.reaction = reactions(system, state);
+  return solution;
+}
+
+StaticSolution solve_large_statics(const Model& model, const large::Scenario& scenario) {
+  const large::LargeSystem system(model, scenario);
+  large::StaticPathOptions options;
+  options.first_step = 0.5;
+  options.keep_points = false;
+  const large::StaticPath path = follow_static_path(system, options);
+  StaticSolution solution;
+  if (path.outcome.solved()) solution = static_solution(system, path.points.back().state);
+  solution.outcome = path.outcome;
+  solution.counters = path.counters;
+  count_tangents(system, path.counters.factorizations, solution.counters);
+  return solution;
+}
+
+}  // namespace trammel

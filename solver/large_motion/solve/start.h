@@ -1,0 +1,26 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "solver/large_motion/system/constrained_system.h"
+#include "solver/model/outcome.h"
+
+namespace trammel::large {
+
+/// Which coordinates start with which velocity.
+using GivenVelocities = std::vector<std::pair<Index, double>>;
+
+/// Makes a state consistent: positions and velocities onto the rigid constraints (velocities by
+/// least kinetic energy around those given), then accelerations and multipliers from the equations
+/// of motion. What vibrates faster than `step` resolves, and coordinates without mass, take the
+/// acceleration that an implicit step of that size gives them.
+/// @param state  t and q are the guess; v, a, lambda are replaced.
+[[nodiscard]] Outcome make_consistent(const ConstrainedSystem& system, State& state,
+                                      const GivenVelocities& given, double step);
+
+/// Root mean square of a change of coordinates over their scale.
+[[nodiscard]] double weighted_size(const ConstrainedSystem& system,
+                                   const Eigen::Ref<const VectorXd>& change);
+
+}  // namespace trammel::large

@@ -1,0 +1,59 @@
+#include "solver/large_motion/system/callable_system.h"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace trammel::large {
+
+CallableSystem::CallableSystem(CallableEquations equations)
+    : equations_(std::move(equations)), compliance_(VectorXd::Zero(equations_.constraints)) {}
+
+std::vector<std::vector<Index>> CallableSystem::blocks() const {
+  std::vector<Index> all(static_cast<std::size_t>(coordinates() + constraints()));
+  std::iota(all.begin(), all.end(), Index{0});
+  return {all};
+}
+
+void CallableSystem::balance(const State& state, Eigen::Ref<VectorXd> r) const {
+  r = equations_.mass(state.q) * state.a - equations_.force(state.t, state.q, state.v) +
+      equations_.jacobian(state.t, state.q).transpose() * state.lambda;
+}
+
+void CallableSystem::gaps(const State& state, Eigen::Ref<VectorXd> gap,
+                          Eigen::Ref<VectorXd> rate) const {
+  gap = equations_.gap(state.t, state.q);
+  rate = equations_.jacobian(state.t, state.q) * state.v;
+  if (equations_.gap_time_rate) rate += equations_.gap_time_rate(state.t, state.q);
+}
+
+void CallableSystem::tangent(const State& state, const Weights& weights, KktMatrix& matrix) const {
+  const Index n = coordinates();
+  Eigen::MatrixXd S = weights.mass * equations_.mass(state.q);
+  const VectorXd mass = S.diagonal();
+  VectorXd plus(n), minus(n);
+  const auto difference = [&](VectorXd State::*part, Index i, double step, double weight) {
+    State probe = state;
+    (probe.*part)[i] += step;
+    balance(probe, plus);
+    (probe.*part)[i] -= 2 * step;
+    balance(probe, minus);
+    S.col(i) += weight / (2 * step) * (plus - minus);
+  };
+  const double speed = state.v.cwiseQuotient(scale()).cwiseAbs().maxCoeff();
+  for (Index i = 0; i < n; ++i) {
+    const double step = 1e-5 * scale()[i];
+    if (weights.stiffness != 0) difference(&State::q, i, step, weights.stiffness);
+    if (weights.damping != 0) difference(&State::v, i, step * (1 + speed), weights.damping);
+  }
+  const VectorXd c = VectorXd::Zero(constraints());
+  const double typical = mass.cwiseProduct(scale().cwiseAbs2()).mean();
+  const Eigen::MatrixXd G = equations_.jacobian(state.t, state.q);
+  VectorXd rho(constraints());
+  for (Index r = 0; r < constraints(); ++r) {
+    rho[r] = typical / G.row(r).transpose().cwiseProduct(scale()).squaredNorm();
+  }
+  matrix.add(0, S, G, c, rho);
+}
+
+}  // namespace trammel::large

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/large_motion/system/kkt_matrix.h"
+
+/// The equations that statics and every time integrator of this tier solve:
+///
+///     M(q) a = f(t, q, v) - G(t, q)^T lambda,      g(t, q) + tau dg/dt = C lambda,
+///
+/// with C = diag(c). A row with c = 0 is a rigid constraint (joint, drive, Euler-Bernoulli shear);
+/// a row with c > 0 is an elastic one (stretch, a spring), with tau its strain-rate damping.
+namespace trammel::large {
+
+struct State {
+  double t = 0;        ///< time [s]; in statics the load factor
+  double load = 1;     ///< factor on the loads [-]
+  double gravity = 1;  ///< factor on gravity [-]
+  VectorXd q;          ///< coordinates: displacements [m] and rotations [rad] from the model's pose
+  VectorXd v;          ///< velocities [1/s]
+  VectorXd a;          ///< accelerations [1/s^2]
+  VectorXd lambda;     ///< multipliers: forces [N] or moments [N m] of the constraints
+};
+
+/// S = mass M + damping D + stiffness K and C scaled by `compliance`; D = -df/dv and
+/// K = d(M a - f + G^T lambda)/dq.
+struct Weights {
+  double mass = 0;
+  double damping = 0;
+  double stiffness = 1;
+  double compliance = 1;
+};
+
+class ConstrainedSystem {
+ public:
+  ConstrainedSystem() = default;
+  virtual ~ConstrainedSystem() = default;
+
+  [[nodiscard]] virtual Index coordinates() const = 0;
+  [[nodiscard]] virtual Index constraints() const = 0;
+  /// c >= 0 of each row.
+  [[nodiscard]] virtual const VectorXd& compliance() const = 0;
+  /// What counts as a unit change of each coordinate: the model's size [m] or 1 rad.
+  [[nodiscard]] virtual const VectorXd& scale() const = 0;
+  /// What each element couples, for `KktMatrix`.
+  [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
+
+  /// r = M a - f + G^T lambda.
+  virtual void balance(const State& state, Eigen::Ref<VectorXd> r) const = 0;
+  /// g and dg/dt = G v + partial g / partial t.
+  virtual void gaps(const State& state, Eigen::Ref<VectorXd> gap,
+                    Eigen::Ref<VectorXd> rate) const = 0;
+  /// Fills the matrix (cleared by the caller).
+  virtual void tangent(const State& state, const Weights& weights, KktMatrix& matrix) const = 0;
+  /// False where S is not symmetric, as with follower loads.
+  [[nodiscard]] virtual bool symmetric() const { return true; }
+  /// tau [s].
+  [[nodiscard]] virtual double strain_rate_damping() const { return 0; }
+  /// Factor on the loads at time t.
+  [[nodiscard]] virtual double load_factor(double) const { return 1; }
+
+ protected:
+  ConstrainedSystem(const ConstrainedSystem&) = default;
+  ConstrainedSystem& operator=(const ConstrainedSystem&) = default;
+  ConstrainedSystem(ConstrainedSystem&&) = default;
+  ConstrainedSystem& operator=(ConstrainedSystem&&) = default;
+};
+
+struct Energy {
+  double kinetic = 0;  ///< [J]
+  double strain = 0;   ///< of members, plates and springs [J]
+  double load = 0;     ///< minus the work of gravity and dead loads since the model's pose [J]
+  [[nodiscard]] double total() const { return kinetic + strain + load; }
+};
+
+/// A system with constant mass matrix that also knows its discrete gradients: forces between two
+/// states that do exactly the work by which the energy changes.
+class ConservativeSystem : public ConstrainedSystem {
+ public:
+  /// r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
+  virtual void secant_balance(const State& from, const State& to, const VectorXd& lambda,
+                              Eigen::Ref<VectorXd> r) const = 0;
+  /// Its derivative with respect to the second state, up to terms of the step's square: not
+  /// symmetric.
+  virtual void secant_tangent(const State& from, const State& to, const State& middle,
+                              const Weights& weights, KktMatrix& matrix) const = 0;
+  [[nodiscard]] virtual Energy energy(const State& state) const = 0;
+};
+
+}  // namespace trammel::large

@@ -1,0 +1,272 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "solver/large_motion/system/constrained_system.h"
+
+/// One kind of element and what it adds to the equations of `LargeSystem`.
+namespace trammel::large {
+
+class Term {
+ public:
+  Term() = default;
+  Term(const Term&) = delete;
+  Term& operator=(const Term&) = delete;
+  Term(Term&&) = delete;
+  Term& operator=(Term&&) = delete;
+  virtual ~Term() = default;
+
+  /// Appends what each element couples and remembers where its blocks begin.
+  virtual void append_blocks(std::vector<std::vector<Index>>& blocks) = 0;
+  /// Adds -f + G^T lambda, with strain-rate damping tau.
+  virtual void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const = 0;
+  // Ref is a view.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
+  virtual void gaps(const State&, Eigen::Ref<VectorXd>, Eigen::Ref<VectorXd>) const {}
+  virtual void tangent(const State& state, double tau, const Weights& weights,
+                       KktMatrix& matrix) const = 0;
+  /// The same as `forces` between two states, doing exactly the work of the energy's change.
+  virtual void secant_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
+                             Eigen::Ref<VectorXd> r) const = 0;
+  /// The derivative of `secant_forces` and of the rows with respect to the second state, up to
+  /// terms of the step's square; `middle` has the mean coordinates.
+  virtual void secant_tangent(const State&, const State&, const State& middle, double tau,
+                              const Weights& weights, KktMatrix& matrix) const {
+    tangent(middle, tau, weights, matrix);
+  }
+  /// Strain energy of what is not a compliant row [J].
+  [[nodiscard]] virtual double energy(const State&) const { return 0; }
+  [[nodiscard]] virtual Index size() const = 0;
+};
+
+/// Values of an element's coordinates; what a support holds (beyond the vector) is zero.
+template <int N>
+Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const std::array<Index, N>& where) {
+  Eigen::Matrix<double, N, 1> local;
+  for (int i = 0; i < N; ++i) {
+    const Index k = where[static_cast<std::size_t>(i)];
+    local[i] = k >= 0 && k < values.size() ? values[k] : 0.0;
+  }
+  return local;
+}
+
+template <int N>
+void scatter(const Eigen::Matrix<double, N, 1>& local, const std::array<Index, N>& where,
+             Eigen::Ref<VectorXd> values) {
+  for (int i = 0; i < N; ++i) {
+    const Index k = where[static_cast<std::size_t>(i)];
+    if (k >= 0 && k < values.size()) values[k] += local[i];
+  }
+}
+
+/// Elements with constraint rows, numbered consecutively from `first_row`: beams and joints.
+template <class Element>
+class RowTerm final : public Term {
+ public:
+  static constexpr int N = Element::N, R = Element::R;
+  static constexpr bool elastic = requires(const Element& e) { e.stiffness(); };
+
+  RowTerm(Index free, Index first_row) : free_(free), first_row_(first_row) {}
+
+  void add(Element element, const std::array<Index, N>& coordinates) {
+    elements_.push_back(std::move(element));
+    where_.push_back(coordinates);
+  }
+
+  [[nodiscard]] const Element& element(Index e) const {
+    return elements_[static_cast<std::size_t>(e)];
+  }
+  [[nodiscard]] const std::array<Index, N>& coordinates(Index e) const {
+    return where_[static_cast<std::size_t>(e)];
+  }
+  [[nodiscard]] Index first_row(Index e) const { return first_row_ + R * e; }
+  [[nodiscard]] Index size() const override { return static_cast<Index>(elements_.size()); }
+  std::vector<Element>& elements() { return elements_; }
+
+  void append_blocks(std::vector<std::vector<Index>>& blocks) override {
+    first_block_ = static_cast<Index>(blocks.size());
+    for (Index e = 0; e < size(); ++e) {
+      std::vector<Index> block;
+      for (const Index i : coordinates(e)) block.push_back(i < free_ ? i : -1);
+      for (Index r = 0; r < R; ++r) block.push_back(free_ + first_row(e) + r);
+      blocks.push_back(std::move(block));
+    }
+  }
+
+  void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override {
+    typename Element::Rows gap;
+    typename Element::Gradient G;
+    for (Index e = 0; e < size(); ++e) {
+      const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
+      element(e).gaps(q, state.t, gap, G);
+      typename Element::Coordinates f =
+          G.transpose() * state.lambda.template segment<R>(first_row(e));
+      if constexpr (elastic) {
+        f += element(e).stiffness() * q;
+        if (tau != 0) f += tau * (element(e).stiffness() * gather<N>(state.v, coordinates(e)));
+      }
+      scatter<N>(f, coordinates(e), r);
+    }
+  }
+
+  void gaps(const State& state, Eigen::Ref<VectorXd> gap,
+            Eigen::Ref<VectorXd> rate) const override {
+    typename Element::Rows g;
+    typename Element::Gradient G;
+    for (Index e = 0; e < size(); ++e) {
+      element(e).gaps(gather<N>(state.q, coordinates(e)), state.t, g, G);
+      gap.template segment<R>(first_row(e)) = g;
+      rate.template segment<R>(first_row(e)) = G * gather<N>(state.v, coordinates(e));
+      if constexpr (requires { element(e).time_rate(state.t); }) {
+        rate.template segment<R>(first_row(e)) += element(e).time_rate(state.t);
+      }
+    }
+  }
+
+  void tangent(const State& state, double tau, const Weights& weights,
+               KktMatrix& matrix) const override {
+    typename Element::Rows gap;
+    typename Element::Gradient G;
+    for (Index e = 0; e < size(); ++e) {
+      const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
+      element(e).gaps(q, state.t, gap, G);
+      matrix.add(first_block_ + e, coordinate_matrix(state, e, tau, weights), G,
+                 scaled_compliance(e, weights), element(e).weight(weights));
+    }
+  }
+
+  void secant_tangent(const State& from, const State& to, const State& middle, double tau,
+                      const Weights& weights, KktMatrix& matrix) const override {
+    typename Element::Rows gap;
+    typename Element::Gradient G;
+    for (Index e = 0; e < size(); ++e) {
+      const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
+      const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
+      element(e).gaps(q1, to.t, gap, G);
+      matrix.add(first_block_ + e, coordinate_matrix(middle, e, tau, weights),
+                 element(e).secant(q0, q1), G, scaled_compliance(e, weights),
+                 element(e).weight(weights));
+    }
+  }
+
+  void secant_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
+                     Eigen::Ref<VectorXd> r) const override {
+    for (Index e = 0; e < size(); ++e) {
+      const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
+      const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
+      typename Element::Coordinates f =
+          element(e).secant(q0, q1).transpose() * lambda.template segment<R>(first_row(e));
+      if constexpr (elastic) {
+        f += element(e).stiffness() * ((q0 + q1) / 2 + tau / (to.t - from.t) * (q1 - q0));
+      }
+      scatter<N>(f, coordinates(e), r);
+    }
+  }
+
+  [[nodiscard]] double energy(const State& state) const override {
+    double sum = 0;
+    if constexpr (elastic) {
+      for (Index e = 0; e < size(); ++e) {
+        const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
+        sum += q.dot(element(e).stiffness() * q) / 2;
+      }
+    }
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] typename Element::Square coordinate_matrix(const State& state, Index e, double tau,
+                                                           const Weights& weights) const {
+    const typename Element::Rows lambda = state.lambda.template segment<R>(first_row(e));
+    typename Element::Square S =
+        weights.stiffness * element(e).curvature(gather<N>(state.q, coordinates(e)), lambda);
+    if constexpr (elastic) {
+      S += (weights.stiffness + tau * weights.damping) * element(e).stiffness();
+      S += weights.mass * element(e).mass();
+    }
+    return S;
+  }
+
+  [[nodiscard]] typename Element::Rows scaled_compliance(Index e, const Weights& weights) const {
+    return weights.compliance * element(e).compliance();
+  }
+
+  Index free_ = 0, first_row_ = 0, first_block_ = 0;
+  std::vector<Element> elements_;
+  std::vector<std::array<Index, N>> where_;
+};
+
+/// Elements with a strain energy of their coordinates alone, as `Triangle2d`.
+template <class Element>
+class EnergyTerm final : public Term {
+ public:
+  static constexpr int N = Element::N;
+
+  explicit EnergyTerm(Index free) : free_(free) {}
+
+  void add(Element element, const std::array<Index, N>& coordinates) {
+    elements_.push_back(std::move(element));
+    where_.push_back(coordinates);
+  }
+  [[nodiscard]] const Element& element(Index e) const {
+    return elements_[static_cast<std::size_t>(e)];
+  }
+  [[nodiscard]] const std::array<Index, N>& coordinates(Index e) const {
+    return where_[static_cast<std::size_t>(e)];
+  }
+  [[nodiscard]] Index size() const override { return static_cast<Index>(elements_.size()); }
+
+  void append_blocks(std::vector<std::vector<Index>>& blocks) override {
+    first_block_ = static_cast<Index>(blocks.size());
+    for (Index e = 0; e < size(); ++e) {
+      std::vector<Index> block;
+      for (const Index i : coordinates(e)) block.push_back(i < free_ ? i : -1);
+      blocks.push_back(std::move(block));
+    }
+  }
+
+  void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override {
+    for (Index e = 0; e < size(); ++e) {
+      scatter<N>(element(e).forces(gather<N>(state.q, coordinates(e)),
+                                   gather<N>(state.v, coordinates(e)), tau),
+                 coordinates(e), r);
+    }
+  }
+
+  void tangent(const State& state, double tau, const Weights& weights,
+               KktMatrix& matrix) const override {
+    for (Index e = 0; e < size(); ++e) {
+      typename Element::Square S = element(e).tangent(gather<N>(state.q, coordinates(e)),
+                                                      weights.stiffness, tau * weights.damping);
+      S += weights.mass * element(e).mass();
+      matrix.add(first_block_ + e, S);
+    }
+  }
+
+  void secant_forces(const State& from, const State& to, const VectorXd&, double tau,
+                     Eigen::Ref<VectorXd> r) const override {
+    for (Index e = 0; e < size(); ++e) {
+      scatter<N>(element(e).secant_forces(gather<N>(from.q, coordinates(e)),
+                                          gather<N>(to.q, coordinates(e)), tau / (to.t - from.t)),
+                 coordinates(e), r);
+    }
+  }
+
+  [[nodiscard]] double energy(const State& state) const override {
+    double sum = 0;
+    for (Index e = 0; e < size(); ++e) {
+      sum += element(e).energy(gather<N>(state.q, coordinates(e)));
+    }
+    return sum;
+  }
+
+ private:
+  Index free_ = 0, first_block_ = 0;
+  std::vector<Element> elements_;
+  std::vector<std::array<Index, N>> where_;
+};
+
+}  // namespace trammel::large

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "solver/large_motion/system/constrained_system.h"
+#include "solver/large_motion/system/layout.h"
+#include "solver/large_motion/system/element_group.h"
+#include "solver/model/model.h"
+
+namespace trammel::large {
+
+class LinearRows;
+class FollowerTerm;
+
+struct LargeOptions {
+  int order = 3;  ///< degree of the beam elements, 1 to 3; end nodes converge with order 2 * degree
+};
+
+/// A planar model in large motion: Simo-Reissner beams, total-Lagrangian triangles, rigid bodies
+/// and joints, in absolute coordinates. One object serves one thread.
+class LargeSystem final : public ConservativeSystem {
+ public:
+  /// @throws ModelError  where the model has no meaning.
+  explicit LargeSystem(Model model, Scenario scenario = {}, const LargeOptions& options = {});
+
+  [[nodiscard]] Index coordinates() const override { return layout_.free; }
+  [[nodiscard]] Index constraints() const override { return compliance_.size(); }
+  [[nodiscard]] const VectorXd& compliance() const override { return compliance_; }
+  [[nodiscard]] const VectorXd& scale() const override { return scale_; }
+  [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return blocks_; }
+  void balance(const State& state, Eigen::Ref<VectorXd> r) const override;
+  void gaps(const State& state, Eigen::Ref<VectorXd> gap, Eigen::Ref<VectorXd> rate) const override;
+  void tangent(const State& state, const Weights& weights, KktMatrix& matrix) const override;
+  void secant_balance(const State& from, const State& to, const VectorXd& lambda,
+                      Eigen::Ref<VectorXd> r) const override;
+  void secant_tangent(const State& from, const State& to, const State& middle,
+                      const Weights& weights, KktMatrix& matrix) const override;
+  [[nodiscard]] bool symmetric() const override;
+  [[nodiscard]] double strain_rate_damping() const override {
+    return scenario_.strain_rate_damping;
+  }
+  [[nodiscard]] double load_factor(double t) const override;
+  [[nodiscard]] Energy energy(const State& state) const override;
+
+  /// d(balance)/d(load factor), gravity included.
+  void load_rate(const State& state, Eigen::Ref<VectorXd> r) const;
+
+  /// The model's pose at rest without forces, at time 0.
+  [[nodiscard]] State rest() const;
+
+  [[nodiscard]] const Model& model() const { return model_; }
+  [[nodiscard]] const Scenario& scenario() const { return scenario_; }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  /// Row of a drive's multiplier.
+  [[nodiscard]] Index drive_row(Index drive) const;
+  /// First row of a member element's multipliers: N, V at each Gauss point; of a bar N.
+  [[nodiscard]] Index element_row(Index element) const {
+    return element_row_[static_cast<std::size_t>(element)];
+  }
+  [[nodiscard]] int order() const { return order_; }
+  /// Element tangents filled so far: of members and triangles.
+  [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }
+  [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
+
+ private:
+  void add_members();
+  template <int P>
+  void add_beams();
+  void add_bars();
+  void add_end_inertias();
+  template <int N>
+  void add_masses_of(const Eigen::Matrix<double, N, N>& mass, const std::array<Index, N>& where);
+  void add_plates();
+  void add_springs();
+  void add_masses();
+  void add_joints();
+  void add_drives();
+  void add_linear_rows();
+  void add_loads();
+  void finish();
+  void join_scales();
+  [[nodiscard]] Weights with_damping(Weights weights) const;
+  void count_elements() const;
+  void add_point_masses(const Weights& weights, KktMatrix& matrix) const;
+
+  Model model_;
+  Scenario scenario_;
+  int order_ = 3;
+  Layout layout_;
+  std::vector<std::unique_ptr<Term>> terms_;
+  LinearRows* linear_rows_ = nullptr;
+  FollowerTerm* followers_ = nullptr;
+  std::vector<Index> element_row_;
+  Index rows_ = 0, first_drive_row_ = 0;
+  std::vector<std::vector<Index>> blocks_;
+  VectorXd compliance_, scale_;
+  std::vector<std::pair<Index, double>> point_mass_;  ///< on single coordinates
+  std::vector<Eigen::Triplet<double>> mass_entries_;  ///< until `finish`
+  Eigen::SparseMatrix<double> mass_;                  ///< total x total
+  VectorXd gravity_, loads_;                          ///< total
+  mutable VectorXd padded_, product_;
+  mutable std::int64_t element_evaluations_ = 0;
+};
+
+}  // namespace trammel::large

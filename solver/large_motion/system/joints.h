@@ -1,0 +1,163 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "solver/large_motion/system/beam.h"
+#include "solver/large_motion/system/large_motion_model.h"
+
+/// Joints as constraint rows, with the same functions as `Beam`: g and its gradient, its curvature
+/// times the multipliers, and the secant D with D (q1 - q0) = g(q1) - g(q0). J = [0 -1; 1 0].
+namespace trammel::large {
+
+inline Vector2d quarter_turn(const Vector2d& v) {
+  return {-v.y(), v.x()};
+}
+
+inline Vector2d turned(const Vector2d& v, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * quarter_turn(v);
+}
+
+/// Sizes and storage that every joint shares.
+template <int Coords, int Count>
+struct Joint {
+  static constexpr int N = Coords, R = Count;
+  using Coordinates = Eigen::Matrix<double, N, 1>;
+  using Rows = Eigen::Matrix<double, R, 1>;
+  using Gradient = Eigen::Matrix<double, R, N>;
+  using Square = Eigen::Matrix<double, N, N>;
+
+  double stiffness_scale = 1, mass_scale = 1;  ///< of what is joined, for rho [N/m], [kg]
+
+  [[nodiscard]] Rows weight(const Weights& weights) const {
+    return Rows::Constant(weights.stiffness * stiffness_scale + weights.mass * mass_scale);
+  }
+};
+
+/// Two nodes of one rigid body, u_b - u_a - (R(theta_a) - I) d = 0 (paper Eq. 20-24).
+/// Coordinates: ua (2), theta_a, ub (2).
+struct RigidLink : Joint<5, 2> {
+  Vector2d arm = Vector2d::Zero();  ///< d, from a to b when unloaded [m]
+
+  void gaps(const Coordinates& q, double, Rows& gap, Gradient& G) const {
+    const Vector2d normal = quarter_turn(arm);
+    gap = q.tail<2>() - q.head<2>() - cosine_minus_one(q[2]) * arm - std::sin(q[2]) * normal;
+    G << -Eigen::Matrix2d::Identity(), -turned(normal, q[2]), Eigen::Matrix2d::Identity();
+  }
+  [[nodiscard]] Square curvature(const Coordinates& q, const Rows& lambda) const {
+    Square K = Square::Zero();
+    K(2, 2) = lambda.dot(turned(arm, q[2]));
+    return K;
+  }
+  [[nodiscard]] Gradient secant(const Coordinates& q0, const Coordinates& q1) const {
+    const double half = (q1[2] - q0[2]) / 2;
+    Gradient D;
+    D << -Eigen::Matrix2d::Identity(), -sinc(half) * turned(quarter_turn(arm), (q0[2] + q1[2]) / 2),
+        Eigen::Matrix2d::Identity();
+    return D;
+  }
+  [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
+};
+
+/// Node b slides along a line that turns with node a (or stands still where a is the ground),
+/// n(theta_a) . (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
+struct SlidingJoint : Joint<5, 1> {
+  Vector2d normal = Vector2d::UnitY();  ///< n of the line when unloaded
+  Vector2d arm = Vector2d::Zero();      ///< x_b - x_a when unloaded [m]
+
+  void gaps(const Coordinates& q, double, Rows& gap, Gradient& G) const {
+    const Vector2d n = turned(normal, q[2]);
+    const Vector2d moved = q.tail<2>() - q.head<2>();
+    const Vector2d change = cosine_minus_one(q[2]) * normal + std::sin(q[2]) * quarter_turn(normal);
+    gap[0] = n.dot(moved) + change.dot(arm);
+    G << -n.transpose(), quarter_turn(n).dot(arm + moved), n.transpose();
+  }
+  [[nodiscard]] Square curvature(const Coordinates& q, const Rows& lambda) const {
+    const Vector2d n = turned(normal, q[2]), slope = lambda[0] * quarter_turn(n);
+    Square K = Square::Zero();
+    K(2, 2) = -lambda[0] * n.dot(arm + q.tail<2>() - q.head<2>());
+    K.block<2, 1>(0, 2) = -slope;
+    K.block<1, 2>(2, 0) = -slope.transpose();
+    K.block<2, 1>(3, 2) = slope;
+    K.block<1, 2>(2, 3) = slope.transpose();
+    return K;
+  }
+  [[nodiscard]] Gradient secant(const Coordinates& q0, const Coordinates& q1) const {
+    const Coordinates middle = (q0 + q1) / 2;
+    const double half = (q1[2] - q0[2]) / 2;
+    const Vector2d n = turned(normal, middle[2]);
+    Gradient D;
+    D << -std::cos(half) * n.transpose(),
+        sinc(half) * quarter_turn(n).dot(arm + middle.tail<2>() - middle.head<2>()),
+        std::cos(half) * n.transpose();
+    return D;
+  }
+  [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
+};
+
+/// A coordinate that follows a law of time, u - law(t) = 0. Coordinate: u.
+struct DrivenCoordinate : Joint<1, 1> {
+  TimeFunction law;
+
+  void gaps(const Coordinates& q, double t, Rows& gap, Gradient& G) const {
+    gap[0] = q[0] - law(t)[0];
+    G[0] = 1;
+  }
+  /// Partial derivative of g with respect to time.
+  [[nodiscard]] Rows time_rate(double t) const { return Rows(-law(t)[1]); }
+  [[nodiscard]] static Square curvature(const Coordinates&, const Rows&) { return Square::Zero(); }
+  [[nodiscard]] static Gradient secant(const Coordinates&, const Coordinates&) {
+    return Gradient::Ones();
+  }
+  [[nodiscard]] static Rows compliance() { return Rows::Zero(); }
+};
+
+/// Spring along the line between two nodes, g = |x_b - x_a| - rest, c = 1/k (0: a rigid rod).
+/// Coordinates: ua (2), ub (2).
+struct LineSpringElement : Joint<4, 1> {
+  Vector2d arm = Vector2d::Zero();  ///< x_b - x_a in the model's pose [m]
+  double stretched = 0;             ///< |arm| - rest length [m]
+  double flexibility = 0;           ///< 1/k [m/N]
+
+  void gaps(const Coordinates& q, double, Rows& gap, Gradient& G) const {
+    const Vector2d moved = q.tail<2>() - q.head<2>(), now = arm + moved;
+    const double length = now.norm();
+    gap[0] = moved.dot(now + arm) / (length + arm.norm()) + stretched;
+    G << -now.transpose() / length, now.transpose() / length;
+  }
+  [[nodiscard]] Square curvature(const Coordinates& q, const Rows& lambda) const {
+    const Vector2d now = arm + q.tail<2>() - q.head<2>();
+    const double length = now.norm();
+    const Eigen::Matrix2d k =
+        lambda[0] / length *
+        (Eigen::Matrix2d::Identity() - now * now.transpose() / (length * length));
+    Square K;
+    K << k, -k, -k, k;
+    return K;
+  }
+  [[nodiscard]] Gradient secant(const Coordinates& q0, const Coordinates& q1) const {
+    const Vector2d from = arm + q0.tail<2>() - q0.head<2>();
+    const Vector2d to = arm + q1.tail<2>() - q1.head<2>();
+    const Vector2d mean = (from + to) / (from.norm() + to.norm());
+    Gradient D;
+    D << -mean.transpose(), mean.transpose();
+    return D;
+  }
+  [[nodiscard]] Rows compliance() const { return Rows::Constant(flexibility); }
+};
+
+/// Member without bending stiffness: a line spring of 1/k = h/EA with its mass, linear between the
+/// ends.
+struct Bar : LineSpringElement {
+  double whole_mass = 0;  ///< [kg]
+  bool lumped = false;
+
+  [[nodiscard]] static Square stiffness() { return Square::Zero(); }
+  [[nodiscard]] Square mass() const {
+    const double own = whole_mass / (lumped ? 2 : 3), shared = lumped ? 0 : whole_mass / 6;
+    const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+    return (Square() << own * I, shared * I, shared * I, own * I).finished();
+  }
+};
+
+}  // namespace trammel::large

@@ -1,0 +1,188 @@
+#include "solver/large_motion/system/kkt_matrix.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace trammel::large {
+
+namespace {
+
+using Blocks = std::vector<std::vector<Index>>;
+
+Eigen::SparseMatrix<double> coordinate_pattern(Index n, const Blocks& blocks) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
+  for (const std::vector<Index>& block : blocks) {
+    for (const Index i : block) {
+      if (i < 0 || i >= n) continue;
+      for (const Index j : block) {
+        if (j >= 0 && j < n) entries.emplace_back(i, j, 1.0);
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> pattern(n, n);
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  return pattern;
+}
+
+}  // namespace
+
+struct KktMatrix::Factors {
+  using Sparse = Eigen::SparseMatrix<double>;
+  Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
+  Eigen::SparseLU<Sparse, Eigen::COLAMDOrdering<int>> lu;
+  bool ldlt_analyzed = false, lu_analyzed = false, use_lu = false;
+};
+
+KktMatrix::~KktMatrix() = default;
+
+KktMatrix::KktMatrix(Index coordinates, Index constraints, const Blocks& blocks)
+    : coordinates_(coordinates), constraints_(constraints), factors_(std::make_unique<Factors>()) {
+  order(blocks);
+  allocate(blocks);
+  recovery_ = VectorXd::Zero(constraints);
+  work_.resize(coordinates + constraints);
+  solution_.resize(coordinates + constraints);
+}
+
+void KktMatrix::order(const Blocks& blocks) {
+  const Index n = coordinates_, size = coordinates_ + constraints_;
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> elimination;
+  if (n > 0) Eigen::AMDOrdering<int>()(coordinate_pattern(n, blocks), elimination);
+  // Twice the place among the coordinates; a row comes right after its last coordinate.
+  std::vector<Index> key(static_cast<std::size_t>(size), -1);
+  for (Index p = 0; p < n; ++p) {
+    key[static_cast<std::size_t>(elimination.indices()[p])] = 2 * p;
+  }
+  for (const std::vector<Index>& block : blocks) {
+    Index last = -1;
+    for (const Index i : block) {
+      if (i >= 0 && i < n) last = std::max(last, key[static_cast<std::size_t>(i)]);
+    }
+    for (const Index i : block) {
+      if (i < n) continue;
+      assert(key[static_cast<std::size_t>(i)] == -1 && "a row belongs to one block");
+      key[static_cast<std::size_t>(i)] = last + 1;
+    }
+  }
+  std::vector<Index> sequence(static_cast<std::size_t>(size));
+  std::iota(sequence.begin(), sequence.end(), Index{0});
+  std::stable_sort(sequence.begin(), sequence.end(), [&](Index i, Index j) {
+    return key[static_cast<std::size_t>(i)] < key[static_cast<std::size_t>(j)];
+  });
+  place_.resize(static_cast<std::size_t>(size));
+  for (Index p = 0; p < size; ++p) {
+    place_[static_cast<std::size_t>(sequence[static_cast<std::size_t>(p)])] = p;
+  }
+}
+
+void KktMatrix::allocate(const Blocks& blocks) {
+  const Index size = coordinates_ + constraints_;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index i = 0; i < size; ++i) entries.emplace_back(i, i, 0.0);
+  for (const std::vector<Index>& block : blocks) {
+    for (const Index i : block) {
+      if (i < 0) continue;
+      for (const Index j : block) {
+        if (j < 0) continue;
+        entries.emplace_back(place_[static_cast<std::size_t>(i)],
+                             place_[static_cast<std::size_t>(j)], 0.0);
+      }
+    }
+  }
+  matrix_.resize(size, size);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  matrix_.makeCompressed();
+  for (const std::vector<Index>& block : blocks) {
+    block_start_.push_back(slots_.size());
+    for (const Index j : block) {
+      for (const Index i : block) slots_.push_back(i < 0 || j < 0 ? -1 : find_slot(i, j));
+    }
+  }
+  for (Index i = 0; i < coordinates_; ++i) diagonal_.push_back(find_slot(i, i));
+  row_of_slot_.assign(static_cast<std::size_t>(matrix_.nonZeros()), -1);
+  for (Index r = 0; r < constraints_; ++r) {
+    const int slot = find_slot(coordinates_ + r, coordinates_ + r);
+    row_of_slot_[static_cast<std::size_t>(slot)] = r;
+  }
+}
+
+int KktMatrix::find_slot(Index row, Index column) const {
+  const int i = static_cast<int>(place_[static_cast<std::size_t>(row)]);
+  const Index j = place_[static_cast<std::size_t>(column)];
+  const int* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[j];
+  const int* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[j + 1];
+  const int* found = std::lower_bound(begin, end, i);
+  assert(found != end && *found == i);
+  return static_cast<int>(found - matrix_.innerIndexPtr());
+}
+
+void KktMatrix::clear() {
+  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
+  recovery_.setZero();
+}
+
+void KktMatrix::add_diagonal(Index coordinate, double value) {
+  matrix_.valuePtr()[diagonal_[static_cast<std::size_t>(coordinate)]] += value;
+}
+
+void KktMatrix::add_row_diagonal(Index block, Index local, Index size, double value,
+                                 double recovery) {
+  const std::size_t start = block_start_[static_cast<std::size_t>(block)];
+  const int slot = slots_[start + static_cast<std::size_t>(local * size + local)];
+  if (slot < 0) return;
+  matrix_.valuePtr()[slot] += value;
+  recovery_[row_of_slot_[static_cast<std::size_t>(slot)]] = recovery;
+}
+
+bool KktMatrix::factor(bool symmetric) {
+  ++factorizations_;
+  Factors& f = *factors_;
+  f.use_lu = !symmetric;
+  if (f.use_lu) return factor_lu();
+  if (!f.ldlt_analyzed) f.ldlt.analyzePattern(matrix_);
+  f.ldlt_analyzed = true;
+  f.ldlt.factorize(matrix_);
+  if (f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite()) return true;
+  f.use_lu = true;
+  return factor_lu();
+}
+
+bool KktMatrix::factor_lu() {
+  const Eigen::Map<const VectorXd> values(matrix_.valuePtr(), matrix_.nonZeros());
+  if (!values.allFinite()) return false;
+  Factors& f = *factors_;
+  if (!f.lu_analyzed) f.lu.analyzePattern(matrix_);
+  f.lu_analyzed = true;
+  f.lu.factorize(matrix_);
+  return f.lu.info() == Eigen::Success;
+}
+
+void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
+  ++solves_;
+  const Index size = coordinates_ + constraints_;
+  for (Index i = 0; i < size; ++i) work_[place_[static_cast<std::size_t>(i)]] = right_hand_side[i];
+  if (factors_->use_lu) {
+    solution_ = factors_->lu.solve(work_);
+  } else {
+    solution_ = factors_->ldlt.solve(work_);
+  }
+  for (Index i = 0; i < coordinates_; ++i) {
+    right_hand_side[i] = solution_[place_[static_cast<std::size_t>(i)]];
+  }
+  for (Index r = 0; r < constraints_; ++r) {
+    double& y = right_hand_side[coordinates_ + r];
+    y = solution_[place_[static_cast<std::size_t>(coordinates_ + r)]] + recovery_[r] * y;
+  }
+}
+
+Index KktMatrix::negative_pivots() const {
+  if (factors_->use_lu || !factors_->ldlt_analyzed) return -1;
+  return (factors_->ldlt.vectorD().array() < 0).count() - constraints_;
+}
+
+}  // namespace trammel::large

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "solver/model/model.h"
+
+/// What large motion adds to a `Model`: drives, sliding joints, springs along a line, follower
+/// loads, histories, damping and a start. Everything in SI units and the model's pose.
+namespace trammel::large {
+
+/// Value, rate and second derivative at a time or, in statics, at a load factor.
+using TimeFunction = std::function<std::array<double, 3>(double)>;
+
+/// A node's displacement or rotation prescribed as a function of time; its multiplier is the force
+/// or torque that the drive takes from the structure.
+struct Drive {
+  std::string name;
+  Index node = 0;
+  int direction = 2;  ///< 0: x [m], 1: y [m], 2: rotation [rad]
+  TimeFunction law;
+};
+
+/// A node slides along a line through its place in the model's pose; the line turns with the node
+/// `rail`, or stands still (-1).
+struct Slider {
+  std::string name;
+  Index node = 0;
+  Index rail = -1;
+  double direction = 0;      ///< of the line in the model's pose [rad]
+  bool keeps_angle = false;  ///< true: prismatic, the node turns as the rail does
+};
+
+/// Spring along the line between two nodes.
+struct LineSpring {
+  std::string name;
+  std::array<Index, 2> nodes{-1, -1};
+  double stiffness = 0;  ///< [N/m]
+  /// Length without force [m]; not given: the length in the model's pose.
+  double rest_length = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// A force and a moment on a node that turn with the node.
+struct FollowerLoad {
+  Index node = 0;
+  Vector3d force = Vector3d::Zero();  ///< in the model's pose [N, N, N m]
+};
+
+/// Velocity of a node at the start; what is not given follows by least kinetic energy.
+struct StartVelocity {
+  Index node = 0;
+  int direction = 0;  ///< 0: x [m/s], 1: y [m/s], 2: rotation [rad/s]
+  double value = 0;
+};
+
+struct Scenario {
+  std::vector<Drive> drives;
+  std::vector<Slider> sliders;
+  std::vector<LineSpring> line_springs;
+  std::vector<FollowerLoad> follower_loads;
+  std::vector<StartVelocity> start;
+  std::function<double(double)> load_history;  ///< factor on the loads (not gravity); empty: 1
+  double mass_damping = 0;                     ///< forces -mass_damping M v [1/s]
+  double strain_rate_damping = 0;              ///< stress from strain + this times strain rate [s]
+};
+
+/// @throws ModelError  where a part of the scenario names a node that does not exist, or its
+/// numbers
+///                     have no meaning.
+void validate(const Scenario& scenario, const Model& model);
+
+}  // namespace trammel::large

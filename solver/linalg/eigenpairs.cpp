@@ -1,0 +1,358 @@
+#include "solver/linalg/eigenpairs.h"
+
+#include <Spectra/SymEigsSolver.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace trammel {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr const char* kIllConditioned =
+    "the stiffness matrix is too ill-conditioned for double precision";
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr Index kDenseSize = 64;    // free coordinates; above, Lanczos is faster for a few modes
+constexpr double kSettled = 1e-11;  // relative change of an eigenvalue in one inverse iteration
+constexpr double kClearGap = 1e-3;  // between neighbours that are certainly not copies
+
+/// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
+class LanczosOperator {
+ public:
+  using Scalar = double;
+  LanczosOperator(const SparseMatrix& B, const Factorization& factorization, const MatrixXd& known,
+                  Counters& counters)
+      : B_(B), factorization_(factorization), known_(known), counters_(counters) {}
+
+  [[nodiscard]] Index rows() const { return B_.rows(); }
+  [[nodiscard]] Index cols() const { return B_.rows(); }
+  void perform_op(const double* in, double* out) const {
+    const Eigen::Map<const VectorXd> x(in, rows());
+    Eigen::Map<VectorXd> y(out, rows());
+    const VectorXd p = factorization_.solve_half_transposed(complement(x));
+    y = complement(factorization_.solve_half(B_ * p));
+    ++counters_.solves;
+  }
+  [[nodiscard]] VectorXd complement(const VectorXd& x) const {
+    if (known_.cols() == 0) return x;
+    return x - known_ * (known_.transpose() * x);
+  }
+
+ private:
+  const SparseMatrix& B_;
+  const Factorization& factorization_;
+  const MatrixXd& known_;
+  Counters& counters_;
+};
+
+/// The search for the largest mu, dense or by Lanczos; more can be asked for, again and again.
+class Search {
+ public:
+  Search(const Pencil& pencil, bool dense, Counters& counters)
+      : pencil_(pencil), dense_(dense), counters_(counters) {}
+
+  /// Vectors of the `count` largest mu > 0 beyond the null vectors, or of all there are; fewer
+  /// where Lanczos gave up.
+  MatrixXd first(const Factorization& factorization, Index count, const MatrixXd& null) {
+    if (!dense_) return lanczos(factorization, count, null);
+    all_ = dense_vectors();
+    given_ = std::min(null.cols(), all_.cols());  // their mu is the largest
+    return next(count);
+  }
+
+  /// About `count` more in the complement of X, whose columns are orthogonal in K - s B.
+  MatrixXd more(const Factorization& factorization, Index count, const MatrixXd& X) {
+    return dense_ ? next(count) : lanczos(factorization, count, X);
+  }
+
+ private:
+  [[nodiscard]] Index size() const { return pencil_.K->rows(); }
+
+  MatrixXd next(Index count) {
+    const Index kept = std::min(count, all_.cols() - given_);
+    given_ += kept;
+    return all_.middleCols(given_ - kept, kept);
+  }
+
+  /// All with mu > 0, the largest first.
+  [[nodiscard]] MatrixXd dense_vectors() const {
+    const MatrixXd A = MatrixXd(*pencil_.K) - pencil_.s * MatrixXd(*pencil_.B);
+    const VectorXd scale = A.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+    const MatrixXd scaled_A = scale.asDiagonal() * A * scale.asDiagonal();
+    const MatrixXd scaled_B = scale.asDiagonal() * MatrixXd(*pencil_.B) * scale.asDiagonal();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(scaled_B, scaled_A);
+    if (solver.info() != Eigen::Success) return MatrixXd(size(), 0);
+    const VectorXd& mu = solver.eigenvalues();  // ascending
+    const double zero = static_cast<double>(size()) * kEps * mu.cwiseAbs().maxCoeff();
+    const Index kept = (mu.array() > zero).count();
+    return scale.asDiagonal() * solver.eigenvectors().rightCols(kept).rowwise().reverse();
+  }
+
+  MatrixXd lanczos(const Factorization& factorization, Index count, const MatrixXd& X) {
+    const Index room = size() - X.cols();
+    const Index wanted = std::min(count, room - 1);
+    if (wanted < 1 || pencil_.B->norm() == 0) return MatrixXd(size(), 0);
+    MatrixXd known(size(), X.cols());  // in Lanczos' coordinates y = F^T x, where they are F^-1 A x
+    for (Index j = 0; j < X.cols(); ++j) {
+      known.col(j) =
+          factorization.solve_half(*pencil_.K * X.col(j) - pencil_.s * (*pencil_.B * X.col(j)));
+      for (int twice = 0; twice < 2; ++twice) {
+        known.col(j) -= known.leftCols(j) * (known.leftCols(j).transpose() * known.col(j));
+      }
+      known.col(j).normalize();
+    }
+    LanczosOperator op(*pencil_.B, factorization, known, counters_);
+    const Index subspace = std::min(room, std::max(2 * wanted + 1, wanted + 20));
+    Spectra::SymEigsSolver<LanczosOperator> solver(op, wanted, subspace);
+    std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(X.cols()));
+    VectorXd start = VectorXd::NullaryExpr(
+        size(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
+    start = op.complement(start);
+    solver.init(start.data());
+    solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-9);
+    const VectorXd mu = solver.eigenvalues();  // the converged ones, descending
+    const MatrixXd Y = solver.eigenvectors();
+    const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
+    MatrixXd found(size(), 0);
+    for (Index j = 0; j < mu.size(); ++j) {
+      if (!(mu[j] > zero)) continue;
+      found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+      found.rightCols<1>() = factorization.solve_half_transposed(op.complement(Y.col(j)));
+    }
+    return found;
+  }
+
+  const Pencil& pencil_;
+  bool dense_;
+  Counters& counters_;
+  MatrixXd all_;     // dense: every vector
+  Index given_ = 0;  // dense: how many have been handed out
+};
+
+class Solver {
+ public:
+  Solver(const Pencil& pencil, const MatrixXd& null, Index count, EigenPath path,
+         Factorization& factorization, Counters& counters)
+      : pencil_(pencil),
+        null_(null),
+        count_(count),
+        counters_(counters),
+        search_(pencil,
+                path == EigenPath::dense ||
+                    (path == EigenPath::automatic && pencil.K->rows() <= kDenseSize) ||
+                    pencil.K->rows() < 4,
+                counters),
+        factorization_(factorization) {}
+
+  Eigenpairs run() {
+    constexpr int kRounds = 40;
+    if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return nothing();
+    const Index guard = 3 + count_ / 4;
+    add(search_.first(factorization_, count_ + guard, null_));
+    for (int round = 0; round < kRounds; ++round) {
+      improve_until_settled();
+      if (lost_) return nothing();
+      const Index expected = check();
+      if (expected == checked_) break;
+      if (expected < checked_ || round + 1 == kRounds) return give_up(expected);
+      factor();
+      const Index before = X_.cols();
+      add(search_.more(factorization_, expected - checked_ + 2, with_null()));
+      if (X_.cols() == before) return give_up(expected);
+    }
+    finish();
+    return pairs_;
+  }
+
+ private:
+  void factor() {
+    factorization_.compute(shifted(*pencil_.K, *pencil_.B, pencil_.s));
+    ++counters_.factorizations;
+  }
+
+  [[nodiscard]] VectorXd apply(const VectorXd& x) const {
+    VectorXd y = pencil_.K_times(x);
+    if (pencil_.s != 0) y -= pencil_.s * (*pencil_.B * x);
+    return y;
+  }
+
+  /// B-orthogonal to the null vectors.
+  void remove_null(Eigen::Ref<VectorXd> x) const {
+    if (null_.cols() > 0) x -= null_ * (null_.transpose() * (*pencil_.B * x));
+  }
+
+  [[nodiscard]] MatrixXd with_null() const {
+    MatrixXd all(X_.rows(), null_.cols() + X_.cols());
+    all.leftCols(null_.cols()) = null_;
+    all.rightCols(X_.cols()) = X_;
+    return all;
+  }
+
+  void add(const MatrixXd& found) {
+    const Index old = X_.cols();
+    X_.conservativeResize(pencil_.K->rows(), old + found.cols());
+    X_.rightCols(found.cols()) = found;
+    for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
+  }
+
+  /// Repeats until the wanted values stand still. What a step changes, the next one would change
+  /// by the square of the ratio to the last value of the block: that is the error left.
+  void improve_until_settled() {
+    constexpr int kSteps = 4;
+    values();
+    if (X_.cols() == 0) return;  // rigid motions and massless coordinates only
+    for (int step = 0; step < kSteps; ++step) {
+      const VectorXd before = pairs_.value;
+      improve();
+      const VectorXd& now = pairs_.value;
+      const VectorXd change = (now - before).cwiseAbs().cwiseQuotient(now.cwiseAbs());
+      const VectorXd ratio = now / now[now.size() - 1];
+      pairs_.error = change.cwiseProduct(ratio.cwiseAbs2());
+      const Index wanted = std::min(count_, now.size());  // none when rigid motions are all
+      if (wanted == 0 || change.head(wanted).maxCoeff() < kSettled) return;
+    }
+  }
+
+  /// One inverse iteration of the whole block with refined solutions, then Rayleigh-Ritz with K's
+  /// exact products, in the form (K - s B)^-1 B so that the lowest values keep all their digits.
+  void improve() {
+    const Index p = X_.cols();
+    MatrixXd Y(X_.rows(), p);
+    for (Index j = 0; j < p; ++j) {
+      const Refined y = refined_solve([this](const VectorXd& x) { return apply(x); },
+                                      factorization_, *pencil_.B * X_.col(j),
+                                      X_.col(j) / (pairs_.value[j] - pencil_.s), counters_);
+      lost_ = lost_ || !(y.correction < 0.1);
+      Y.col(j) = y.x;
+      remove_null(Y.col(j));
+      for (int twice = 0; twice < 2; ++twice) orthogonalise(Y, j);
+    }
+    MatrixXd A = pencil_.K_products(Y);
+    const MatrixXd B = Y.transpose() * (*pencil_.B * Y);
+    if (pencil_.s != 0) A -= pencil_.s * B;
+    const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(
+        scale.asDiagonal() * B * scale.asDiagonal(), scale.asDiagonal() * A * scale.asDiagonal());
+    X_ = Y * (scale.asDiagonal() * ritz.eigenvectors().rowwise().reverse());
+    values();
+  }
+
+  /// In K - s B, against the columns before it; normalised.
+  void orthogonalise(MatrixXd& Y, Index j) const {
+    const VectorXd image = *pencil_.K * Y.col(j) - pencil_.s * (*pencil_.B * Y.col(j));
+    Y.col(j) -= Y.leftCols(j) * (Y.leftCols(j).transpose() * image);
+    const VectorXd again = *pencil_.K * Y.col(j) - pencil_.s * (*pencil_.B * Y.col(j));
+    Y.col(j) /= std::sqrt(std::abs(Y.col(j).dot(again)));
+  }
+
+  /// Rayleigh quotients, ascending.
+  void values() {
+    const Index p = X_.cols();
+    VectorXd value(p);
+    for (Index j = 0; j < p; ++j) {
+      const double energy = pencil_.K_products(X_.col(j))(0, 0);
+      const double b = X_.col(j).dot(*pencil_.B * X_.col(j));
+      value[j] = energy / b;
+      X_.col(j) /= std::sqrt(std::abs(b));
+    }
+    std::vector<Index> order(static_cast<std::size_t>(p));
+    for (Index j = 0; j < p; ++j) order[static_cast<std::size_t>(j)] = j;
+    std::stable_sort(order.begin(), order.end(),
+                     [&value](Index a, Index b) { return value[a] < value[b]; });
+    pairs_.value.resize(p);
+    MatrixXd sorted(X_.rows(), p);
+    for (Index j = 0; j < p; ++j) {
+      pairs_.value[j] = value[order[static_cast<std::size_t>(j)]];
+      sorted.col(j) = X_.col(order[static_cast<std::size_t>(j)]);
+    }
+    X_ = std::move(sorted);
+  }
+
+  /// How many eigenvalues there are below a shift that cuts no cluster; `checked_` were found.
+  Index check() {
+    const VectorXd& v = pairs_.value;
+    const Index p = v.size();
+    const Index cut = clear_cut();
+    checked_ = cut + null_.cols();
+    for (const double place : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
+      if (p == 0) {
+        pairs_.check_shift = -pencil_.s * place;
+      } else if (cut == p) {
+        pairs_.check_shift = v[p - 1] * (1 + 2e-6 * place);
+      } else {
+        pairs_.check_shift = v[cut - 1] + place * (v[cut] - v[cut - 1]);
+      }
+      factorization_.compute(shifted(*pencil_.K, *pencil_.B, pairs_.check_shift));
+      ++counters_.factorizations;
+      if (factorization_.is_reliable()) break;
+    }
+    pairs_.inertia_count = factorization_.exists() ? factorization_.negative_pivots() : -1;
+    return pairs_.inertia_count;
+  }
+
+  /// Number of found values below a gap: the first clear one at or after the wanted, or the widest.
+  [[nodiscard]] Index clear_cut() const {
+    const VectorXd& v = pairs_.value;
+    const Index p = v.size();
+    const auto gap = [&v](Index k) { return (v[k] - v[k - 1]) / v[k]; };
+    Index cut = p;
+    for (Index k = std::max<Index>(std::min(count_, p), 1); k < p; ++k) {
+      if (cut == p || gap(k) > gap(cut)) cut = k;
+      if (gap(k) > kClearGap) break;
+    }
+    return cut < p && gap(cut) < 1e-7 ? p : cut;
+  }
+
+  /// No pair at all, also where values stood already.
+  Eigenpairs nothing() {
+    pairs_ = {};
+    pairs_.outcome = {Status::not_converged, kIllConditioned};
+    pairs_.vector.resize(pencil_.K->rows(), 0);
+    return pairs_;
+  }
+
+  Eigenpairs give_up(Index expected) {
+    pairs_.outcome = {Status::not_converged, std::to_string(checked_) +
+                                                 " eigenvalues were found where the inertia of the "
+                                                 "matrices counts " +
+                                                 std::to_string(expected)};
+    finish();
+    return pairs_;
+  }
+
+  void finish() {
+    const Index kept = std::min(count_, X_.cols());
+    pairs_.value.conservativeResize(kept);
+    pairs_.vector = X_.leftCols(kept);
+    pairs_.error.conservativeResize(kept);
+  }
+
+  const Pencil& pencil_;
+  const MatrixXd& null_;
+  Index count_;
+  Counters& counters_;
+  Search search_;
+  Factorization& factorization_;
+  MatrixXd X_;
+  Index checked_ = 0;
+  bool lost_ = false;  // an inverse iteration that does not converge
+  Eigenpairs pairs_;
+};
+
+}  // namespace
+
+Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null, Index count,
+                             EigenPath path, Factorization& factorization, Counters& counters) {
+  return Solver(pencil, null, count, path, factorization, counters).run();
+}
+
+SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
+  return K - t * B;
+}
+
+}  // namespace trammel

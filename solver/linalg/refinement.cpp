@@ -1,0 +1,40 @@
+#include "solver/linalg/refinement.h"
+
+#include "solver/assembly/strain.h"
+
+namespace trammel {
+
+Operator stiffness_operator(const System& system) {
+  return [&system](const Eigen::VectorXd& q) -> Eigen::VectorXd {
+    return system.T.transpose() * internal_forces(system, system.T * q);
+  };
+}
+
+Refined refined_solve(const Operator& A, const Factorization& factorization,
+                      const Eigen::VectorXd& b, Counters& counters) {
+  const Eigen::VectorXd x = factorization.solve(b);
+  ++counters.solves;
+  return refined_solve(A, factorization, b, x, counters);
+}
+
+Refined refined_solve(const Operator& A, const Factorization& factorization,
+                      const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Counters& counters) {
+  constexpr int kMostSteps = 8;
+  constexpr double kSmall = 1e-10;  // a correction whose own error no longer counts
+  Refined result{guess, 0};
+  double last = guess.norm();
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::VectorXd correction = factorization.solve(b - A(result.x));
+    ++counters.solves;
+    const double size = correction.norm();
+    const double whole = result.x.norm();
+    result.correction = size == 0 ? 0 : size / whole;
+    if (!(size < last)) break;  // it no longer converges: what is left is rounding, or hopeless
+    result.x += correction;
+    if (size <= kSmall * whole || size > 0.5 * last) break;
+    last = size;
+  }
+  return result;
+}
+
+}  // namespace trammel

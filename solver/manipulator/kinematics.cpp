@@ -1,0 +1,265 @@
+#include "solver/manipulator/kinematics.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+
+#include "solver/model/plane.h"
+
+namespace trammel {
+
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Below this singular value ratio not one digit of a solution can be trusted: the rows of J_x
+/// carry some ten roundings each.
+constexpr double kSingular = 64 * kEps;
+
+template <Real T>
+Eigen::Vector2<T> unit(const T& angle) {
+  using std::cos;
+  using std::sin;
+  return {cos(angle), sin(angle)};
+}
+
+double wrapped(double angle) {
+  const double a = std::remainder(angle, 2 * std::numbers::pi);
+  return a <= -std::numbers::pi ? std::numbers::pi : a;
+}
+
+std::string limb_name(std::size_t i) {
+  const std::string n = std::to_string(i + 1);
+  return "limb " + n + " (A" + n + "-B" + n + "-C" + n + ")";
+}
+
+/// The triangle A_i B_i C_i from its sides: a = |A B|, b = |B C|, r = |A C|.
+template <Real T>
+struct Limb {
+  T angle_at_A;
+  T elbow_sine;  ///< not signed
+};
+
+/// A side rounded just beyond the reach makes a factor slightly negative: a straight limb.
+template <Real T>
+T not_negative(const T& x) {
+  return value(x) > 0 ? x : T(0);
+}
+
+template <Real T>
+Limb<T> solve_limb(const T& a, const T& b, double r) {
+  using std::atan2;
+  using std::sqrt;
+  using trammel::atan2;
+  const T stretch = not_negative<T>((a + b) - r);
+  const T fold_out = not_negative<T>((b - a) + r);
+  const T fold_in = not_negative<T>((a - b) + r);
+  const T sum = a + b + r;
+  const T opposite = sqrt(T(fold_out * stretch));
+  const T adjacent = sqrt(T(sum * fold_in));
+  const T angle = atan2(opposite, adjacent);
+  return {2.0 * angle, sqrt(T(sum * stretch)) * sqrt(T(fold_out * fold_in)) / (2.0 * a * b)};
+}
+
+/// theta_a, not wrapped.
+template <Real T>
+T active_angle(const Vector2d& p_AC, const Limb<T>& limb, int working_mode) {
+  return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
+}
+
+/// Why the limb cannot reach, or empty.
+std::string out_of_reach(std::size_t i, double a, double b, double r) {
+  const double roundoff = 4 * kEps * (a + b + r);
+  std::ostringstream why;
+  why.precision(6);
+  if (r - (a + b) > roundoff) {
+    why << limb_name(i) << " cannot reach: C is " << r << " m from A, " << r - (a + b)
+        << " m farther than its links are long together";
+  } else if (std::abs(a - b) - r > roundoff) {
+    why << limb_name(i) << " cannot reach: C is " << r << " m from A, " << std::abs(a - b) - r
+        << " m nearer than the difference of its links allows";
+  } else if (r <= roundoff) {
+    why << limb_name(i) << " has C on A: with links of equal length its direction is free";
+  }
+  return why.str();
+}
+
+bool finite(const Vector2d& v) {
+  return v.allFinite();
+}
+
+/// J_x with unit rows and its rotation scaled: dimensionless.
+Matrix3d scaled(const Jacobians& j) {
+  Matrix3d s = j.parallel;
+  s.col(2) /= j.platform_radius;
+  for (Index i = 0; i < 3; ++i) s.row(i) /= j.parallel.row(i).head<2>().norm();
+  return s;
+}
+
+double radius(const ManipulatorGeometry& g) {
+  double sum = 0;
+  for (const Vector2d& c : g.platform) sum += c.squaredNorm();
+  return std::sqrt(sum / 3);
+}
+
+}  // namespace
+
+std::array<Vector2d, 3> equilateral_base(double side) {
+  return {Vector2d{0, 0}, Vector2d{side, 0}, Vector2d{side / 2, side * std::sqrt(0.75)}};
+}
+
+std::array<Vector2d, 3> equilateral_platform(double side) {
+  const double inradius = side / (2 * std::numbers::sqrt3);
+  return {Vector2d{-side / 2, -inradius}, Vector2d{side / 2, -inradius}, Vector2d{0, 2 * inradius}};
+}
+
+void check_geometry(const ManipulatorGeometry& g) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string n = std::to_string(i + 1);
+    if (!finite(g.base[i])) throw ModelError("base point A" + n + " is not finite");
+    if (!finite(g.platform[i])) throw ModelError("platform point C" + n + " is not finite");
+    if (!(g.proximal[i] > 0) || !std::isfinite(g.proximal[i]))
+      throw ModelError("the proximal length of limb " + n + " must be positive");
+    if (!(g.distal[i] > 0) || !std::isfinite(g.distal[i]))
+      throw ModelError("the distal length of limb " + n + " must be positive");
+    if (std::abs(g.working_mode[i]) != 1)
+      throw ModelError("the working mode of limb " + n + " must be 1 or -1");
+  }
+  if (radius(g) == 0) throw ModelError("the platform points C1, C2 and C3 all lie in P");
+}
+
+Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
+  check_geometry(g);
+  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi))
+    throw ModelError("the pose is not finite");
+  Posture posture;
+  const Vector2d P(pose.x, pose.y);
+  for (std::size_t i = 0; i < 3; ++i) {
+    posture.C[i] = P + turned(g.platform[i], pose.phi);
+    const Vector2d p_AC = posture.C[i] - g.base[i];
+    const double r = std::hypot(p_AC.x(), p_AC.y());
+    const std::string why = out_of_reach(i, g.proximal[i], g.distal[i], r);
+    if (!why.empty()) {
+      posture.outcome.status = Status::singular;
+      posture.outcome.reason += (posture.outcome.reason.empty() ? "" : "; ") + why;
+      posture.B[i].setConstant(kNaN);
+      posture.active[i] = posture.passive[i] = posture.elbow_sine[i] = kNaN;
+      continue;
+    }
+    const Limb<double> limb = solve_limb(g.proximal[i], g.distal[i], r);
+    const int mode = g.working_mode[i];
+    posture.active[i] = wrapped(active_angle(p_AC, limb, mode));
+    posture.B[i] = g.base[i] + g.proximal[i] * unit(posture.active[i]);
+    const Vector2d d = posture.C[i] - posture.B[i];
+    posture.passive[i] = wrapped(std::atan2(d.y(), d.x()));
+    posture.elbow_sine[i] = -mode * limb.elbow_sine;
+    posture.closure_error =
+        std::max(posture.closure_error, std::abs(std::hypot(d.x(), d.y()) - g.distal[i]));
+  }
+  if (!posture.outcome.solved()) posture.closure_error = kNaN;
+  return posture;
+}
+
+template <Real T>
+Eigen::Vector2<T> elbow_position(const Vector2d& A, const Vector2d& C, const T& proximal,
+                                 const T& distal, int working_mode) {
+  const Vector2d p_AC = C - A;
+  const Limb<T> limb = solve_limb(proximal, distal, std::hypot(p_AC.x(), p_AC.y()));
+  const T angle = active_angle(p_AC, limb, working_mode);
+  return A.cast<T>() + proximal * unit(angle);
+}
+
+template Eigen::Vector2<double> elbow_position(const Vector2d&, const Vector2d&, const double&,
+                                               const double&, int);
+template Eigen::Vector2<Dual> elbow_position(const Vector2d&, const Vector2d&, const Dual&,
+                                             const Dual&, int);
+template Eigen::Vector2<Complex> elbow_position(const Vector2d&, const Vector2d&, const Complex&,
+                                                const Complex&, int);
+
+ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
+                                     const std::array<double, 3>& active, const Pose& start) {
+  check_geometry(g);
+  constexpr int kMaxIterations = 50;
+  const double size = radius(g);
+  ForwardKinematics result{.outcome = {}, .pose = start};
+  double last = std::numeric_limits<double>::infinity();
+  for (; result.iterations < kMaxIterations; ++result.iterations) {
+    Matrix3d J;         // as `scaled`, rows divided by the distal lengths
+    Vector3d residual;  // (|d|^2 - b^2) / 2b = |d| - b to first order [m]
+    result.closure_error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto k = static_cast<Index>(i);
+      const Vector2d c = turned(g.platform[i], result.pose.phi);
+      const Vector2d B = g.base[i] + g.proximal[i] * unit(active[i]);
+      const Vector2d d = Vector2d(result.pose.x, result.pose.y) + c - B;
+      const double gap = std::hypot(d.x(), d.y()) - g.distal[i];
+      residual(k) = gap * (1 + gap / (2 * g.distal[i]));
+      J.row(k) << d.x(), d.y(), cross(c, d) / size;
+      J.row(k) /= g.distal[i];
+      result.closure_error = std::max(result.closure_error, std::abs(gap));
+    }
+    if (!residual.allFinite()) break;
+    const Eigen::ColPivHouseholderQR<Matrix3d> qr(J);
+    const double pivot_ratio = std::abs(qr.matrixR()(2, 2)) / std::abs(qr.matrixR()(0, 0));
+    if (!(pivot_ratio > kSingular)) {
+      result.outcome = {Status::singular,
+                        "a parallel singularity: the actuators do not determine the platform"};
+      return result;
+    }
+    const Vector3d step = -qr.solve(residual);
+    const double norm = step.norm();
+    // Quadratic convergence ends where the steps stop shrinking at the level of round-off.
+    if (norm <= 4 * kEps * size || (norm <= 1e-12 * size && norm >= last / 2)) return result;
+    last = norm;
+    result.pose.x += step(0);
+    result.pose.y += step(1);
+    result.pose.phi += step(2) / size;
+  }
+  std::ostringstream why;
+  why << "no assembly of the manipulator found near the start: the loops stay open by "
+      << result.closure_error << " m";
+  result.outcome = {Status::not_converged, why.str()};
+  return result;
+}
+
+Jacobians jacobians(const ManipulatorGeometry& g, const Pose& pose, const Posture& posture) {
+  Jacobians j;
+  j.platform_radius = radius(g);
+  j.serial_distance = 1;
+  const Vector2d P(pose.x, pose.y);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Index>(i);
+    const Vector2d d = posture.C[i] - posture.B[i];
+    j.parallel.row(k) << d.x(), d.y(), cross(posture.C[i] - P, d);
+    j.serial(k) = g.proximal[i] * g.distal[i] * posture.elbow_sine[i];
+    j.serial_distance = std::min(j.serial_distance, std::abs(posture.elbow_sine[i]));
+  }
+  const Vector3d sigma = Eigen::JacobiSVD<Matrix3d>(scaled(j)).singularValues();
+  j.parallel_distance = sigma(2) / sigma(0);
+  return j;
+}
+
+HoldingTorques holding_torques(const Jacobians& j, const Vector3d& wrench) {
+  HoldingTorques result;
+  result.torque.setConstant(kNaN);
+  result.tension.setConstant(kNaN);
+  if (!(j.parallel_distance > kSingular)) {
+    result.outcome = {Status::singular,
+                      "a parallel singularity: no finite actuator torques hold the platform"};
+    return result;
+  }
+  const Vector3d scaled_wrench(wrench(0), wrench(1), wrench(2) / j.platform_radius);
+  const Matrix3d directions = scaled(j).transpose();
+  result.tension = directions.colPivHouseholderQr().solve(scaled_wrench);
+  for (Index i = 0; i < 3; ++i) {
+    result.torque(i) = -result.tension(i) * j.serial(i) / j.parallel.row(i).head<2>().norm();
+  }
+  result.digits = std::log10(j.parallel_distance / kEps);
+  return result;
+}
+
+}  // namespace trammel

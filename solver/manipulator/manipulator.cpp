@@ -1,0 +1,333 @@
+#include "solver/manipulator/manipulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "solver/model/plane.h"
+#include "solver/mesh/platform_mesh.h"
+
+namespace trammel {
+
+namespace {
+
+/// Node numbers of the built model: A1 A2 A3 B1 B2 B3 C1 C2 C3 P, then the plate's own.
+constexpr Index kA = 0;
+constexpr Index kB = 3;
+constexpr Index kC = 6;
+constexpr Index kP = 9;
+
+std::string numbered(char letter, std::size_t i) {
+  std::string name(1, letter);
+  name += std::to_string(i + 1);
+  return name;
+}
+
+void require(bool holds, const std::string& sentence) {
+  if (!holds) throw ModelError(sentence);
+}
+
+template <Real T>
+bool positive(const T& number) {
+  return value(number) > 0 && std::isfinite(value(number));
+}
+
+double platform_area(const std::array<Vector2d, 3>& c) {
+  return std::abs(cross(c[1] - c[0], c[2] - c[0])) / 2;
+}
+
+/// Round-off of the corners alone gives collinear vertices this area.
+bool has_area(const std::array<Vector2d, 3>& c) {
+  const double size = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
+  return platform_area(c) > 1e-12 * size * size;
+}
+
+MemberEnd sprung_end(double stiffness, const std::string& joint) {
+  require(positive(stiffness), "the spring stiffness of the " + joint + " must be positive");
+  return {EndFixity::sprung, stiffness, 0};
+}
+
+MemberEnd active_end(const ActiveJoint& joint, std::size_t i) {
+  switch (joint.kind) {
+    case ActiveKind::locked:
+      return {EndFixity::welded, 0, 0};
+    case ActiveKind::free:
+      return {EndFixity::hinged, 0, 0};
+    case ActiveKind::sprung:
+      break;
+  }
+  return sprung_end(joint.stiffness, "active joint " + numbered('A', i));
+}
+
+MemberEnd elbow_end(const ElbowJoint& joint, std::size_t i) {
+  switch (joint.kind) {
+    case ElbowKind::welded:
+      return {EndFixity::welded, 0, 0};
+    case ElbowKind::hinged:
+      return {EndFixity::hinged, 0, 0};
+    case ElbowKind::sprung:
+      break;
+  }
+  return sprung_end(joint.stiffness, "elbow joint " + numbered('B', i));
+}
+
+MemberEnd platform_end(const PlatformJoint& joint, std::size_t i) {
+  switch (joint.kind) {
+    case PlatformJointKind::welded:
+      return {EndFixity::welded, 0, 0};
+    case PlatformJointKind::hinged:
+    case PlatformJointKind::eq25_mean:
+    case PlatformJointKind::eq25_sum:
+      return {EndFixity::hinged, 0, 0};
+    case PlatformJointKind::sprung:
+      break;
+  }
+  return sprung_end(joint.stiffness, "platform joint " + numbered('C', i));
+}
+
+bool is_eq25(PlatformJointKind kind) {
+  return kind == PlatformJointKind::eq25_mean || kind == PlatformJointKind::eq25_sum;
+}
+
+void check_platform_joints(const ManipulatorDesign& design) {
+  const auto& joints = design.platform_joint;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlatformJointKind kind = joints[i].kind;
+    const std::string C = numbered('C', i);
+    if (is_eq25(kind)) {
+      require(joints[0].kind == joints[1].kind && joints[1].kind == joints[2].kind,
+              "Eq. 25 ties the platform's rotation to all three link ends at once: choose the same "
+              "for C1, C2 and C3");
+    }
+    if (design.platform.kind == PlatformDesign::Kind::rigid) continue;
+    require(kind != PlatformJointKind::welded,
+            "a link cannot be welded to the platform at " + C +
+                ": a node of constant-strain triangles has no rotation; choose hinged, or a rigid "
+                "platform");
+    require(kind != PlatformJointKind::sprung,
+            "a spring cannot join a link's rotation to the platform at " + C +
+                ": a node of constant-strain triangles has no rotation; choose hinged, or a rigid "
+                "platform");
+    require(!is_eq25(kind),
+            "Eq. 25 gives the rotation of a rigid platform: one of triangles has no single "
+            "rotation; choose hinged, or a rigid platform");
+  }
+}
+
+Member make_member(const LinkDesign& link, double length, std::string name, Index first,
+                   Index second) {
+  Member member;
+  member.name = std::move(name);
+  member.nodes = {first, second};
+  member.section = member.end_section = link_section(link, length);
+  member.theory = link.theory;
+  member.mass = link.mass_matrix;
+  member.elements = link.elements;
+  member.axially_flexible = link.axially_flexible;
+  return member;
+}
+
+void add_limb(const ManipulatorDesign& design, std::size_t i, Model& model) {
+  const auto k = static_cast<Index>(i);
+  const ManipulatorGeometry& g = design.geometry;
+  const bool grounded = design.active[i].kind != ActiveKind::free;
+  model.supports.push_back({numbered('A', i), kA + k, {true, true, grounded}});
+
+  Member proximal = make_member(design.proximal[i], g.proximal[i],
+                                numbered('A', i) + "-" + numbered('B', i), kA + k, kB + k);
+  Member distal = make_member(design.distal[i], g.distal[i],
+                              numbered('B', i) + "-" + numbered('C', i), kB + k, kC + k);
+  proximal.ends[0] = active_end(design.active[i], i);
+  distal.ends[0] = elbow_end(design.elbow[i], i);
+  distal.ends[1] = platform_end(design.platform_joint[i], i);
+  for (MemberEnd& end : proximal.ends) end.inertia = design.proximal[i].inertia.value_or(0) / 2;
+  for (MemberEnd& end : distal.ends) end.inertia = design.distal[i].inertia.value_or(0) / 2;
+  model.members.push_back(std::move(proximal));
+  model.members.push_back(std::move(distal));
+}
+
+Coordinate node_coordinate(Coordinate::Kind kind, Index node) {
+  return {kind, node, -1, 0};
+}
+
+void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& R_WP,
+                        Model& model) {
+  model.rigid_bodies.push_back({"platform", kP, {kC, kC + 1, kC + 2}});
+  const PlatformMass mass = platform_mass(design);
+  model.masses.push_back({kP, mass.mass, mass.inertia, R_WP * mass.center});
+
+  const PlatformJointKind kind = design.platform_joint[0].kind;
+  if (!is_eq25(kind)) return;
+  LinearConstraint eq25{"eq25", {{node_coordinate(Coordinate::Kind::rotation, kP), 1}}};
+  for (Index limb = 0; limb < 3; ++limb) {
+    eq25.terms.emplace_back(Coordinate{Coordinate::Kind::end_rotation, -1, 2 * limb + 1, 1},
+                            kind == PlatformJointKind::eq25_mean ? -1.0 / 3 : -1.0);
+  }
+  model.constraints.push_back(std::move(eq25));
+}
+
+/// u_pin = sum w_i u_i, in x and in y.
+void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index pin, Index first,
+             Model& model) {
+  const auto weights = pin_weights(mesh, mesh.nodes[vertex], radius);
+  // A link's stiffness at C couples every node under its pin with every other: n^2 entries. P holds
+  // nothing but loads.
+  constexpr std::size_t kMostNodes = 500;
+  require(pin == kP || weights.size() <= kMostNodes,
+          "the pin at C" + std::to_string(pin - kC + 1) + " covers " +
+              std::to_string(weights.size()) +
+              " nodes of the platform and couples each with each: at most 500, so choose a smaller "
+              "pin radius or fewer refinements");
+  for (const Coordinate::Kind kind : {Coordinate::Kind::x, Coordinate::Kind::y}) {
+    LinearConstraint tie;
+    tie.name = "pin " + model.nodes[static_cast<std::size_t>(pin)].name +
+               (kind == Coordinate::Kind::x ? " x" : " y");
+    tie.terms.emplace_back(node_coordinate(kind, pin), 1);
+    for (const auto& [node, weight] : weights)
+      tie.terms.emplace_back(node_coordinate(kind, first + node), -weight);
+    model.constraints.push_back(std::move(tie));
+  }
+}
+
+void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eigen::Matrix2d& R_WP,
+                   Model& model) {
+  const PlatformDesign& platform = design.platform;
+  const Material& material = platform.material;
+  require(positive(platform.thickness), "the platform's thickness must be positive");
+  require(positive(material.E), "the platform's Young's modulus must be positive");
+  require(material.nu > -1 && material.nu < 0.5,
+          "the platform's Poisson's ratio must lie between -1 and 0.5");
+  require(!platform.inertia.has_value(),
+          "a printed platform inertia needs a rigid platform: that of triangles follows from "
+          "their mass");
+  require(platform.pin_radius >= 0 && std::isfinite(platform.pin_radius),
+          "the pin radius must not be negative");
+  const double area = platform_area(design.geometry.platform);
+  Plate plate{"platform", material, platform.thickness};
+  plate.material.rho = platform_mass(design).mass / (platform.thickness * area);
+  model.plates.push_back(plate);
+
+  const TriangleMesh mesh =
+      platform_mesh(design.geometry.platform, Vector2d::Zero(), platform.refinements);
+  const bool pinned = platform.pin_radius > 0;
+  // Without pins the mesh's first nodes C1, C2, C3, P are the model's own, which stand in that
+  // order from kC on: the mesh then starts at kC, else after P.
+  const Index first = pinned ? kP + 1 : kC;
+  const std::size_t shared = pinned ? 0 : 4;
+  for (std::size_t n = shared; n < mesh.nodes.size(); ++n)
+    model.nodes.push_back({"", Vector2d(pose.x, pose.y) + R_WP * mesh.nodes[n]});
+  model.triangles.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    model.triangles.push_back({0, {first + t[0], first + t[1], first + t[2], -1, -1, -1}});
+  if (!pinned) return;
+  for (std::size_t v = 0; v < 4; ++v)
+    add_pin(mesh, v, platform.pin_radius, kC + static_cast<Index>(v), first, model);
+}
+
+}  // namespace
+
+template <Real T>
+T link_mass(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length) {
+  if (link.mass) return T(*link.mass);
+  return link.material.rho * link.thickness * link.width * length;
+}
+
+template <Real T>
+SectionOf<T> link_section(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length) {
+  require(positive(length), "a link's length must be positive");
+  require(positive(link.thickness), "a link's thickness must be positive");
+  require(positive(link.width), "a link's width must be positive");
+  require(positive(link.material.E), "a link's Young's modulus must be positive");
+  require(value(link.material.nu) > -1 && value(link.material.nu) <= 0.5,
+          "a link's Poisson's ratio must lie between -1 and 0.5");
+  require(link.elements >= 1, "a link needs at least one element");
+  require(positive(link.shear_coefficient), "a link's shear coefficient must be positive");
+  const T mass = link_mass(link, length);
+  require(value(mass) >= 0 && std::isfinite(value(mass)), "a link's mass must not be negative");
+  require(link.inertia.value_or(0) >= 0 && std::isfinite(link.inertia.value_or(0)),
+          "a link's inertia must not be negative");
+
+  const T area = link.thickness * link.width;
+  const T second_moment = area * link.thickness * link.thickness / 12.0;
+  const T G = link.material.E / (2.0 * (1.0 + link.material.nu));
+  SectionOf<T> section;
+  section.EA = link.material.E * area;
+  section.EI = link.material.E * second_moment;
+  section.kappa_GA = link.shear_coefficient * G * area;
+  section.mass_per_length = mass / length;
+  section.inertia_per_length = mass / length * second_moment / area;
+  section.area = area;
+  section.section_modulus = second_moment / (link.thickness / 2.0);
+  return section;
+}
+
+template <Real T>
+PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
+                                const std::array<Vector2d, 3>& c) {
+  PlatformMassOf<T> result;
+  result.center = (c[0] + c[1] + c[2]) / 3;
+  if (platform.mass) {
+    result.mass = T(*platform.mass);
+  } else {
+    require(has_area(c), "the platform's triangle C1 C2 C3 has no area: give its mass instead");
+    require(positive(platform.thickness), "the platform's thickness must be positive");
+    result.mass = platform.material.rho * platform.thickness * platform_area(c);
+  }
+  require(value(result.mass) >= 0 && std::isfinite(value(result.mass)),
+          "the platform's mass must not be negative");
+  if (platform.inertia) {
+    result.inertia = *platform.inertia - result.mass * result.center.squaredNorm();
+    require(value(result.inertia) >= 0 && std::isfinite(value(result.inertia)),
+            "the platform's inertia about P must be at least its mass times the square of the "
+            "distance from P to its centre of mass");
+  } else {
+    const double sides_squared =
+        (c[1] - c[0]).squaredNorm() + (c[2] - c[1]).squaredNorm() + (c[0] - c[2]).squaredNorm();
+    result.inertia = result.mass * sides_squared / 36.0;
+  }
+  return result;
+}
+
+PlatformMass platform_mass(const ManipulatorDesign& design) {
+  return platform_mass(design.platform, design.geometry.platform);
+}
+
+template double link_mass(const LinkDesignOf<double>&, const double&);
+template Dual link_mass(const LinkDesignOf<Dual>&, const Dual&);
+template Complex link_mass(const LinkDesignOf<Complex>&, const Complex&);
+template SectionOf<double> link_section(const LinkDesignOf<double>&, const double&);
+template SectionOf<Dual> link_section(const LinkDesignOf<Dual>&, const Dual&);
+template SectionOf<Complex> link_section(const LinkDesignOf<Complex>&, const Complex&);
+template PlatformMassOf<double> platform_mass(const PlatformDesignOf<double>&,
+                                              const std::array<Vector2d, 3>&);
+template PlatformMassOf<Dual> platform_mass(const PlatformDesignOf<Dual>&,
+                                            const std::array<Vector2d, 3>&);
+template PlatformMassOf<Complex> platform_mass(const PlatformDesignOf<Complex>&,
+                                               const std::array<Vector2d, 3>&);
+
+Model build_manipulator(const ManipulatorDesign& design, const Pose& pose) {
+  const Posture posture = inverse_kinematics(design.geometry, pose);
+  require(posture.outcome.solved(), posture.outcome.reason);
+  check_platform_joints(design);
+
+  Model model;
+  model.nodes.reserve(10);
+  for (std::size_t i = 0; i < 3; ++i)
+    model.nodes.push_back({numbered('A', i), design.geometry.base[i]});
+  for (std::size_t i = 0; i < 3; ++i) model.nodes.push_back({numbered('B', i), posture.B[i]});
+  for (std::size_t i = 0; i < 3; ++i) model.nodes.push_back({numbered('C', i), posture.C[i]});
+  model.nodes.push_back({"P", {pose.x, pose.y}});
+  for (std::size_t i = 0; i < 3; ++i) add_limb(design, i, model);
+
+  Eigen::Matrix2d R_WP;
+  R_WP << std::cos(pose.phi), -std::sin(pose.phi), std::sin(pose.phi), std::cos(pose.phi);
+  if (design.platform.kind == PlatformDesign::Kind::rigid) {
+    add_rigid_platform(design, R_WP, model);
+  } else {
+    require(has_area(design.geometry.platform), "the platform's triangle C1 C2 C3 has no area");
+    add_triangles(design, pose, R_WP, model);
+  }
+  return model;
+}
+
+}  // namespace trammel

@@ -1,0 +1,187 @@
+#include "solver/manipulator/trajectory.h"
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trammel {
+
+namespace {
+
+void require(bool holds, const char* sentence) {
+  if (!holds) throw ModelError(sentence);
+}
+
+Vector3d as_vector(const Pose& pose) {
+  return {pose.x, pose.y, pose.phi};
+}
+
+Pose as_pose(const Vector3d& v) {
+  return {v(0), v(1), v(2)};
+}
+
+TrajectoryPoint evaluate(const Circle& circle, double t) {
+  require(circle.center.allFinite() && std::isfinite(circle.phi), "the circle is not finite");
+  require(circle.radius >= 0 && std::isfinite(circle.radius),
+          "the circle's radius must not be negative");
+  require(std::isfinite(circle.angular_speed), "the circle's angular speed is not finite");
+  const double w = circle.angular_speed;
+  const double rx = circle.radius * std::cos(w * t);
+  const double ry = circle.radius * std::sin(w * t);
+  TrajectoryPoint point;
+  point.pose = {circle.center.x() + rx, circle.center.y() + ry, circle.phi};
+  point.velocity = {-w * ry, w * rx, 0};
+  point.acceleration = {-w * w * rx, -w * w * ry, 0};
+  return point;
+}
+
+/// from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
+TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
+  const Vector3d way = as_vector(to) - as_vector(from);
+  require(way.allFinite(), "the ends of the path are not finite");
+  TrajectoryPoint point;
+  point.pose = as_pose(as_vector(from) + s * way);
+  point.velocity = ds * way;
+  point.acceleration = dds * way;
+  return point;
+}
+
+TrajectoryPoint evaluate(const Line& line, double t) {
+  require(line.duration > 0 && std::isfinite(line.duration),
+          "the line's duration must be positive");
+  return between(line.from, line.to, t / line.duration, 1 / line.duration, 0);
+}
+
+TrajectoryPoint evaluate(const RestToRest& path, double t) {
+  const double T = path.duration;
+  require(T > 0 && std::isfinite(T), "the duration of the motion must be positive");
+  const double u = std::clamp(t / T, 0.0, 1.0);
+  const double v = 1 - u;
+  return between(path.from, path.to, u * u * u * (10 + u * (-15 + 6 * u)), 30 * u * u * v * v / T,
+                 60 * u * v * (v - u) / (T * T));
+}
+
+TrajectoryPoint evaluate(const Spline& spline, double time) {
+  const auto& times = spline.times;
+  require(times.size() >= 2, "a table of poses needs at least three points");
+  // A multiple of a step may lie past the end by a rounding: 63 steps of 0.1 s make more than 6.3.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(times.front()), std::abs(times.back()));
+  require(time >= times.front() - rounding && time <= times.back() + rounding,
+          "the time lies outside the table of poses");
+  const double t = std::clamp(time, times.front(), times.back());
+  const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, t);
+  const auto k = static_cast<Index>(next - times.begin());
+  const double h = *next - *(next - 1);
+  const double b = (t - *(next - 1)) / h;
+  const double a = (*next - t) / h;
+  const Vector3d p0 = spline.pose.row(k - 1);
+  const Vector3d p1 = spline.pose.row(k);
+  const Vector3d a0 = spline.acceleration.row(k - 1);
+  const Vector3d a1 = spline.acceleration.row(k);
+  TrajectoryPoint point;
+  point.pose =
+      as_pose(a * p0 + b * p1 + (h * h / 6) * (a * (a * a - 1) * a0 + b * (b * b - 1) * a1));
+  point.velocity = (p1 - p0) / h + (h / 6) * ((1 - 3 * a * a) * a0 + (3 * b * b - 1) * a1);
+  point.acceleration = a * a0 + b * a1;
+  return point;
+}
+
+bool is_still(const Circle& circle) {
+  return circle.radius == 0 || circle.angular_speed == 0;
+}
+
+bool is_still(const Spline& spline) {
+  return (spline.pose.rowwise() - spline.pose.row(0)).isZero(0);
+}
+
+/// A line, or from rest to rest.
+template <class Way>
+bool is_still(const Way& way) {
+  return as_vector(way.from) == as_vector(way.to);
+}
+
+}  // namespace
+
+// Unknown: the accelerations a_k. The velocity is continuous at t_k (h_k = t_{k+1} - t_k):
+//   h_{k-1} a_{k-1} + 2 (h_{k-1} + h_k) a_k + h_k a_{k+1} = 6 (slope_k - slope_{k-1}).
+Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,
+                   SplineEnds ends) {
+  const auto n = static_cast<Index>(times.size());
+  require(n >= 3, "a table of poses needs at least three points");
+  require(poses.size() == times.size(), "a table of poses needs one time for each pose");
+  Spline spline{times, Eigen::MatrixX3d(n, 3), Eigen::MatrixX3d::Zero(n, 3)};
+  Eigen::VectorXd h(n - 1);
+  for (Index k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    spline.pose.row(k) = as_vector(poses[i]).transpose();
+    if (k > 0) h(k - 1) = times[i] - times[i - 1];
+  }
+  require(spline.pose.allFinite() && std::isfinite(times.front()) && h.allFinite(),
+          "the table of poses is not finite");
+  require((h.array() > 0).all(), "the times of the table of poses must ascend");
+  const bool periodic = ends == SplineEnds::periodic;
+  require(!periodic || spline.pose.row(0) == spline.pose.row(n - 1),
+          "a periodic table of poses must end where it begins");
+
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::MatrixX3d rhs = Eigen::MatrixX3d::Zero(n, 3);
+  const auto slope = [&](Index k) -> Eigen::RowVector3d {
+    return (spline.pose.row(k + 1) - spline.pose.row(k)) / h(k);
+  };
+  const auto bend = [&](Index row, Index before, Index after, Index next) {
+    entries.emplace_back(row, before, h(before));
+    entries.emplace_back(row, row, 2 * (h(before) + h(after)));
+    entries.emplace_back(row, next, h(after));
+    rhs.row(row) = 6 * (slope(after) - slope(before));
+  };
+  for (Index k = 1; k + 1 < n; ++k) bend(k, k - 1, k, k + 1);
+  switch (ends) {
+    case SplineEnds::natural:
+      entries.emplace_back(0, 0, 1);
+      entries.emplace_back(n - 1, n - 1, 1);
+      break;
+    case SplineEnds::at_rest:
+      entries.emplace_back(0, 0, 2 * h(0));
+      entries.emplace_back(0, 1, h(0));
+      rhs.row(0) = 6 * slope(0);
+      entries.emplace_back(n - 1, n - 1, 2 * h(n - 2));
+      entries.emplace_back(n - 1, n - 2, h(n - 2));
+      rhs.row(n - 1) = -6 * slope(n - 2);
+      break;
+    case SplineEnds::periodic:
+      bend(0, n - 2, 0, 1);
+      entries.emplace_back(n - 1, n - 1, 1);
+      entries.emplace_back(n - 1, 0, -1);
+      break;
+  }
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(A);
+  for (Index c = 0; c < 3; ++c) spline.acceleration.col(c) = lu.solve(rhs.col(c)).eval();
+  return spline;
+}
+
+TrajectoryPoint at(const Path& path, double time) {
+  require(std::isfinite(time), "the time is not finite");
+  TrajectoryPoint point = std::visit([&](const auto& p) { return evaluate(p, time); }, path);
+  point.time = time;
+  return point;
+}
+
+bool stands_still(const Path& path) {
+  return std::visit([](const auto& p) { return is_still(p); }, path);
+}
+
+std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step) {
+  require(points >= 1, "a trajectory needs at least one point");
+  require(step > 0 && std::isfinite(step), "the time step of a trajectory must be positive");
+  std::vector<TrajectoryPoint> result;
+  result.reserve(static_cast<std::size_t>(points));
+  for (Index k = 0; k < points; ++k) result.push_back(at(path, static_cast<double>(k) * step));
+  return result;
+}
+
+}  // namespace trammel

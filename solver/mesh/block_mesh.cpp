@@ -1,0 +1,258 @@
+#include "solver/mesh/block_mesh.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace trammel {
+namespace {
+
+/// How far apart nodes of one place may be.
+double nearness(const std::vector<Vector2d>& points) {
+  Vector2d low = points.front();
+  Vector2d high = low;
+  for (const Vector2d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return 1e-9 * (high - low).norm();
+}
+
+/// Finds the nodes that a model has so far by their place.
+class NodeFinder {
+ public:
+  NodeFinder(const Model& model, double near) : near_(near) {
+    for (const Node& node : model.nodes) {
+      by_x_.emplace(node.position.x(), Place{static_cast<Index>(by_x_.size()), node.position});
+    }
+  }
+
+  /// The first node there, or -1.
+  [[nodiscard]] Index find(const Vector2d& position) const {
+    Index first = -1;
+    auto at = by_x_.lower_bound(position.x() - near_);
+    for (; at != by_x_.end() && at->first <= position.x() + near_; ++at) {
+      const auto& [node, place] = at->second;
+      if ((place - position).norm() < near_ && (first < 0 || node < first)) first = node;
+    }
+    return first;
+  }
+
+ private:
+  using Place = std::pair<Index, Vector2d>;
+  std::multimap<double, Place> by_x_;
+  double near_;
+};
+
+/// A side as a curve over 0 <= s <= 1.
+class Side {
+ public:
+  Side(const Vector2d& from, const Vector2d& to, const std::optional<Ellipse>& ellipse)
+      : from_(from), to_(to), ellipse_(ellipse) {
+    if (!ellipse_) return;
+    start_ = angle(from);
+    turn_ = angle(to) - start_;
+    const double whole = 2 * std::numbers::pi;
+    turn_ -= whole * std::round(turn_ / whole);
+  }
+
+  [[nodiscard]] Vector2d at(double s) const {
+    if (s == 0) return from_;  // corners exactly, so that blocks share them
+    if (s == 1) return to_;
+    if (!ellipse_) return (1 - s) * from_ + s * to_;
+    const double t = start_ + s * turn_;
+    return ellipse_->centre + ellipse_->semi_axes.cwiseProduct(Vector2d(std::cos(t), std::sin(t)));
+  }
+
+ private:
+  [[nodiscard]] double angle(const Vector2d& point) const {
+    const Vector2d p = (point - ellipse_->centre).cwiseQuotient(ellipse_->semi_axes);
+    if (!(std::abs(p.norm() - 1) < 1e-6)) {
+      throw ModelError("a corner of a mesh block at (" + std::to_string(point.x()) + ", " +
+                       std::to_string(point.y()) + ") m does not lie on the ellipse of its side");
+    }
+    return std::atan2(p.y(), p.x());
+  }
+
+  Vector2d from_, to_;
+  std::optional<Ellipse> ellipse_;
+  double start_ = 0;
+  double turn_ = 0;
+};
+
+/// Parameters of 2 n + 1 lines, or n + 1; the middle ones half-way between their neighbours.
+std::vector<double> lines(Index cells, double grading, bool with_middles) {
+  const double q = cells > 1 ? std::pow(grading, 1.0 / static_cast<double>(cells - 1)) : 1;
+  std::vector<double> at = {0};
+  double step = 1;
+  for (Index i = 0; i < cells; ++i, step *= q) at.push_back(at.back() + step);
+  for (double& s : at) s /= at.back();
+  at.back() = 1;
+  if (!with_middles) return at;
+  std::vector<double> all = {0};
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    all.push_back((at[i - 1] + at[i]) / 2);
+    all.push_back(at[i]);
+  }
+  return all;
+}
+
+class Mesher {
+ public:
+  Mesher(const std::vector<Block>& blocks, bool six_nodes) : blocks_(blocks) {
+    mesh_.six_nodes = six_nodes;
+    std::vector<Vector2d> corners;
+    for (const Block& block : blocks) {
+      corners.insert(corners.end(), block.corners.begin(), block.corners.end());
+    }
+    near_ = nearness(corners);
+  }
+
+  BlockMesh run() {
+    for (const Block& block : blocks_) add(block);
+    return std::move(mesh_);
+  }
+
+ private:
+  /// A node on a block's side, which may be another block's as well.
+  Index shared_node(const Vector2d& position) {
+    for (const Index node : outer_) {
+      if ((mesh_.positions[static_cast<std::size_t>(node)] - position).norm() < near_) return node;
+    }
+    mesh_.positions.push_back(position);
+    outer_.push_back(static_cast<Index>(mesh_.positions.size()) - 1);
+    return outer_.back();
+  }
+
+  void add(const Block& block) {
+    if (block.cells[0] < 1 || block.cells[1] < 1) {
+      throw ModelError("a mesh block must have at least one cell along either side");
+    }
+    if (!(block.grading[0] > 0 && block.grading[1] > 0)) {
+      throw ModelError("the grading of a mesh block must be positive");
+    }
+    const bool middles = mesh_.six_nodes;
+    const std::vector<double> s = lines(block.cells[0], block.grading[0], middles);
+    const std::vector<double> t = lines(block.cells[1], block.grading[1], middles);
+    const auto& c = block.corners;
+    const Side bottom(c[0], c[1], block.sides[0]);
+    const Side right(c[1], c[2], block.sides[1]);
+    const Side top(c[2], c[3], block.sides[2]);
+    const Side left(c[3], c[0], block.sides[3]);
+    const auto point = [&](double x, double y) -> Vector2d {
+      if (y == 0) return bottom.at(x);
+      if (y == 1) return top.at(1 - x);
+      if (x == 0) return left.at(1 - y);
+      if (x == 1) return right.at(y);
+      return (1 - y) * bottom.at(x) + y * top.at(1 - x) + (1 - x) * left.at(1 - y) +
+             x * right.at(y) - (1 - x) * (1 - y) * c[0] - x * (1 - y) * c[1] - x * y * c[2] -
+             (1 - x) * y * c[3];
+    };
+    width_ = s.size();
+    grid_.clear();
+    for (std::size_t j = 0; j < t.size(); ++j) {
+      for (std::size_t i = 0; i < s.size(); ++i) {
+        const bool outer = i == 0 || j == 0 || i + 1 == s.size() || j + 1 == t.size();
+        if (outer) {
+          grid_.push_back(shared_node(point(s[i], t[j])));
+        } else {
+          mesh_.positions.push_back(point(s[i], t[j]));
+          grid_.push_back(static_cast<Index>(mesh_.positions.size()) - 1);
+        }
+      }
+    }
+    sides(s.size(), t.size());
+    triangles(block);
+  }
+
+  [[nodiscard]] Index node(std::size_t i, std::size_t j) const { return grid_[j * width_ + i]; }
+
+  void sides(std::size_t nx, std::size_t ny) {
+    std::array<std::vector<Index>, 4> sides;
+    for (std::size_t i = 0; i < nx; ++i) sides[0].push_back(node(i, 0));
+    for (std::size_t j = 0; j < ny; ++j) sides[1].push_back(node(nx - 1, j));
+    for (std::size_t i = nx; i-- > 0;) sides[2].push_back(node(i, ny - 1));
+    for (std::size_t j = ny; j-- > 0;) sides[3].push_back(node(0, j));
+    mesh_.sides.push_back(std::move(sides));
+  }
+
+  void triangles(const Block& block) {
+    const std::size_t step = mesh_.six_nodes ? 2 : 1;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(block.cells[1]); ++j) {
+      for (std::size_t i = 0; i < static_cast<std::size_t>(block.cells[0]); ++i) {
+        using Place = std::array<std::size_t, 2>;
+        const std::array<Place, 4> q = {Place{i * step, j * step}, Place{(i + 1) * step, j * step},
+                                        Place{(i + 1) * step, (j + 1) * step},
+                                        Place{i * step, (j + 1) * step}};
+        const std::size_t k = (i + j) % 2;  // which diagonal
+        triangle(q[k], q[k + 1], q[k + 2]);
+        triangle(q[k], q[k + 2], q[(k + 3) % 4]);
+      }
+    }
+  }
+
+  void triangle(const std::array<std::size_t, 2>& a, const std::array<std::size_t, 2>& b,
+                const std::array<std::size_t, 2>& c) {
+    const auto at = [this](const auto& p) { return node(p[0], p[1]); };
+    const auto middle = [&](const auto& p, const auto& q) {
+      return mesh_.six_nodes ? node((p[0] + q[0]) / 2, (p[1] + q[1]) / 2) : Index{-1};
+    };
+    mesh_.triangles.push_back({at(a), at(b), at(c), middle(a, b), middle(b, c), middle(c, a)});
+  }
+
+  const std::vector<Block>& blocks_;
+  BlockMesh mesh_;
+  double near_ = 0;
+  std::vector<Index> outer_;  // nodes on the sides so far
+  std::vector<Index> grid_;   // nodes of the current block, row by row
+  std::size_t width_ = 0;
+};
+
+}  // namespace
+
+BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
+  if (blocks.empty()) throw ModelError("a mesh needs at least one block");
+  return Mesher(blocks, six_nodes).run();
+}
+
+std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh) {
+  const NodeFinder finder(model, nearness(mesh.positions));
+  std::vector<Index> nodes;
+  nodes.reserve(mesh.positions.size());
+  for (const Vector2d& position : mesh.positions) {
+    nodes.push_back(finder.find(position));
+    if (nodes.back() >= 0) continue;
+    nodes.back() = static_cast<Index>(model.nodes.size());
+    model.nodes.push_back({"", position});
+  }
+  for (const std::array<Index, 6>& of_mesh : mesh.triangles) {
+    Triangle triangle{plate, of_mesh};
+    for (Index& node : triangle.nodes) {
+      if (node >= 0) node = nodes[static_cast<std::size_t>(node)];
+    }
+    model.triangles.push_back(triangle);
+  }
+  return nodes;
+}
+
+std::vector<EdgeLoad> load_side(const BlockMesh& mesh, const std::vector<Index>& nodes, Index plate,
+                                std::size_t block, std::size_t side, const Vector2d& traction,
+                                double normal) {
+  const std::vector<Index>& along = mesh.sides[block][side];
+  const auto node = [&](std::size_t i) { return nodes[static_cast<std::size_t>(along[i])]; };
+  const std::size_t step = mesh.six_nodes ? 2 : 1;
+  std::vector<EdgeLoad> loads;
+  for (std::size_t i = 0; i + step < along.size(); i += step) {
+    EdgeLoad load;
+    load.plate = plate;
+    load.nodes = {node(i), node(i + step), mesh.six_nodes ? node(i + 1) : -1};
+    load.traction = traction;
+    load.normal = normal;
+    loads.push_back(load);
+  }
+  return loads;
+}
+
+}  // namespace trammel

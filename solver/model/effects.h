@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "solver/manipulator/manipulator.h"
+#include "solver/model/model.h"
+
+/// What a scene may call for. An effect that is off is taken out of the model before anything is
+/// built from it: no degree of freedom, no matrix and no evaluation is left of it.
+namespace trammel {
+
+enum class Effect : std::uint8_t {
+  axial_flexibility,     ///< members that bend also stretch; off: inextensible, by constraints
+  shear,                 ///< shear of the sections; off: Euler-Bernoulli or Rayleigh
+  rotary_inertia,        ///< of the sections; off: Euler-Bernoulli or shear beam
+  platform_flexibility,  ///< a manipulator's platform of triangles; off: a rigid body
+  joint_compliance,      ///< springs between member ends and nodes; off: welded
+  link_mass,             ///< mass and inertia of the members
+  gravity,               ///< weights
+  inertia,               ///< mass at all; off: no mass matrix, motion is a row of equilibria
+  damping,               ///< forces that go with velocities and take energy
+  gyroscopic,            ///< Coriolis and other forces of frames that turn, but for the centrifugal
+  geometric_stiffening,  ///< forces turn with what they act in: second-order theory
+  large_displacement,    ///< equilibrium in the place where it is: the geometrically exact tier
+};
+inline constexpr std::size_t effect_count = 12;
+
+/// A set of effects.
+class Effects {
+ public:
+  constexpr Effects() = default;
+  [[nodiscard]] static constexpr Effects all() { return Effects((1U << effect_count) - 1); }
+
+  [[nodiscard]] constexpr bool has(Effect effect) const { return (bits_ & bit(effect)) != 0; }
+  [[nodiscard]] constexpr Effects with(Effect effect) const { return Effects(bits_ | bit(effect)); }
+  [[nodiscard]] constexpr Effects without(Effect effect) const {
+    return Effects(bits_ & ~bit(effect));
+  }
+  [[nodiscard]] constexpr Effects without(Effects others) const {
+    return Effects(bits_ & ~others.bits_);
+  }
+  [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
+  [[nodiscard]] std::vector<Effect> list() const;  ///< in the order of the enumeration
+  friend constexpr bool operator==(Effects a, Effects b) { return a.bits_ == b.bits_; }
+
+ private:
+  explicit constexpr Effects(std::uint32_t bits) : bits_(bits) {}
+  static constexpr std::uint32_t bit(Effect effect) { return 1U << static_cast<unsigned>(effect); }
+  std::uint32_t bits_ = 0;
+};
+
+/// "axial-flexibility", ...; as case files name them.
+[[nodiscard]] std::string_view name_of(Effect effect);
+[[nodiscard]] std::optional<Effect> effect_named(std::string_view name);
+
+/// Evaluations that effects have caused: element matrices, loads of elements, springs.
+using EffectCounts = std::array<std::int64_t, effect_count>;
+
+/// The effects that the parts have, as they are described. What belongs to an analysis rather than
+/// to parts (inertia, damping, gyroscopic forces, geometric stiffening, large displacement) is not
+/// among them.
+[[nodiscard]] Effects admitted_effects(const Model& model);
+
+/// The model without the effects that are not in `kept`.
+[[nodiscard]] Model reduced(Model model, Effects kept);
+/// The same before it is built.
+[[nodiscard]] ManipulatorDesign reduced(ManipulatorDesign design, Effects kept);
+
+}  // namespace trammel

@@ -1,0 +1,44 @@
+#include "solver/model/quadrature.h"
+
+#include <cmath>
+
+namespace trammel {
+namespace {
+
+std::array<LineQuadraturePoint, 5> gauss_5() {
+  const double outer = std::sqrt(5 + 2 * std::sqrt(10.0 / 7)) / 3;
+  const double inner = std::sqrt(5 - 2 * std::sqrt(10.0 / 7)) / 3;
+  const double light = (322 - 13 * std::sqrt(70.0)) / 1800;
+  const double heavy = (322 + 13 * std::sqrt(70.0)) / 1800;
+  return {{{(1 - outer) / 2, light},
+           {(1 - inner) / 2, heavy},
+           {0.5, 64.0 / 225},
+           {(1 + inner) / 2, heavy},
+           {(1 + outer) / 2, light}}};
+}
+
+std::array<TriangleQuadraturePoint, 25> conical_product() {
+  std::array<TriangleQuadraturePoint, 25> points;
+  std::size_t k = 0;
+  for (const LineQuadraturePoint& a : line_quadrature()) {
+    for (const LineQuadraturePoint& b : line_quadrature()) {
+      const double rest = 1 - a.at;
+      points[k++] = {{a.at, rest * b.at, rest * (1 - b.at)}, 2 * rest * a.weight * b.weight};
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+const std::array<LineQuadraturePoint, 5>& line_quadrature() {
+  static const std::array<LineQuadraturePoint, 5> points = gauss_5();
+  return points;
+}
+
+const std::array<TriangleQuadraturePoint, 25>& triangle_quadrature() {
+  static const std::array<TriangleQuadraturePoint, 25> points = conical_product();
+  return points;
+}
+
+}  // namespace trammel

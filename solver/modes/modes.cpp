@@ -1,0 +1,145 @@
+#include "solver/modes/modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "solver/statics/zero_energy_modes.h"
+#include "solver/assembly/strain.h"
+
+namespace trammel {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// M-orthonormal basis of the free motions; false where one of them moves no mass.
+bool orthonormalise(const SparseMatrix& M, MatrixXd& Z) {
+  if (Z.cols() == 0) return true;
+  const VectorXd mass = M.diagonal();
+  const double largest = mass.maxCoeff();
+  if (!(largest > 0)) return false;
+  const VectorXd weight = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
+  const MatrixXd gram = Z.transpose() * (M * Z);
+  const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(gram, size);
+  if (!(solver.eigenvalues()[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
+  const VectorXd inverse = solver.eigenvalues().cwiseSqrt().cwiseInverse();
+  Z = Z * solver.eigenvectors() * inverse.asDiagonal();
+  return true;
+}
+
+VectorXd random_vector(Index size) {
+  std::mt19937_64 engine(20170204);
+  return VectorXd::NullaryExpr(
+      size, [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
+}
+
+/// Whether a motion beyond the free ones moves mass: otherwise there is nothing that swings.
+bool swings(const SparseMatrix& M, const MatrixXd& Z) {
+  VectorXd x = random_vector(M.rows());
+  const double whole = x.dot(M * x);
+  for (int twice = 0; twice < 2; ++twice) x -= Z * (Z.transpose() * (M * x));
+  return x.dot(M * x) > 1e-24 * whole;  // rounding of a motion squared: 1e-32
+}
+
+/// A shift s < 0 of the size of the lowest elastic eigenvalue, for models that float: K - s M is
+/// then as well-conditioned as the elastic part of K.
+double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
+  SparseMatrix shifted = system.K;
+  const VectorXd diagonal = system.K.diagonal();
+  const double largest = diagonal.size() > 0 ? diagonal.maxCoeff() : 0;
+  if (!(largest > 0)) return -1;
+  for (Index i = 0; i < diagonal.size(); ++i) {
+    shifted.coeffRef(i, i) += 1e-11 * (diagonal[i] > 0 ? diagonal[i] : largest);
+  }
+  Factorization factorization;
+  factorization.compute(shifted);
+  ++counters.factorizations;
+  VectorXd x = random_vector(system.K.rows());
+  double quotient = 0;
+  for (int step = 0; step < 8; ++step) {
+    x -= Z * (Z.transpose() * (system.M * x));
+    const VectorXd y = factorization.solve(system.M * x);
+    ++counters.solves;
+    x = y - Z * (Z.transpose() * (system.M * y));
+    const double mass = x.dot(system.M * x);
+    if (!(mass > 0)) break;
+    x /= std::sqrt(mass);
+    quotient = strain_products(system, system.T * x)(0, 0);
+  }
+  return quotient > 0 && std::isfinite(quotient) ? -quotient : -1;
+}
+
+void fill(const System& system, const Eigenpairs& pairs, const MatrixXd& Z, Index count,
+          ModalSolution& solution) {
+  const Index rigid = std::min(Z.cols(), count);
+  const Index elastic = std::min(pairs.value.size(), count - rigid);
+  solution.frequency.setZero(rigid + elastic);
+  solution.roundoff.setZero(rigid + elastic);
+  solution.shape.resize(system.K.rows(), rigid + elastic);
+  solution.shape.leftCols(rigid) = Z.leftCols(rigid);
+  for (Index j = 0; j < elastic; ++j) {
+    const double w2 = pairs.value[j];
+    solution.frequency[rigid + j] = std::sqrt(w2) / (2 * std::numbers::pi);
+    const double rounding = strain_roundoff(system, system.T * pairs.vector.col(j)) / w2;
+    solution.roundoff[rigid + j] =
+        0.5 * (rounding + pairs.error[j]) + 4 * std::numeric_limits<double>::epsilon();
+    solution.shape.col(rigid + j) = pairs.vector.col(j);
+  }
+}
+
+}  // namespace
+
+ModalSolution solve_modes(const System& system, const ModesOptions& options) {
+  ModalSolution solution;
+  solution.counters = system.counters;
+  Counters& counters = solution.counters;
+  if (system.K.rows() == 0) return solution;  // nothing can move
+  Factorization factorization;
+  factorization.compute(shifted(system.K, system.M, 0));
+  ++counters.factorizations;
+  FreeMotions free = find_free_motions(system, factorization, counters);
+  solution.rigid_motions = free.count();
+  solution.rigid_motion_words = describe_free_motions(system, free);
+  if (!orthonormalise(system.M, free.basis)) {
+    solution.outcome = {Status::singular,
+                        "a part without mass moves freely: " + solution.rigid_motion_words};
+    return solution;
+  }
+  if (free.count() > 0 && !swings(system.M, free.basis)) {
+    solution.inertia_count = free.count();
+    fill(system, {}, free.basis, options.count, solution);
+    return solution;
+  }
+  Pencil pencil;
+  pencil.K = &system.K;
+  pencil.B = &system.M;
+  if (free.count() > 0) {
+    pencil.s = floating_shift(system, free.basis, counters);
+    factorization.compute(shifted(system.K, system.M, pencil.s));
+    ++counters.factorizations;
+  }
+  pencil.K_times = stiffness_operator(system);
+  pencil.K_products = [&system](const MatrixXd& X) {
+    return strain_products(system, system.T * X);
+  };
+  const Index elastic = std::max<Index>(0, options.count - free.count());
+  const Eigenpairs pairs =
+      lowest_eigenpairs(pencil, free.basis, elastic, options.path, factorization, counters);
+  solution.outcome = pairs.outcome;
+  solution.inertia_count = pairs.inertia_count;
+  fill(system, pairs, free.basis, options.count, solution);
+  return solution;
+}
+
+std::optional<Index> count_modes_below(const System& system, double frequency) {
+  const double w = 2 * std::numbers::pi * frequency;
+  Factorization factorization;
+  factorization.compute(system.K - w * w * system.M);
+  if (!factorization.is_reliable()) return std::nullopt;
+  return factorization.negative_pivots();
+}
+
+}  // namespace trammel

@@ -1,0 +1,79 @@
+#include "solver/modes/prestressed_modes.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "solver/statics/postprocessing.h"
+#include "solver/assembly/strain.h"
+
+namespace trammel {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
+                               const ModesOptions& options) {
+  ModalSolution solution;
+  solution.counters = system.counters;
+  if (system.K.rows() == 0) return solution;
+  const SparseMatrix K = system.K + K_G;
+  Factorization factorization;
+  factorization.compute(shifted(K, system.M, 0));
+  ++solution.counters.factorizations;
+  if (!factorization.exists() || factorization.smallest_pivot() <= 0) {
+    solution.outcome = {Status::singular, "the loads reach or exceed the buckling load"};
+    return solution;
+  }
+  const Operator elastic = stiffness_operator(system);
+  Pencil pencil;
+  pencil.K = &K;
+  pencil.B = &system.M;
+  pencil.K_times = [&](const VectorXd& x) -> VectorXd { return elastic(x) + K_G * x; };
+  pencil.K_products = [&](const MatrixXd& X) -> MatrixXd {
+    return strain_products(system, system.T * X) + X.transpose() * (K_G * X);
+  };
+  const MatrixXd no_null(K.rows(), 0);
+  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.path,
+                                             factorization, solution.counters);
+  solution.outcome = pairs.outcome;
+  solution.inertia_count = pairs.inertia_count;
+  solution.frequency = pairs.value.cwiseSqrt() / (2 * std::numbers::pi);
+  solution.shape = pairs.vector;
+  solution.roundoff.resize(pairs.value.size());
+  const SparseMatrix size = K_G.cwiseAbs();
+  for (Index j = 0; j < pairs.value.size(); ++j) {
+    const VectorXd x = pairs.vector.col(j);
+    const double geometric =
+        std::numeric_limits<double>::epsilon() * x.cwiseAbs().dot(size * x.cwiseAbs());
+    const double rounding = strain_roundoff(system, system.T * x) + geometric;
+    solution.roundoff[j] = 0.5 * (rounding / pairs.value[j] + pairs.error[j]) +
+                           4 * std::numeric_limits<double>::epsilon();
+  }
+  return solution;
+}
+
+PrestressedModes solve_prestressed_modes(const System& system, const ModesOptions& options) {
+  PrestressedModes result;
+  result.state = solve_statics(system, {.second_order = true});
+  if (!result.state.outcome.solved()) {
+    result.modes.outcome = result.state.outcome;
+    result.modes.counters = result.state.counters;
+    return result;
+  }
+  ElasticState state;
+  state.u = system.T * result.state.q;
+  const VectorXd first = constraint_forces(system, state);
+  Prestress forces = prestress(system, state.u, first, body_forces(system));
+  state.prestress = &forces;  // the constraints' forces of second-order theory
+  const VectorXd second = constraint_forces(system, state);
+  const Prestress settled = prestress(system, state.u, second, body_forces(system));
+  result.modes = solve_modes_with(system, geometric_stiffness(system, settled), options);
+  const auto solved = result.modes.counters;
+  result.modes.counters = result.state.counters;
+  result.modes.counters.factorizations += solved.factorizations;
+  result.modes.counters.solves += solved.solves;
+  return result;
+}
+
+}  // namespace trammel

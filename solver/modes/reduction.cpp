@@ -1,0 +1,206 @@
+#include "solver/modes/reduction.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "solver/linalg/eigenpairs.h"
+#include "solver/linalg/factorization.h"
+
+namespace trammel {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// Free coordinates of the nodes that cut the members.
+std::vector<bool> inside_members(const System& system) {
+  std::vector<bool> inside(static_cast<std::size_t>(system.K.rows()), false);
+  for (std::size_t n = system.model.nodes.size(); n < system.coordinates.node.size(); ++n) {
+    for (const Index u : system.coordinates.node[n]) {
+      const Index q = u < 0 ? -1 : system.constraints.free[static_cast<std::size_t>(u)];
+      if (q >= 0) inside[static_cast<std::size_t>(q)] = true;
+    }
+  }
+  return inside;
+}
+
+/// The inside coordinates in sets that nothing couples: a member's each.
+std::vector<std::vector<Index>> components(const System& system, const std::vector<bool>& inside) {
+  std::vector<Index> root(inside.size());
+  std::iota(root.begin(), root.end(), Index{0});
+  const auto find = [&](Index i) {
+    while (root[static_cast<std::size_t>(i)] != i) {
+      Index& up = root[static_cast<std::size_t>(i)];
+      i = up = root[static_cast<std::size_t>(up)];
+    }
+    return i;
+  };
+  for (const SparseMatrix* matrix : {&system.K, &system.M}) {
+    for (Index j = 0; j < matrix->outerSize(); ++j) {
+      if (!inside[static_cast<std::size_t>(j)]) continue;
+      for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) {
+        const Index i = entry.row();
+        if (inside[static_cast<std::size_t>(i)]) root[static_cast<std::size_t>(find(i))] = find(j);
+      }
+    }
+  }
+  // Bending and stretching of a member that lies along an axis are not coupled, and yet its own.
+  std::vector<Index> first(system.model.members.size(), -1);
+  for (const FrameElement& element : system.mesh.frame) {
+    for (const Index u : element.coordinates) {
+      const Index q = u < 0 ? -1 : system.constraints.free[static_cast<std::size_t>(u)];
+      if (q < 0 || !inside[static_cast<std::size_t>(q)]) continue;
+      Index& own = first[static_cast<std::size_t>(element.member)];
+      if (own < 0) own = q;
+      root[static_cast<std::size_t>(find(q))] = find(own);
+    }
+  }
+  std::vector<std::vector<Index>> sets;
+  std::vector<Index> set_of(inside.size(), -1);
+  for (std::size_t q = 0; q < inside.size(); ++q) {
+    if (!inside[q]) continue;
+    const auto r = static_cast<std::size_t>(find(static_cast<Index>(q)));
+    if (set_of[r] < 0) {
+      set_of[r] = static_cast<Index>(sets.size());
+      sets.emplace_back();
+    }
+    sets[static_cast<std::size_t>(set_of[r])].push_back(static_cast<Index>(q));
+  }
+  return sets;
+}
+
+/// Rows and columns of a matrix.
+class Part {
+ public:
+  Part(Index size, const std::vector<Index>& chosen) : place_(static_cast<std::size_t>(size), -1) {
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      place_[static_cast<std::size_t>(chosen[i])] = static_cast<Index>(i);
+    }
+    count_ = static_cast<Index>(chosen.size());
+  }
+  [[nodiscard]] Index place(Index q) const { return place_[static_cast<std::size_t>(q)]; }
+
+  [[nodiscard]] SparseMatrix square(const SparseMatrix& matrix,
+                                    const std::vector<Index>& chosen) const {
+    Triplets entries;
+    for (const Index j : chosen) {
+      for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
+        if (place(entry.row()) >= 0) {
+          entries.emplace_back(place(entry.row()), place(j), entry.value());
+        }
+      }
+    }
+    SparseMatrix part(count_, count_);
+    part.setFromTriplets(entries.begin(), entries.end());
+    return part;
+  }
+
+ private:
+  std::vector<Index> place_;
+  Index count_ = 0;
+};
+
+/// Boundary coordinates that K couples with the set, each once.
+std::vector<Index> neighbours(const SparseMatrix& K, const std::vector<Index>& set,
+                              const Part& part) {
+  std::vector<Index> found;
+  for (const Index j : set) {
+    for (SparseMatrix::InnerIterator entry(K, j); entry; ++entry) {
+      if (part.place(entry.row()) < 0) found.push_back(entry.row());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+/// Column of K at a boundary coordinate, its rows in the set.
+VectorXd coupling(const SparseMatrix& K, Index boundary, const std::vector<Index>& set,
+                  const Part& part) {
+  VectorXd column = VectorXd::Zero(static_cast<Index>(set.size()));
+  for (SparseMatrix::InnerIterator entry(K, boundary); entry; ++entry) {
+    if (part.place(entry.row()) >= 0) column[part.place(entry.row())] = entry.value();
+  }
+  return column;
+}
+
+/// The lowest modes with the boundary held.
+MatrixXd held_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
+                    Factorization& factorization, Counters& counters) {
+  Pencil pencil;
+  pencil.K = &K;
+  pencil.B = &M;
+  pencil.K_times = [&K](const VectorXd& x) -> VectorXd { return K * x; };
+  pencil.K_products = [&K](const MatrixXd& X) -> MatrixXd { return X.transpose() * (K * X); };
+  const MatrixXd no_null(K.rows(), 0);
+  return lowest_eigenpairs(pencil, no_null, modes, EigenPath::automatic, factorization, counters)
+      .vector;
+}
+
+void add_column(const VectorXd& values, const std::vector<Index>& set, Index column,
+                Triplets& entries) {
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const double value = values[static_cast<Index>(i)];
+    if (value != 0) entries.emplace_back(set[i], column, value);
+  }
+}
+
+/// R in q = R p.
+SparseMatrix reduction(const System& system, Index modes, Counters& counters) {
+  const std::vector<bool> inside = inside_members(system);
+  const std::vector<std::vector<Index>> sets = components(system, inside);
+  const Index size = system.K.rows();
+  std::vector<Index> kept(inside.size(), -1);
+  Index columns = 0;
+  for (std::size_t q = 0; q < inside.size(); ++q) {
+    if (!inside[q]) kept[q] = columns++;
+  }
+  Triplets entries;
+  for (std::size_t q = 0; q < inside.size(); ++q) {
+    if (!inside[q]) entries.emplace_back(static_cast<Index>(q), kept[q], 1.0);
+  }
+  for (const std::vector<Index>& set : sets) {
+    if (modes >= static_cast<Index>(set.size())) {
+      for (const Index q : set) entries.emplace_back(q, columns++, 1.0);
+      continue;
+    }
+    const Part part(size, set);
+    const SparseMatrix K = part.square(system.K, set), M = part.square(system.M, set);
+    Factorization factorization;
+    factorization.compute(shifted(K, M, 0));
+    ++counters.factorizations;
+    for (const Index boundary : neighbours(system.K, set, part)) {
+      const VectorXd follows = -factorization.solve(coupling(system.K, boundary, set, part));
+      ++counters.solves;
+      add_column(follows, set, kept[static_cast<std::size_t>(boundary)], entries);
+    }
+    if (modes == 0) continue;
+    const MatrixXd shapes = held_modes(K, M, modes, factorization, counters);
+    for (Index j = 0; j < shapes.cols(); ++j) add_column(shapes.col(j), set, columns++, entries);
+  }
+  SparseMatrix R(size, columns);
+  R.setFromTriplets(entries.begin(), entries.end());
+  return R;
+}
+
+SparseMatrix projected(const SparseMatrix& matrix, const SparseMatrix& R) {
+  const SparseMatrix product = R.transpose() * (matrix * R);
+  // Symmetric to the last digit, as what is factored must be.
+  return 0.5 * (product + SparseMatrix(product.transpose()));
+}
+
+}  // namespace
+
+System reduce_members(const System& system, Index modes) {
+  if (modes < 0) throw ModelError("a reduction needs a number of modes that is not negative");
+  System reduced = system;
+  const SparseMatrix R = reduction(system, modes, reduced.counters);
+  reduced.T = system.T * R;
+  reduced.K = projected(system.K, R);
+  reduced.M = projected(system.M, R);
+  reduced.f = R.transpose() * system.f;
+  return reduced;
+}
+
+}  // namespace trammel

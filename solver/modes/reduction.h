@@ -1,0 +1,23 @@
+#pragma once
+
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+/// Component mode synthesis: the free coordinates inside the members (of the nodes that cut them
+/// into elements) follow the rest statically and, beyond that, in their lowest modes with the
+/// members' ends held,
+///   q_i = -K_ii^-1 K_ib q_b + X p,   K_ii x = w^2 M_ii x.
+/// Without modes it is static condensation. Frequencies are those of a constrained model, never
+/// below the full one's.
+/// Source: Guyan (1965); Craig & Bampton (1968).
+///
+/// @param modes  of each member's inside [-]; as many as there are coordinates or more: none is
+///               condensed
+/// @returns the same model in fewer coordinates: T, K, M and f are reduced, the rest is as it was,
+///          so that motions, strain energies and drawings follow from the reduced coordinates as
+///          they do from q. Its `constraints` are still those of the full model.
+/// @throws ModelError  for a negative number of modes.
+[[nodiscard]] System reduce_members(const System& system, Index modes);
+
+}  // namespace trammel

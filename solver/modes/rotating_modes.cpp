@@ -1,0 +1,157 @@
+#include "solver/modes/rotating_modes.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "solver/statics/zero_energy_modes.h"
+#include "solver/linalg/gyroscopic.h"
+#include "solver/linalg/refinement.h"
+#include "solver/assembly/strain.h"
+
+namespace trammel {
+namespace {
+
+using Eigen::VectorXd;
+
+/// The steady state and K + K_G - W^2 S in it.
+class SteadyState {
+ public:
+  SteadyState(const System& system, const RotatingOptions& options, Counters& counters)
+      : system_(system),
+        spin_(options.spin),
+        deformed_(options.deformed_tension),
+        stiffens_(options.stiffening),
+        counters_(counters),
+        body_(body_forces(system, spin_)),
+        softening_(-spin_.speed * spin_.speed * spin_softening(system, spin_.axis)),
+        elastic_(stiffness_operator(system)),
+        q(VectorXd::Zero(system.K.rows())) {}
+
+  /// False where the forces do not settle or the state does not exist.
+  bool run() {
+    constexpr int kSteps = 50;
+    const VectorXd right =
+        system_.f + system_.T.transpose() *
+                        centrifugal_forces(system_, spin_, VectorXd::Zero(system_.T.rows()));
+    added_ = softening_;
+    if (!stiffens_) return solve(added_, right);
+    if (!deformed_) {
+      if (!solve(SparseMatrix(system_.K.rows(), system_.K.rows()), right)) return false;
+      update(VectorXd::Zero(system_.T.rows()));
+      return solve(added_, right);
+    }
+    double last = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < kSteps; ++step) {
+      const VectorXd before = q;
+      if (!solve(added_, right)) return false;
+      const double change = (q - before).norm();
+      const bool settled =
+          change <= 1e-13 * q.norm() || (change <= 1e-8 * q.norm() && change >= 0.5 * last);
+      if (settled && step > 0) return true;
+      last = change;
+      update(system_.T * q);
+    }
+    return false;
+  }
+
+  /// K + K_G - W^2 S.
+  [[nodiscard]] SparseMatrix tangent() const { return system_.K + added_; }
+
+  /// x^T (K + K_G - W^2 S) x, the elastic part from the elements' deformations.
+  [[nodiscard]] double energy(const VectorXd& x) const {
+    return strain_products(system_, system_.T * x)(0, 0) + x.dot(added_ * x);
+  }
+
+ private:
+  /// (K + added) q = right.
+  bool solve(const SparseMatrix& added, const VectorXd& right) {
+    factorization.compute(shifted(system_.K, added, -1));
+    ++counters_.factorizations;
+    if (!factorization.exists()) return false;
+    const Operator A = [&](const VectorXd& x) -> VectorXd { return elastic_(x) + added * x; };
+    const Refined refined = refined_solve(A, factorization, right, counters_);
+    q = refined.x;
+    return refined.converged();
+  }
+
+  /// K_G of the forces in the state q, which the centrifugal forces of a shape u hold.
+  void update(const VectorXd& shape) {
+    const VectorXd u = system_.T * q;
+    VectorXd force =
+        internal_forces(system_, u) - system_.load - centrifugal_forces(system_, spin_, shape);
+    if (geometric_.axial.size() > 0) force += turning_forces(system_, geometric_, u);
+    counters_.count(Effect::geometric_stiffening, 1);
+    geometric_ = prestress(system_, u, system_.constraints.multipliers(force), body_);
+    added_ = softening_ + geometric_stiffness(system_, geometric_);
+  }
+
+  const System& system_;
+  Spin spin_;
+  bool deformed_, stiffens_;
+  Counters& counters_;
+  BodyForces body_;
+  SparseMatrix softening_;
+  SparseMatrix added_;
+  Operator elastic_;
+  Prestress geometric_;
+
+ public:
+  VectorXd q;
+  Factorization factorization;
+};
+
+}  // namespace
+
+RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& options) {
+  constexpr Index kLargestUnstable = 400;
+  RotatingModes result;
+  result.counters = system.counters;
+  if (system.K.rows() == 0) return result;
+  {
+    Factorization K;
+    K.compute(system.K);
+    ++result.counters.factorizations;
+    const FreeMotions free = find_free_motions(system, K, result.counters);
+    if (free.count() > 0) {
+      result.outcome = {Status::singular, describe_free_motions(system, free)};
+      return result;
+    }
+  }
+  SteadyState steady(system, options, result.counters);
+  if (!steady.run()) {
+    result.outcome = {Status::not_converged, "the steady state of the rotating frame is not found"};
+    return result;
+  }
+  result.q = steady.q;
+  const bool turns = options.coriolis && options.spin.axis == SpinAxis::normal;
+  SparseMatrix C(system.K.rows(), system.K.cols());
+  if (turns) {
+    C = 2 * options.spin.speed * coriolis_matrix(system);
+    result.counters.count(Effect::gyroscopic, 1);
+  }
+  const GyroscopicPencil pencil{steady.tangent(), C, system.M,
+                                [&steady](const VectorXd& x) { return steady.energy(x); }};
+  GyroscopicModes modes;
+  if (system.M.coeffs().isZero(0)) return result;  // nothing swings
+  if (steady.factorization.smallest_pivot() > 0) {
+    modes = stable_gyroscopic_modes(pencil, steady.factorization, options.count, options.path,
+                                    result.counters);
+  } else if (system.K.rows() <= kLargestUnstable) {
+    modes = all_gyroscopic_modes(pencil);
+  } else {
+    modes.outcome = {Status::not_converged,
+                     "the stiffness of the rotating frame is not positive definite, and the model "
+                     "is too large for the dense solution that this needs"};
+  }
+  result.outcome = modes.outcome;
+  result.inertia_count = modes.inertia_count;
+  const Index kept = std::min(options.count, modes.omega.size());
+  result.frequency = modes.omega.head(kept) / (2 * std::numbers::pi);
+  result.growth_rate = modes.growth.head(kept);
+  result.shape = modes.shape.leftCols(kept);
+  result.stable = modes.growth.size() == 0 || modes.growth.maxCoeff() <= 0;
+  return result;
+}
+
+}  // namespace trammel

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/linalg/eigenpairs.h"
+#include "solver/model/outcome.h"
+#include "solver/assembly/rotating_frame.h"
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+struct RotatingOptions {
+  Spin spin;
+  Index count = 6;
+  EigenPath path = EigenPath::automatic;  ///< of a stable state; an unstable one is always dense
+  bool coriolis = true;                   ///< false: leaves G out
+  bool stiffening = true;                 ///< false: leaves K_G out
+  /// K_G from the forces in the steady state; false: from those of linear statics under the
+  /// centrifugal forces on the undeformed frame, as the classical equations of blades have it.
+  bool deformed_tension = true;
+};
+
+/// Small vibration of a frame that rotates steadily, seen from it, about its steady state:
+///   (K + K_G - W^2 S) q = f + W^2 f_c,   and with that K_G
+///   (K + K_G - W^2 S + i w 2 W G - w^2 M) x = 0
+/// (spin.h for S, G, f_c). The supports rotate with the frame; the geometry is the undeformed one.
+///
+/// Stable states have real w: a Hermitian problem in 1 / w, of which none is missed, for the matrix
+/// above at a w just beyond the last has as many negative pivots as there are below it.
+struct RotatingModes {
+  Outcome outcome;              ///< singular: a mechanism; not_converged: see the reason
+  Eigen::VectorXd q;            ///< steady state, free coordinates; see mesh_motion
+  bool stable = true;           ///< false where a motion grows
+  Eigen::VectorXd frequency;    ///< ascending [Hz]; 0 for what grows without turning over
+  Eigen::VectorXd growth_rate;  ///< of each [1/s]; 0 in a stable state
+  Eigen::MatrixXcd shape;       ///< free coordinate x mode, q(t) = Re(x e^{i w t}), |x| = 1
+  Index inertia_count = 0;      ///< frequencies below the check, by Hermitian LDL^T; 0 if unstable
+  Counters counters;
+};
+
+[[nodiscard]] RotatingModes solve_rotating_modes(const System& system,
+                                                 const RotatingOptions& options);
+
+}  // namespace trammel

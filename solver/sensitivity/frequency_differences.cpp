@@ -1,0 +1,147 @@
+#include "solver/sensitivity/frequency_differences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace trammel {
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kRows = 7;
+constexpr double kRatio = 1.6;
+/// Modes beyond those asked for, so that a set of equal frequencies is whole.
+constexpr Index kBeyond = 3;
+/// Share of the way to the nearest other frequency that a step may take.
+constexpr double kShareOfGap = 0.1;
+
+class Differences {
+ public:
+  Differences(const ManipulatorDesign& design, const Pose& pose, const DesignParameter& parameter,
+              Index count)
+      : design_(design), pose_(pose), parameter_(parameter), count_(count) {}
+
+  FrequencyDifferences run(double relative_step) {
+    const VectorXd all = begin();
+    if (!result_.outcome.solved()) return result_;
+    result_.step = first_step(all, relative_step * parameter_value(design_, parameter_));
+    extrapolate(result_.step);
+    return result_;
+  }
+
+  FrequencyDifferences once(double relative_step, bool both) {
+    const VectorXd all = begin();
+    if (!result_.outcome.solved()) return result_;
+    result_.step = relative_step * parameter_value(design_, parameter_);
+    if (both) {
+      result_.derivative = central(result_.step);
+    } else {
+      const VectorXd above = frequencies(result_.step);
+      if (above.size() < count_) return result_;
+      result_.derivative = (above.head(count_) - all.head(count_)) / result_.step;
+    }
+    return result_;
+  }
+
+ private:
+  /// The frequencies of the design itself.
+  VectorXd begin() {
+    VectorXd all = frequencies(0);
+    result_.frequency = all.head(std::min(count_, all.size()));
+    count_ = result_.frequency.size();
+    result_.derivative = VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
+    result_.doubt = VectorXd::Constant(count_, std::numeric_limits<double>::infinity());
+    if (result_.outcome.solved()) sets_ = equal_frequencies(all);
+    return all;
+  }
+
+  VectorXd frequencies(double change) {
+    const ManipulatorDesign design = changed(design_, parameter_, change);
+    const ModalSolution modes =
+        solve_modes(assemble(build_manipulator(design, pose_)), {.count = count_ + kBeyond});
+    result_.counters += modes.counters;
+    if (!modes.outcome.solved()) result_.outcome = modes.outcome;
+    return modes.frequency;
+  }
+
+  [[nodiscard]] bool within_reach(double change) const {
+    const ManipulatorDesign design = changed(design_, parameter_, change);
+    return inverse_kinematics(design.geometry, pose_).outcome.solved();
+  }
+
+  VectorXd central(double step) {
+    const VectorXd above = frequencies(step);
+    const VectorXd below = frequencies(-step);
+    const Index needed = sets_.empty() ? 0 : sets_.back().first + sets_.back().count;
+    if (std::min(above.size(), below.size()) < needed) {  // their modes did not converge
+      return VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
+    }
+    VectorXd rate = VectorXd::Zero(count_);
+    for (const FrequencySet& set : sets_) {
+      for (Index k = 0; k < set.count && set.first + k < count_; ++k) {
+        rate[set.first + k] =
+            (above[set.first + k] - below[set.first + set.count - 1 - k]) / (2 * step);
+      }
+    }
+    return rate;
+  }
+
+  /// No longer than asked; ten such steps stay within reach, and no set comes near its neighbour.
+  double first_step(const VectorXd& all, double step) {
+    while (!within_reach(10 * step) || !within_reach(-10 * step)) step /= 2;
+    const double fastest = central(1e-3 * step).cwiseAbs().maxCoeff();
+    for (std::size_t i = 1; i < sets_.size(); ++i) {
+      const double gap = all[sets_[i].first] - all[sets_[i].first - 1];
+      step = std::min(step, kShareOfGap * gap / fastest);
+    }
+    return step;
+  }
+
+  void extrapolate(double step) {
+    std::vector<VectorXd> before;
+    for (int i = 0; i < kRows; ++i, step /= kRatio) {
+      std::vector<VectorXd> row = {central(step)};
+      double factor = 1;
+      for (std::size_t k = 0; k < before.size(); ++k) {
+        factor *= kRatio * kRatio;
+        row.emplace_back((factor * row[k] - before[k]) / (factor - 1));
+        keep(row[k + 1], row[k], before[k]);
+      }
+      before = std::move(row);
+    }
+  }
+
+  void keep(const VectorXd& next, const VectorXd& fine, const VectorXd& coarse) {
+    for (Index n = 0; n < count_; ++n) {
+      const double doubt = std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
+      if (!(doubt < result_.doubt[n])) continue;
+      result_.doubt[n] = doubt;
+      result_.derivative[n] = next[n];
+    }
+  }
+
+  const ManipulatorDesign& design_;
+  const Pose& pose_;
+  const DesignParameter& parameter_;
+  Index count_;
+  std::vector<FrequencySet> sets_;
+  FrequencyDifferences result_;
+};
+
+}  // namespace
+
+FrequencyDifferences differentiate_frequencies(const ManipulatorDesign& design, const Pose& pose,
+                                               const DesignParameter& parameter, Index count,
+                                               double relative_step) {
+  return Differences(design, pose, parameter, count).run(relative_step);
+}
+
+FrequencyDifferences difference_quotient(const ManipulatorDesign& design, const Pose& pose,
+                                         const DesignParameter& parameter, Index count,
+                                         double relative_step, bool central) {
+  return Differences(design, pose, parameter, count).once(relative_step, central);
+}
+
+}  // namespace trammel

@@ -1,0 +1,53 @@
+#include "solver/statics/buckling.h"
+
+#include <limits>
+
+#include "solver/statics/postprocessing.h"
+#include "solver/linalg/refinement.h"
+#include "solver/statics/statics.h"
+#include "solver/assembly/strain.h"
+
+namespace trammel {
+
+BucklingSolution solve_buckling(const System& system, const BucklingOptions& options) {
+  BucklingSolution solution;
+  const StaticSolution statics = solve_statics(system);
+  solution.counters = statics.counters;
+  solution.outcome = statics.outcome;
+  if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
+  ElasticState state;
+  state.u = system.T * statics.q;
+  const Prestress forces =
+      prestress(system, state.u, constraint_forces(system, state), body_forces(system));
+  const SparseMatrix softening = -geometric_stiffness(system, forces);
+  if (softening.nonZeros() == 0 || softening.coeffs().isZero(0)) return solution;
+  Pencil pencil;
+  pencil.K = &system.K;
+  pencil.B = &softening;
+  pencil.K_times = stiffness_operator(system);
+  pencil.K_products = [&system](const Eigen::MatrixXd& X) {
+    return strain_products(system, system.T * X);
+  };
+  Factorization factorization;
+  factorization.compute(shifted(system.K, softening, 0));
+  ++solution.counters.factorizations;
+  const Eigen::MatrixXd no_null(system.K.rows(), 0);
+  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.path,
+                                             factorization, solution.counters);
+  solution.outcome = pairs.outcome;
+  solution.load_factor = pairs.value;
+  solution.shape = pairs.vector;
+  solution.inertia_count = pairs.inertia_count;
+  solution.roundoff.resize(pairs.value.size());
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
+  const SparseMatrix size = softening.cwiseAbs();
+  for (Index j = 0; j < pairs.value.size(); ++j) {
+    const Eigen::VectorXd x = pairs.vector.col(j);
+    const double elastic = strain_roundoff(system, system.T * x) / pairs.value[j];
+    const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs());
+    solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
+  }
+  return solution;
+}
+
+}  // namespace trammel

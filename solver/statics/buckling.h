@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/linalg/eigenpairs.h"
+#include "solver/model/outcome.h"
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+struct BucklingOptions {
+  Index count = 3;
+  EigenPath path = EigenPath::automatic;
+};
+
+/// Linear buckling K x = -factor K_G x under all loads of the model growing together, K_G from the
+/// forces of first-order statics. Positive factors only: loads in their given sense.
+struct BucklingSolution {
+  Outcome outcome;              ///< singular: the model is a mechanism before any load
+  Eigen::VectorXd load_factor;  ///< ascending [-]; empty where the loads compress nothing
+  /// Estimate of each factor's relative round-off error [-], as in ModalSolution.
+  Eigen::VectorXd roundoff;
+  Eigen::MatrixXd shape;    ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
+  Index inertia_count = 0;  ///< factors below the check shift, by sparse LDL^T
+  Counters counters;
+};
+
+[[nodiscard]] BucklingSolution solve_buckling(const System& system,
+                                              const BucklingOptions& options = {});
+
+}  // namespace trammel

@@ -1,0 +1,307 @@
+#include "solver/statics/postprocessing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "solver/model/nan_max.h"
+#include "solver/model/plane.h"
+#include "solver/assembly/strain.h"
+
+namespace trammel {
+namespace {
+
+using Eigen::VectorXd;
+
+/// Force and moment about the world origin.
+struct Wrench {
+  Vector2d force = Vector2d::Zero();
+  double moment = 0;
+  void add(const Vector2d& at, const Vector2d& f, double m = 0) {
+    force += f;
+    moment += m + cross(at, f);
+  }
+};
+
+/// Section forces along one element: N, V and M, the forces on a face whose normal points from the
+/// first to the second node; EI v'' = M, dM/dx = -V, dV/dx = -qy, dN/dx = -qx.
+struct SectionForces {
+  Vector3d start;
+  Vector3d end;
+  Vector2d load;  ///< (qx, qy) along and across the element [N/m]
+
+  /// Between the ends: parabolas through both moments.
+  [[nodiscard]] Vector3d at(double x, double length) const {
+    const double straight = start[2] + (end[2] - start[2]) * x / length;
+    return {start[0] - load.x() * x, start[1] - load.y() * x,
+            straight - load.y() * x * (length - x) / 2};
+  }
+  /// dM/dx = -V at the first end; V itself is taken across the undeformed axis, and under second
+  /// order theory the axial force adds its share.
+  [[nodiscard]] double slope(double length) const {
+    return (end[2] - start[2]) / length - load.y() * length / 2;
+  }
+};
+
+Vector2d element_axes(const FrameElement& e, const Vector2d& world) {
+  return {e.direction.dot(world), cross(e.direction, world)};
+}
+
+class Recovery {
+ public:
+  Recovery(const System& system, const ElasticState& state, StaticSolution& solution)
+      : system_(system),
+        model_(system.model),
+        state_(state),
+        u_(state.u),
+        multipliers_(constraint_forces(system, state)),
+        axial_(axial_forces(system, u_, multipliers_)),
+        solution_(solution) {}
+
+  void run() {
+    displacements();
+    reactions();
+    members();
+    triangles();
+    equilibrium();
+  }
+
+  [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants() const {
+    Eigen::Matrix<double, Eigen::Dynamic, 6> resultants(
+        static_cast<Index>(system_.mesh.frame.size()), 6);
+    for (Index i = 0; i < resultants.rows(); ++i) {
+      const SectionForces forces = section_forces(static_cast<std::size_t>(i));
+      resultants.row(i) << forces.start.transpose(), forces.end.transpose();
+    }
+    return resultants;
+  }
+
+ private:
+  void displacements() {
+    const auto nodes = static_cast<Index>(model_.nodes.size());
+    solution_.displacement.resize(nodes, 3);
+    for (Index i = 0; i < nodes; ++i) {
+      for (Index k = 0; k < 3; ++k) {
+        const Index c =
+            system_.coordinates.node[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+        solution_.displacement(i, k) = c < 0 ? std::numeric_limits<double>::quiet_NaN() : u_[c];
+      }
+    }
+    const auto members = static_cast<Index>(model_.members.size());
+    solution_.end_rotation.resize(members, 2);
+    for (Index i = 0; i < members; ++i) {
+      for (Index end = 0; end < 2; ++end) {
+        const Index c = system_.coordinates
+                            .member_end[static_cast<std::size_t>(i)][static_cast<std::size_t>(end)];
+        // A bar turns as a whole.
+        solution_.end_rotation(i, end) = c < 0 ? chord_rotation(i) : u_[c];
+      }
+    }
+  }
+
+  [[nodiscard]] double chord_rotation(Index member) const {
+    const auto& nodes = model_.members[static_cast<std::size_t>(member)].nodes;
+    const auto a = static_cast<std::size_t>(nodes[0]);
+    const auto b = static_cast<std::size_t>(nodes[1]);
+    const Vector2d span = model_.nodes[b].position - model_.nodes[a].position;
+    const Vector2d shift =
+        (solution_.displacement.row(nodes[1]) - solution_.displacement.row(nodes[0])).head<2>();
+    return cross(span, shift) / span.squaredNorm();
+  }
+
+  void reactions() {
+    solution_.reaction.setZero(static_cast<Index>(model_.supports.size()), 3);
+    for (std::size_t i = 0; i < system_.constraints.rows.size(); ++i) {
+      const ConstraintRow& row = system_.constraints.rows[i];
+      if (row.source != ConstraintRow::Source::support) continue;
+      const Index u = row.terms.front().first;
+      const auto& node = system_.coordinates.node[static_cast<std::size_t>(
+          model_.supports[static_cast<std::size_t>(row.index)].node)];
+      const Index k = u == node[0] ? 0 : u == node[1] ? 1 : 2;
+      solution_.reaction(row.index, k) = multipliers_[static_cast<Index>(i)];
+    }
+  }
+
+  [[nodiscard]] SectionForces section_forces(std::size_t index) const {
+    const FrameElement& e = system_.mesh.frame[index];
+    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
+    const Vector2d q = state_.load_factor *
+                       element_axes(e, member.load + e.section.mass_per_length * model_.gravity);
+    const Vector6d end = end_forces(e, static_cast<Index>(index), q);
+    return {-end.head<3>(), end.tail<3>(), q};
+  }
+
+  /// Forces that the nodes exert on an element, in its axes: k u + k_G u + m a - f.
+  [[nodiscard]] Vector6d end_forces(const FrameElement& e, Index index, const Vector2d& q) const {
+    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
+    const Vector6d u = detail::gather(e.coordinates, u_);
+    Vector3d s = frame_rigidity(e.section, member.theory, e.length)
+                     .cwiseProduct(frame_deformation(e.direction, e.length) * u);
+    s[0] = axial_[index];
+    Vector6d force = frame_deformation(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
+    if (state_.prestress) {
+      const Prestress& state = *state_.prestress;
+      force += turning_forces(e, member.theory, state.axial[index], state.growth[index], u);
+    }
+    if (state_.acceleration.size() > 0) {
+      const Vector6d a =
+          frame_rotation(e.direction) * detail::gather(e.coordinates, state_.acceleration);
+      force += frame_mass(e.section, member.theory, member.mass, e.length) * a;
+    }
+    if (e.is_bar()) {
+      force.head<2>() -= q * (e.length / 2);
+      force.segment<2>(3) -= q * (e.length / 2);
+      return force;
+    }
+    return force - frame_uniform_load(q, e.length);
+  }
+
+  /// |N| / A + |M| / W at a point of an element; 0 where a taper has come to its point, NaN where
+  /// the section states no area.
+  [[nodiscard]] double stress(const FrameElement& e, double from_start, double x,
+                              const Vector3d& forces) const {
+    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
+    const double length = e.length * static_cast<double>(member.elements);
+    const Section section =
+        interpolate(member.section, member.end_section, std::min(1.0, (from_start + x) / length));
+    const bool tip = (section.area <= 0 && e.section.area > 0) ||
+                     (section.section_modulus <= 0 && e.section.section_modulus > 0);
+    if (tip) return 0;
+    const double bending = forces[2] == 0 ? 0 : std::abs(forces[2]) / section.section_modulus;
+    const double axial = forces[0] == 0 ? 0 : std::abs(forces[0]) / section.area;
+    const double sum = axial + bending;
+    return std::isfinite(sum) ? sum : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  /// Both ends and, under a load across, the two places where |N|/A + |M|/W can be stationary.
+  double largest_stress(const FrameElement& e, double from_start, const SectionForces& f) const {
+    double largest = 0;
+    const auto look = [&](double x) {
+      if (!(x >= 0 && x <= e.length)) return;
+      largest = larger(largest, stress(e, from_start, x, f.at(x, e.length)));
+    };
+    look(0);
+    look(e.length);
+    if (f.load.y() != 0) {
+      const double lever =
+          e.section.area > 0 ? f.load.x() * e.section.section_modulus / e.section.area : 0;
+      const double slope = f.slope(e.length);  // dM/dx = slope + q_y x
+      look((-slope - lever) / f.load.y());
+      look((-slope + lever) / f.load.y());
+    }
+    return largest;
+  }
+
+  void members() {
+    const auto count = static_cast<Index>(model_.members.size());
+    solution_.resultant_start.resize(count, 3);
+    solution_.resultant_end.resize(count, 3);
+    solution_.member_stress.setZero(count);
+    double from_start = 0;
+    for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i) {
+      const FrameElement& e = system_.mesh.frame[i];
+      const bool first = i == 0 || system_.mesh.frame[i - 1].member != e.member;
+      const SectionForces forces = section_forces(i);
+      if (first) from_start = 0;
+      if (first) solution_.resultant_start.row(e.member) = forces.start;
+      solution_.resultant_end.row(e.member) = forces.end;
+      double& largest = solution_.member_stress[e.member];
+      largest = larger(largest, largest_stress(e, from_start, forces));
+      from_start += e.length;
+    }
+  }
+
+  /// (sxx, syy, sxy) of a triangle at a point in area coordinates.
+  [[nodiscard]] Vector3d plate_stress(const Triangle& triangle, const Vector3d& at) const {
+    const Material& material = model_.plates[static_cast<std::size_t>(triangle.plate)].material;
+    if (triangle.quadratic()) {
+      return membrane_stress(material,
+                             triangle6_deformation(model_, triangle, at) *
+                                 detail::gather(system_.coordinates.of<12>(triangle), u_));
+    }
+    return membrane_stress(material, triangle_deformation(corners(model_, triangle)) *
+                                         detail::gather(system_.coordinates.of<6>(triangle), u_));
+  }
+
+  void triangles() {
+    solution_.triangle_stress.resize(static_cast<Index>(model_.triangles.size()), 3);
+    const auto nodes = static_cast<Index>(model_.nodes.size());
+    solution_.node_stress.setZero(nodes, 3);
+    VectorXd area = VectorXd::Zero(nodes);
+    const double h = 0.5;
+    const std::array<Vector3d, 6> places = {Vector3d(1, 0, 0), Vector3d(0, 1, 0),
+                                            Vector3d(0, 0, 1), Vector3d(h, h, 0),
+                                            Vector3d(0, h, h), Vector3d(h, 0, h)};
+    for (std::size_t i = 0; i < model_.triangles.size(); ++i) {
+      const Triangle& triangle = model_.triangles[i];
+      const double size = std::abs(signed_area(corners(model_, triangle)));
+      solution_.triangle_stress.row(static_cast<Index>(i)) =
+          plate_stress(triangle, Vector3d::Constant(1 / 3.0));
+      for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {
+        solution_.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, places[k]);
+        area[triangle.nodes[k]] += size;
+      }
+    }
+    for (Index node = 0; node < nodes; ++node) solution_.node_stress.row(node) /= area[node];
+  }
+
+  /// All that the outside does to the model: loads, reactions, springs to the ground.
+  void equilibrium() {
+    Wrench sum;
+    const auto position = [&](Index node) -> const Vector2d& {
+      return system_.mesh.positions[static_cast<std::size_t>(node)];
+    };
+    for (Index i = 0; i < system_.load.size(); ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      const Index node = system_.coordinates.node_of[c];
+      const bool x = system_.coordinates.node[static_cast<std::size_t>(node)][0] == i;
+      const Vector2d axis = x ? Vector2d::UnitX() : Vector2d::UnitY();
+      if (system_.coordinates.is_rotation[c]) {
+        sum.moment += state_.load_factor * system_.load[i];
+      } else {
+        sum.add(position(node), state_.load_factor * system_.load[i] * axis);
+      }
+    }
+    for (std::size_t i = 0; i < model_.supports.size(); ++i) {
+      const Eigen::RowVector3d r = solution_.reaction.row(static_cast<Index>(i));
+      sum.add(position(model_.supports[i].node), {r[0], r[1]}, r[2]);
+    }
+    for (const Spring& spring : model_.springs) {
+      if (spring.nodes[1] >= 0) continue;
+      const Eigen::RowVector3d u = solution_.displacement.row(spring.nodes[0]);
+      sum.add(position(spring.nodes[0]), {-spring.stiffness[0] * u[0], -spring.stiffness[1] * u[1]},
+              spring.stiffness[2] == 0 ? 0.0 : -spring.stiffness[2] * u[2]);
+    }
+    solution_.equilibrium_residual = sum.force.norm();
+    solution_.moment_residual = std::abs(sum.moment);
+  }
+
+  const System& system_;
+  const Model& model_;
+  const ElasticState& state_;
+  const VectorXd& u_;
+  VectorXd multipliers_;
+  VectorXd axial_;
+  StaticSolution& solution_;
+};
+
+}  // namespace
+
+VectorXd constraint_forces(const System& system, const ElasticState& state) {
+  VectorXd force = internal_forces(system, state.u) - state.load_factor * system.load;
+  if (state.prestress) force += turning_forces(system, *state.prestress, state.u);
+  return system.constraints.multipliers(force);
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants(const System& system,
+                                                            const ElasticState& state) {
+  StaticSolution unused;
+  return Recovery(system, state, unused).element_resultants();
+}
+
+void recover(const System& system, const ElasticState& state, StaticSolution& solution) {
+  Recovery(system, state, solution).run();
+}
+
+}  // namespace trammel

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/assembly/prestress.h"
+#include "solver/statics/statics.h"
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+/// A state from which forces and stresses follow.
+struct ElasticState {
+  Eigen::VectorXd u;             ///< displacements of the unconstrained coordinates [m, rad]
+  double load_factor = 1;        ///< of the system's loads, which act in this state
+  Eigen::VectorXd acceleration;  ///< of the same coordinates; empty: at rest
+  const Prestress* prestress = nullptr;  ///< second-order theory, where given
+};
+
+/// Multipliers of the constraint rows at rest: the forces of supports, rigid bodies and
+/// inextensible members.
+[[nodiscard]] Eigen::VectorXd constraint_forces(const System& system, const ElasticState& state);
+
+/// Frame element x (N, V, M at its first node, N, V, M at its second) [N, N, N m].
+[[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants(
+    const System& system, const ElasticState& state);
+
+/// Fills displacements, forces, stresses and residuals. With an acceleration, section forces hold
+/// the inertia of their element; reactions and residuals do not.
+void recover(const System& system, const ElasticState& state, StaticSolution& solution);
+
+}  // namespace trammel

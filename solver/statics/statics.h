@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "solver/model/outcome.h"
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+struct StaticsOptions {
+  /// Second-order theory: (K + K_G) q = f with the geometric stiffness of the forces that the
+  /// solution has itself, so that tension stiffens and compression softens (see prestress.h).
+  bool second_order = false;
+};
+
+/// Statics K q = f (paper Eq. 11). Section forces N, V, M are those on a face whose normal points
+/// from a member's first to its second node, x along it and y to its left: tension is positive,
+/// EI v'' = M, dM/dx = -V, dV/dx = -q_y, dN/dx = -q_x.
+struct StaticSolution {
+  Outcome outcome;                ///< singular: the reason names the free motion in words
+  Eigen::VectorXd q;              ///< free coordinates; draw them with mesh_motion
+  double digits_left = 0;         ///< about log10(1 / (condition number * eps)), never below 0
+  Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation
+                                  ///< where a node has none
+  Eigen::MatrixX2d end_rotation;  ///< member x (first, second end) [rad]
+  Eigen::MatrixX3d reaction;  ///< support x (Fx, Fy [N], moment [N m]) of the ground on the node
+  Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m]) at its first node
+  Eigen::MatrixX3d resultant_end;    ///< the same at its second node
+  Eigen::VectorXd member_stress;     ///< largest |N/A| + |M|/W along each member [Pa]
+  Eigen::MatrixX3d triangle_stress;  ///< triangle x (sxx, syy, sxy) at its centroid [Pa]
+  /// Model node x (sxx, syy, sxy) [Pa]: mean of the stresses that its triangles have there, each
+  /// weighted by its area; NaN at nodes without triangles.
+  Eigen::MatrixX3d node_stress;
+  double equilibrium_residual = 0;  ///< norm of reactions + loads [N]; the same for moments below
+  double moment_residual = 0;       ///< about the world origin [N m]
+  Counters counters;
+};
+
+[[nodiscard]] StaticSolution solve_statics(const System& system,
+                                           const StaticsOptions& options = {});
+
+}  // namespace trammel

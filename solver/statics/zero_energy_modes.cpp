@@ -1,0 +1,99 @@
+#include "solver/statics/zero_energy_modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cstdint>
+#include <random>
+
+#include "solver/assembly/strain.h"
+
+namespace trammel {
+namespace {
+
+constexpr double kShift = 1e-12;        // of the diagonal
+constexpr double kSuspicious = 1e-9;    // pivots below it make us look
+constexpr double kDeformation = 1e-25;  // of the rounding level: below it, nothing deforms
+constexpr Index kMostMotions = 48;
+
+Eigen::MatrixXd random_block(Index rows, Index cols) {
+  std::mt19937_64 engine(20170204);
+  return Eigen::MatrixXd::NullaryExpr(
+      rows, cols, [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
+}
+
+/// Inverse iteration with K + t D on a block, D the diagonal of K; columns stay orthonormal in D.
+class ShiftedIteration {
+ public:
+  ShiftedIteration(const System& system, Counters& counters)
+      : system_(system), counters_(counters), diagonal_(system.K.diagonal()) {
+    const double largest = diagonal_.size() > 0 ? diagonal_.maxCoeff() : 0;
+    for (Index i = 0; i < diagonal_.size(); ++i) {
+      if (diagonal_[i] <= 0) diagonal_[i] = largest > 0 ? largest : 1;
+    }
+    SparseMatrix shifted = system.K;
+    for (Index i = 0; i < diagonal_.size(); ++i) {
+      shifted.coeffRef(i, i) += kShift * diagonal_[i];
+    }
+    factorization_.compute(shifted);
+    ++counters_.factorizations;
+  }
+
+  /// Ritz vectors by rising strain energy.
+  Eigen::MatrixXd run(Index block) {
+    const Eigen::VectorXd root = diagonal_.cwiseSqrt();
+    Eigen::MatrixXd X = random_block(diagonal_.size(), block);
+    for (int step = 0; step < 3; ++step) {
+      for (Index j = 0; j < block; ++j) X.col(j) = solve(diagonal_.cwiseProduct(X.col(j)));
+      const Eigen::MatrixXd scaled = root.asDiagonal() * X;
+      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
+      X = qr.householderQ() * Eigen::MatrixXd::Identity(X.rows(), block);
+      X = root.cwiseInverse().asDiagonal() * X;
+    }
+    const Eigen::MatrixXd energy = strain_products(system_, system_.T * X);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(energy);
+    return X * ritz.eigenvectors();
+  }
+
+ private:
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
+    Eigen::VectorXd residual = b;
+    for (int step = 0; step < 4; ++step) {
+      x += factorization_.solve(residual);
+      ++counters_.solves;
+      residual = b - system_.T.transpose() * internal_forces(system_, system_.T * x) -
+                 kShift * diagonal_.cwiseProduct(x);
+    }
+    return x;
+  }
+
+  const System& system_;
+  Counters& counters_;
+  Eigen::VectorXd diagonal_;
+  Factorization factorization_;
+};
+
+}  // namespace
+
+FreeMotions find_free_motions(const System& system, const Factorization& K, Counters& counters) {
+  const Index n = system.K.rows();
+  FreeMotions motions{Eigen::MatrixXd(n, 0), true};
+  if (n == 0 || (K.exists() && K.smallest_pivot() > kSuspicious)) return motions;
+  ShiftedIteration iteration(system, counters);
+  for (Index block = std::min<Index>(4, n);; block = std::min({3 * block, n, kMostMotions})) {
+    const Eigen::MatrixXd X = iteration.run(block);
+    Index count = 0;
+    while (count < block) {
+      const Eigen::VectorXd u = system.T * X.col(count);
+      const double energy = strain_products(system, u)(0, 0);
+      // x^T D x = 1 stands for parts that nothing deforms, whatever they do.
+      if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
+      ++count;
+    }
+    motions.basis = X.leftCols(count);
+    motions.all_found = count < block || block == n;
+    if (motions.all_found || block == kMostMotions) return motions;
+  }
+}
+
+}  // namespace trammel

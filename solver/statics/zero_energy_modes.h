@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "solver/linalg/factorization.h"
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+/// Motions of the free coordinates that deform nothing: the null space of K.
+struct FreeMotions {
+  Eigen::MatrixXd basis;  ///< q x count
+  bool all_found = true;  ///< false: there are more than were looked for
+  [[nodiscard]] Eigen::Index count() const { return basis.cols(); }
+};
+
+/// Looks for free motions where the factored K gives cause for it (a small, zero or negative
+/// pivot), by inverse iteration with a slight shift. Whether a motion is free is judged by the
+/// elements' deformations (u^T K u against its own rounding), not by the size of a pivot: a long
+/// slender chain is ill-conditioned, but it is not a mechanism.
+[[nodiscard]] FreeMotions find_free_motions(const System& system, const Factorization& K,
+                                            Counters& counters);
+
+/// "rotation of the platform about (0.25, 0.144) m; node B turns freely".
+[[nodiscard]] std::string describe_free_motions(const System& system, const FreeMotions& motions);
+
+}  // namespace trammel

@@ -1,0 +1,163 @@
+#include "solver/time/harmonic.h"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "solver/linalg/factorization.h"
+#include "solver/statics/zero_energy_modes.h"
+#include "solver/statics/postprocessing.h"
+
+namespace trammel {
+namespace {
+
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using Complex = std::complex<double>;
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// (1 + i w stiffness) K + (i w mass - w^2) M; real without Rayleigh damping.
+VectorXcd solve_rest(const System& system, const RayleighDamping& damping, double omega,
+                     const VectorXd& f) {
+  if (damping.mass == 0 && damping.stiffness == 0) {
+    Factorization factorization;
+    factorization.compute(system.K - omega * omega * system.M);
+    if (!factorization.exists()) {  // on an undamped frequency of its own, to the last bit
+      factorization.compute(system.K - omega * omega * (1 + 1e-9) * system.M);
+    }
+    if (!factorization.exists()) return {};
+    const VectorXd x = factorization.solve(f);
+    const VectorXd residual = f - system.K * x + omega * omega * (system.M * x);
+    return (x + factorization.solve(residual)).cast<Complex>();
+  }
+  const Complex k(1, omega * damping.stiffness);
+  const Complex m(-omega * omega, omega * damping.mass);
+  const Eigen::SparseMatrix<Complex> Z =
+      k * system.K.cast<Complex>() + m * system.M.cast<Complex>();
+  const Eigen::SparseLU<Eigen::SparseMatrix<Complex>> lu(Z);
+  if (lu.info() != Eigen::Success) return {};
+  return lu.solve(f.cast<Complex>());
+}
+
+}  // namespace
+
+HarmonicResponse::HarmonicResponse(const System& system, const HarmonicDamping& damping)
+    : system_(system), damping_(damping), rest_(system.f), counters_(system.counters) {
+  for (const double ratio : damping.modal_ratio) {
+    if (!(std::isfinite(ratio) && ratio >= 0)) {
+      throw ModelError("a damping ratio must be a number that is not negative");
+    }
+  }
+  const auto count = static_cast<Index>(damping.modal_ratio.size());
+  if (count == 0) return;
+  modes_ = solve_modes(system, {count, EigenPath::automatic});
+  counters_ = modes_.counters;
+  outcome_ = modes_.outcome;
+  if (!outcome_.solved()) return;
+  if (modes_.frequency.size() < count) {
+    throw ModelError("there are " + std::to_string(count) + " damping ratios but only " +
+                     std::to_string(modes_.frequency.size()) + " modes");
+  }
+  participation_ = modes_.shape.transpose() * system.f;
+  rest_ -= system.M * (modes_.shape * participation_);
+}
+
+VectorXcd HarmonicResponse::at(double frequency) const {
+  const double omega = kTurn * frequency;
+  VectorXcd q = solve_rest(system_, damping_.rayleigh, omega, rest_);
+  ++counters_.factorizations;
+  ++counters_.solves;
+  if (q.size() == 0) return q;
+  if (participation_.size() > 0) {  // the rest moves no damped mode but by rounding at resonance
+    const VectorXcd image = system_.M * q;
+    q -= modes_.shape * (modes_.shape.transpose() * image);
+  }
+  for (Index j = 0; j < participation_.size(); ++j) {
+    const double wj = kTurn * modes_.frequency[j];
+    const double decay = 2 * damping_.modal_ratio[static_cast<std::size_t>(j)] * wj +
+                         damping_.rayleigh.mass + damping_.rayleigh.stiffness * wj * wj;
+    const Complex amplitude = participation_[j] / Complex(wj * wj - omega * omega, omega * decay);
+    q += amplitude * modes_.shape.col(j).cast<Complex>();
+  }
+  return q;
+}
+
+HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q, double frequency) {
+  const double omega = kTurn * frequency;
+  ElasticState cosine;
+  cosine.u = system.T * q.real();
+  cosine.acceleration = -omega * omega * cosine.u;
+  ElasticState sine;
+  sine.u = system.T * q.imag();
+  sine.acceleration = -omega * omega * sine.u;
+  sine.load_factor = 0;
+  const auto amplitude = [](const auto& a, const auto& b) {
+    return (a.array().square() + b.array().square()).sqrt().matrix().eval();
+  };
+  HarmonicAmplitudes result;
+  result.displacement = amplitude(node_motion(system, q.real()), node_motion(system, q.imag()));
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> in_phase = element_resultants(system, cosine);
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> behind = element_resultants(system, sine);
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, behind);
+  const auto members = static_cast<Index>(system.model.members.size());
+  result.resultant_start.resize(members, 3);
+  result.resultant_end.resize(members, 3);
+  result.member_stress.setZero(members);
+  for (Index i = size.rows(); i-- > 0;) {  // the first element of a member comes last
+    const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
+    const bool last = i + 1 == size.rows() ||
+                      system.mesh.frame[static_cast<std::size_t>(i + 1)].member != e.member;
+    result.resultant_start.row(e.member) = size.row(i).head<3>();
+    if (last) result.resultant_end.row(e.member) = size.row(i).tail<3>();
+    double& stress = result.member_stress[e.member];
+    for (const Index end : {0, 3}) {
+      const Complex N(in_phase(i, end), behind(i, end));
+      const Complex M(in_phase(i, end + 2), behind(i, end + 2));
+      const Complex axial = N == 0.0 ? N : N / e.section.area;
+      const Complex bending = M == 0.0 ? M : M / e.section.section_modulus;
+      const double here = std::max(std::abs(axial + bending), std::abs(axial - bending));
+      stress =
+          std::isfinite(here) ? std::max(stress, here) : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return result;
+}
+
+HarmonicPeak harmonic_peak(const HarmonicResponse& response, double low, double high,
+                           const std::function<double(const VectorXcd&, double)>& amplitude) {
+  constexpr int kScan = 64;
+  std::vector<double> places;
+  for (int i = 0; i <= kScan; ++i) places.push_back(low + (high - low) * i / kScan);
+  for (const double f : response.frequencies()) {
+    if (f > low && f < high) places.push_back(f);
+  }
+  std::sort(places.begin(), places.end());
+  const auto size = [&](double f) {
+    const VectorXcd q = response.at(f);
+    return q.size() == 0 ? 0.0 : amplitude(q, f);
+  };
+  std::size_t best = 0;
+  HarmonicPeak peak{places.front(), -1};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double a = size(places[i]);
+    if (a > peak.amplitude) {
+      peak = {places[i], a};
+      best = i;
+    }
+  }
+  constexpr int kBits = 26;  // half of a double's: a maximum is flat
+  std::uintmax_t evaluations = 100;
+  const auto [frequency, negative] = boost::math::tools::brent_find_minima(
+      [&](double f) { return -size(f); }, places[best > 0 ? best - 1 : 0],
+      places[std::min(best + 1, places.size() - 1)], kBits, evaluations);
+  if (-negative > peak.amplitude) peak = {frequency, -negative};
+  return peak;
+}
+
+}  // namespace trammel

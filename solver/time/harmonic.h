@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "solver/assembly/damping.h"
+#include "solver/modes/modes.h"
+#include "solver/model/outcome.h"
+#include "solver/assembly/system.h"
+
+namespace trammel {
+
+struct HarmonicDamping {
+  RayleighDamping rayleigh;         ///< acts on everything
+  std::vector<double> modal_ratio;  ///< and these on the first modes, one by one [-]
+};
+
+/// Steady response q(t) = Re(q e^{i w t}) to the model's loads varying as cos(w t):
+///   (K + i w C - w^2 M) q = f.
+/// Modes with a damping ratio are superposed; what they leave of the load is solved for directly,
+/// so that no mode is cut off.
+class HarmonicResponse {
+ public:
+  /// @throws ModelError  for a negative or infinite ratio, or fewer modes than ratios.
+  HarmonicResponse(const System& system, const HarmonicDamping& damping);
+
+  /// singular: a mechanism; not_converged: the modes are not all found
+  [[nodiscard]] const Outcome& outcome() const { return outcome_; }
+  /// Of the damped modes [Hz].
+  [[nodiscard]] const Eigen::VectorXd& frequencies() const { return modes_.frequency; }
+
+  /// @param frequency  [Hz]
+  /// @return  empty where the undamped rest resonates exactly
+  [[nodiscard]] Eigen::VectorXcd at(double frequency) const;
+
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+ private:
+  const System& system_;
+  HarmonicDamping damping_;
+  ModalSolution modes_;
+  Eigen::VectorXd participation_;  // Phi^T f
+  Eigen::VectorXd rest_;           // f - M Phi Phi^T f
+  Outcome outcome_;
+  mutable Counters counters_;
+};
+
+/// Amplitudes over a cycle.
+struct HarmonicAmplitudes {
+  Eigen::MatrixX3d displacement;     ///< model node x (ux, uy [m], rotation [rad])
+  Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m])
+  Eigen::MatrixX3d resultant_end;
+  Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of its elements [Pa]
+};
+
+/// @param q  the response at `frequency` [Hz]; section forces hold the inertia of their element
+[[nodiscard]] HarmonicAmplitudes harmonic_amplitudes(const System& system,
+                                                     const Eigen::VectorXcd& q, double frequency);
+
+struct HarmonicPeak {
+  double frequency = 0;  ///< [Hz]
+  double amplitude = 0;  ///< in the unit of what is looked at
+};
+
+/// The largest amplitude between two frequencies: scanned at even steps and at the damped modes'
+/// frequencies, then closed in on by golden section to about 1e-9 of the frequency.
+/// @param amplitude  of a response at a frequency [Hz]
+[[nodiscard]] HarmonicPeak harmonic_peak(
+    const HarmonicResponse& response, double low, double high,
+    const std::function<double(const Eigen::VectorXcd&, double)>& amplitude);
+
+}  // namespace trammel

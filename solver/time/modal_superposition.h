@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/assembly/system.h"
+#include "solver/time/transient.h"
+
+/// The exact response of a model with constant matrices to a load that is linear between given
+/// times: the reference for the integrators in time, and the cheap way where few modes matter.
+namespace trammel {
+
+/// f(t) = pattern * factor(t); factor is linear between the times, constant outside them, and jumps
+/// where a time is given twice.
+struct PiecewiseLinearLoad {
+  Eigen::MatrixXd pattern;   ///< coordinate x load [SI]
+  std::vector<double> time;  ///< ascending [s]
+  Eigen::MatrixXd factor;    ///< load x time [-]
+
+  /// The value at t; at a jump, the value after it.
+  void at(double t, Eigen::VectorXd& f) const;
+  /// Makes it the load of the equation, with its times as breakpoints.
+  void act_on(EquationOfMotion& equation) const;
+};
+
+/// From `start` on, the load does not change.
+[[nodiscard]] PiecewiseLinearLoad step_load(const Eigen::VectorXd& pattern, double start = 0);
+
+/// Modes to superpose, with x^T M x = 1 (paper Eq. 33).
+struct ModalBasis {
+  Eigen::VectorXd omega;  ///< ascending [rad/s]; 0 for rigid motions
+  Eigen::MatrixXd shape;  ///< coordinate x mode
+};
+
+/// Every mode of finite frequency, by dense algebra of order n^3: small models only. Coordinates
+/// without mass follow statically and have no mode. M is not factored.
+/// @throws ModelError  where M and K do not have the same size.
+[[nodiscard]] ModalBasis every_mode(const SparseMatrix& M, const SparseMatrix& K);
+
+/// Response at ascending times: coordinate x time.
+struct ModalResponse {
+  Eigen::MatrixXd q, v, a;  ///< [SI], [SI/s], [SI/s^2]; at a jump, a is the value after it
+};
+
+/// @param decay  ratio * omega of each mode [1/s] (`decay_rates`); above omega it is overdamped
+/// @param q0, v0  state at times.front(), projected on the modes; empty: zero
+/// @throws ModelError  where sizes differ or times do not ascend.
+[[nodiscard]] ModalResponse superpose(const ModalBasis& basis, const Eigen::VectorXd& decay,
+                                      const SparseMatrix& M, const PiecewiseLinearLoad& load,
+                                      const std::vector<double>& times, const Eigen::VectorXd& q0,
+                                      const Eigen::VectorXd& v0);
+
+}  // namespace trammel

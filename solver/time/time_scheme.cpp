@@ -1,0 +1,90 @@
+#include "solver/time/time_scheme.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+#include "solver/model/model.h"
+
+namespace trammel {
+namespace {
+
+/// Growth by round-off of what should keep its size exactly.
+constexpr double kBounded = 1 + 1e-9;
+
+}  // namespace
+
+TimeScheme newmark(double beta, double gamma) {
+  if (!(beta >= 0)) throw ModelError("Newmark's beta must not be negative");
+  if (!(gamma >= 0.5)) throw ModelError("Newmark's gamma must be at least 1/2");
+  return {.alpha_m = 0, .alpha_f = 0, .beta = beta, .gamma = gamma};
+}
+
+TimeScheme average_acceleration() {
+  return newmark(0.25, 0.5);
+}
+TimeScheme linear_acceleration() {
+  return newmark(1.0 / 6.0, 0.5);
+}
+TimeScheme central_difference() {
+  return newmark(0, 0.5);
+}
+
+TimeScheme hht_alpha(double alpha) {
+  if (!(alpha >= -1.0 / 3.0 && alpha <= 0)) throw ModelError("HHT's alpha must be in [-1/3, 0]");
+  return {
+      .alpha_m = 0, .alpha_f = -alpha, .beta = (1 - alpha) * (1 - alpha) / 4, .gamma = 0.5 - alpha};
+}
+
+TimeScheme generalized_alpha(double radius) {
+  if (!(radius >= 0 && radius <= 1)) throw ModelError("the spectral radius must be in [0, 1]");
+  const double alpha_m = (2 * radius - 1) / (radius + 1);
+  const double alpha_f = radius / (radius + 1);
+  const double half = (1 - alpha_m + alpha_f) / 2;
+  return {.alpha_m = alpha_m,
+          .alpha_f = alpha_f,
+          .beta = half * half,
+          .gamma = 0.5 - alpha_m + alpha_f};
+}
+
+int order(const TimeScheme& scheme) {
+  const double defect = scheme.gamma - (0.5 - scheme.alpha_m + scheme.alpha_f);
+  return std::abs(defect) < 1e-12 ? 2 : 1;
+}
+
+double spectral_radius(const TimeScheme& s, double phase_step, double damping_ratio) {
+  // State (q, h v, h^2 a) of the oscillator h^2 A = -2 zeta W (h v) - W^2 q with W = w h.
+  const double k = phase_step * phase_step;
+  const double c = 2 * damping_ratio * phase_step;
+  Eigen::Matrix3d left;
+  Eigen::Matrix3d right;
+  left << 1, 0, -s.beta,  //
+      0, 1, -s.gamma,     //
+      (1 - s.alpha_f) * k, (1 - s.alpha_f) * c, 1 - s.alpha_m;
+  right << 1, 1, 0.5 - s.beta,  //
+      0, 1, 1 - s.gamma,        //
+      -s.alpha_f * k, -s.alpha_f * c, -s.alpha_m;
+  const Eigen::Matrix3d step = left.partialPivLu().solve(right);
+  return step.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+double stability_limit(const TimeScheme& scheme) {
+  constexpr double kFar = 1e3;
+  double unstable = kFar;
+  double stable = kFar;
+  for (double phase = 1e-2; phase < kFar; phase *= 1.1) {
+    if (spectral_radius(scheme, phase) > kBounded) {
+      unstable = phase;
+      stable = phase / 1.1;
+      break;
+    }
+  }
+  if (stable == kFar) return std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (stable + unstable) / 2;
+    (spectral_radius(scheme, middle) > kBounded ? unstable : stable) = middle;
+  }
+  return stable;
+}
+
+}  // namespace trammel

@@ -1,0 +1,59 @@
+#include <boost/test/unit_test.hpp>
+
+#include "harness/analysis/analysis.h"
+#include "harness/input/catalogue.h"
+#include "harness/input/reference_library.h"
+#include "harness/analysis/case_effects.h"
+
+using namespace trammel;
+
+namespace {
+
+/// The case at the first point of its path, or on the way to the second: what is evaluated there is
+/// evaluated everywhere.
+Document at_one_point(Document document) {
+  const std::string file = document.origin("").file;
+  const JsonPointer circle("/model/trajectory/circle");
+  if (document.value().contains(circle)) {
+    const int points = analysis_kind(document) == "elastodynamics" ? 2 : 1;
+    document.lay(file, "", Json{{"model", {{"trajectory", {{"circle", {{"points", points}}}}}}}});
+  }
+  return document;
+}
+
+void check_counters(const Document& document, const References& references) {
+  const AnalysisResult result = analyse(document, references, {false});
+  BOOST_TEST(result.effects.size() == effect_count);
+  for (const EffectReason& one : result.effects) {
+    if (one.on) continue;
+    BOOST_TEST(result.counters.of(one.effect) == 0, name_of(one.effect));
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(effect_counters)
+
+/// Every case whose analysis knows effects, with every variant: as it stands, and with nothing that
+/// it can do without.
+BOOST_AUTO_TEST_CASE(what_is_off_is_never_evaluated_in_the_whole_catalogue) {
+  const References references;
+  std::size_t runs = 0;
+  for (const Case& given : load_catalogue({})) {
+    if (!knows_effects(given.document)) continue;
+    for (const std::string& variant : given.variants()) {
+      const Document document = at_one_point(patched(given, variant));
+      if (!knows_effects(document)) continue;
+      BOOST_TEST_CONTEXT(given.id() << ":" << variant) {
+        check_counters(document, references);
+        const EffectScope scope = effect_scope(document, read_scene(document));
+        check_counters(with_effects(document, scope.required), references);
+        ++runs;
+      }
+    }
+  }
+  BOOST_TEST_MESSAGE(runs << " runs, each as it stands and without all that it can do without");
+  BOOST_TEST(runs > 100);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,149 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "harness/input/catalogue.h"
+#include "harness/studies/effect_study.h"
+#include "harness/cli/print_effects.h"
+#include "harness/input/reference_library.h"
+#include "tests/support/harness/analysing.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+using testing::result_of;
+
+namespace {
+
+Json timoshenko_cantilever() {
+  Json json = testing::cantilever();
+  json["model"]["members"]["AB"]["beam"] = "timoshenko";
+  return json;
+}
+
+std::string fault(const Json& json) {
+  return complaint([&] { (void)result_of(json); });
+}
+
+double tip(const AnalysisResult& result) {
+  return result.quantities.at("displacement_y_m:B").values.at(0);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(effects)
+
+BOOST_AUTO_TEST_CASE(effects_by_name_are_what_there_is) {
+  Json json = timoshenko_cantilever();
+  const double whole = tip(result_of(json));
+  json["effects"] = {"axial-flexibility"};
+  const AnalysisResult plain = result_of(json);
+  const double bending = 100 * 8 / (3 * 2e11 * 0.05 * 1e-3 / 12);
+  BOOST_TEST(tip(plain) == bending, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(tip(plain) < whole);
+  BOOST_TEST(plain.counters.of(Effect::shear) == 0);
+  BOOST_TEST(plain.counters.of(Effect::inertia) == 0);
+  BOOST_TEST(plain.counters.of(Effect::axial_flexibility) == 4);
+}
+
+BOOST_AUTO_TEST_CASE(geometric_stiffening_by_name_is_second_order_theory) {
+  Json json = testing::cantilever();
+  json["model"]["loads"]["tip"]["force_N"] = {-1e5, 100};
+  json["analysis"]["statics"]["second_order"] = true;
+  const double stated = tip(result_of(json));
+  json["effects"] = {"axial-flexibility", "geometric-stiffening"};
+  BOOST_TEST(contains(fault(json), "expected 'effects' alone to say it"));
+  json["analysis"]["statics"] = Json::object();
+  BOOST_TEST(tip(result_of(json)) == stated);
+}
+
+BOOST_AUTO_TEST_CASE(what_the_parts_do_not_have_cannot_be_asked_for) {
+  Json json = testing::cantilever();
+  json["effects"] = {"shear"};
+  BOOST_TEST(contains(fault(json),
+                      "/effects/0: expected an effect that the scene admits (got "
+                      "'shear': the members do not shear ('beam'))"));
+  json["effects"] = {"large-displacement"};
+  BOOST_TEST(contains(fault(json), "expected 'geometric-stiffening' beside 'large-displacement'"));
+  json["effects"] = {"sheer"};
+  BOOST_TEST(contains(fault(json), "did you mean"));
+  json["effects"] = Json::array();
+  json["analysis"] = {{"properties", Json::object()}};
+  BOOST_TEST(contains(fault(json), "expected an analysis that knows effects"));
+}
+
+BOOST_AUTO_TEST_CASE(automatic_effects_say_why) {
+  Json json = timoshenko_cantilever();
+  json["effects"] = {{"auto", {{"tolerance", 0.01}}}};
+  const AnalysisResult slender = result_of(json);
+  // 3 E I / (kappa G A L^2) = 3 * 2.6 / (5/6 * 12) * (0.1 / 2)^2 = 0.2 %.
+  const EffectReason& shear = slender.effects.at(static_cast<std::size_t>(Effect::shear));
+  BOOST_TEST(!shear.on);
+  BOOST_TEST(*shear.change == 0.00195, boost::test_tools::tolerance(2e-3));
+  BOOST_TEST(contains(shear.why, "without it the results change by 0.195 %"));
+  json["effects"]["auto"]["tolerance"] = 0.001;
+  BOOST_TEST(result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).on);
+}
+
+BOOST_AUTO_TEST_CASE(a_study_measures_what_was_estimated) {
+  const Folder folder;
+  const Document document = patched(testing::read(folder, timoshenko_cantilever()), "base");
+  const EffectStudy study = study_effects(document, {0.01, true, 0});
+  BOOST_TEST(study.within());
+  BOOST_TEST(study.minimal());
+  for (const LeftOut& one : study.singles) {
+    if (one.effects.front() != Effect::shear) continue;
+    BOOST_TEST(one.run.changes.at("displacement") == 0.00195, boost::test_tools::tolerance(2e-3));
+    BOOST_TEST(one.run.changes.at("force") < 1e-6);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_scene_calls_for_the_effects_that_it_was_made_for) {
+  const std::map<std::string, std::string> expected = {
+      {"scene-10-newton", "geometric-stiffening and large-displacement"},
+      {"scene-clamped-strip", "axial-flexibility, geometric-stiffening and large-displacement"},
+      {"scene-column", "axial-flexibility and geometric-stiffening"},
+      {"scene-fast-circle", "axial-flexibility, link-mass, inertia and damping"},
+      {"scene-fastest-circle", "axial-flexibility, link-mass, inertia and damping"},
+      {"scene-gravity-in-plane", "link-mass, gravity, geometric-stiffening and large-displacement"},
+      {"scene-hanging-strip", "link-mass, gravity, inertia and geometric-stiffening"},
+      {"scene-heavy-load-in-gravity", "link-mass and gravity"},
+      {"scene-heavy-platform", "inertia"},
+      {"scene-light-load", "none"},
+      {"scene-slow-circle", "axial-flexibility"},
+      {"scene-soft-joints", "joint-compliance"},
+      {"scene-soft-platform", "platform-flexibility"},
+      {"scene-spinning-link", "link-mass, inertia and geometric-stiffening"},
+      {"scene-stubby-beam-modes", "shear, rotary-inertia, link-mass and inertia"},
+      {"scene-table-1-modes", "link-mass and inertia"},
+      {"scene-thick-link-modes",
+       "axial-flexibility, shear, platform-flexibility, link-mass and inertia"},
+      {"scene-thick-links", "axial-flexibility, shear and platform-flexibility"},
+      {"scene-tightened-strip", "link-mass, inertia and geometric-stiffening"},
+      {"scene-welded-truss", "axial-flexibility"},
+  };
+  BOOST_TEST(expected.size() >= 12);
+  for (const Case& scene : load_catalogue({"effects"})) {
+    const Document document = patched(scene, base_variant);
+    const EffectStudy study = study_effects(document, {0.01, false, 0});
+    BOOST_TEST_CONTEXT(scene.id()) {
+      BOOST_TEST(study.within());
+      // What the tenth in hand keeps: weight and load bend the links by just 0.98 %.
+      BOOST_TEST((study.minimal() || scene.id() == "scene-gravity-in-plane"));
+      const auto found = expected.find(scene.id());
+      BOOST_REQUIRE(found != expected.end());
+      BOOST_TEST(effect_names(study.choice.chosen) == found->second);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_change_that_is_not_a_number_is_not_forgotten_over_the_next) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  const Quantities full = {{"displacement_x_m:B", {{1, 2, 3}, {}}}};
+  const Quantities other = {{"displacement_x_m:B", {{nothing, 2, 3.1}, {}}}};
+  BOOST_TEST(std::isinf(largest(changes_between(full, other, 1))));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

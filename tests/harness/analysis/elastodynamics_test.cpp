@@ -1,0 +1,76 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "tests/support/harness/analysing.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::result_of;
+using testing::values;
+
+namespace {
+
+/// The manipulator of Table 1 with a rigid platform, two poses of which make a path.
+Json motion(const Json& trajectory) {
+  Json json = Json::parse(R"({
+    "id": "motion", "title": "A motion",
+    "model": {
+      "manipulator": {
+        "base_side_m": 0.5,
+        "links": {"proximal_length_m": 0.2, "distal_length_m": 0.2, "thickness_m": 0.0015,
+                  "width_m": 0.03, "elements": 1},
+        "platform": {"kind": "rigid", "side_m": 0.2, "thickness_m": 0.0015},
+        "material": {"E_Pa": 6.9e10, "rho_kg_m3": 2700, "nu": 0.33},
+        "joints": {"active": "locked", "elbow": "welded", "platform": "hinged"},
+        "working_mode": [-1, -1, -1]
+      },
+      "loads": {"F": {"node": "P", "force_N": [1, 0]}}
+    },
+    "analysis": {"elastodynamics": {"step_s": 0.001, "start": "quasi-static"}}
+  })");
+  json["model"]["trajectory"] = trajectory;
+  return json;
+}
+
+Json between(const char* kind, double way) {
+  Json path = Json::parse(R"({"duration_s": 0.1, "points": 6, "step_s": 0.02,
+    "from": {"x_m": 0.25, "y_m": 0.144, "phi_rad": 0}, "to": {"y_m": 0.144, "phi_rad": 0}})");
+  path["to"]["x_m"] = 0.25 + way;
+  return {{kind, path}};
+}
+
+Json& options(Json& json) {
+  return json["analysis"]["elastodynamics"];
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(elastodynamics)
+
+BOOST_AUTO_TEST_CASE(a_platform_at_constant_speed_does_not_stand_still) {
+  // without acceleration its path frequency is nothing, and it was once compared with a pose held
+  Json json = motion(between("line", 0.01));
+  options(json)["step_errors"] = true;
+  const AnalysisResult moving = result_of(json);
+  BOOST_TEST(values(moving, "step_change:P").size() == 6U);
+  BOOST_TEST(moving.quantities.count("integration_error:P") == 0U);
+  json["model"]["trajectory"] = between("line", 0);
+  const AnalysisResult still = result_of(json);
+  BOOST_TEST(values(still, "integration_error:P").size() == 6U);
+}
+
+BOOST_AUTO_TEST_CASE(what_shuts_each_other_out_is_refused_by_name) {
+  Json rates = motion(between("line", 0.01));
+  options(rates)["effects"] = {{"elastic_inertia", false}, {"transformation_rate_terms", true}};
+  const std::string terms = complaint([&] { static_cast<void>(result_of(rates)); });
+  BOOST_TEST(contains(terms, "/analysis/elastodynamics/effects/transformation_rate_terms"), terms);
+
+  Json modes = motion(between("rest_to_rest", 0.01));
+  options(modes)["modal_superposition"] = true;
+  const std::string moves = complaint([&] { static_cast<void>(result_of(modes)); });
+  BOOST_TEST(contains(moves, "/analysis/elastodynamics/modal_superposition"), moves);
+  BOOST_TEST(contains(moves, "stands still"), moves);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,120 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/harness/analysing.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::only;
+using testing::result_of;
+
+namespace {
+
+/// A crank of 1 m, a rod of 2 m and a slider that it moves along x.
+Json slider_crank() {
+  return Json::parse(R"({
+    "id": "slider-crank", "title": "A slider-crank",
+    "model": {
+      "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}},
+      "sections": {"bar": {"material": "steel", "rectangle": {"thickness_m": 0.1, "width_m": 0.05}}},
+      "nodes": {"O": [0, 0], "A": [0, 1], "S": [1.7320508075688772, 0]},
+      "members": {
+        "crank": {"nodes": ["O", "A"], "section": "bar"},
+        "rod": {"nodes": ["A", "S"], "section": "bar", "ends": ["hinged", "hinged"]}
+      },
+      "supports": {"O": ["x", "y"]},
+      "sliders": {"S": {"node": "S", "direction_rad": 0}},
+      "loads": {"push": {"node": "S", "force_N": [-1000, 0]}}
+    },
+    "analysis": {"large-motion": {
+      "end_time_s": 1, "step_s": 0.01,
+      "drives": {"motor": {"node": "O", "motion": "rotation",
+                           "law": {"rest_to_rest": {"travel": 1, "duration_s": 1}}}}
+    }}
+  })");
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(large_analysis)
+
+BOOST_AUTO_TEST_CASE(small_loads_give_what_linear_statics_gives) {
+  Json json = testing::cantilever();
+  json["model"]["loads"]["tip"]["force_N"] = {0, 0.1};
+  const AnalysisResult linear = result_of(json);
+  json["analysis"] = {{"large-statics", Json::object()}};
+  const AnalysisResult exact = result_of(json);
+  for (const char* name : {"displacement_y_m:B", "rotation_rad:B", "reaction_y_N:A",
+                           "reaction_moment_N_m:A", "bending_moment_N_m:AB.start"}) {
+    BOOST_TEST(only(exact, name) == only(linear, name), boost::test_tools::tolerance(1e-9));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_load_factor_has_its_number) {
+  Json json = testing::cantilever();
+  json["analysis"] = {{"large-statics", {{"load_factors", {1, 100, 10000}}}}};
+  const AnalysisResult result = result_of(json);
+  const auto& moved = result.quantities.at("displacement_y_m:B").values;
+  BOOST_REQUIRE(moved.size() == 3U);
+  BOOST_TEST(moved[1] < 100 * moved[0]);
+  BOOST_TEST(moved[2] < 2);
+  BOOST_TEST(result.quantities.at("load_factor").values[2] == 10000);
+}
+
+BOOST_AUTO_TEST_CASE(a_slider_crank_turns_and_its_slider_stays_on_the_line) {
+  const AnalysisResult result = result_of(slider_crank());
+  BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
+  for (const double y : result.quantities.at("position_y_m:S").values) {
+    BOOST_TEST(std::abs(y) < 1e-12);
+  }
+  // The crank has turned by 1 rad to the left of upright; links stretch and bend by 1e-4 at most.
+  const double angle = std::numbers::pi / 2 + 1;
+  const double x = std::cos(angle) + std::sqrt(4 - std::sin(angle) * std::sin(angle));
+  BOOST_TEST(std::abs(result.quantities.at("position_x_m:S").values.back() - x) < 1e-3);
+  BOOST_TEST(only(result, "constraint_gap") < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(linear_statics_knows_sliders_and_pins) {
+  Json json = slider_crank();
+  json["analysis"] = {{"statics", Json::object()}};
+  json["model"]["supports"]["O"] = {"x", "y", "rotation"};
+  const AnalysisResult linear = result_of(json);
+  BOOST_REQUIRE(linear.outcome.solved());
+  BOOST_TEST(only(linear, "displacement_y_m:S") == 0.0);
+  json["model"]["loads"]["push"]["force_N"] = {-1, 0};
+  const double moved = only(result_of(json), "displacement_x_m:S");
+  json["analysis"] = {{"large-statics", Json::object()}};
+  BOOST_TEST(only(result_of(json), "displacement_x_m:S") == moved,
+             boost::test_tools::tolerance(1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(linear_analyses_refuse_what_only_large_motion_has) {
+  Json json = slider_crank();
+  json["analysis"] = {{"statics", Json::object()}};
+  json["model"]["line_springs"] = {{"k", {{"nodes", {"O", "S"}}, {"stiffness_N_per_m", 1000}}}};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "large-statics or large-motion"));
+}
+
+BOOST_AUTO_TEST_CASE(wrong_names_and_distant_pins_are_told_with_their_place) {
+  Json json = slider_crank();
+  json["analysis"]["large-motion"]["drives"]["motor"]["node"] = "A ";
+  const std::string wrong = complaint([&] { (void)result_of(json); });
+  BOOST_TEST(contains(wrong, "/analysis/large-motion/drives/motor/node"), wrong);
+  BOOST_TEST(contains(wrong, "did you mean 'A'"), wrong);
+  json = slider_crank();
+  json["model"]["pins"] = {{"p", {{"nodes", {"A", "S"}}}}};
+  const std::string apart = complaint([&] { (void)result_of(json); });
+  BOOST_TEST(contains(apart, "/model/pins/p/nodes"), apart);
+}
+
+BOOST_AUTO_TEST_CASE(steps_that_do_not_converge_name_the_step_and_the_time) {
+  Json json = slider_crank();
+  json["analysis"]["large-motion"]["steps"] = 3;
+  const AnalysisResult result = result_of(json);
+  BOOST_TEST((result.outcome.status == Status::not_converged));
+  BOOST_TEST(contains(result.outcome.reason, "step 4 at time 0.03 s"), result.outcome.reason);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

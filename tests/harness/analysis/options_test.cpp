@@ -1,0 +1,81 @@
+#include <boost/test/unit_test.hpp>
+#include <set>
+
+#include "harness/analysis/analysis.h"
+#include "harness/input/catalogue.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::Folder;
+
+namespace {
+
+/// A pendulum that asks for more steps than it may take.
+const char* const pendulum = R"({"id": "pendulum", "title": "t",
+  "model": {"nodes": {"O": [0, 0], "B": [-1, 0]}, "rigid_bodies": {"rod": {"reference": "O", "nodes": ["B"]}},
+            "point_masses": {"bob": {"node": "B", "mass_kg": 1}}, "supports": {"O": ["x", "y"]},
+            "gravity_m_s2": [0, -9.81]},
+  "analysis": {"large-motion": {"end_time_s": 1, "step_s": 0.01}},
+  "variants": {"fine": {"analysis": {"large-motion": {"step_s": 0.001}}}}})";
+
+Quantities tried(const Json& of) {
+  const Folder folder;
+  static_cast<void>(folder.write("pendulum.json", pendulum));
+  const Json json = {
+      {"id", "options"},
+      {"title", "t"},
+      {"analysis", {{"options", {{"cases", {{"pendulum", Json::object()}}}, {"of", of}}}}}};
+  const References references;
+  return analyse(patched(load_case(folder.write(json)), "base"), references, {false}).quantities;
+}
+
+double number(const Quantities& quantities, const char* name) {
+  return quantities.at(name).values.at(0);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(options)
+
+BOOST_AUTO_TEST_CASE(every_combination_is_tried_on_every_variant) {
+  const Quantities found =
+      tried({{"large-motion", {{"vary", {{"degree", {1, 2, 3}}, {"spectral_radius", {0.5, 1}}}}}}});
+  BOOST_TEST(number(found, "tried") == 12);
+  BOOST_TEST(number(found, "tried:pendulum") == 12);
+  BOOST_TEST(number(found, "solved") == 12);
+  BOOST_TEST(number(found, "not_finite") == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_reason_without_its_words_is_counted) {
+  const Json set = {{"steps", 3}};
+  const Json said = {{"large-motion", {{"set", set}, {"says", {"step", "time"}}}}};
+  BOOST_TEST(number(tried(said), "not_converged") == 2);
+  BOOST_TEST(number(tried(said), "unsaid") == 0);
+  const Json unsaid = {{"large-motion", {{"set", set}, {"says", {"moonshine"}}}}};
+  BOOST_TEST(number(tried(unsaid), "unsaid") == 2);
+}
+
+BOOST_AUTO_TEST_CASE(bad_values_are_refused_and_do_not_end_the_trial) {
+  const Quantities found = tried({{"large-motion", {{"vary", {{"degree", {1, 17}}}}}}});
+  BOOST_TEST(number(found, "refused") == 2);
+  BOOST_TEST(number(found, "solved") == 2);
+}
+
+BOOST_AUTO_TEST_CASE(endings_that_differ_where_none_may_are_an_endless_disagreement) {
+  const Quantities found =
+      tried({{"large-motion", {{"vary", {{"steps", {3, 100000}}}}, {"alike", true}}}});
+  BOOST_TEST(number(found, "disagreement") > 1e300);
+}
+
+BOOST_AUTO_TEST_CASE(the_battery_of_the_catalogue_has_its_fourteen_items) {
+  std::set<int> items;
+  for (const Case& one : load_catalogue({"hard"})) {
+    const Json& document = one.document.value();
+    BOOST_TEST(document.contains("battery"), one.id());
+    if (document.contains("battery")) items.insert(document["battery"]["item"].get<int>());
+  }
+  BOOST_TEST(items.size() == 14U);
+  BOOST_TEST(*items.rbegin() == 14);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

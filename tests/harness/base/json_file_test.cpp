@@ -1,0 +1,68 @@
+#include "harness/base/json_file.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "harness/base/errors.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::complaint;
+
+namespace {
+
+std::string fault(const std::string& text) {
+  return complaint([&] { (void)parse_json(text, "x.json"); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(json_file)
+
+BOOST_AUTO_TEST_CASE(text_that_is_no_json_is_answered_with_its_line_and_column) {
+  BOOST_TEST(fault(R"({"a": nan})").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
+  BOOST_TEST(fault(R"({"a": NaN})").rfind("x.json: line 1, column 7: expected JSON", 0) == 0);
+  BOOST_TEST(fault(R"({"a": 1)").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
+  BOOST_TEST(fault("").rfind("x.json: line 1, column 1: expected JSON", 0) == 0);
+  BOOST_TEST(fault("{} {}").rfind("x.json: line 1, column 4: expected JSON", 0) == 0);
+  BOOST_TEST(fault("{\n  \"a\": 1,\n  \"b\": }\n").rfind("x.json: line 3, column 8: ", 0) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_key_that_stands_twice_is_refused_where_it_stands) {
+  BOOST_TEST(fault(R"({"a": {"b": [0, {"c": 1, "c": 2}]}})") ==
+             "x.json: /a/b/1/c: expected every key once (got 'c' twice)");
+  BOOST_TEST(fault(R"({"a": {"c": 1}, "b": {"c": 2}})").empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_number_beyond_a_double_is_refused) {
+  BOOST_TEST(fault(R"({"a": 1e999})")
+                 .rfind("x.json: line 1, column 11: expected a number that a double can hold", 0) ==
+             0);
+}
+
+BOOST_AUTO_TEST_CASE(bottomless_nesting_does_not_overflow_the_stack) {
+  BOOST_TEST(testing::contains(fault(std::string(1000000, '[')), "levels of nesting"));
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_file_and_a_folder_are_no_readable_files) {
+  const testing::Folder folder;
+  for (const auto& path : {folder.path(), folder.path() / "none.json"}) {
+    BOOST_TEST(complaint([&] { (void)read_json(path); }) ==
+               path.string() + ": expected a readable file");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_written_reads_back_the_same_bit_for_bit) {
+  const Json json = {{"a", {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0}},
+                     {"b", {{"c", "line\nbreak"}, {"d", nullptr}}}};
+  BOOST_TEST((parse_json(pretty(json), "x.json") == json));
+}
+
+BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
+  const testing::Folder folder;
+  write_file(folder.path() / "a.json", "[1]");
+  BOOST_TEST((read_json(folder.path() / "a.json") == Json::array({1})));
+  BOOST_TEST(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+  BOOST_CHECK_THROW(write_file(folder.path() / "none" / "a.json", "[1]"), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,35 @@
+#include "harness/base/quantity.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "harness/base/diagnostic.h"
+
+using namespace trammel;
+
+BOOST_AUTO_TEST_SUITE(quantity)
+
+BOOST_AUTO_TEST_CASE(the_unit_is_the_end_of_the_name) {
+  BOOST_TEST(unit_of("frequency_Hz") == "Hz");
+  BOOST_TEST(unit_of("displacement_x_m:P") == "m");
+  BOOST_TEST(unit_of("reaction_moment_N_m:A1") == "N m");
+  BOOST_TEST(unit_of("reaction_x_N:A1") == "N");
+  BOOST_TEST(unit_of("end_rotation_rad:A1-B1.start") == "rad");
+  BOOST_TEST(unit_of("inertia_kg_m2:total") == "kg m^2");
+  BOOST_TEST(unit_of("stress_Pa:AB") == "Pa");
+  BOOST_TEST(unit_of("difference_percent:rows") == "%");
+  BOOST_TEST(unit_of("parallel_distance") == "1");
+  BOOST_TEST(unit_of("frequency_roundoff") == "1");
+  BOOST_TEST(unit_of("odd:name_m") == "1");
+}
+
+BOOST_AUTO_TEST_CASE(what_says_how_well_was_computed_is_no_result_that_converges) {
+  for (const char* name :
+       {"frequency_roundoff", "equilibrium_residual_N", "step_residual:J", "constraint_gap_rate"}) {
+    BOOST_TEST(is_diagnostic(name), name);
+  }
+  for (const char* name : {"frequency_Hz", "displacement_error", "compliance_J", "x:roundoff"}) {
+    BOOST_TEST(!is_diagnostic(name), name);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

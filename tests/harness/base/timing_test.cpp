@@ -1,0 +1,69 @@
+#include "harness/base/timing.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+
+using namespace trammel;
+
+BOOST_AUTO_TEST_SUITE(timing)
+
+BOOST_AUTO_TEST_CASE(quantiles_lie_between_the_sorted_values) {
+  BOOST_TEST(quantile({3, 1, 2}, 0.5) == 2);
+  BOOST_TEST(quantile({4, 1, 3, 2}, 0.5) == 2.5);
+  BOOST_TEST(quantile({5, 1, 3, 2, 4}, 0.25) == 2);
+  BOOST_TEST(quantile({5, 1, 3, 2, 4}, 1) == 5);
+  BOOST_TEST(quantile({7}, 0.75) == 7);
+}
+
+BOOST_AUTO_TEST_CASE(the_order_is_shuffled_anew_and_the_same_for_a_seed) {
+  std::uint64_t a = 1, b = 1, c = 2;
+  const auto first = shuffled(20, a), second = shuffled(20, a);
+  BOOST_TEST((first != second));
+  BOOST_TEST((first == shuffled(20, b)));
+  BOOST_TEST((first != shuffled(20, c)));
+  auto sorted = first;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < sorted.size(); ++i) BOOST_TEST(sorted[i] == i);
+}
+
+BOOST_AUTO_TEST_CASE(each_repeat_runs_every_work_as_often_as_agreed_before_the_next_begins) {
+  std::vector<std::size_t> calls;
+  std::vector<std::function<void()>> works;
+  for (std::size_t i = 0; i < 3; ++i) works.emplace_back([&calls, i] { calls.push_back(i); });
+  std::vector<std::size_t> after;  // calls after each repeat
+  TimingOptions options;
+  options.shortest_s = 0;
+  const auto timings = time_interleaved(works, options, [&] { after.push_back(calls.size()); });
+  BOOST_TEST_REQUIRE(timings.size() == 3U);
+  BOOST_TEST_REQUIRE(after.size() == 7U);
+  for (std::size_t r = 1; r < after.size(); ++r) {
+    const auto from = calls.begin() + static_cast<std::ptrdiff_t>(after[r - 1]);
+    const auto to = calls.begin() + static_cast<std::ptrdiff_t>(after[r]);
+    for (std::size_t i = 0; i < 3; ++i) BOOST_TEST(std::count(from, to, i) == 1);
+  }
+  for (const Timing& timing : timings) {
+    BOOST_TEST(timing.cpu_s.size() == 7U);
+    BOOST_TEST(timing.runs_each == 1);
+  }
+  // Warm-ups come before the first repeat.
+  BOOST_TEST(after[0] == 3 * 2U + 3U);
+}
+
+BOOST_AUTO_TEST_CASE(a_short_work_is_repeated_until_the_clock_can_tell) {
+  int calls = 0;
+  TimingOptions options;
+  options.shortest_s = 1;  // never reached by an empty work: as often as is allowed
+  const auto timings = time_interleaved({[&] { ++calls; }}, options, {});
+  BOOST_TEST(timings[0].runs_each == 1000);
+  BOOST_TEST(calls == 7 * 1000 + 2);
+}
+
+BOOST_AUTO_TEST_CASE(the_spread_is_the_distance_of_the_quartiles_over_the_median) {
+  Timing timing;
+  timing.median_s = 2;
+  timing.lower_quartile_s = 1.9;
+  timing.upper_quartile_s = 2.4;
+  BOOST_TEST(timing.spread() == 0.25, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

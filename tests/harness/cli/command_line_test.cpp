@@ -1,0 +1,364 @@
+// ctest: labels=program timeout=300
+#include <sys/wait.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cstdlib>
+#include <sstream>
+
+#include "harness/base/json_file.h"
+#include "harness/input/schema.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The program itself, started in the folder.
+Outcome run(const Folder& folder, const std::string& words, const std::string& before = "") {
+  const std::string line = "cd '" + folder.path().string() + "' && " + before +
+                           " '" TRAMMEL_PROGRAM "' " + words + " >out.txt 2>err.txt </dev/null";
+  const int status = std::system(line.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder.path() / "out.txt"),
+          text_of(folder.path() / "err.txt")};
+}
+
+Json judged(double at_most) {
+  Json json = testing::cantilever();
+  json["checks"]["c"] = {{"quantity", "reaction_y_N:A"},
+                         {"statistic", "max_abs"},
+                         {"role", "verification"},
+                         {"bound", {{"at_most", at_most}, {"why", "the load is 100 N"}}}};
+  return json;
+}
+
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(command_line)
+
+BOOST_AUTO_TEST_CASE(the_exit_status_says_how_it_went) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  BOOST_TEST(run(folder, "run cantilever.json").status == 0);
+  (void)folder.write(judged(99));
+  const Outcome failed = run(folder, "run cantilever.json");
+  BOOST_TEST(failed.status == 1);
+  BOOST_TEST(contains(failed.out, "fail"));
+  Json bad = judged(99);
+  bad["model"]["elements"] = -1;
+  (void)folder.write(bad);
+  BOOST_TEST(run(folder, "run cantilever.json").status == 2);
+  for (const char* words : {"", "rn", "run", "run --nonsense x", "run none.json", "run nonesuch",
+                            "describe", "compare a", "run cantilever.json --jobs 0",
+                            "run cantilever.json --variant none", "list -L nolabel"}) {
+    const Outcome outcome = run(folder, words);
+    BOOST_TEST(outcome.status == 2, words);
+    BOOST_TEST(lines(outcome.err) == 1, words << ": " << outcome.err);
+  }
+  for (const char* words : {"--help", "--version", "run --help", "list", "list --json"}) {
+    BOOST_TEST(run(folder, words).status == 0, words);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_in_any_folder_writes_results_that_obey_their_schema) {
+  const Folder folder;
+  (void)folder.write("mine/cantilever.json", judged(101).dump());
+  const Outcome outcome = run(folder, "run mine/cantilever.json --out here/results");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  const Json results = read_json(folder.path() / "here/results/results.json");
+  const auto fault = find_fault(results, "results");
+  BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
+  BOOST_TEST(results["runs"][0]["checks"][0]["verdict"] == "pass");
+  BOOST_TEST(results["runs"][0]["quantities"]["displacement_y_m:B"].size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(a_robot_of_one_s_own_is_run_with_a_reference_beside_it) {
+  const Folder folder;
+  Json json = testing::manipulator();
+  Json& robot = json["model"]["manipulator"];
+  robot["links"]["proximal_length_m"] = {0.25, 0.24, 0.26};
+  robot["links"]["distal_length_m"] = 0.3;
+  robot["platform"].erase("side_m");
+  robot["platform"]["vertices_m"] = {{-0.1, -0.05}, {0.12, -0.06}, {0, 0.11}};
+  robot["working_mode"] = {1, -1, 1};
+  json["model"]["pose"] = {{"x_m", 0.22}, {"y_m", 0.2}, {"phi_rad", 0.2}};
+  json["checks"]["first"] = {
+      {"quantity", "frequency_Hz"},
+      {"index", 0},
+      {"reference", "measured"},
+      {"reference_index", 0},
+      {"role", "validation"},
+      {"expect", {{"agrees", "a rough bench"}, {"ratio_between", {0.1, 10}}}}};
+  (void)folder.write(json);
+  (void)folder.write({{"id", "measured"},
+                      {"title", "Measured"},
+                      {"kind", "paper"},
+                      {"unit", "Hz"},
+                      {"values", {12}},
+                      {"uncertainty", {{"absolute", 1}}},
+                      {"source", "my bench"},
+                      {"place", "run 1"}});
+  const Outcome outcome = run(folder, "run robot.json");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  const Json results = read_json(folder.path() / "trammel-results/results.json");
+  BOOST_TEST(results["references"]["measured"]["citation"] == "my bench");
+  BOOST_TEST(results["runs"][0]["checks"][0]["verdict"] == "pass");
+}
+
+BOOST_AUTO_TEST_CASE(a_bad_file_among_good_ones_loses_nothing) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  (void)folder.write("broken.json", "{\"id\": ");
+  const Outcome outcome = run(folder, "run cantilever.json broken.json");
+  BOOST_TEST(outcome.status == 2);
+  BOOST_TEST(contains(outcome.err, "broken.json: line 1, column 8: expected JSON"));
+  const Json results = read_json(folder.path() / "trammel-results/results.json");
+  BOOST_TEST(results["runs"].size() == 2U);
+  BOOST_TEST(results["runs"][0]["status"] == "solved");
+  BOOST_TEST(results["runs"][1]["status"] == "error");
+}
+
+BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written_is_told_before_anything_is_computed) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const Outcome outcome = run(folder, "run cantilever.json --out out.txt/x");
+  BOOST_TEST(outcome.status == 2);
+  BOOST_TEST(contains(outcome.err, "--out out.txt/x: expected a folder that can be written"));
+}
+
+BOOST_AUTO_TEST_CASE(a_pipe_sees_no_progress_bar) {
+  const Folder folder;
+  Json json = judged(101);
+  json["variants"]["again"] = Json::object();
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "run cantilever.json");
+  BOOST_TEST(outcome.err.empty());
+  BOOST_TEST(!contains(outcome.out, "\r"));
+}
+
+BOOST_AUTO_TEST_CASE(a_misspelt_case_or_command_is_answered_with_the_nearest) {
+  const Folder folder;
+  BOOST_TEST(contains(run(folder, "rnu x").err, "did you mean 'run'?"));
+  (void)folder.write(judged(101));
+  const Outcome outcome = run(folder, "run cantilever.json --variant bse");
+  BOOST_TEST(contains(outcome.err, "did you mean 'base'?"));
+}
+
+BOOST_AUTO_TEST_CASE(the_data_folder_can_be_said) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  BOOST_TEST(run(folder, "run cantilever.json", "TRAMMEL_HOME='" TRAMMEL_SOURCE_DIR "'").status ==
+             0);
+  const Outcome lost = run(folder, "run cantilever.json", "TRAMMEL_HOME=/nonexistent");
+  BOOST_TEST(lost.status == 2);
+  BOOST_TEST(contains(lost.err, "TRAMMEL_HOME: expected a folder with cases/schema"));
+}
+
+BOOST_AUTO_TEST_CASE(two_variants_and_two_result_files_are_compared) {
+  const Folder folder;
+  Json json = judged(101);
+  json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 1e11;
+  (void)folder.write(json);
+  const Outcome variants = run(folder, "compare cantilever.json cantilever.json:soft");
+  BOOST_TEST(variants.status == 0, variants.err);
+  BOOST_TEST(contains(variants.out, "displacement_y_m:B"));
+  BOOST_TEST(contains(variants.out, "50"));  // per cent
+  (void)run(folder, "run cantilever.json --out a");
+  (void)run(folder, "run cantilever.json --out b --jobs 1");
+  const Outcome same = run(folder, "compare a/results.json b/results.json");
+  BOOST_TEST(contains(same.out, "2 runs are the same bit for bit, 0 differ"));
+  json["model"]["elements"] = 5;
+  (void)folder.write(json);
+  (void)run(folder, "run cantilever.json --out b");
+  const Outcome other = run(folder, "compare a/results.json b/results.json");
+  BOOST_TEST(contains(other.out, "2 differ"));
+  BOOST_TEST(run(folder, "compare a/results.json cantilever.json").status == 2);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_results_file_is_said_so_beside_one) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  (void)folder.write("other.json", R"({"a": 1})");
+  (void)run(folder, "run cantilever.json");
+  const auto refusal = [&](const std::string& other) {
+    const Outcome outcome = run(folder, "compare trammel-results/results.json " + other);
+    BOOST_TEST(outcome.status == 2);
+    return outcome.err;
+  };
+  BOOST_TEST(contains(refusal("none.json"), "none.json: expected a readable file"));
+  BOOST_TEST(contains(refusal("other.json"), "other.json: /a: expected no key of that name"));
+  BOOST_TEST(contains(refusal("cantilever.json"), "expected two variants or two result files"));
+}
+
+BOOST_AUTO_TEST_CASE(the_page_of_one_s_own_case_has_that_case_alone) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const Outcome outcome = run(folder, "report cantilever.json --out mine");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "1 run, 1 check, 1 pass"));
+  BOOST_TEST(contains(outcome.out, "report in mine/index.html"));
+  BOOST_TEST(std::filesystem::exists(folder.path() / "mine/index.html"));
+  const Json results = read_json(folder.path() / "mine/results.json");
+  BOOST_TEST(results["cases"].size() == 1U);
+  BOOST_TEST(!results.contains("ledger"));
+  (void)folder.write(judged(99));
+  BOOST_TEST(run(folder, "report cantilever.json --out mine").status == 1);
+}
+
+BOOST_AUTO_TEST_CASE(how_a_singular_run_ended_is_told_once) {
+  const Folder folder;
+  Json json = judged(101);
+  json["model"].erase("supports");
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "run cantilever.json");
+  BOOST_TEST(outcome.status == 1);
+  const auto first = outcome.out.find("moves freely");
+  BOOST_TEST(first != std::string::npos);
+  BOOST_TEST(outcome.out.find("moves freely", first + 1) == std::string::npos, outcome.out);
+}
+
+BOOST_AUTO_TEST_CASE(a_narrow_window_is_told_with_the_digits_that_it_takes) {
+  const Folder folder;
+  Json json = judged(101);
+  json["checks"] = {
+      {"hold",
+       {{"quantity", "reaction_y_N:A"},
+        {"role", "verification"},
+        {"bound", {{"at_least", 99.9999999}, {"at_most", 100.0000001}, {"why", "x"}}}}}};
+  (void)folder.write(json);
+  BOOST_TEST(contains(run(folder, "run cantilever.json").out, "[99.9999999, 100.0000001]"));
+}
+
+BOOST_AUTO_TEST_CASE(a_case_without_checks_tells_what_was_computed) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  json.erase("checks");
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "run cantilever.json");
+  BOOST_TEST(contains(outcome.out, "frequency_Hz"));
+  BOOST_TEST(!contains(outcome.out, "roundoff"));
+}
+
+BOOST_AUTO_TEST_CASE(the_example_of_the_readme_runs_and_holds) {
+  const std::string readme = text_of(TRAMMEL_SOURCE_DIR "/README.md");
+  const std::string fence = "```json\n";
+  const auto start = readme.find(fence + "{\n  \"id\": \"short-arm\"") + fence.size();
+  const Folder folder;
+  (void)folder.write("short-arm.json", readme.substr(start, readme.find("\n```", start) - start));
+  const Outcome outcome = run(folder, "run short-arm.json");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "1 check, 1 pass"));
+}
+
+BOOST_AUTO_TEST_CASE(a_quantity_that_is_not_there_is_answered_with_what_is) {
+  const Folder folder;
+  Json json = judged(101);
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  (void)folder.write(json);
+  BOOST_TEST(contains(run(folder, "run cantilever.json").out, "(known here: degrees_of_freedom,"));
+}
+
+BOOST_AUTO_TEST_CASE(what_refinements_show_is_told) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  json["sweeps"]["elements"] = {
+      {"pointers", {"/model/elements"}}, {"values", {1, 2, 4, 8, 16, 32}}, {"theory_order", 4}};
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "converge cantilever.json");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "frequency_Hz[0]"));
+  BOOST_TEST(contains(outcome.out, "asymptotic"));
+  BOOST_TEST(contains(outcome.out, "order by theory 4"));
+  BOOST_TEST(!contains(outcome.out, "roundoff"));  // it converges to nothing
+  json.erase("sweeps");
+  (void)folder.write(json);
+  BOOST_TEST(run(folder, "converge cantilever.json").status == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_case_is_described_for_people_and_for_programs) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const Outcome words = run(folder, "describe cantilever.json");
+  BOOST_TEST(contains(words.out, "planar model; 2 nodes, 1 member in 4 elements"));
+  BOOST_TEST(contains(words.out, "the load is 100 N"));
+  const Outcome json = run(folder, "describe cantilever.json --json");
+  BOOST_TEST((parse_json(json.out, "out")["id"] == "cantilever"));
+  BOOST_TEST(parse_json(run(folder, "list --json").out, "out").is_array());
+}
+
+BOOST_AUTO_TEST_CASE(every_case_of_the_catalogue_can_be_described) {
+  const Folder folder;
+  for (const Json& one : parse_json(run(folder, "list --json").out, "out")) {
+    const auto id = one.at("id").get<std::string>();
+    const Outcome outcome = run(folder, "describe " + id);
+    BOOST_TEST(outcome.status == 0, id << ": " << outcome.err);
+  }
+  const Outcome modes = run(folder, "describe manipulator-modes");
+  BOOST_TEST(contains(modes.out, "half a unit in the last place of '0.0015'"));
+}
+
+BOOST_AUTO_TEST_CASE(the_noise_of_a_validation_is_told_where_one_variant_is_run) {
+  const Folder folder;
+  const Outcome one = run(folder, "run manipulator-modes --variant rigid-platform");
+  BOOST_TEST(contains(one.out, "u_input"));
+  BOOST_TEST(contains(one.out, "link thickness"));
+  BOOST_TEST(contains(one.out, "is within the noise of"));
+  BOOST_TEST(contains(one.out, "comparisons with the paper (ASME V&V 20)"));
+}
+
+BOOST_AUTO_TEST_CASE(the_sweep_of_one_s_own_case_is_measured_and_written) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},
+                                {"values", {1, 2, 4}},
+                                {"quantities", {{"frequency_Hz", {{"index", {0, 1}}}}}}};
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "cost cantilever.json --sweep elements --out mine");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  BOOST_TEST(contains(outcome.out, "elements 2"));
+  const Json results = read_json(folder.path() / "mine/results.json");
+  const auto fault = find_fault(results, "results");
+  BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
+  BOOST_TEST(results["cost"]["sweep"] == "full");
+  BOOST_TEST(results["cost"]["studies"][0]["settings"].size() == 3U);
+  BOOST_TEST(std::filesystem::exists(folder.path() / "mine/index.html"));
+  BOOST_TEST(std::filesystem::exists(folder.path() / "mine/figures/cost-cantilever.csv"));
+  const Outcome same = run(folder, "compare mine/results.json mine/results.json");
+  BOOST_TEST(same.status == 0, same.err);
+  BOOST_TEST(contains(same.out, "0 % apart"));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_measured_is_bad_usage) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  for (const char* words :
+       {"cost nonesuch", "cost cantilever.json", "cost modes --sweep elements",
+        "cost modes --repeats 6", "cost none.json", "cost cantilever.json --sweep none"}) {
+    const Outcome outcome = run(folder, words);
+    BOOST_TEST(outcome.status == 2, words);
+    BOOST_TEST(lines(outcome.err) == 1, words << ": " << outcome.err);
+  }
+  BOOST_TEST(contains(run(folder, "cost mods").err, "did you mean 'modes'"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,166 @@
+#include <boost/test/unit_test.hpp>
+
+#include "harness/input/case.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+
+BOOST_AUTO_TEST_SUITE(case_file)
+
+BOOST_AUTO_TEST_CASE(a_variant_is_a_merge_patch) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["variants"]["deep"] = {
+      {"title", "Twice as deep"},
+      {"model",
+       {{"sections", {{"bar", {{"rectangle", {{"thickness_m", 0.2}}}}}}}, {"loads", nullptr}}}};
+  const Case given = testing::read(folder, json);
+  BOOST_TEST((given.variants() == std::vector<std::string>{"base", "deep"}));
+  BOOST_TEST(given.variant_title("deep") == "Twice as deep");
+  const Json base = patched(given, "base").value();
+  const Json deep = patched(given, "deep").value();
+  const JsonPointer bar("/model/sections/bar/rectangle");
+  BOOST_TEST((base.at(bar) == Json{{"thickness_m", 0.1}, {"width_m", 0.05}}));
+  BOOST_TEST((deep.at(bar) == Json{{"thickness_m", 0.2}, {"width_m", 0.05}}));
+  BOOST_TEST(base["model"].contains("loads"));
+  BOOST_TEST(!deep["model"].contains("loads"));  // null removes
+  BOOST_TEST(deep["title"] == base["title"]);
+  BOOST_TEST(!deep.contains("variants"));
+}
+
+BOOST_AUTO_TEST_CASE(a_bad_variant_is_an_error_where_the_variant_says_it) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["variants"]["thin"]["model"]["sections"]["bar"]["rectangle"]["thickness_m"] = -1;
+  json["variants"]["removed"]["model"]["sections"]["bar"]["material"] = nullptr;
+  const Case given = testing::read(folder, json);
+  const std::string file = given.file.string();
+  BOOST_TEST(complaint([&] { (void)patched(given, "thin"); }) ==
+             file +
+                 ": /variants/thin/model/sections/bar/rectangle/thickness_m: expected a number "
+                 "above 0 (got -1)");
+  BOOST_TEST(contains(complaint([&] { (void)patched(given, "removed"); }),
+                      "/variants/removed/model/sections/bar: expected the key 'material'"));
+  BOOST_TEST(contains(complaint([&] { (void)patched(given, "thn"); }), "did you mean 'thin'?"));
+}
+
+BOOST_AUTO_TEST_CASE(a_case_extends_another_and_keeps_its_own_judgement) {
+  const Folder folder;
+  Json base = testing::cantilever();
+  base["labels"] = {"mine"};
+  base["checks"]["c"] = {{"quantity", "digits_left"},
+                         {"role", "verification"},
+                         {"bound", {{"at_least", 1}, {"why", "w"}}}};
+  base["variants"]["v"] = {{"model", {{"elements", 2}}}, {"checks", {{"c", nullptr}}}};
+  (void)folder.write(base);
+  const Case given = testing::read(folder, {{"id", "longer"},
+                                            {"title", "Longer"},
+                                            {"extends", "cantilever.json"},
+                                            {"model", {{"nodes", {{"B", {3, 0}}}}}}});
+  BOOST_TEST((given.document.value()["model"]["nodes"] == Json{{"A", {0, 0}}, {"B", {3, 0}}}));
+  BOOST_TEST(given.title() == "Longer");
+  BOOST_TEST(given.labels().empty());
+  BOOST_TEST(!given.document.value().contains("checks"));
+  BOOST_TEST((given.variants() == std::vector<std::string>{"base", "v"}));
+  BOOST_TEST(patched(given, "v").value()["model"]["elements"] == 2);
+}
+
+BOOST_AUTO_TEST_CASE(an_error_in_what_is_extended_names_that_file) {
+  const Folder folder;
+  Json base = testing::cantilever();
+  base["model"]["materials"]["steel"]["E_Pa"] = "stiff";
+  const auto file = folder.write(base);
+  const Json json = {{"id", "x"}, {"title", "X"}, {"extends", "cantilever"}};
+  BOOST_TEST(complaint([&] { (void)testing::read(folder, json); }) ==
+             file.string() +
+                 ": /model/materials/steel/E_Pa: expected a number above 0 (got "
+                 "\"stiff\")");
+}
+
+BOOST_AUTO_TEST_CASE(a_circle_of_extending_cases_is_refused) {
+  const Folder folder;
+  (void)folder.write({{"id", "a"}, {"title", "A"}, {"extends", "b"}});
+  const Json b = {{"id", "b"}, {"title", "B"}, {"extends", "a"}};
+  BOOST_TEST(contains(complaint([&] { (void)testing::read(folder, b); }),
+                      "/extends: expected a case that does not extend this one"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_extended_may_be_in_another_folder) {
+  const Folder folder;
+  (void)folder.write("sub/cantilever.json", testing::cantilever().dump());
+  const Json json = {{"id", "x"}, {"title", "X"}, {"extends", "sub/cantilever.json"}};
+  BOOST_TEST(testing::read(folder, json).document.value().contains("analysis"));
+  const Json lost = {{"id", "x"}, {"title", "X"}, {"extends", "sub/cantilver.json"}};
+  BOOST_TEST(contains(complaint([&] { (void)testing::read(folder, lost); }),
+                      "/extends: expected a file relative to this one or a case of the catalogue"));
+}
+
+BOOST_AUTO_TEST_CASE(an_indicator_of_the_battery_is_a_check_of_the_case) {
+  const Folder folder;
+  const auto file =
+      folder.write("beam.json", R"({"id": "beam", "title": "t", "analysis": {"modes": {"count": 1}},
+    "battery": {"item": 1, "indicators": ["digits", "driftt"]},
+    "checks": {"digits": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}},
+               "drift": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}}}})");
+  const std::string said = complaint([&] { static_cast<void>(load_case(file)); });
+  BOOST_TEST(contains(said, "/battery/indicators/1"));
+  BOOST_TEST(contains(said, "did you mean 'drift'?"));
+}
+
+BOOST_AUTO_TEST_CASE(a_file_and_its_case_have_one_name) {
+  const Folder folder;
+  const auto file = folder.write("other.json", testing::cantilever().dump());
+  BOOST_TEST(contains(complaint([&] { (void)load_case(file); }),
+                      "/id: expected the file's name, 'other' (got 'cantilever')"));
+}
+
+BOOST_AUTO_TEST_CASE(a_sweep_sets_the_places_that_its_pointers_name) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["sweeps"]["length"] = {{"pointers", {"/model/elements", "/model/nodes/B/0"}},
+                              {"values", {1, 2, 4}}};
+  const auto found = levels(patched(testing::read(folder, json), "base"), "length");
+  BOOST_REQUIRE(found.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json& model = found[i].document.value()["model"];
+    BOOST_TEST(model["elements"] == std::size_t{1} << i);
+    BOOST_TEST(
+        (model["nodes"]["B"] == Json{std::size_t{1} << i, 0}));  // the rest of the array stays
+    BOOST_TEST(found[i].parameter == static_cast<double>(std::size_t{1} << i));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_sweep_may_set_a_key_that_the_case_leaves_to_its_default) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["model"].erase("elements");
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}}, {"values", {1, 2, 4}}};
+  const auto found = levels(patched(testing::read(folder, json), "base"), "elements");
+  BOOST_REQUIRE(found.size() == 3);
+  BOOST_TEST(found[2].document.value()["model"]["elements"] == 4);
+}
+
+BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}}, {"values", {1, 2.5}}};
+  json["sweeps"]["nowhere"] = {{"pointers", {"/model/elemnts"}}, {"values", {1, 2}}};
+  json["sweeps"]["patches"] = {{"patches", {{{"model", {{"elements", 0}}}}, Json::object()}},
+                               {"values", {1, 2}}};
+  const Document base = patched(testing::read(folder, json), "base");
+  const auto fault = [&](const char* sweep) {
+    return complaint([&] { (void)levels(base, sweep); });
+  };
+  BOOST_TEST(contains(fault("elements"),
+                      "/sweeps/elements/values/1: expected a whole number at least 1 and at most "
+                      "65536 (got 2.5), at /model/elements"));
+  BOOST_TEST(
+      contains(fault("nowhere"), "/sweeps/nowhere/pointers/0: expected a pointer to a value"));
+  BOOST_TEST(contains(fault("nowhere"), "did you mean 'elements'?"));
+  BOOST_TEST(contains(fault("patches"), "/sweeps/patches/patches/0/model/elements: expected"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

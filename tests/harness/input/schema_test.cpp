@@ -1,0 +1,128 @@
+#include "harness/input/schema.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "harness/base/data_root.h"
+#include "harness/base/json_file.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::contains;
+
+namespace {
+
+/// "pointer: message" of the case with one place changed.
+std::string fault(Json json, const std::string& pointer, const Json& value) {
+  json[JsonPointer(pointer)] = value;
+  const auto found = find_fault(json, "case");
+  return found ? found->pointer + ": " + found->message : "";
+}
+
+std::string robot_fault(const std::string& pointer, const Json& value) {
+  return fault(testing::manipulator(), pointer, value);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(schema)
+
+BOOST_AUTO_TEST_CASE(good_cases_obey_the_schema) {
+  BOOST_TEST(!find_fault(testing::manipulator(), "case").has_value());
+  BOOST_TEST(!find_fault(testing::cantilever(), "case").has_value());
+}
+
+BOOST_AUTO_TEST_CASE(a_misspelt_key_is_answered_with_the_nearest_right_one) {
+  BOOST_TEST(robot_fault("/model/manipulator/material/E_pa", 1) ==
+             "/model/manipulator/material/E_pa: expected no key of that name; did you mean "
+             "'E_Pa'?");
+  BOOST_TEST(contains(robot_fault("/modle", Json::object()), "did you mean 'model'?"));
+  BOOST_TEST(contains(robot_fault("/model/manipulator/links/thicknes_m", 1),
+                      "did you mean 'thickness_m'?"));
+  BOOST_TEST(contains(robot_fault("/model/manipulator/qqqq", 1), "known here: 'base_m'"));
+}
+
+BOOST_AUTO_TEST_CASE(a_misspelt_word_is_answered_with_the_nearest_right_one) {
+  BOOST_TEST(contains(robot_fault("/model/manipulator/joints/active", "lokced"),
+                      "(got \"lokced\"); did you mean 'locked'?"));
+}
+
+BOOST_AUTO_TEST_CASE(a_value_outside_of_its_range_is_answered_with_the_range) {
+  BOOST_TEST(robot_fault("/model/manipulator/links/thickness_m", -0.1) ==
+             "/model/manipulator/links/thickness_m: expected a number above 0 (got -0.1)");
+  BOOST_TEST(robot_fault("/model/manipulator/links/elements", 0) ==
+             "/model/manipulator/links/elements: expected a whole number at least 1 and at most "
+             "65536 (got 0)");
+  BOOST_TEST(contains(robot_fault("/model/manipulator/links/elements", 2.5), "a whole number"));
+  BOOST_TEST(contains(robot_fault("/model/manipulator/links/elements", nullptr), "(got null)"));
+  BOOST_TEST(robot_fault("/model/pose/x_m", "far") ==
+             "/model/pose/x_m: expected a number (got \"far\")");
+}
+
+BOOST_AUTO_TEST_CASE(alternatives_are_all_named) {
+  BOOST_TEST(robot_fault("/model/manipulator/links/mass_kg", true) ==
+             "/model/manipulator/links/mass_kg: expected a number above 0 or 'from-density' "
+             "(got true)");
+  // Inside an alternative the innermost fault is the cause.
+  BOOST_TEST(robot_fault("/model/manipulator/links/proximal_length_m", {0.2, -0.2, 0.2}) ==
+             "/model/manipulator/links/proximal_length_m/1: expected a number above 0 (got -0.2)");
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_key_is_named_where_it_is_missing) {
+  Json json = testing::manipulator();
+  json["model"]["manipulator"]["material"].erase("E_Pa");
+  const auto found = find_fault(json, "case");
+  BOOST_REQUIRE(found.has_value());
+  BOOST_TEST(found->pointer == "/model/manipulator/material");
+  BOOST_TEST(found->message == "expected the key 'E_Pa' (got 'nu' and 'rho_kg_m3')");
+}
+
+BOOST_AUTO_TEST_CASE(an_analysis_is_exactly_one) {
+  BOOST_TEST(contains(robot_fault("/analysis", Json::object()), "expected exactly one of"));
+  BOOST_TEST(
+      contains(robot_fault("/analysis", {{"modes", {{"count", 1}}}, {"statics", Json::object()}}),
+               "expected exactly one of"));
+}
+
+BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
+  for (const char* name : {"case", "cost", "reference", "results"}) {
+    const Json text = read_json(home() / "cases" / "schema" / (std::string(name) + ".schema.json"));
+    BOOST_TEST(text.contains("description"), name);
+    for (const auto& item : text.at("properties").items()) {
+      const bool elsewhere = item.value().contains("$ref") || item.key() == "runs" ||
+                             item.key() == "title" || item.key() == "values";
+      BOOST_TEST((item.value().contains("description") || elsewhere), name << ' ' << item.key());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
+  int seen = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(home() / "references" / "values")) {
+    const auto found = find_fault(read_json(entry.path()), "reference");
+    BOOST_TEST(!found.has_value(), entry.path().filename()
+                                       << (found ? ": " + found->pointer + found->message : ""));
+    ++seen;
+  }
+  BOOST_TEST(seen > 10);
+}
+
+BOOST_AUTO_TEST_CASE(orders_of_singular_corners_are_twice_the_stored_exponents) {
+  const auto exponent = [](const std::string& of) {
+    const std::string name = of + "-corner-exponent.json";
+    return read_json(home() / "references" / "values" / name)["values"][0].get<double>();
+  };
+  const auto sweep = [](const std::string& of, const std::string& variant) {
+    const Json json = read_json(home() / "cases" / (of + ".json"));
+    return (variant.empty() ? json : json["variants"][variant])["sweeps"]["divisions"];
+  };
+  const auto check = [](const Json& order, double exponent_at_corner) {
+    BOOST_TEST(std::abs(order.get<double>() - 2 * exponent_at_corner) < 5e-4);
+  };
+  check(sweep("cooks-membrane", "even")["theory_order"], exponent("cook"));
+  check(sweep("cooks-membrane", "three-node")["lower_order"], exponent("cook"));
+  check(sweep("nafems-fv32", "")["lower_order"], exponent("nafems-fv32"));
+  check(sweep("macneal-harder-beam", "fine")["lower_order"], exponent("macneal-harder"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

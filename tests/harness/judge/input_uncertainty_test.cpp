@@ -1,0 +1,88 @@
+#include "harness/judge/input_uncertainty.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <set>
+
+namespace t = trammel;
+
+namespace {
+
+using Values = std::vector<double>;
+
+/// 3 x - 4 y and x^2 (about x = 1), with x within +-0.1 and y within +-0.2.
+std::optional<Values> linear_and_square(const Values& d) {
+  return Values{3 * d[0] - 4 * d[1], (1 + d[0]) * (1 + d[0])};
+}
+
+const Values kHalfWidths = {0.1, 0.2};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(input_uncertainty)
+
+BOOST_AUTO_TEST_CASE(a_linear_model_adds_its_inputs_in_quadrature) {
+  const auto u = t::uncertainty_by_derivatives(linear_and_square, kHalfWidths);
+  BOOST_REQUIRE(u.has_value());
+  BOOST_TEST(u->contribution[0][0] == 0.3 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(u->contribution[1][0] == -0.8 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(u->standard[0] == std::hypot(0.3, 0.8) / std::sqrt(3.0),
+             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(u->standard[1] == 0.2 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(sampling_finds_the_standard_deviation_of_a_uniform_input) {
+  const auto u = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 400, 1);
+  BOOST_TEST(u.samples == 400);
+  BOOST_TEST(u.failed == 0);
+  BOOST_TEST(u.standard[0] == std::hypot(0.3, 0.8) / std::sqrt(3.0),
+             boost::test_tools::tolerance(0.05));  // columns correlate by chance, 1/sqrt(400)
+  // The mean of (1 + d)^2 is 1 + h^2 / 3: the nonlinearity that derivatives do not see.
+  BOOST_TEST(u.mean[1] == 1 + 0.01 / 3, boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(u.low[1] == 0.905 * 0.905, boost::test_tools::tolerance(2e-3));
+  BOOST_TEST(u.high[1] == 1.095 * 1.095, boost::test_tools::tolerance(2e-3));
+}
+
+BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
+  std::vector<std::set<int>> visited(2);
+  const auto record = [&](const Values& d) -> std::optional<Values> {
+    for (std::size_t k = 0; k < 2; ++k) {
+      visited[k].insert(static_cast<int>(std::floor((d[k] / kHalfWidths[k] + 1) * 25)));
+    }
+    return Values{0.0};
+  };
+  (void)t::uncertainty_by_sampling(record, kHalfWidths, 50, 7);
+  BOOST_TEST(visited[0].size() == 50U);
+  BOOST_TEST(visited[1].size() == 50U);
+  BOOST_TEST(*visited[1].begin() == 0);
+  BOOST_TEST(*visited[1].rbegin() == 49);
+}
+
+BOOST_AUTO_TEST_CASE(the_same_seed_gives_the_same_samples_and_another_gives_others) {
+  const auto a = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
+  const auto b = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
+  const auto c = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 4);
+  BOOST_TEST(a.standard[0] == b.standard[0]);
+  BOOST_TEST(a.standard[0] != c.standard[0]);
+}
+
+BOOST_AUTO_TEST_CASE(samples_without_a_solution_are_counted_and_left_out) {
+  const auto out_of_reach = [](const Values& d) -> std::optional<Values> {
+    if (d[0] > 0.05) return std::nullopt;
+    return Values{d[0]};
+  };
+  const auto u = t::uncertainty_by_sampling(out_of_reach, kHalfWidths, 400, 5);
+  BOOST_TEST(u.failed == 100);
+  BOOST_TEST(u.samples == 300);
+  BOOST_TEST(u.high[0] <= 0.05);
+}
+
+BOOST_AUTO_TEST_CASE(no_derivative_is_made_up_where_the_model_has_no_solution) {
+  const auto nothing = [](const Values& d) -> std::optional<Values> {
+    if (d[1] < 0) return std::nullopt;
+    return Values{1.0};
+  };
+  BOOST_TEST(!t::uncertainty_by_derivatives(nothing, kHalfWidths).has_value());
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,328 @@
+#include "harness/judge/judge.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Three frequencies, their reference, and one check between them.
+struct Bench {
+  std::shared_ptr<Folder> folder = std::make_shared<Folder>();
+  Json check = {{"quantity", "frequency_Hz"},
+                {"reference", "truth"},
+                {"role", "verification"},
+                {"tolerance", {{"relative", 1e-3}, {"why", "a reason"}}}};
+  Json reference = {{"id", "truth"},          {"title", "Truth"},
+                    {"kind", "paper"},        {"unit", "Hz"},
+                    {"values", {10, 20, 30}}, {"uncertainty", {{"absolute", 1e-6}}},
+                    {"source", "me"},         {"place", "here"}};
+  Quantities quantities = {{"frequency_Hz", {{10, 20, 30}, {}}}};
+  Quantities other = {{"frequency_Hz", {{5, 10, 15}, {}}}};
+  bool has_other = true;
+
+  std::vector<Judgement> judge_all() {
+    (void)folder->write(reference);
+    Json json = testing::cantilever();
+    json["checks"]["c"] = check;
+    json["variants"]["other"] = Json::object();
+    const Document document = patched(testing::read(*folder, json), "base");
+    const auto checks = read_checks(document, "base", {"base", "other"});
+    const References references;
+    const auto variant = [&](const std::string&) { return has_other ? &other : nullptr; };
+    return judge(checks.at(0), {document, quantities, {}, references, variant});
+  }
+  /// The worst verdict, with its message.
+  std::string verdict() {
+    Verdict worst = Verdict::pass;
+    for (const Judgement& one : judge_all()) {
+      message = one.verdict == Verdict::pass ? message : one.message;
+      if (one.verdict != Verdict::pass && worst != Verdict::error) worst = one.verdict;
+    }
+    return to_string(worst);
+  }
+  void set(std::size_t i, double value) { quantities["frequency_Hz"].values.at(i) = value; }
+
+  std::string message;
+};
+
+Bench validation(const char* kind, const Json& window) {
+  Bench bench;
+  bench.check.erase("tolerance");
+  bench.check["role"] = "validation";
+  bench.check["expect"] = {{kind, "a reason"}, {"relative_between", window}};
+  return bench;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(judge)
+
+BOOST_AUTO_TEST_CASE(what_agrees_passes_entry_by_entry) {
+  Bench bench;
+  const auto all = bench.judge_all();
+  BOOST_REQUIRE(all.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    BOOST_TEST((all[i].verdict == Verdict::pass));
+    BOOST_TEST(all[i].index.value() == i);
+    BOOST_TEST(all[i].expected.value() == all[i].computed.value());
+    BOOST_TEST(all[i].unit == "Hz");
+    BOOST_TEST(all[i].why == "a reason");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_difference_beyond_the_tolerance_fails_in_either_direction) {
+  for (const double sign : {-1.0, 1.0}) {
+    Bench bench;
+    bench.set(1, 20 * (1 + sign * 0.9e-3));
+    BOOST_TEST(bench.verdict() == "pass");
+    bench.set(1, 20 * (1 + sign * 1.1e-3));
+    BOOST_TEST(bench.verdict() == "fail");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_absolute_tolerance_is_in_the_unit_of_the_quantity) {
+  Bench bench;
+  bench.check["tolerance"] = {{"absolute", 0.5}, {"why", "w"}};
+  bench.set(2, 30.4);
+  BOOST_TEST(bench.verdict() == "pass");
+  bench.set(2, 30.6);
+  BOOST_TEST(bench.verdict() == "fail");
+}
+
+BOOST_AUTO_TEST_CASE(a_number_that_is_not_finite_is_an_error) {
+  for (const double value : {not_a_number, infinity, -infinity}) {
+    Bench bench;
+    bench.set(0, value);
+    BOOST_TEST(bench.verdict() == "error");
+    bench.check["statistic"] = "max";
+    bench.check["reference_index"] = 2;
+    BOOST_TEST(bench.verdict() == "error");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_quantity_is_an_error_that_names_the_nearest) {
+  Bench bench;
+  bench.check["quantity"] = "frequncy_Hz";
+  BOOST_TEST(bench.verdict() == "error");
+  BOOST_TEST(contains(bench.message, "no quantity 'frequncy_Hz'; did you mean 'frequency_Hz'?"));
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_length_is_an_error) {
+  Bench shorter;
+  shorter.quantities["frequency_Hz"].values.pop_back();
+  BOOST_TEST(shorter.verdict() == "error");
+  BOOST_TEST(contains(shorter.message, "the lengths differ: 2 computed, 3 expected"));
+  Bench longer;
+  longer.quantities["frequency_Hz"].values.push_back(40);
+  BOOST_TEST(longer.verdict() == "error");
+  Bench empty;
+  empty.quantities["frequency_Hz"].values.clear();
+  BOOST_TEST(empty.verdict() == "error");
+}
+
+BOOST_AUTO_TEST_CASE(an_index_outside_of_the_array_is_an_error) {
+  Bench bench;
+  bench.check["index"] = 3;
+  bench.check["reference_index"] = 0;
+  BOOST_TEST(bench.verdict() == "error");
+  bench.check["index"] = 0;
+  BOOST_TEST(bench.verdict() == "pass");
+  bench.check["reference_index"] = 3;
+  BOOST_TEST(bench.verdict() == "error");
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_unit_is_an_error) {
+  Bench bench;
+  bench.reference["unit"] = "rad/s";
+  BOOST_TEST(bench.verdict() == "error");
+  BOOST_TEST(contains(bench.message,
+                      "the unit of frequency_Hz is Hz, that of reference truth is "
+                      "rad/s"));
+}
+
+BOOST_AUTO_TEST_CASE(a_difference_relative_to_zero_is_an_error) {
+  Bench bench;
+  bench.reference["values"] = {0, 20, 30};
+  BOOST_TEST(bench.verdict() == "error");
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_less_certain_than_the_tolerance_proves_nothing) {
+  Bench bench;
+  bench.reference["uncertainty"] = {{"absolute", 0.5}};
+  BOOST_TEST(bench.verdict() == "error");
+  BOOST_TEST(contains(bench.message, "known to +-0.5 only"));
+}
+
+BOOST_AUTO_TEST_CASE(printed_digits_tell_the_uncertainty) {
+  Bench bench;
+  bench.reference.erase("uncertainty");
+  bench.reference["printed"] = {"10.00", "20.000", "30"};
+  BOOST_TEST(bench.verdict() == "error");  // half a unit in the last place of "30"
+  bench.reference["printed"] = {"10.00", "20.000", "30.00"};
+  BOOST_TEST(bench.verdict() == "pass");
+}
+
+BOOST_AUTO_TEST_CASE(a_bound_looks_at_the_value_alone) {
+  Bench bench;
+  bench.check.erase("reference");
+  bench.check.erase("tolerance");
+  bench.check["bound"] = {{"at_least", 5}, {"at_most", 30}, {"why", "w"}};
+  BOOST_TEST(bench.verdict() == "pass");
+  bench.set(2, 30.1);
+  BOOST_TEST(bench.verdict() == "fail");
+  bench.set(2, not_a_number);
+  BOOST_TEST(bench.verdict() == "error");
+}
+
+BOOST_AUTO_TEST_CASE(an_agreement_that_no_longer_holds_fails) {
+  Bench bench = validation("agrees", {-0.01, 0.01});
+  BOOST_TEST(bench.verdict() == "pass");
+  for (const double value : {9.8, 10.2}) {
+    bench.set(0, value);
+    BOOST_TEST(bench.verdict() == "fail");
+    BOOST_TEST(contains(bench.message, "the recorded agreement no longer holds"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_known_discrepancy_that_is_no_longer_there_fails_in_either_direction) {
+  Bench bench = validation("known_discrepancy", {0.1, 0.2});
+  bench.quantities["frequency_Hz"].values = {11.5, 23, 34.5};
+  BOOST_TEST(bench.verdict() == "pass");
+  BOOST_TEST((bench.judge_all()[0].expectation == Expectation::known_discrepancy));
+  for (const double value : {10.0, 13.0}) {  // it agrees now; it is off by more now
+    bench.set(0, value);
+    BOOST_TEST(bench.verdict() == "fail");
+    BOOST_TEST(contains(bench.message, "the known discrepancy is no longer what was recorded"));
+  }
+  bench.set(0, not_a_number);
+  BOOST_TEST(bench.verdict() == "error");
+}
+
+BOOST_AUTO_TEST_CASE(a_known_discrepancy_may_leave_some_entries_in_agreement) {
+  Bench bench = validation("known_discrepancy", {{-0.01, 0.01}, {0.1, 0.2}, {-0.3, -0.2}});
+  bench.quantities["frequency_Hz"].values = {10.05, 23, 22};
+  const auto all = bench.judge_all();
+  for (const Judgement& one : all) BOOST_TEST((one.verdict == Verdict::pass));
+  BOOST_TEST((all[0].expectation == Expectation::agrees));
+  BOOST_TEST((all[1].expectation == Expectation::known_discrepancy));
+}
+
+BOOST_AUTO_TEST_CASE(a_known_discrepancy_that_allows_none_is_refused) {
+  for (const Json& window : {Json{-0.2, 0.02}, Json{{-1, 1}, {0, 2}, {-2, 0}}}) {
+    Bench bench = validation("known_discrepancy", window);
+    BOOST_TEST(contains(complaint([&] { (void)bench.judge_all(); }),
+                        "/checks/c/expect/relative_between: expected a window without 0"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_validation_without_an_expectation_is_recorded_and_does_not_gate) {
+  Bench bench = validation("agrees", {-1, 1});
+  bench.check.erase("expect");
+  bench.set(0, 25);
+  const auto all = bench.judge_all();
+  BOOST_TEST((all[0].verdict == Verdict::recorded));
+  BOOST_TEST(all[0].difference.value() == 1.5);
+  BOOST_TEST(!breaks_gate(all[0].verdict));
+  bench.set(0, not_a_number);
+  BOOST_TEST((bench.judge_all()[0].verdict == Verdict::error));
+}
+
+BOOST_AUTO_TEST_CASE(variants_are_judged_against_each_other) {
+  Bench bench;
+  bench.check = {{"quantity", "frequency_Hz"},
+                 {"against_variant", "other"},
+                 {"role", "validation"},
+                 {"expect", {{"agrees", "twice as stiff"}, {"ratio_between", {1.9, 2.1}}}}};
+  BOOST_TEST(bench.verdict() == "pass");
+  bench.other["frequency_Hz"].values[1] = 12;
+  BOOST_TEST(bench.verdict() == "fail");
+  bench.has_other = false;
+  BOOST_TEST(bench.verdict() == "error");
+  BOOST_TEST(contains(bench.message, "no solution in variant 'other'"));
+}
+
+BOOST_AUTO_TEST_CASE(quantities_of_one_run_are_judged_against_each_other) {
+  Bench bench;
+  bench.quantities["other_Hz"].values = {11, 21, 31};
+  bench.quantities["other_m"].values = {11, 21, 31};
+  bench.check = {{"quantity", "frequency_Hz"},
+                 {"against_quantity", "other_Hz"},
+                 {"statistic", "max"},
+                 {"role", "verification"},
+                 {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
+  const auto all = bench.judge_all();
+  BOOST_REQUIRE(all.size() == 1);
+  BOOST_TEST((all[0].verdict == Verdict::pass));
+  BOOST_TEST(all[0].difference.value() == -1);
+  bench.check["against_quantity"] = "other_m";
+  BOOST_TEST(bench.verdict() == "error");
+}
+
+BOOST_AUTO_TEST_CASE(of_a_long_array_the_worst_entry_is_told) {
+  Bench bench;
+  bench.check = {{"quantity", "frequency_Hz"},
+                 {"role", "verification"},
+                 {"bound", {{"at_most", 1}, {"why", "w"}}}};
+  auto& values = bench.quantities["frequency_Hz"].values;
+  values.assign(631, 0.5);
+  values[100] = 0.9;
+  auto all = bench.judge_all();
+  BOOST_REQUIRE(all.size() == 1);
+  BOOST_TEST((all[0].verdict == Verdict::pass));
+  BOOST_TEST(all[0].index.value() == 100U);
+  values[300] = 2;
+  BOOST_TEST(bench.verdict() == "fail");
+  values[500] = not_a_number;
+  all = bench.judge_all();
+  BOOST_TEST((all[0].verdict == Verdict::error));
+  BOOST_TEST(all[0].index.value() == 500U);
+}
+
+BOOST_AUTO_TEST_CASE(statistics_say_what_they_are_called) {
+  const std::vector<double> values = {3, -4, 1};
+  BOOST_TEST(statistic_of("max", values) == 3);
+  BOOST_TEST(statistic_of("min", values) == -4);
+  BOOST_TEST(statistic_of("max_abs", values) == 4);
+  BOOST_TEST(statistic_of("min_abs", values) == 1);
+  BOOST_TEST(statistic_of("mean", values) == 0);
+  BOOST_TEST(statistic_of("sum", values) == 0);
+  BOOST_TEST(statistic_of("first", values) == 3);
+  BOOST_TEST(statistic_of("last", values) == 1);
+  BOOST_TEST(statistic_of("range", values) == 7);
+  BOOST_TEST(statistic_of("rms", values) == std::sqrt(26.0 / 3));
+  BOOST_TEST(std::isnan(statistic_of("max", {1, not_a_number})));
+  BOOST_TEST(std::isnan(statistic_of("max", {})));
+}
+
+BOOST_AUTO_TEST_CASE(checks_that_contradict_themselves_are_refused) {
+  const auto fault = [](const char* key, const Json& value, const char* gone = "") {
+    Bench bench;
+    bench.check.erase(gone);
+    bench.check[key] = value;
+    return complaint([&] { (void)bench.judge_all(); });
+  };
+  BOOST_TEST(
+      contains(fault("bound", {{"at_most", 1}, {"why", "w"}}), "exactly one of 'tolerance'"));
+  BOOST_TEST(contains(fault("role", "validation"), "/checks/c/tolerance: expected 'expect'"));
+  BOOST_TEST(contains(fault("role", "verification", "tolerance"), "exactly one of 'tolerance'"));
+  BOOST_TEST(contains(fault("role", "verification", "reference"), "to compare with"));
+  BOOST_TEST(contains(fault("tolerance", {{"why", "w"}}), "exactly one of 'relative' and"));
+  BOOST_TEST(contains(fault("reference", "truht"), "/checks/c/reference: expected the name of a "));
+  BOOST_TEST(contains(fault("against_variant", "other"), "expected either 'reference' or"));
+  BOOST_TEST(contains(fault("variants", {"othr"}), "did you mean 'other'?"));
+  BOOST_TEST(contains(fault("tolerance", {{"relative", 1e-3}}), "expected the key 'why'"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,217 @@
+#include "harness/run/claims.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "harness/input/catalogue.h"
+#include "harness/input/schema.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+
+namespace {
+
+Document ledger_of(const Json& readings, const std::string& expected,
+                   const std::string& together = "parts") {
+  const Json json = {{"title", "A paper"},
+                     {"source", "someone-2020"},
+                     {"claims",
+                      {{"1",
+                        {{"claim", "It holds."},
+                         {"place", "Page 1"},
+                         {"readings", readings},
+                         {"together", together},
+                         {"expected", expected},
+                         {"conclusion", "So it is."}}}}}};
+  Document document;
+  document.lay("ledger.json", "", json);
+  document.check("ledger");
+  return document;
+}
+
+Judgement entry(const std::string& name, double computed, double expected) {
+  Judgement one;
+  one.name = name;
+  one.unit = "m";
+  one.computed = computed;
+  one.expected = expected;
+  one.verdict = Verdict::pass;
+  return one;
+}
+
+/// A run of the case "bend" with a check of two entries and a quantity.
+Run bend(double first, double second) {
+  Run run;
+  run.case_id = "bend";
+  run.variant = "base";
+  run.status = "solved";
+  run.judgements = {entry("tip", first, 1), entry("tip", second, 1), entry("tip-y", 5, 1)};
+  run.judgements[0].index = 0;
+  run.judgements[1].index = 1;
+  run.result.quantities["frequency_Hz"] = {{1, 3, 2}, {}};
+  return run;
+}
+
+const Json ratio = {
+    {"what", "tip over target"}, {"case", "bend"},         {"check", "tip"},
+    {"take", "ratio"},           {"confirms", {0.9, 1.1}}, {"contradicts", {1.5, nullptr}}};
+
+ClaimVerdict verdict(const Document& document, const std::vector<Run>& runs) {
+  return judge_ledger(document, runs).claims.at(0).verdict;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(claims)
+
+BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
+  const Document document = ledger_of({{"r", ratio}}, "confirmed");
+  BOOST_TEST((verdict(document, {bend(1, 1.05)}) == ClaimVerdict::confirmed));
+  BOOST_TEST((verdict(document, {bend(2, 3)}) == ClaimVerdict::contradicted));
+  BOOST_TEST((verdict(document, {bend(1, 3)}) == ClaimVerdict::confirmed_in_part));
+  BOOST_TEST((verdict(document, {bend(1.2, 1.3)}) == ClaimVerdict::cannot_be_decided));
+  BOOST_TEST((verdict(document, {}) == ClaimVerdict::not_measured));
+}
+
+BOOST_AUTO_TEST_CASE(a_verdict_that_no_longer_follows_is_seen) {
+  const Document document = ledger_of({{"r", ratio}}, "confirmed");
+  BOOST_TEST(judge_ledger(document, {bend(1, 1)}).follows());
+  BOOST_TEST(!judge_ledger(document, {bend(1, 2)}).follows());
+  BOOST_TEST(!judge_ledger(document, {}).follows());
+}
+
+BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
+  const Document document = ledger_of({{"r", ratio}}, "confirmed");
+  Run broken = bend(1, 1);
+  broken.status = "error";
+  BOOST_TEST((verdict(document, {broken}) == ClaimVerdict::not_measured));
+  Run other = bend(1, 1);
+  other.case_id = "buckle";
+  BOOST_TEST((verdict(document, {other}) == ClaimVerdict::not_measured));
+  Run half = bend(1, 1);
+  half.judgements[1].computed.reset();
+  BOOST_TEST((verdict(document, {half}) == ClaimVerdict::not_measured));
+  half.judgements[1].computed = std::nan("");
+  BOOST_TEST((verdict(document, {half}) == ClaimVerdict::not_measured));
+}
+
+BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm_in_part) {
+  Json second = ratio;
+  second["check"] = "tip-y";
+  const Json both = {{"x", ratio}, {"y", second}};
+  const std::vector<Run> runs = {bend(1, 1)};
+  BOOST_TEST((verdict(ledger_of(both, "confirmed"), runs) == ClaimVerdict::confirmed_in_part));
+  BOOST_TEST((verdict(ledger_of(both, "confirmed", "alternatives"), runs) ==
+              ClaimVerdict::cannot_be_decided));
+  second["check"] = "tip*";
+  BOOST_TEST(judge_ledger(ledger_of({{"all", second}}, "confirmed"), runs)
+                 .claims[0]
+                 .readings[0]
+                 .entries.size() == 3U);
+}
+
+BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
+  Json jointly = ratio;
+  jointly["jointly"] = true;
+  jointly["contradicts"] = "otherwise";
+  const Document document = ledger_of({{"r", jointly}}, "confirmed");
+  BOOST_TEST((verdict(document, {bend(1, 1)}) == ClaimVerdict::confirmed));
+  BOOST_TEST((verdict(document, {bend(1, 3)}) == ClaimVerdict::contradicted));
+  BOOST_TEST((verdict(document, {bend(3, 1)}) == ClaimVerdict::contradicted));
+}
+
+BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
+  Json away = ratio;
+  away["confirms"] = "otherwise";
+  away["contradicts"] = {-1, 1};
+  const Document document = ledger_of({{"r", away}}, "confirmed");
+  BOOST_TEST(judge_ledger(document, {bend(-3, 2)}).follows());
+  BOOST_TEST(!judge_ledger(document, {}).follows());
+  BOOST_TEST(!judge_ledger(document, {bend(0.5, 0.5)}).follows());
+}
+
+BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
+  const Json grows = {{"what", "growth"},           {"case", "bend"},
+                      {"quantity", "frequency_Hz"}, {"take", "steps"},
+                      {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
+  const Ledger found = judge_ledger(ledger_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
+  const LedgerReading& reading = found.claims[0].readings[0];
+  BOOST_REQUIRE(reading.entries.size() == 2U);
+  BOOST_TEST(reading.entries[0].value == 2);
+  BOOST_TEST(reading.entries[1].value == -1);
+  BOOST_TEST(reading.unit == "Hz");
+  BOOST_TEST((reading.verdict == ReadingVerdict::in_part));
+}
+
+BOOST_AUTO_TEST_CASE(
+    a_quantity_that_is_no_number_leaves_its_claim_unmeasured_and_its_entries_finite) {
+  const Json grows = {{"what", "growth"},           {"case", "bend"},
+                      {"quantity", "frequency_Hz"}, {"take", "value"},
+                      {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
+  Run run = bend(1, 1);
+  run.result.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
+  const Ledger found = judge_ledger(ledger_of({{"g", grows}}, "confirmed"), {run});
+  BOOST_TEST((found.claims[0].verdict == ClaimVerdict::not_measured));
+  BOOST_TEST(found.claims[0].readings[0].entries.size() == 2U);
+  for (const LedgerEntry& entry : found.claims[0].readings[0].entries) {
+    BOOST_TEST(std::isfinite(entry.value));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
+  const auto refusal = [](const char* key, const Json& value) {
+    Json reading = ratio;
+    reading[key] = value;
+    if (value.is_null()) reading.erase(key);
+    return complaint([&] {
+      (void)judge_ledger(ledger_of({{"r", reading}}, "confirmed"), {bend(1, 1)});
+    });
+  };
+  BOOST_TEST(contains(refusal("contradicts", {1, 2}),
+                      "/claims/1/readings/r: expected windows of which no value is in both"));
+  BOOST_TEST(contains(refusal("quantity", "frequency_Hz"), "expected either a 'check'"));
+  BOOST_TEST(contains(refusal("take", "steps"), "/claims/1/readings/r/take: expected"));
+  BOOST_TEST(contains(refusal("take", "quotient"), "/claims/1/readings/r/take"));
+}
+
+BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its_cases) {
+  const Document document = load_ledger();
+  const Ledger found = judge_ledger(document, {});
+  BOOST_TEST(found.claims.size() == 11U);
+  for (const LedgerClaim& claim : found.claims) {
+    const bool undecidable = !claim.undecidable.empty();
+    BOOST_TEST((claim.verdict ==
+                (undecidable ? ClaimVerdict::cannot_be_decided : ClaimVerdict::not_measured)));
+  }
+  // No reading names a case or a check that is not there.
+  const std::vector<Case> catalogue = load_catalogue({});
+  for (const auto& [id, claim] : Cursor(document)["claims"].entries()) {
+    if (!claim.has("readings")) continue;
+    for (const auto& [name, reading] : claim["readings"].entries()) {
+      if (!reading.has("case")) continue;
+      const auto owner = std::find_if(
+          catalogue.begin(), catalogue.end(),
+          [&, &place = reading](const Case& one) { return one.id() == place.text("case"); });
+      BOOST_TEST_REQUIRE((owner != catalogue.end()), id << " " << name);
+      if (!reading.has("check") || reading.text("check").back() == '*') continue;
+      BOOST_TEST(Cursor(owner->document)["checks"].has(reading.text("check")), id << " " << name);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_results_say_of_the_ledger_obeys_their_schema) {
+  const Document document = ledger_of({{"r", ratio}}, "confirmed");
+  const Json json = to_json(judge_ledger(document, {bend(1, 2)}));
+  BOOST_TEST(json["claims"][0]["verdict"] == "confirmed in part");
+  BOOST_TEST(json["follows"] == false);
+  Json results = {{"format", 1}, {"ledger", json}};
+  const auto fault = find_fault(results, "results");
+  // Only what is missing around it is at fault.
+  BOOST_REQUIRE(fault.has_value());
+  BOOST_TEST(contains(fault->message, "expected the key"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

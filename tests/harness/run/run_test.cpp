@@ -1,0 +1,190 @@
+#include "harness/run/run.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "harness/run/results.h"
+#include "harness/input/schema.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+/// A cantilever's modes along a sweep, with the exact first frequency as a reference beside it.
+Json beam(const Folder& folder) {
+  const double EI = 2e11 * 0.05 * 1e-3 / 12, mu = 7800 * 0.005, root = 1.8751040687119611;
+  const double exact = root * root / 4 * std::sqrt(EI / mu) / (2 * std::acos(-1.0));
+  (void)folder.write({{"id", "exact"},
+                      {"title", "Exact"},
+                      {"kind", "computed"},
+                      {"unit", "Hz"},
+                      {"values", {exact}},
+                      {"uncertainty", {{"relative", 1e-14}}},
+                      {"source", "me"},
+                      {"place", "here"}});
+  (void)folder.write({{"id", "root"},
+                      {"title", "Root"},
+                      {"kind", "computed"},
+                      {"unit", "1"},
+                      {"values", {root}},
+                      {"uncertainty", {{"relative", 1e-14}}},
+                      {"source", "me"},
+                      {"place", "here"}});
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  json["sweeps"]["elements"] = {
+      {"pointers", {"/model/elements"}}, {"values", {1, 2, 4, 8, 16}}, {"theory_order", 4}};
+  json["checks"]["order"] = {{"quantity", "frequency_Hz"},
+                             {"index", 0},
+                             {"reference", "exact"},
+                             {"role", "verification"},
+                             {"order",
+                              {{"sweep", "elements"},
+                               {"within", 0.1},
+                               {"richardson_within", 1e-8},
+                               {"wave_number", {{"reference", "root"}, {"at_most", 1}}},
+                               {"leading_term", {{"coefficient", 1.0 / 1440}, {"within", 0.2}}},
+                               {"why", "error (beta h)^4 / 1440"}}}};
+  return json;
+}
+
+std::vector<Run> run_all(const std::vector<Case>& cases, unsigned jobs = 1,
+                         const std::string& variant = "") {
+  const References references;
+  RunOptions options;
+  options.jobs = jobs;
+  options.variant = variant;
+  return run_cases(cases, references, options);
+}
+
+const Judgement& find(const Run& run, const std::string& name) {
+  for (const Judgement& one : run.judgements) {
+    if (one.name == name) return one;
+  }
+  throw std::runtime_error("no check " + name);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(run)
+
+BOOST_AUTO_TEST_CASE(the_order_its_leading_term_and_the_extrapolated_value_are_judged) {
+  const Folder folder;
+  Json json = beam(folder);
+  std::vector<Run> runs = run_all({testing::read(folder, json)});
+  for (const char* name : {"order", "order.leading-term", "order.richardson"}) {
+    BOOST_TEST((find(runs.at(0), name).verdict == Verdict::pass), name);
+  }
+  BOOST_TEST(exit_status(runs) == 0);
+  BOOST_TEST(std::abs(find(runs[0], "order").computed.value() - 4) < 0.05);
+  // Lumped mass is of order 2 and its leading term another.
+  json["model"]["members"]["AB"]["mass_matrix"] = "lumped";
+  runs = run_all({testing::read(folder, json)});
+  BOOST_TEST((find(runs.at(0), "order").verdict == Verdict::fail));
+  BOOST_TEST((find(runs.at(0), "order.leading-term").verdict == Verdict::fail));
+  BOOST_TEST(exit_status(runs) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(an_order_from_too_few_meshes_is_no_order) {
+  const Folder folder;
+  Json json = beam(folder);
+  json["sweeps"]["elements"]["values"] = {4, 8};
+  const auto runs = run_all({testing::read(folder, json)});
+  BOOST_TEST((find(runs.at(0), "order").verdict == Verdict::error));
+  BOOST_TEST(contains(find(runs.at(0), "order").message, "only 2 meshes qualify, 3 are needed"));
+}
+
+BOOST_AUTO_TEST_CASE(the_numbers_do_not_depend_on_the_jobs) {
+  const Folder folder;
+  Json json = beam(folder);
+  for (int i = 1; i < 6; ++i) {
+    json["variants"]["v" + std::to_string(i)]["model"]["nodes"]["B"] = {1 + 0.1 * i, 0.2};
+  }
+  Json robot = testing::manipulator();
+  robot["model"].erase("pose");
+  robot["model"]["trajectory"]["circle"] = {
+      {"center_m", {0.25, 0.144}}, {"radius_m", 0.01}, {"points", 20}, {"step_s", 0.3}};
+  robot["analysis"] = {{"statics", Json::object()}};
+  robot["variants"]["hinged"]["model"]["manipulator"]["joints"]["elbow"] = "hinged";
+  const std::vector<Case> cases = {testing::read(folder, json), testing::read(folder, robot)};
+  const auto text = [&](unsigned jobs) {
+    const References references;
+    Json results = results_of(run_all(cases, jobs), cases, references);
+    results.erase("environment");
+    for (Json& one : results["runs"]) one.erase("cost");
+    return results.dump();
+  };
+  const std::string alone = text(1);
+  BOOST_TEST(alone.size() > 1000);
+  for (const unsigned jobs : {2U, 5U, 16U}) BOOST_TEST((text(jobs) == alone));
+}
+
+BOOST_AUTO_TEST_CASE(results_obey_their_schema) {
+  const Folder folder;
+  Json json = beam(folder);
+  json["variants"]["nothing-holds"]["model"]["supports"] = {{"A", {"x"}}};
+  const std::vector<Case> cases = {testing::read(folder, json)};
+  const References references;
+  const Json results = results_of(run_cases(cases, references, {}), cases, references);
+  const auto fault = find_fault(results, "results");
+  BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
+  BOOST_TEST(results["references"].contains("exact"));
+}
+
+BOOST_AUTO_TEST_CASE(a_singular_model_holds_where_it_is_expected_and_fails_where_not) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["model"]["supports"] = {{"A", {"x", "y"}}};
+  json["checks"]["c"] = {{"quantity", "digits_left"},
+                         {"role", "verification"},
+                         {"bound", {{"at_least", 3}, {"why", "w"}}}};
+  std::vector<Run> runs = run_all({testing::read(folder, json)});
+  BOOST_TEST(runs.at(0).status == "singular");
+  BOOST_TEST((find(runs[0], "status").verdict == Verdict::fail));
+  BOOST_TEST((find(runs[0], "c").verdict == Verdict::error));
+  BOOST_TEST(exit_status(runs) == 1);
+  json["expect_status"] = "singular";
+  runs = run_all({testing::read(folder, json)});
+  BOOST_TEST((find(runs.at(0), "status").verdict == Verdict::pass));
+  BOOST_TEST(runs[0].judgements.size() == 1);
+  BOOST_TEST(exit_status(runs) == 0);
+  json["model"]["supports"]["A"] = {"x", "y", "rotation"};
+  runs = run_all({testing::read(folder, json)});
+  BOOST_TEST((find(runs.at(0), "status").verdict == Verdict::fail));
+  BOOST_TEST(exit_status(runs) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_spoils_its_own_run_only) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["variants"]["lost"]["model"]["members"]["AB"]["nodes"] = {"A", "Q"};
+  const auto runs = run_all({testing::read(folder, json)});
+  BOOST_REQUIRE(runs.size() == 2);
+  BOOST_TEST(runs[0].status == "solved");
+  BOOST_TEST(runs[1].status == "error");
+  BOOST_TEST(
+      contains(runs[1].reason, "/variants/lost/model/members/AB/nodes/1: expected the name"));
+  BOOST_TEST(exit_status(runs) == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_variant_that_is_looked_at_is_computed_but_not_told) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 1e11;
+  json["checks"]["half"] = {
+      {"quantity", "displacement_y_m:B"},
+      {"against_variant", "soft"},
+      {"role", "validation"},
+      {"expect", {{"agrees", "E is twice"}, {"ratio_between", {0.49, 0.51}}}}};
+  auto runs = run_all({testing::read(folder, json)}, 1, "base");
+  BOOST_REQUIRE(runs.size() == 1);
+  BOOST_TEST((find(runs[0], "half").verdict == Verdict::pass));
+  runs = run_all({testing::read(folder, json)});
+  BOOST_REQUIRE(runs.size() == 2);
+  BOOST_TEST(runs[1].judgements.empty());  // not against itself
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,123 @@
+#include "harness/scene/member_chain.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "harness/scene/case_model.h"
+#include "tests/support/harness/analysing.h"
+
+using namespace trammel;
+using boost::test_tools::tolerance;
+using testing::complaint;
+using testing::contains;
+using testing::document_of;
+using testing::only;
+using testing::result_of;
+
+namespace {
+
+/// A quarter circle of 1 m from A to B about the origin, clamped at A, a force at B.
+Json quarter(Index elements) {
+  Json json = testing::cantilever();
+  json["model"]["nodes"] = {{"A", {1, 0}}, {"B", {0, 1}}};
+  json["model"]["members"]["AB"]["arc_center_m"] = {0, 0};
+  json["model"]["elements"] = elements;
+  json["model"]["loads"]["tip"]["force_N"] = {0, -1000};
+  return json;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(member_chain)
+
+BOOST_AUTO_TEST_CASE(an_arc_is_cut_into_chords_between_points_of_the_circle) {
+  const Model model = build_model(read_scene(document_of(quarter(6))), 0);
+  BOOST_REQUIRE(model.members.size() == 6);
+  BOOST_TEST(model.nodes.size() == 7);
+  BOOST_TEST(model.members[0].name == "AB.1");
+  BOOST_TEST(model.members[5].name == "AB.6");
+  for (const Node& node : model.nodes) BOOST_TEST(node.position.norm() == 1, tolerance(1e-14));
+  const double chord = 2 * std::sin(std::numbers::pi / 24);
+  for (const Member& member : model.members) {
+    const Vector2d span = model.nodes[static_cast<std::size_t>(member.nodes[1])].position -
+                          model.nodes[static_cast<std::size_t>(member.nodes[0])].position;
+    BOOST_TEST(span.norm() == chord, tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(from_b_to_a_the_arc_goes_the_long_way_round) {
+  Json json = quarter(6);
+  json["model"]["members"]["AB"]["nodes"] = {"B", "A"};
+  const Model model = build_model(read_scene(document_of(json)), 0);
+  bool left = false;
+  for (const Node& node : model.nodes) left = left || node.position.x() < -0.5;
+  BOOST_TEST(left);
+}
+
+BOOST_AUTO_TEST_CASE(a_quarter_circle_bends_as_castigliano_says) {
+  // Bending alone: u_y = pi P R^3 / (4 E I) under the load, to the chords' order 2.
+  const double bending = -std::numbers::pi * 1000 / (4 * 2e11 * 0.05 * 1e-3 / 12);
+  const double axial = -std::numbers::pi * 1000 / (4 * 2e11 * 0.05 * 0.1);
+  const auto error = [&](Index elements) {
+    return only(result_of(quarter(elements)), "displacement_y_m:B") / (bending + axial) - 1;
+  };
+  BOOST_TEST(std::abs(error(64)) < 3e-4);
+  BOOST_TEST(error(16) / error(32) == 4, tolerance(0.05));
+}
+
+BOOST_AUTO_TEST_CASE(nodes_between_have_no_quantities_of_their_own) {
+  const AnalysisResult result = result_of(quarter(4));
+  for (const auto& [name, quantity] : result.quantities) {
+    BOOST_TEST(name.back() != ':', name);
+    BOOST_TEST(quantity.values.size() == 1, name);
+  }
+  BOOST_TEST(
+      only(result, "bending_moment_N_m:AB.1.start") == -only(result, "reaction_moment_N_m:A"),
+      tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(a_rod_held_across_stretches_without_bending_stiffness) {
+  Json json = testing::cantilever();
+  json["model"]["sections"]["bar"] = {
+      {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 0}};
+  json["model"]["members"]["AB"]["ends"] = {"hinged", "hinged"};
+  json["model"]["members"]["AB"]["held"] = {"y"};
+  json["model"]["supports"] = {{"A", {"x", "y"}}, {"B", {"y"}}};
+  json["model"]["loads"]["tip"]["force_N"] = {1000, 0};
+  const AnalysisResult result = result_of(json);
+  BOOST_TEST(result.outcome.solved());
+  BOOST_TEST(only(result, "displacement_x_m:B") == 1000 * 2 / (2e11 * 0.01), tolerance(1e-12));
+  BOOST_TEST(only(result, "reaction_x_N:A") == -1000, tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(an_exponential_taper_has_the_geometric_mean_half_way) {
+  Json json = testing::cantilever();
+  json["model"]["sections"]["thin"] = {{"material", "steel"},
+                                       {"rectangle", {{"thickness_m", 0.1}, {"width_m", 0.0125}}}};
+  json["model"]["members"]["AB"]["end_section"] = "thin";
+  json["model"]["members"]["AB"]["taper"] = "exponential";
+  json["model"]["elements"] = 2;
+  const Model model = build_model(read_scene(document_of(json)), 0);
+  BOOST_TEST(model.members[0].end_section.EI ==
+                 std::sqrt(model.members[0].section.EI * model.members[1].end_section.EI),
+             tolerance(1e-14));
+  // The other end tapers back: the chain is symmetric about its middle.
+  BOOST_TEST(model.members[1].section.EA == model.members[0].end_section.EA);
+}
+
+BOOST_AUTO_TEST_CASE(an_arc_needs_its_centre_equally_far_from_both_ends) {
+  Json json = quarter(4);
+  json["model"]["nodes"]["B"] = {0, 1.5};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }),
+                      "/model/members/AB/arc_center_m: expected a centre as far"));
+}
+
+BOOST_AUTO_TEST_CASE(a_taper_needs_something_to_taper_to) {
+  Json json = testing::cantilever();
+  json["model"]["members"]["AB"]["taper"] = "exponential";
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }),
+                      "/model/members/AB/taper: expected an 'end_section' beside it"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

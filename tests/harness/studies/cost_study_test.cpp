@@ -1,0 +1,180 @@
+#include "harness/studies/cost_study.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+Json study_json() {
+  return Json::parse(R"({
+    "id": "arm", "family": "arms", "title": "A cantilever's first frequencies", "case": "cantilever",
+    "patch": {"analysis": {"statics": null, "modes": {"count": 2}}},
+    "quantities": {"frequency_Hz": {"index": [0, 1]}},
+    "truth": {"title": "32 elements", "patch": {"model": {"elements": 32}}},
+    "curves": {
+      "consistent": {"title": "consistent mass", "pointers": ["/model/elements"], "values": [1, 2, 4, 8],
+                     "each": "{} elements", "quick": [2, 4]},
+      "lumped": {"title": "lumped mass", "patch": {"model": {"members": {"AB": {"mass_matrix": "lumped"}}}},
+                 "pointers": ["/model/elements"], "values": [4, 16], "quick": []}
+    },
+    "baseline": {"curve": "consistent", "value": 4}
+  })");
+}
+
+/// The study beside its case.
+CostStudy load(const Json& json, Sweeping sweeping = Sweeping::full) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  const References references;
+  return load_cost_study(folder.write("arm.json", json.dump(1)), sweeping, references);
+}
+
+std::string fault_of(const Json& json, Sweeping sweeping = Sweeping::full) {
+  return complaint([&] { (void)load(json, sweeping); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cost_study)
+
+BOOST_AUTO_TEST_CASE(settings_are_the_case_with_the_patches_of_study_curve_and_value) {
+  const CostStudy study = load(study_json());
+  BOOST_TEST_REQUIRE(study.settings.size() == 6U);
+  BOOST_TEST(study.settings[0].title == "consistent mass, 1 element");
+  BOOST_TEST(study.settings[3].title == "consistent mass, 8 elements");
+  BOOST_TEST(study.settings[5].document.value().at("model").at("elements") == 16);
+  BOOST_TEST(study.settings[5].document.value()["model"]["members"]["AB"]["mass_matrix"] ==
+             "lumped");
+  BOOST_TEST(!study.settings[3].document.value()["model"]["members"]["AB"].contains("mass_matrix"));
+  BOOST_TEST(study.baseline == 2U);
+  BOOST_TEST_REQUIRE(study.truth.has_value());
+  BOOST_TEST(study.truth->document.value().at("model").at("elements") == 32);
+  BOOST_TEST(study.truth_words == "32 elements");
+}
+
+BOOST_AUTO_TEST_CASE(a_null_in_a_patch_takes_away_what_the_case_has) {
+  const CostStudy study = load(study_json());
+  BOOST_TEST(!study.settings[0].document.value()["analysis"].contains("statics"));
+}
+
+BOOST_AUTO_TEST_CASE(the_quick_sweep_has_the_quick_values_and_their_baseline) {
+  const CostStudy study = load(study_json(), Sweeping::quick);
+  BOOST_TEST_REQUIRE(study.settings.size() == 2U);
+  BOOST_TEST(study.settings[study.baseline].title == "consistent mass, 4 elements");
+  Json json = study_json();
+  json["baseline"]["value"] = 8;
+  BOOST_TEST(fault_of(json) == "");
+  BOOST_TEST(contains(fault_of(json, Sweeping::quick), "/baseline: expected a curve"));
+}
+
+BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
+  const auto spoiled = [](const std::string& pointer, const Json& value) {
+    Json json = study_json();
+    json[JsonPointer(pointer)] = value;
+    return fault_of(json);
+  };
+  BOOST_TEST(contains(spoiled("/id", "leg"), "/id: expected the file's name, 'arm'"));
+  BOOST_TEST(contains(spoiled("/norm", "maximum"), "/norm"));
+  BOOST_TEST(contains(spoiled("/case", "cantilevr"), "/case"));
+  BOOST_TEST(contains(spoiled("/variant", "none"), "expected the name of a variant"));
+  BOOST_TEST(contains(spoiled("/curves/lumped/pointers/0", "/model/elemnts"),
+                      "/curves/lumped/pointers/0: expected a pointer to a value of the case"));
+  BOOST_TEST(contains(spoiled("/curves/lumped/values/1", -3), "arm.json: /curves/lumped/values/1"));
+  BOOST_TEST(contains(spoiled("/curves/consistent/quick/0", 3), "/curves/consistent/quick/0"));
+  BOOST_TEST(contains(spoiled("/curves/lumped/patches", Json::parse("[{}]")),
+                      "expected either 'pointers' or 'patches'"));
+  BOOST_TEST(contains(spoiled("/baseline/curve", "none"), "/baseline"));
+  BOOST_TEST(contains(spoiled("/quantities/frequency_Hz/reference", "cantilever-frequencies"),
+                      "expected either 'truth' or references"));
+  BOOST_TEST(contains(spoiled("/patch/model", {{"elemnts", 3}}), "elemnts"));
+  Json json = study_json();
+  json.erase("truth");
+  BOOST_TEST(contains(fault_of(json), "expected 'truth'"));
+  json = study_json();
+  json["quantities"] = {{"frequency_Hz", {{"reference", "cantilever-tip-force-rotation"}}}};
+  json.erase("truth");
+  BOOST_TEST(contains(fault_of(json), "expected a reference in Hz"));
+}
+
+BOOST_AUTO_TEST_CASE(observed_values_are_chosen_added_and_condensed) {
+  const Quantities quantities = {{"pose_x_m", {{1, 2, 3}, {}}},
+                                 {"displacement_x_m:P", {{0.1, 0.2, -0.6}, {}}}};
+  Observed one;
+  one.quantity = "displacement_x_m:P";
+  one.plus = "pose_x_m";
+  BOOST_TEST(observe(quantities, {one})[0] == (std::vector<double>{1.1, 2.2, 2.4}),
+             boost::test_tools::per_element());
+  one.index = {0, 2};
+  BOOST_TEST(observe(quantities, {one})[0] == (std::vector<double>{1.1, 2.4}),
+             boost::test_tools::per_element());
+  one.plus = "";
+  one.statistic = "max_abs";
+  BOOST_TEST(observe(quantities, {one})[0][0] == 0.6);
+  const auto said = [&](const Observed& observed) {
+    try {
+      (void)observe(quantities, {observed});
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  one.quantity = "displacement_x_m:Q";
+  BOOST_TEST(contains(said(one), "did you mean 'displacement_x_m:P'"));
+  one.quantity = "pose_x_m";
+  one.index = {3};
+  BOOST_TEST(contains(said(one), "expected 4 values of pose_x_m (got 3)"));
+}
+
+BOOST_AUTO_TEST_CASE(the_sweeps_of_a_case_are_a_study) {
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 2}}}};
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},
+                                {"values", {1, 2, 4}},
+                                {"quantities", {{"frequency_Hz", {{"index", {0, 1}}}}}}};
+  const Folder folder;
+  const References references;
+  const Case given = testing::read(folder, json);
+  const CostStudy study = cost_study_of_sweeps(given, base_variant, {"elements"}, references);
+  BOOST_TEST_REQUIRE(study.settings.size() == 3U);
+  BOOST_TEST(study.settings[1].title == "elements 2");
+  BOOST_TEST(study.baseline == 0U);
+  BOOST_TEST(study.truth_words == "the finest level, elements 4");
+  BOOST_TEST(contains(
+      complaint([&] { (void)cost_study_of_sweeps(given, base_variant, {"element"}, references); }),
+      "did you mean 'elements'"));
+  const Case without = testing::read(folder, testing::cantilever());
+  BOOST_TEST(contains(
+      complaint([&] { (void)cost_study_of_sweeps(without, base_variant, {}, references); }),
+      "expected 'sweeps'"));
+}
+
+BOOST_AUTO_TEST_CASE(what_the_checks_of_a_case_know_exactly_is_what_its_sweep_is_measured_by) {
+  const References references;
+  const Case given =
+      load_case(std::filesystem::path(TRAMMEL_SOURCE_DIR) / "cases" / "beam-cantilever.json");
+  const CostStudy study = cost_study_of_sweeps(given, base_variant, {}, references);
+  BOOST_TEST(!study.truth.has_value());
+  BOOST_TEST_REQUIRE(study.settings.front().observed.size() == 1U);
+  BOOST_TEST(study.settings.front().observed[0].quantity == "frequency_Hz");
+  BOOST_TEST(study.settings.front().observed[0].exact.size() == 6U);
+}
+
+BOOST_AUTO_TEST_CASE(every_study_of_the_catalogue_can_be_read_in_full_and_quickly) {
+  const References references;
+  BOOST_TEST(!cost_study_files().empty());
+  for (const auto& file : cost_study_files()) {
+    const CostStudy full = load_cost_study(file, Sweeping::full, references);
+    const CostStudy quick = load_cost_study(file, Sweeping::quick, references);
+    BOOST_TEST(full.settings.size() >= quick.settings.size(), file);
+    BOOST_TEST(quick.settings.size() >= 2U, file);
+    BOOST_TEST(!full.description.empty(), file);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,162 @@
+#include "harness/studies/cost.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "harness/run/cost_results.h"
+#include "harness/base/environment.h"
+#include "harness/run/results.h"
+#include "harness/input/schema.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+using Standing = MeasuredSetting::Standing;
+
+namespace {
+
+/// The refinement of a cantilever's frequencies, against its 16 elements; the pose of the second
+/// curve's support lets it fall over, and the third one asks for more modes than there are.
+Json study_json() {
+  return Json::parse(R"({
+    "id": "arm", "family": "arms", "title": "A cantilever's first frequencies", "case": "cantilever",
+    "patch": {"analysis": {"statics": null, "modes": {"count": 2}}},
+    "quantities": {"frequency_Hz": {"index": [0, 1]}},
+    "truth": {"title": "16 elements", "patch": {"model": {"elements": 16}}},
+    "curves": {
+      "elements": {"title": "elements", "pointers": ["/model/elements"], "values": [1, 2, 4, 16]},
+      "more": {"title": "six modes of one element",
+               "patch": {"model": {"elements": 1}, "analysis": {"modes": {"count": 6}}},
+               "quantities": {"frequency_Hz": {"index": [6, 7]}}}
+    },
+    "baseline": {"curve": "elements", "value": 1}
+  })");
+}
+
+MeasuredStudy measured(const Json& json) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  const References references;
+  CostOptions options;
+  options.timing.shortest_s = 0;
+  return measure(load_cost_study(folder.write(json), Sweeping::full, references), options,
+                 references);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cost)
+
+BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
+  const Observations truth = {{10, 0, -5}}, found = {{11, 1, -5}};
+  const ErrorNorms entry = error_norms(found, truth, {});
+  BOOST_TEST(entry.max == 0.1);  // of the true zero: 1 over the largest, 10
+  BOOST_TEST(entry.mean == 0.2 / 3);
+  BOOST_TEST(entry.rms == std::sqrt(0.02 / 3));
+  const ErrorNorms largest = error_norms({{10, 0, -4}}, truth, {Scale::Kind::largest, 0});
+  BOOST_TEST(largest.max == 0.1);
+  const ErrorNorms fixed = error_norms({{10, 0, -4}}, truth, {Scale::Kind::number, 4});
+  BOOST_TEST(fixed.max == 0.25);
+  // Values that are errors themselves have no truth.
+  BOOST_TEST(error_norms({{1e-3, -2e-3}}, {{}}, {}).max == 2e-3);
+  BOOST_TEST(std::isnan(error_norms({{1, std::nan(""), 1}}, {{1, 1, 1}}, {}).max));
+  BOOST_CHECK_THROW((void)error_norms({{1, 2}}, {{1}}, {}), std::runtime_error);
+  BOOST_CHECK_THROW((void)error_norms({{1}}, {{0}}, {}), std::runtime_error);
+}
+
+BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
+  const MeasuredStudy study = measured(study_json());
+  BOOST_TEST_REQUIRE(study.settings.size() == 5U);
+  for (std::size_t i : {0U, 1U, 2U}) {
+    const MeasuredSetting& one = study.settings[i];
+    BOOST_TEST((one.standing == Standing::measured || one.standing == Standing::wide));
+    BOOST_TEST(one.error->max > 0);
+    BOOST_TEST(one.timing->cpu_s.size() == 7U);
+  }
+  BOOST_TEST(study.settings[1].error->max < study.settings[0].error->max / 10);
+  BOOST_TEST((study.settings[3].standing == Standing::truth));
+  BOOST_TEST((study.settings[4].standing == Standing::failed));
+  BOOST_TEST(contains(study.settings[4].reason, "values of frequency_Hz"));
+  BOOST_TEST(!study.settings[4].timing.has_value());
+  for (const CostPoint& point : study.points) {
+    BOOST_TEST((study.settings[point.setting].standing == Standing::measured));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(counters_are_the_work_and_do_not_depend_on_the_machine) {
+  const MeasuredStudy a = measured(study_json()), b = measured(study_json());
+  for (std::size_t i = 0; i < a.settings.size(); ++i) {
+    BOOST_TEST(a.settings[i].counters.element_evaluations ==
+               b.settings[i].counters.element_evaluations);
+    BOOST_TEST(a.settings[i].counters.factorizations == b.settings[i].counters.factorizations);
+    BOOST_TEST(a.settings[i].counters.solves == b.settings[i].counters.solves);
+  }
+  // Twice the elements, twice the evaluations.
+  BOOST_TEST(a.settings[2].counters.element_evaluations ==
+             2 * a.settings[1].counters.element_evaluations);
+}
+
+BOOST_AUTO_TEST_CASE(a_spread_that_is_too_wide_is_marked_and_not_used) {
+  MeasuredStudy study = measured(study_json());
+  Timing& timing = *study.settings[1].timing;
+  timing.median_s = timing.lower_quartile_s = 1;
+  timing.upper_quartile_s = 1 + 1.01 * widest_spread;
+  conclude(study);
+  BOOST_TEST((study.settings[1].standing == Standing::wide));
+  for (const CostPoint& point : study.points) BOOST_TEST(point.setting != 1U);
+  timing.upper_quartile_s = 1 + 0.99 * widest_spread;
+  conclude(study);
+  BOOST_TEST((study.settings[1].standing == Standing::measured));
+}
+
+BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
+  Json json = study_json();
+  json["time_limit_s"] = 1;
+  json["curves"]["more"] = {
+      {"title", "far too fine"},
+      {"patch", {{"model", {{"elements", 4000}}}, {"analysis", {{"modes", {{"path", "dense"}}}}}}}};
+  const MeasuredStudy study = measured(json);
+  BOOST_TEST((study.settings[4].standing == Standing::timed_out));
+  BOOST_TEST(study.settings[4].cpu_s == 1);
+  BOOST_TEST(contains(study.settings[4].reason, "1 s of processor time"));
+}
+
+BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
+  Json json = study_json();
+  // Each frequency goes with the square root of E.
+  json["curves"]["more"] = {{"title", "stiff beyond reason"},
+                            {"patch", {{"model", {{"materials", {{"steel", {{"E_Pa", 2e15}}}}}}}}}};
+  BOOST_TEST((measured(json).settings[4].standing == Standing::diverged));
+}
+
+BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
+  Json json = study_json();
+  json["truth"]["patch"]["model"]["supports"] = {{"A", nullptr}};
+  json["quantities"]["frequency_Hz"]["index"] = {7};
+  BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a truth"));
+  json = study_json();
+  json["baseline"] = {{"curve", "more"}};
+  BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a baseline"));
+}
+
+BOOST_AUTO_TEST_CASE(the_results_obey_their_schema_and_give_the_front_back) {
+  const MeasuredStudy study = measured(study_json());
+  const References references;
+  Json results = results_of({}, {}, references);
+  results["cost"] = cost_json({study}, Sweeping::full, {});
+  const auto fault = find_fault(results, "results");
+  BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
+  const Json& written = results["cost"]["studies"][0];
+  BOOST_TEST(written["settings"].size() == 5U);
+  BOOST_TEST(written["cheapest"].size() == asked_errors().size());
+  const std::vector<CostPoint> points = cost_points(written);
+  BOOST_TEST_REQUIRE(points.size() == study.points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    BOOST_TEST(points[i].error == study.points[i].error);
+    BOOST_TEST(points[i].time == study.points[i].time, boost::test_tools::tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

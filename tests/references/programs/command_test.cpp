@@ -1,0 +1,119 @@
+#include "references/programs/command.h"
+
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "references/programs/stored.h"
+
+namespace fs = std::filesystem;
+using namespace trammel::derive;
+
+namespace {
+
+const fs::path values = fs::path(TRAMMEL_SOURCE_DIR) / "references/values";
+
+struct Outcome {
+  int status;
+  std::string out, err;
+};
+
+Outcome run(const std::vector<std::string>& words) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int status = derive_command(words, out, err);
+  return {status, out.str(), err.str()};
+}
+
+/// A file beside the build that is gone when the test ends.
+class ScratchFile {
+ public:
+  explicit ScratchFile(const std::string& text)
+      : path_(fs::temp_directory_path() /
+              (std::string("trammel_command_test_") +
+               std::to_string(std::hash<std::string>{}(text)) + ".json")) {
+    std::ofstream(path_) << text;
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile() { fs::remove(path_); }
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+bool one_line(const std::string& text) {
+  return !text.empty() && text.find('\n') == text.size() - 1;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(command)
+
+BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
+  const Outcome outcome = run({(values / "cantilever-roots.json").string()});
+  BOOST_TEST(outcome.status == 0);
+  BOOST_TEST(outcome.out.find("cantilever-roots [1] by beam-roots") == 0U);
+  BOOST_TEST(outcome.out.find("1.8751040687119611") != std::string::npos);
+  BOOST_TEST(outcome.out.find("  holds\n") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_corrupted_reference_is_caught_with_status_1) {
+  Json reference = read_json(values / "cantilever-roots.json");
+  reference["values"][2] = reference["values"][2].get<double>() + 1e-9;
+  const ScratchFile file(reference.dump());
+  const Outcome outcome = run({file.path(), (values / "centroid.json").string()});
+  BOOST_TEST(outcome.status == 1);
+  BOOST_TEST(outcome.out.find("DOES NOT HOLD") != std::string::npos);
+  BOOST_TEST(outcome.out.find("centroid") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_printed_reference_has_nothing_to_derive) {
+  const Outcome outcome = run({(values / "table-2-ansys.json").string()});
+  BOOST_TEST(outcome.status == 0);
+  BOOST_TEST(outcome.out == "table-2-ansys [Hz]: no derivation\n");
+}
+
+BOOST_AUTO_TEST_CASE(a_program_prints_its_values_with_all_their_digits) {
+  const Outcome outcome =
+      run({"--program", "beam-roots", "--arguments", R"({"ends": "pinned-pinned", "count": 1})"});
+  BOOST_TEST(outcome.status == 0);
+  BOOST_TEST(outcome.out == "3.1415926535897931\n");
+}
+
+BOOST_AUTO_TEST_CASE(every_program_is_listed) {
+  const Outcome outcome = run({"--list"});
+  BOOST_TEST(outcome.status == 0);
+  for (const char* name : {"beam-roots", "frame-frequencies", "formula", "annular-membrane"}) {
+    BOOST_TEST(outcome.out.find(name) != std::string::npos);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_usage_and_bad_input_are_one_line_with_status_2) {
+  const ScratchFile not_json("{\"id\": ");
+  const ScratchFile bad_argument(R"({"id": "x", "unit": "1", "values": [1],
+    "uncertainty": {"relative": 1}, "derivation": {"program": "beam-roots", "arguments": {}}})");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--program", "none"}, "there are"},
+      {{"--program", "beam-roots", "--arguments", "{"}, "--arguments: not JSON"},
+      {{"--program", "beam-roots", "--arguments", "{}"}, "/ends: is missing"},
+      {{"--unknown"}, "cannot use '--unknown'"},
+      {{"no-such-file.json"}, "no-such-file.json: cannot be read"},
+      {{not_json.path()}, "not JSON at byte"},
+      {{bad_argument.path()}, "/derivation/arguments/ends: is missing"}};
+  for (const auto& [words, expected] : cases) {
+    const Outcome outcome = run(words);
+    BOOST_TEST_CONTEXT(words.back()) {
+      BOOST_TEST(outcome.status == 2);
+      BOOST_TEST(one_line(outcome.err));
+      BOOST_TEST(outcome.err.find(expected) != std::string::npos);
+    }
+  }
+  BOOST_TEST(run({}).status == 2);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,154 @@
+// ctest: labels=verification timeout=300
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "references/data/reference.h"
+#include "references/programs/stored.h"
+
+namespace fs = std::filesystem;
+using namespace trammel::derive;
+
+namespace {
+
+const fs::path root = fs::path(TRAMMEL_SOURCE_DIR) / "references";
+
+std::vector<fs::path> reference_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(root / "values")) {
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  }
+  return files;
+}
+
+/// Every stored reference with what its derivation gives, derived once.
+const std::map<std::string, Comparison>& comparisons() {
+  static const auto all = [] {
+    std::map<std::string, Comparison> result;
+    for (const fs::path& file : reference_files()) {
+      result[file.stem().generic_string()] = compare_with_derivation(read_json(file));
+    }
+    return result;
+  }();
+  return all;
+}
+
+/// `value` with its tenth significant digit changed by one.
+double with_tenth_digit_changed(double value) {
+  return value + std::pow(10.0, std::floor(std::log10(std::abs(value))) - 9);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(derivation)
+
+BOOST_AUTO_TEST_CASE(every_stored_value_with_a_derivation_is_what_comes_out_of_it) {
+  int derived = 0;
+  for (const auto& [name, comparison] : comparisons()) {
+    BOOST_TEST_CONTEXT(name) {
+      BOOST_TEST(comparison.id == name);
+      if (comparison.program.empty()) continue;
+      BOOST_TEST(comparison.derived.size() == comparison.stored.size());
+      BOOST_TEST(comparison.holds());
+      ++derived;
+    }
+  }
+  BOOST_TEST(derived > 200);
+}
+
+BOOST_AUTO_TEST_CASE(an_exact_value_has_a_derivation_and_every_source_is_in_the_bibliography) {
+  const Json bibliography = read_json(root / "bibliography.json");
+  for (const fs::path& file : reference_files()) {
+    BOOST_TEST_CONTEXT(file.filename().generic_string()) {
+      const Json reference = read_json(file);
+      BOOST_TEST((reference.at("kind") != "exact" || reference.contains("derivation")));
+      BOOST_TEST(bibliography.contains(reference.at("source").get<std::string>()));
+      BOOST_TEST(!reference.at("place").get<std::string>().empty());
+      if (!reference.contains("printed")) continue;
+      for (std::size_t i = 0; i < reference.at("values").size(); ++i) {
+        const double printed = std::stod(reference.at("printed").at(i).get<std::string>());
+        BOOST_TEST(
+            (printed == reference.at("values").at(i).get<double>() || reference.contains("notes")));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_passport_is_read_with_the_uncertainty_that_the_derivation_is_held_to) {
+  for (const fs::path& file : reference_files()) {
+    BOOST_TEST_CONTEXT(file.filename().generic_string()) {
+      const trammel::Reference reference = trammel::load_reference(file);
+      const Comparison& comparison = comparisons().at(reference.id);
+      BOOST_TEST(reference.values == comparison.stored, boost::test_tools::per_element());
+      for (std::size_t i = 0; i < reference.values.size(); ++i) {
+        BOOST_TEST(reference.uncertainty[i] == comparison.uncertainty[i],
+                   boost::test_tools::tolerance(1e-12));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_stored_exact_value_corrupted_in_its_tenth_digit_is_caught) {
+  int corrupted = 0;
+  for (const fs::path& file : reference_files()) {
+    const std::string name = file.stem().generic_string();
+    if (read_json(file).at("kind") != "exact") continue;
+    BOOST_TEST_CONTEXT(name) {
+      Comparison comparison = comparisons().at(name);
+      for (double& value : comparison.stored) {
+        if (value == 0) continue;
+        const double kept = value;
+        value = with_tenth_digit_changed(kept);
+        BOOST_TEST(!comparison.holds());
+        value = kept;
+        ++corrupted;
+      }
+    }
+  }
+  BOOST_TEST(corrupted > 100);
+}
+
+BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {
+  Comparison comparison;
+  comparison.stored = {1.0, 2.0};
+  comparison.uncertainty = {1e-9, 1e-9};
+  comparison.derived = {1.0, 2.0};
+  BOOST_TEST(comparison.holds());
+  comparison.derived = {1.0};
+  BOOST_TEST(!comparison.holds());
+  comparison.derived = {1.0, std::nan("")};
+  BOOST_TEST(!comparison.holds());
+}
+
+BOOST_AUTO_TEST_CASE(a_printed_value_is_uncertain_by_half_its_last_place) {
+  const Json printed = {{"id", "x"},
+                        {"unit", "m"},
+                        {"values", {12.768, 0.012, 5}},
+                        {"printed", {"12.768", "1.2e-2", "5"}}};
+  const Comparison comparison = compare_with_derivation(printed);
+  BOOST_TEST(comparison.uncertainty[0] == 5e-4, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(comparison.uncertainty[1] == 5e-4, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(comparison.uncertainty[2] == 0.5, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(an_error_inside_a_derivation_points_into_the_file) {
+  const Json reference = {
+      {"id", "x"},
+      {"unit", "1"},
+      {"values", {1}},
+      {"uncertainty", {{"relative", 0}}},
+      {"derivation",
+       {{"program", "beam-roots"}, {"arguments", {{"ends", "glued"}, {"count", 1}}}}}};
+  try {
+    static_cast<void>(compare_with_derivation(reference));
+    BOOST_TEST(false, "accepted");
+  } catch (const DerivationError& error) {
+    BOOST_TEST(std::string(error.what()).rfind("/derivation/arguments/ends: expected one of", 0) ==
+               0U);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,88 @@
+#include "reports/data/results.h"
+
+#include <boost/test/unit_test.hpp>
+#include <fstream>
+
+#include "tests/support/reports/sample.h"
+#include "tests/support/reports/workspace.h"
+
+using namespace trammel::tests;
+using nlohmann::ordered_json;
+using trammel::reports::read_results;
+
+namespace {
+
+/// What is said of the sample after `patch` (a JSON Patch) has been applied to it.
+std::string complaint(const ordered_json& patch) {
+  const Workspace workspace;
+  const auto file = workspace.results(sample_results().patch(patch));
+  try {
+    (void)read_results(file);
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();
+    const std::string name = file.string() + ": ";
+    BOOST_TEST(what.rfind(name, 0) == 0U, what << " does not name the file");
+    BOOST_TEST(what.find('\n') == std::string::npos);
+    return what.substr(name.size());
+  }
+  return "nothing";
+}
+
+ordered_json replace(const std::string& pointer, const ordered_json& value) {
+  return {{{"op", "replace"}, {"path", pointer}, {"value", value}}};
+}
+
+ordered_json drop(const std::string& pointer) {
+  return {{{"op", "remove"}, {"path", pointer}}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(results)
+
+BOOST_AUTO_TEST_CASE(what_is_missing_or_wrong_is_named_by_its_pointer) {
+  BOOST_TEST(complaint(drop("/runs")) == "/runs: expected a value, found nothing");
+  BOOST_TEST(complaint(replace("/format", 2)) == "/format: expected 1");
+  BOOST_TEST(complaint(replace("/runs/0/status", "done")) ==
+             "/runs/0/status: expected one of solved singular not-converged error not-run");
+  BOOST_TEST(complaint(replace("/runs/0/case", "nowhere")) ==
+             "/runs/0/case: expected a case that stands under /cases");
+  BOOST_TEST(complaint(replace("/runs/0/checks/0/computed", "16")) ==
+             "/runs/0/checks/0/computed: expected a number");
+  BOOST_TEST(complaint(drop("/runs/0/checks/0/verdict")) ==
+             "/runs/0/checks/0/verdict: expected a value, found nothing");
+  BOOST_TEST(complaint(replace("/runs/0/drawing/members/0/1", 99)) ==
+             "/runs/0/drawing/members/0/1: expected an integer from 0 to 27");
+  BOOST_TEST(complaint(drop("/runs/0/drawing/shapes/0/displacement_m/0")) ==
+             "/runs/0/drawing/shapes/0/displacement_m: expected one pair of numbers a node, 28");
+}
+
+BOOST_AUTO_TEST_CASE(text_that_is_not_json_is_named_by_its_byte) {
+  const Workspace workspace;
+  const auto file = workspace.path() / "results.json";
+  std::ofstream(file) << "{\"format\": 1,, }";
+  BOOST_CHECK_EXCEPTION((void)read_results(file), std::runtime_error, [&](const auto& error) {
+    return error.what() == file.string() + ": not JSON at byte 14";
+  });
+  BOOST_CHECK_EXCEPTION((void)read_results(workspace.path() / "none.json"), std::runtime_error,
+                        [](const auto& error) {
+                          return std::string(error.what()).find("cannot be read") !=
+                                 std::string::npos;
+                        });
+}
+
+BOOST_AUTO_TEST_CASE(a_number_that_is_not_there_is_empty_and_not_zero) {
+  const Workspace workspace;
+  const auto read = read_results(workspace.results(sample_results()));
+  bool seen = false;
+  for (const auto& run : read.runs)
+    for (const auto& check : run.checks) {
+      if (check.name != "inertia") continue;
+      seen = true;
+      BOOST_TEST(!check.computed.has_value());
+      BOOST_TEST((check.verdict == trammel::reports::Verdict::error));
+    }
+  BOOST_TEST(seen);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

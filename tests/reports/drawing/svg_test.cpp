@@ -1,0 +1,58 @@
+#include "reports/drawing/svg.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/support/reports/markup.h"
+
+using namespace trammel::reports;
+using namespace trammel::tests;
+
+namespace {
+
+constexpr const char* drawn = R"(<?xml version="1.0"?>
+<svg
+ viewBox="0 0 500 360"
+ xmlns="http://www.w3.org/2000/svg">
+<title>Gnuplot</title>
+<defs>
+	<circle id='gpDot' r='0.5'/>
+	<circle id='gpPt5' cx='0' cy='0' r='1'/>
+	<use xlink:href='#gpPt5' id='gpPt6' fill='currentColor'/>
+</defs>
+<g fill="none" color="black">
+</g>
+<g id="plot_1" ><title>plot_1</title>
+<path stroke='rgb( 31,  95, 168)'  d='M57.75,335.00 L69.04,335.12'/>
+<use xlink:href='#gpPt6' color='black'/>
+<text>335.00 is told</text>
+</g>
+</svg>)";
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(svg)
+
+BOOST_AUTO_TEST_CASE(a_drawing_becomes_one_element_that_can_stand_beside_others) {
+  const std::string tidy = tidy_svg(drawn, "fig-a", "Title", "What <it> shows");
+  BOOST_TEST(markup_fault(tidy, false) == "");
+  BOOST_TEST(tidy.rfind("<svg ", 0) == 0U);
+  BOOST_TEST(tidy.find("aria-label=\"Title. What &lt;it&gt; shows\"") != std::string::npos);
+  BOOST_TEST(tidy.find("href='#fig-a-gpPt6'") != std::string::npos);
+  BOOST_TEST(tidy.find("id='fig-a-gpPt5'") != std::string::npos);
+  BOOST_TEST(tidy.find("gpDot") == std::string::npos);
+  BOOST_TEST(tidy.find("plot_1") == std::string::npos);
+  BOOST_TEST(occurrences(tidy, "<g") == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(coordinates_and_colours_are_short_and_texts_untouched) {
+  const std::string tidy = tidy_svg(drawn, "a", "t", "d");
+  BOOST_TEST(tidy.find("stroke='#1f5fa8'") != std::string::npos);
+  BOOST_TEST(tidy.find("M57.7,335 L69,335.1") != std::string::npos);
+  BOOST_TEST(tidy.find("335.00 is told") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_torn_drawing_is_refused) {
+  BOOST_CHECK_THROW((void)tidy_svg("<svg viewBox=\"0 0 1 1\">", "a", "t", "d"), std::runtime_error);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,224 @@
+#include "reports/figures/figures.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "reports/figures/outline.h"
+#include "reports/page/gallery.h"
+
+using namespace trammel::reports;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+CaseInfo beam() {
+  CaseInfo info;
+  info.id = "beam";
+  info.title = "A beam";
+  info.family = "beams";
+  info.variants = {{"base", "as it is"}, {"lumped", "lumped mass"}};
+  return info;
+}
+
+/// Errors c n^-order from 1 to 64 elements over a floor of round-off.
+Convergence sweep(int index, double order) {
+  Convergence c;
+  c.sweep = "elements";
+  c.quantity = "frequency_Hz";
+  c.index = index;
+  for (double n = 1; n <= 64; n *= 2) {
+    c.parameter.push_back(n);
+    c.values.emplace_back(100.0);
+    c.error.emplace_back(0.1 * std::pow(n, -order));
+    c.roundoff.emplace_back(1e-15 * n * n);
+    c.order.emplace_back(order);
+    c.band.emplace_back(0.1);
+    c.in_asymptotic_range.push_back(n > 2);
+  }
+  c.exact = 100;
+  c.theory_order = 4;
+  c.fitted_order = order;
+  return c;
+}
+
+Run run_with(std::vector<Convergence> sweeps) {
+  Run run;
+  run.case_id = "beam";
+  run.variant = "base";
+  run.status = Status::solved;
+  run.convergence = std::move(sweeps);
+  return run;
+}
+
+Check judged(const std::string& name, double difference, double tolerance) {
+  Check check;
+  check.name = name;
+  check.quantity = "frequency_Hz";
+  check.role = "verification";
+  check.measure = "relative";
+  check.index = 0;
+  check.computed = 1 + difference;
+  check.expected = 1;
+  check.difference = difference;
+  check.tolerance = Tolerance{-tolerance, tolerance, true};
+  check.verdict = std::abs(difference) <= tolerance ? Verdict::pass : Verdict::fail;
+  return check;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(figures)
+
+BOOST_AUTO_TEST_CASE(convergence_caption_says_what_was_fitted_and_what_theory_wants) {
+  const auto good = convergence_figures(beam(), run_with({sweep(0, 3.98), sweep(1, 4.01)}));
+  BOOST_TEST_REQUIRE(good.size() == 1U);
+  BOOST_TEST(contains(good[0].caption, "All 2 fall with order 3.98 to 4.01; theory: 4."));
+  BOOST_TEST(good[0].data.rows.size() == 14U);
+
+  const auto bad = convergence_figures(beam(), run_with({sweep(0, 4), sweep(1, 2.1)}));
+  BOOST_TEST(contains(bad[0].caption, "More than 0.1 from theory: mode 2 (2.10)."));
+  const auto alone = convergence_figures(beam(), run_with({sweep(0, 2.1)}));
+  BOOST_TEST(contains(alone[0].caption, "That is more than 0.1 from theory."));
+}
+
+BOOST_AUTO_TEST_CASE(where_two_orders_mix_the_caption_names_their_law_and_how_well_it_holds) {
+  Convergence mixed = sweep(0, 4);
+  mixed.fitted_order.reset();
+  mixed.lower_order = 1.354;
+  mixed.law_within = 0.042;
+  const auto figure = convergence_figures(beam(), run_with({mixed}));
+  BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35 of the size h"));
+  BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
+  BOOST_TEST(!contains(figure[0].caption, "No order"));
+  mixed.law_within.reset();
+  BOOST_TEST(contains(convergence_figures(beam(), run_with({mixed}))[0].caption,
+                      "no law a h^4 + b h^1.35 meets the errors"));
+}
+
+BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_claimed) {
+  Convergence coarse = sweep(0, 4);
+  coarse.fitted_order.reset();
+  const auto figure = convergence_figures(beam(), run_with({coarse}));
+  BOOST_TEST(contains(figure[0].caption, "No order is claimed: too few levels lie"));
+  coarse.in_asymptotic_range.assign(coarse.in_asymptotic_range.size(), false);
+  const auto none = convergence_figures(beam(), run_with({coarse}));
+  BOOST_TEST(contains(none[0].caption, "No order is claimed: no level lies"));
+  BOOST_TEST(!contains(none[0].caption, "Filled marks"));
+}
+
+BOOST_AUTO_TEST_CASE(a_caption_says_small_numbers_in_their_unit_not_in_powers_of_the_axis) {
+  Run run = run_with({});
+  run.quantities = {{"time_s", {0.0, 1.0}}, {"position_error_m", {1e-12, 5.72e-9}}};
+  std::string problem;
+  const auto figure = curves_figure(
+      beam(), {"f", "f", "time_s", "", {"position_error_m"}, {"base"}}, {&run}, problem);
+  BOOST_TEST_REQUIRE(figure.has_value());
+  BOOST_TEST(contains(figure->caption, "Largest magnitude: 5.72\u202f×\u202f10⁻⁹\u202fm."),
+             figure->caption);
+}
+
+BOOST_AUTO_TEST_CASE(a_count_that_is_right_on_every_mesh_makes_no_figure) {
+  Convergence count = sweep(0, 4);
+  for (Number& error : count.error) error = 0;
+  BOOST_TEST(convergence_figures(beam(), run_with({count})).empty());
+}
+
+BOOST_AUTO_TEST_CASE(tolerance_caption_names_what_is_nearest_to_its_limit_or_beyond_it) {
+  Run run = run_with({});
+  run.checks = {judged("far", 1e-6, 1e-3), judged("near", -9e-4, 1e-3)};
+  auto figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
+  BOOST_TEST_REQUIRE(figure.has_value());
+  BOOST_TEST(contains(figure->caption, "All 2 checks hold"));
+  BOOST_TEST(contains(figure->caption, "uses 90\u202f% of its tolerance (near)"));
+  run.checks.push_back(judged("beyond", 2e-3, 1e-3));
+  figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
+  BOOST_TEST(contains(figure->caption, "1 of 3 checks not within tolerance; see beyond."));
+}
+
+BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
+  Run run = run_with({});
+  run.quantities = {{"time_s", {0.0, 1.0}}, {"force_N:A", {1.0, 2.0}}, {"length_m:A", {1.0}}};
+  const auto problem_of = [&](const std::vector<std::string>& y) {
+    std::string problem;
+    const PlotRequest request{"f", "f", "time_s", "", y, {"base"}};
+    BOOST_TEST(!curves_figure(beam(), request, {&run}, problem).has_value());
+    return problem;
+  };
+  BOOST_TEST(contains(problem_of({"length_m:A"}), "differ in length"));
+  BOOST_TEST(contains(problem_of({"torque_N_m:A"}), "has no torque_N_m:A"));
+  run.quantities.emplace_back("length_m:B", Numbers{1.0, 2.0});
+  BOOST_TEST(contains(problem_of({"force_N:A", "length_m:B"}), "differ in unit"));
+}
+
+BOOST_AUTO_TEST_CASE(hinges_without_a_name_are_no_further_pose) {
+  Run run = run_with({});
+  run.drawing = Drawing{{{0, 0}, {1, 0}, {2, 0}},
+                        {{0, 1}, {1, 2}},
+                        {},
+                        {{0, "support", "A"}, {1, "hinged", ""}, {2, "hinged", ""}},
+                        {},
+                        {}};
+  Results results;
+  results.cases = {beam()};
+  results.runs = {run};
+  const auto families = plan_families(results);
+  const Gallery& gallery = families.front().galleries.at("beam");
+  BOOST_TEST_REQUIRE(!gallery.shown.empty());
+  BOOST_TEST(!contains(gallery.shown.front().caption, "poses"), gallery.shown.front().caption);
+}
+
+BOOST_AUTO_TEST_CASE(a_straight_limb_is_two_points_and_a_bent_one_keeps_its_corner) {
+  const std::vector<std::vector<int>> line = {{0, 1, 2, 3}};
+  BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}).size() == 2U);
+  BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {2, 1}}).size() == 3U);
+}
+
+BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
+  Drawing drawing;
+  drawing.members = {{0, 1}, {1, 2}, {5, 6}};
+  BOOST_TEST(polylines(drawing).size() == 2U);
+  const int n = 5;  // a square of 5 x 5 cells without the middle one, two triangles each
+  std::vector<Point> nodes;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) nodes.emplace_back(j, i);
+  drawing.nodes = nodes;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      if (i == 2 && j == 2) continue;
+      const int a = i * (n + 1) + j;
+      drawing.triangles.push_back({a, a + 1, a + n + 1});
+      drawing.triangles.push_back({a + 1, a + n + 1, a + n + 2});  // the other way round
+    }
+  const auto loops = triangle_edges(drawing);
+  BOOST_REQUIRE(loops.size() == 2U);
+  for (const auto& loop : loops) BOOST_TEST(loop.front() == loop.back());
+  BOOST_TEST(loops[0].size() + loops[1].size() == 4U * n + 1 + 5);
+  // One polygon: 4 + 1 corners of the square, 4 + 1 of the hole, and back to where it began.
+  BOOST_TEST(filled_triangles(drawing, nodes).size() == 11U);
+  BOOST_TEST(inner_edges(drawing).size() == (3U * 48 - 24) / 2);
+  BOOST_TEST(inner_edges(drawing, 20).empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_discrepancy_that_could_not_be_computed_is_not_given_a_number) {
+  Run run = run_with({});
+  run.checks = {judged("known", 0.1, 0.2), judged("known", 0.1, 0.2)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    run.checks[i].index = static_cast<int>(i);
+    run.checks[i].known_discrepancy = true;
+  }
+  const auto caption = [&run] {
+    const auto figures = discrepancy_figures(beam(), Results{}, {&run});
+    return figures.empty() ? std::string() : figures.front().caption;
+  };
+  BOOST_TEST(contains(caption(), "The 2 differences lie between"), caption());
+  for (Check& check : run.checks) {
+    check.difference.reset();
+    check.verdict = Verdict::error;
+  }
+  BOOST_TEST(contains(caption(), "No difference could be computed."), caption());
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,113 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "reports/figures/figures.h"
+#include "reports/drawing/palette.h"
+
+using namespace trammel::reports;
+
+namespace {
+
+CaseInfo workspace() {
+  CaseInfo info;
+  info.id = "workspace";
+  info.title = "A workspace";
+  return info;
+}
+
+/// Values x + 10 y on columns x rows positions, 0.1 m apart.
+Run field(int columns, int rows) {
+  Numbers x, y, value;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      x.emplace_back(0.1 * i);
+      y.emplace_back(0.1 * j);
+      value.emplace_back(0.1 * i + 1.0 * j);
+    }
+  }
+  Run run;
+  run.case_id = "workspace";
+  run.variant = "base";
+  run.status = Status::solved;
+  run.quantities = {{"position_x_m", x}, {"position_y_m", y}, {"frequency_Hz", value}};
+  return run;
+}
+
+std::optional<Figure> draw(const Run& run, std::string& problem) {
+  PlotRequest request;
+  request.id = "map";
+  request.title = "A map";
+  request.x = "position_x_m";
+  request.y = {"position_y_m"};
+  request.value = "frequency_Hz";
+  return map_figure(workspace(), request, {&run}, problem);
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(map)
+
+BOOST_AUTO_TEST_CASE(a_map_keeps_every_position_and_says_what_its_colours_mean) {
+  std::string problem;
+  const auto figure = draw(field(14, 5), problem);
+  BOOST_TEST_REQUIRE(figure.has_value(), problem);
+  BOOST_TEST(figure->data.rows.size() == 70U);
+  BOOST_TEST(contains(figure->caption,
+                      " in Hz, dark far from zero, in classes of about equally many positions."));
+  BOOST_TEST(contains(figure->commands, "'below 1'"));  // ten of the 70, in seven classes
+  BOOST_TEST(contains(figure->alt, "the largest magnitude is 5.3 Hz"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
+  std::string problem;
+  Run run = field(14, 5);
+  const auto shade_of_lowest = [&] {
+    const auto figure = draw(run, problem);
+    BOOST_TEST_REQUIRE(figure.has_value(), problem);
+    const std::size_t key = figure->commands.find("'below ");
+    const std::size_t color = figure->commands.rfind('#', key);
+    return figure->commands.substr(color, 7);
+  };
+  BOOST_TEST(shade_of_lowest() == palette::sequence.front());
+  for (Number& number : run.quantities[2].second) number = -*number;
+  BOOST_TEST(shade_of_lowest() == palette::sequence.back());
+  run.quantities[2].second[0] = 7.0;
+  BOOST_TEST(shade_of_lowest() == palette::sequence.front());
+  BOOST_TEST(contains(draw(run, problem)->caption, "dark where it is high"));
+}
+
+BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
+  Run run = field(14, 5);
+  run.quantities[2].second[3].reset();
+  std::string problem;
+  const auto figure = draw(run, problem);
+  BOOST_TEST_REQUIRE(figure.has_value(), problem);
+  BOOST_TEST(figure->data.rows.size() == 69U);
+  for (Number& number : run.quantities[2].second) number.reset();
+  BOOST_TEST(!draw(run, problem).has_value());
+  BOOST_TEST(problem == "frequency_Hz has no numbers");
+}
+
+BOOST_AUTO_TEST_CASE(a_single_column_has_cells_with_a_width_and_tics_apart) {
+  // tics 0 apart are an error to gnuplot, and took the whole report with them
+  std::string problem;
+  for (const auto& [columns, rows] : {std::pair{1, 6}, std::pair{6, 1}}) {
+    const auto figure = draw(field(columns, rows), problem);
+    BOOST_TEST_REQUIRE(figure.has_value(), problem);
+    BOOST_TEST(!contains(figure->commands, "set xtics 0\n"));
+    BOOST_TEST(!contains(figure->commands, "nan"));
+    BOOST_TEST(contains(figure->commands, "-0.05 0.05"));  // the first cell, 0.1 m wide about 0
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_single_position_makes_no_map) {
+  std::string problem;
+  BOOST_TEST(!draw(field(1, 1), problem).has_value());
+  BOOST_TEST(problem == "frequency_Hz has a single position");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

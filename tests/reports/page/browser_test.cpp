@@ -1,0 +1,60 @@
+// ctest: labels=browser timeout=300
+#include "tests/support/reports/browser.h"
+
+#include <boost/test/unit_test.hpp>
+#include <fstream>
+
+#include "tests/support/reports/markup.h"
+#include "tests/support/reports/workspace.h"
+
+using namespace trammel::tests;
+
+namespace {
+
+/// Opens the sample's report at this width and checks what must hold at every width.
+void check_at(int width) {
+  const auto page = sample_report() / "index.html";
+  const auto figures = static_cast<int>(occurrences(text_of(page), "<svg "));
+  const Visit seen = visit_framed(page, width);
+  BOOST_TEST(measured(seen, "width") == width);
+  BOOST_TEST(measured(seen, "figures") == figures);
+  BOOST_TEST(measured(seen, "empty") == 0);
+  BOOST_TEST(measured(seen, "scroll-width") <= width);
+  BOOST_TEST(measured(seen, "wide") == 0, seen.document.substr(0, 600));
+  BOOST_TEST(measured(seen, "misplaced") == 0);
+  BOOST_TEST(seen.console.find("CONSOLE") == std::string::npos, seen.console);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(browser)
+
+BOOST_AUTO_TEST_CASE(report_opens_without_errors_and_shows_every_figure_on_a_desk) {
+  check_at(1280);
+}
+
+BOOST_AUTO_TEST_CASE(report_fits_a_phone_without_scrolling_sideways) {
+  check_at(400);
+}
+
+BOOST_AUTO_TEST_CASE(a_broken_script_would_be_noticed) {
+  const Workspace workspace;
+  const auto page = workspace.path() / "broken.html";
+  std::ofstream(page) << "<html><body><script>nonsense();</script></body></html>";
+  const Visit seen = visit(page);
+  BOOST_TEST(seen.console.find("CONSOLE") != std::string::npos, seen.console);
+}
+
+BOOST_AUTO_TEST_CASE(a_block_that_sticks_out_and_an_empty_drawing_would_be_noticed) {
+  const Workspace workspace;
+  const auto page = workspace.path() / "wide.html";
+  std::ofstream(page) << "<html><body><main><p style='width: 900px'>x</p>"
+                         "<figure><svg></svg></figure></main></body></html>";
+  const Visit seen = visit_framed(page, 400);
+  BOOST_TEST(measured(seen, "width") == 400);
+  BOOST_TEST(measured(seen, "wide") == 1);
+  BOOST_TEST(measured(seen, "scroll-width") > 400);
+  BOOST_TEST(measured(seen, "empty") == 1);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,208 @@
+#include "reports/page/report.h"
+
+#include <boost/test/unit_test.hpp>
+#include <fstream>
+#include <set>
+
+#include "tests/support/reports/markup.h"
+#include "tests/support/reports/sample.h"
+#include "tests/support/reports/workspace.h"
+
+namespace fs = std::filesystem;
+using namespace trammel::tests;
+
+namespace {
+
+const std::string& page() {
+  static const std::string text = text_of(sample_report() / "index.html");
+  return text;
+}
+
+std::set<std::string> files_with(const std::string& extension) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(sample_report() / "figures"))
+    if (entry.path().extension() == extension) names.insert(entry.path().stem().string());
+  return names;
+}
+
+bool says(const std::string& text) {
+  return page().find(text) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(report)
+
+BOOST_AUTO_TEST_CASE(every_figure_stands_in_the_page_and_beside_it_with_its_data) {
+  const std::set<std::string> drawings = files_with(".svg");
+  BOOST_TEST(drawings.size() > 45U);
+  BOOST_TEST((drawings == files_with(".csv")));
+  BOOST_TEST(occurrences(page(), "<figure id=\"fig-") == drawings.size());
+  BOOST_TEST(occurrences(page(), "<svg ") == drawings.size());
+  for (const std::string& name : drawings) {
+    BOOST_TEST(says("<figure id=\"fig-" + name + "\">"));
+    BOOST_TEST(says("href=\"figures/" + name + ".csv\""));
+    const std::string data = text_of(sample_report() / "figures" / (name + ".csv"));
+    BOOST_TEST(occurrences(data, "\n") > 1U, name << " has no data");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_curve_of_631_points_has_631_rows_of_data_with_units_in_their_heads) {
+  const std::string data = text_of(sample_report() / "figures" / "circle-load-fig-7.csv");
+  BOOST_TEST(data.rfind("time_s,displacement_x_m:P [base],", 0) == 0U);
+  BOOST_TEST(occurrences(data, "\n") == 632U);
+}
+
+BOOST_AUTO_TEST_CASE(page_and_drawings_are_balanced_and_escaped) {
+  BOOST_TEST(markup_fault(page(), true) == "");
+  BOOST_TEST(says("Free-free beam &lt;b&gt;&amp;&quot;quoted&quot;&lt;/b&gt;"));
+  BOOST_TEST(!says("<b>&"));
+  for (const std::string& name : files_with(".svg"))
+    BOOST_TEST(markup_fault(text_of(sample_report() / "figures" / (name + ".svg")), false) == "",
+               name);
+}
+
+BOOST_AUTO_TEST_CASE(page_loads_nothing_from_anywhere) {
+  for (const std::string& attribute : {std::string("src"), std::string("xlink:href")})
+    BOOST_TEST(attribute_values(page(), attribute).empty());
+  BOOST_TEST(!says("<link"));
+  BOOST_TEST(!says("@import"));
+  BOOST_TEST(!says("url("));
+  for (const std::string& target : attribute_values(page(), "href")) {
+    const bool inside =
+        target[0] == '#' || target.rfind("figures/", 0) == 0 || target.rfind("checks/", 0) == 0;
+    BOOST_TEST((inside || target.rfind("https://doi.org/", 0) == 0), target);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(ids_are_unique_and_every_link_inside_arrives) {
+  std::set<std::string> ids;
+  for (const std::string& id : attribute_values(page(), "id"))
+    BOOST_TEST(ids.insert(id).second, "twice: " << id);
+  for (const std::string& target : attribute_values(page(), "href")) {
+    if (target[0] == '#') {
+      BOOST_TEST(ids.count(target.substr(1)) == 1U, target);
+    } else if (target.rfind("https:", 0) != 0) {
+      BOOST_TEST(fs::exists(sample_report() / target), target);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(summary_counts_what_the_results_hold) {
+  std::size_t pass = 0, known = 0, recorded = 0;
+  const auto results = sample_results();
+  for (const auto& run : results["runs"])
+    for (const auto& check : run["checks"]) {
+      if (check["verdict"] == "pass") ++(check["expectation"] == "agrees" ? pass : known);
+      recorded += check["verdict"] == "recorded";
+    }
+  BOOST_TEST(says("<strong>" + std::to_string(pass) + "</strong> holds"));
+  BOOST_TEST(says("<strong>" + std::to_string(known) + "</strong> known discrepancy"));
+  BOOST_TEST(says("<strong>" + std::to_string(recorded) + "</strong> recorded only"));
+  BOOST_TEST(says("1 check fails, 1 could not be judged, 1 run did not end as expected."));
+  BOOST_TEST(says("platform_inertia_kg_m2[0] is not finite"));
+  BOOST_TEST(says("/model/nodes/B: a member of length 0"));
+}
+
+BOOST_AUTO_TEST_CASE(claims_stand_with_their_verdict_and_what_it_rests_on) {
+  BOOST_TEST(says("3 claims: 1 contradicted, 1 cannot be decided, 1 not measured."));
+  BOOST_TEST(says("<strong>× 1 to × 1.5</strong>"));
+  BOOST_TEST(says("(recorded: confirmed)"));
+  BOOST_TEST(occurrences(page(), "(recorded:") == 1U);
+  BOOST_TEST(says("No case of these results measures it."));
+  BOOST_TEST(says("Nothing is published."));
+  BOOST_TEST(says("What &lt;b&gt;follows&lt;/b&gt; &amp; why."));
+  BOOST_TEST(says("<li><a href=\"#claims\">The paper's claims</a></li>"));
+}
+
+BOOST_AUTO_TEST_CASE(a_table_of_variants_has_a_number_or_a_dash_in_each_cell) {
+  BOOST_TEST(says("Largest displacement &amp; time"));
+  BOOST_TEST(says("<td class=\"number\">20 µs</td><td class=\"number\">× 2</td>"));
+  BOOST_TEST(says("<td class=\"number\">–</td>"));
+}
+
+BOOST_AUTO_TEST_CASE(how_a_run_ends_is_judged_like_any_other_check) {
+  BOOST_TEST(says("The free mechanism has no stiffness"));
+  BOOST_TEST(says("<td class=\"number\" data-label=\"Computed\">singular</td>"));
+}
+
+BOOST_AUTO_TEST_CASE(a_figure_that_cannot_be_drawn_is_named_with_its_reason) {
+  BOOST_TEST(
+      says("A figure whose quantity is missing is not drawn: the variant base has no "
+           "stress_Pa:A1-B1."));
+}
+
+BOOST_AUTO_TEST_CASE(one_of_many_variants_is_marked_as_nearest_to_each_reference) {
+  BOOST_TEST(occurrences(page(), "class=\"best\"") == 2U);
+  BOOST_TEST(says("Nearest as a whole: "));
+  BOOST_TEST(says("No variant comes within 1\u202f% of modes "));
+}
+
+BOOST_AUTO_TEST_CASE(the_same_results_make_the_same_report_byte_for_byte) {
+  const Workspace workspace;
+  trammel::write_report(workspace.results(sample_results()), workspace.path() / "again");
+  std::size_t compared = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(sample_report())) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path name = fs::relative(entry.path(), sample_report());
+    BOOST_TEST((text_of(entry.path()) == text_of(workspace.path() / "again" / name)),
+               name << " differs");
+    ++compared;
+  }
+  BOOST_TEST(compared > 90U);
+}
+
+BOOST_AUTO_TEST_CASE(all_good_results_say_that_every_gate_holds) {
+  const Workspace workspace;
+  auto results = sample_results();
+  auto good = nlohmann::ordered_json::array();
+  for (const auto& run : results["runs"])
+    if (run["case"] == "cantilever") good.push_back(run);
+  results["runs"] = good;
+  const fs::path file = trammel::write_report(workspace.results(results), workspace.path() / "out");
+  const std::string text = text_of(file);
+  BOOST_TEST(text.find("Every gate holds.") != std::string::npos);
+  BOOST_TEST(text.find("What fails") == std::string::npos);
+  BOOST_TEST(text.find("Table 1 against itself") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_second_report_in_the_same_folder_leaves_nothing_of_the_first) {
+  const Workspace workspace;
+  auto results = sample_results();
+  const fs::path out = workspace.path() / "out";
+  trammel::write_report(workspace.results(results), out);
+  std::ofstream(out / "figures" / "mine.svg") << "kept";
+  results["runs"] = nlohmann::ordered_json::array({results["runs"].back()});
+  const std::string text = text_of(trammel::write_report(workspace.results(results), out));
+  std::size_t drawings = 0;
+  for (const auto& entry : fs::directory_iterator(out / "figures"))
+    drawings += entry.path().extension() == ".svg";
+  BOOST_TEST(drawings == occurrences(text, "<svg ") + 1);
+  BOOST_TEST(fs::exists(out / "figures" / "mine.svg"));
+}
+
+BOOST_AUTO_TEST_CASE(no_text_of_a_case_becomes_a_command_of_gnuplot) {
+  const Workspace workspace;
+  auto results = sample_results();
+  const std::string file = (workspace.path() / "intruder").string();
+  const std::string title = "'; system('touch " + file + "'); `touch " + file + "`\nset output";
+  for (auto& [id, info] : results["cases"].items()) {
+    info["title"] = title;
+    for (auto& [variant, value] : info["variants"].items()) value["title"] = title + variant;
+  }
+  trammel::write_report(workspace.results(results), workspace.path() / "out");
+  BOOST_TEST(!fs::exists(file));
+}
+
+BOOST_AUTO_TEST_CASE(results_without_any_run_still_make_a_page) {
+  const Workspace workspace;
+  auto results = sample_results();
+  results["runs"] = nlohmann::ordered_json::array();
+  results.erase("cost");
+  const std::string text =
+      text_of(trammel::write_report(workspace.results(results), workspace.path() / "out"));
+  BOOST_TEST(text.find("Nothing was checked.") != std::string::npos);
+  BOOST_TEST(markup_fault(text, true) == "");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

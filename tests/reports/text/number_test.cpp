@@ -1,0 +1,60 @@
+#include "reports/text/number.h"
+
+#include <boost/test/unit_test.hpp>
+#include <limits>
+
+using namespace trammel::reports;
+
+BOOST_AUTO_TEST_SUITE(number)
+
+BOOST_AUTO_TEST_CASE(digits_are_significant_ones) {
+  BOOST_TEST(significant(12.768, 4) == "12.77");
+  BOOST_TEST(significant(9.9996, 4) == "10.00");
+  BOOST_TEST(significant(0.0234, 3) == "0.0234");
+  BOOST_TEST(trimmed(0.002, 4) == "0.002");
+  BOOST_TEST(trimmed(631, 4) == "631");
+  BOOST_TEST(trimmed(-3, 2) == "\u22123");
+}
+
+BOOST_AUTO_TEST_CASE(the_very_small_and_large_are_powers_of_ten) {
+  BOOST_TEST(trimmed(1e-7, 3) == "10⁻⁷");
+  BOOST_TEST(trimmed(-1e-7, 3) == "\u221210⁻⁷");
+  BOOST_TEST(trimmed(3.456e-9, 2) == "3.5\u202f×\u202f10⁻⁹");
+  BOOST_TEST(trimmed(6.9e10, 3) == "6.9\u202f×\u202f10¹⁰");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_number_is_said_and_never_dressed_as_one) {
+  BOOST_TEST(trimmed(std::numeric_limits<double>::quiet_NaN(), 3) == "not a number");
+  BOOST_TEST(trimmed(std::numeric_limits<double>::infinity(), 3) == "∞");
+  BOOST_TEST(or_dash(std::nullopt, 3) == "–");
+}
+
+BOOST_AUTO_TEST_CASE(relative_differences_are_per_cent_until_they_are_too_small_for_it) {
+  BOOST_TEST(relative(0.2611, 3, true) == "+26.1\u202f%");
+  BOOST_TEST(relative(-0.2, 3, true) == "\u221220\u202f%");
+  BOOST_TEST(relative(2.1e-9, 3, true) == "+2.1\u202f×\u202f10⁻⁹");
+  BOOST_TEST(relative(0, 3, true) == "0");
+}
+
+BOOST_AUTO_TEST_CASE(enough_digits_are_shown_to_see_where_two_numbers_part) {
+  const double target = 3.5160152685, computed = 3.5160179;
+  const int digits = telling_digits(target, computed);
+  BOOST_TEST(significant(target, digits) != significant(computed, digits));
+  BOOST_TEST(telling_digits(1.0, 2.0) == 4);
+  BOOST_TEST(telling_digits(1.0, 1.0 + 1e-15) == 6);
+}
+
+BOOST_AUTO_TEST_CASE(the_shortest_text_reads_back_as_the_same_double) {
+  BOOST_TEST(shortest(0.1) == "0.1");
+  for (const double x : {0.1, 1.0 / 3, 0.1 + 0.2, 6.02214076e23, -2.5e-300})
+    BOOST_TEST(std::stod(shortest(x)) == x);
+}
+
+BOOST_AUTO_TEST_CASE(durations_are_said_as_people_do) {
+  BOOST_TEST(duration(0.00084) == "840 µs");
+  BOOST_TEST(duration(0.0123) == "12.3 ms");
+  BOOST_TEST(duration(3.44) == "3.44 s");
+  BOOST_TEST(duration(125) == "2 min 5 s");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,67 @@
+#include "solver/assembly/damping.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solver/time/modal_superposition.h"
+
+using namespace trammel;
+using std::numbers::pi;
+
+namespace {
+
+SparseMatrix sparse(const Eigen::MatrixXd& A) {
+  SparseMatrix S = A.sparseView();
+  S.makeCompressed();
+  return S;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(damping)
+
+BOOST_AUTO_TEST_CASE(the_printed_factors_mean_12_percent_at_13_Hz_and_overdamping_above_106_Hz) {
+  const RayleighDamping printed{.mass = 0.02, .stiffness = 0.003};
+  BOOST_TEST(std::abs(damping_ratio(printed, 2 * pi * 13) - 0.1226) < 1e-4);
+  const OverdampedRange range = overdamped_range(printed);
+  BOOST_TEST(std::abs(range.above / (2 * pi) - 106.1) < 0.05);
+  BOOST_TEST(range.below / (2 * pi) < 0.002);
+  BOOST_TEST(std::abs(damping_ratio(printed, range.above) - 1) < 1e-12);
+  BOOST_TEST(std::abs(damping_ratio(printed, range.below) - 1) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(the_overdamped_range_has_its_limits) {
+  BOOST_TEST(std::isinf(overdamped_range({.mass = 1, .stiffness = 0}).above));
+  BOOST_TEST(overdamped_range({.mass = 1, .stiffness = 0}).below == 0.5);
+  BOOST_TEST(overdamped_range({.mass = 0, .stiffness = 0.5}).below == 0);
+  BOOST_TEST(overdamped_range({.mass = 0, .stiffness = 0.5}).above == 4);
+  BOOST_TEST(overdamped_range({.mass = 3, .stiffness = 1}).below == 1);
+  BOOST_TEST(overdamped_range({.mass = 3, .stiffness = 1}).above == 1);
+}
+
+BOOST_AUTO_TEST_CASE(rayleigh_damping_passes_through_the_two_ratios_it_is_given) {
+  const RayleighDamping damping = rayleigh_through(20, 0.02, 300, 0.05);
+  BOOST_TEST(std::abs(damping_ratio(damping, 20) - 0.02) < 1e-15);
+  BOOST_TEST(std::abs(damping_ratio(damping, 300) - 0.05) < 1e-15);
+  BOOST_CHECK_THROW(static_cast<void>(rayleigh_through(20, 0.1, 20, 0.1)), ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(modes_decouple_under_both_dampings) {
+  const SparseMatrix M = sparse((Eigen::Matrix3d() << 2, .5, 0, .5, 3, .2, 0, .2, 1).finished());
+  const SparseMatrix K =
+      sparse((Eigen::Matrix3d() << 50, -20, 0, -20, 60, -30, 0, -30, 45).finished());
+  const ModalBasis basis = every_mode(M, K);
+  const auto modal = [&basis](const SparseMatrix& C) -> Eigen::MatrixXd {
+    return basis.shape.transpose() * (C * basis.shape);
+  };
+  const RayleighDamping rayleigh{.mass = 0.3, .stiffness = 0.01};
+  const Eigen::MatrixXd expected = 2 * decay_rates(rayleigh, basis.omega).asDiagonal();
+  BOOST_TEST((modal(damping_matrix(rayleigh, M, K)) - expected).norm() < 1e-12);
+  const Eigen::Vector3d ratio(0.02, 0.1, 1.5);
+  const Eigen::MatrixXd chosen = (2 * ratio.cwiseProduct(basis.omega)).asDiagonal();
+  BOOST_TEST((modal(modal_damping_matrix(M, basis.omega, basis.shape, ratio)) - chosen).norm() <
+             1e-12);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,189 @@
+#include "solver/elements/frame_element.h"
+
+#include <Eigen/Eigenvalues>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "tests/support/solver/frames.h"
+
+using namespace trammel;
+using namespace trammel::testing;
+
+namespace {
+
+const Section kSection = rectangle({2e11, 7800, 0.3}, 0.2, 0.1);
+constexpr double kLength = 1.3;
+const auto kTheories = {BeamTheory::euler_bernoulli, BeamTheory::timoshenko};
+
+double largest_difference(const Matrix6d& a, const Matrix6d& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+Matrix6d world(const Matrix6d& k, double angle) {
+  const Matrix6d R = frame_rotation({std::cos(angle), std::sin(angle)});
+  return R.transpose() * k * R;
+}
+
+/// World displacements of a rigid motion: shifts (a, b), rotation w about the first node.
+Vector6d rigid_motion(double a, double b, double w, double angle) {
+  Vector6d u;
+  u << a, b, w, a - w * kLength * std::sin(angle), b + w * kLength * std::cos(angle), w;
+  return u;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(frame_element)
+
+BOOST_AUTO_TEST_CASE(the_stiffness_of_euler_bernoulli_is_equation_7) {
+  const double L = kLength;
+  const double EA = kSection.EA;
+  const double EI = kSection.EI;
+  Matrix6d k;
+  k << EA / L, 0, 0, -EA / L, 0, 0,                                                               //
+      0, 12 * EI / (L * L * L), 6 * EI / (L * L), 0, -12 * EI / (L * L * L), 6 * EI / (L * L),    //
+      0, 6 * EI / (L * L), 4 * EI / L, 0, -6 * EI / (L * L), 2 * EI / L,                          //
+      -EA / L, 0, 0, EA / L, 0, 0,                                                                //
+      0, -12 * EI / (L * L * L), -6 * EI / (L * L), 0, 12 * EI / (L * L * L), -6 * EI / (L * L),  //
+      0, 6 * EI / (L * L), 2 * EI / L, 0, -6 * EI / (L * L), 4 * EI / L;
+  BOOST_TEST(largest_difference(frame_stiffness(kSection, BeamTheory::euler_bernoulli, L), k) <
+             1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(the_stiffness_of_timoshenko_is_that_of_przemieniecki) {
+  const double L = 0.3;  // short: Phi = 1.4
+  const double phi = shear_ratio(kSection, BeamTheory::timoshenko, L);
+  BOOST_TEST(phi > 1);
+  const Matrix6d k = frame_stiffness(kSection, BeamTheory::timoshenko, L);
+  const double c = kSection.EI / ((1 + phi) * L);
+  BOOST_TEST(k(1, 1) == 12 * c / (L * L), boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(k(1, 2) == 6 * c / L, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(k(2, 2) == (4 + phi) * c, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(k(2, 5) == (2 - phi) * c, boost::test_tools::tolerance(1e-13));
+}
+
+BOOST_AUTO_TEST_CASE(the_consistent_mass_of_euler_bernoulli_is_the_textbooks) {
+  const double L = kLength;
+  Matrix6d m;
+  m << 140, 0, 0, 70, 0, 0,                         //
+      0, 156, 22 * L, 0, 54, -13 * L,               //
+      0, 22 * L, 4 * L * L, 0, 13 * L, -3 * L * L,  //
+      70, 0, 0, 140, 0, 0,                          //
+      0, 54, 13 * L, 0, 156, -22 * L,               //
+      0, -13 * L, -3 * L * L, 0, -22 * L, 4 * L * L;
+  m *= kSection.mass_per_length * L / 420;
+  const Matrix6d got = frame_mass(kSection, BeamTheory::euler_bernoulli, MassMatrix::consistent, L);
+  BOOST_TEST(largest_difference(got, m) < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(the_consistent_mass_of_timoshenko_is_that_of_friedman_and_kosmatka) {
+  const double L = 0.4;
+  const double phi = shear_ratio(kSection, BeamTheory::timoshenko, L);
+  const double m = kSection.mass_per_length * L / (210 * (1 + phi) * (1 + phi));
+  const double r = kSection.inertia_per_length / (30 * (1 + phi) * (1 + phi) * L);
+  const Matrix6d M = frame_mass(kSection, BeamTheory::timoshenko, MassMatrix::consistent, L);
+  const auto close = boost::test_tools::tolerance(1e-13);
+  BOOST_TEST(M(1, 1) == m * (70 * phi * phi + 147 * phi + 78) + r * 36, close);
+  BOOST_TEST(M(1, 2) == m * (35 * phi * phi + 77 * phi + 44) * L / 4 - r * (15 * phi - 3) * L,
+             close);
+  BOOST_TEST(M(1, 4) == m * (35 * phi * phi + 63 * phi + 27) - r * 36, close);
+  BOOST_TEST(M(1, 5) == -m * (35 * phi * phi + 63 * phi + 26) * L / 4 - r * (15 * phi - 3) * L,
+             close);
+  BOOST_TEST(M(2, 2) == m * (7 * phi * phi + 14 * phi + 8) * L * L / 4 +
+                            r * (10 * phi * phi + 5 * phi + 4) * L * L,
+             close);
+  BOOST_TEST(M(2, 5) == -m * (7 * phi * phi + 14 * phi + 6) * L * L / 4 +
+                            r * (5 * phi * phi - 5 * phi - 1) * L * L,
+             close);
+}
+
+BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
+  for (const BeamTheory theory : kTheories) {
+    for (const double angle : {0.0, 0.7, 2.5}) {
+      const Matrix6d k = world(frame_stiffness(kSection, theory, kLength), angle);
+      for (const Vector6d& u : {rigid_motion(1, 0, 0, angle), rigid_motion(0, 1, 0, angle),
+                                rigid_motion(0.3, -0.2, 1, angle)}) {
+        BOOST_TEST((k * u).cwiseAbs().maxCoeff() < 1e-14 * k.cwiseAbs().maxCoeff());
+      }
+      const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(k);
+      BOOST_TEST(eigen.eigenvalues()[3] > 1e-6 * eigen.eigenvalues()[5]);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_deformations_rebuild_the_rotated_stiffness_of_equation_10) {
+  for (const BeamTheory theory : kTheories) {
+    const double angle = 2.1;
+    const FrameDeformation B = frame_deformation({std::cos(angle), std::sin(angle)}, kLength);
+    const Matrix6d k = B.transpose() * frame_rigidity(kSection, theory, kLength).asDiagonal() * B;
+    BOOST_TEST(largest_difference(k, world(frame_stiffness(kSection, theory, kLength), angle)) <
+               1e-15);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_mass_matrix_carries_the_members_mass) {
+  const double mass = kSection.mass_per_length * kLength;
+  for (const BeamTheory theory : kTheories) {
+    for (const MassMatrix kind : {MassMatrix::consistent, MassMatrix::lumped}) {
+      const Matrix6d M = frame_mass(kSection, theory, kind, kLength);
+      for (const double angle : {0.0, 1.0}) {
+        const Vector6d along = rigid_motion(1, 0, 0, angle);
+        const Vector6d across = rigid_motion(0, 1, 0, angle);
+        const Matrix6d Mw = world(M, angle);
+        BOOST_TEST(along.dot(Mw * along) == mass, boost::test_tools::tolerance(1e-14));
+        BOOST_TEST(across.dot(Mw * across) == mass, boost::test_tools::tolerance(1e-14));
+        BOOST_TEST(std::abs(along.dot(Mw * across)) < 1e-14 * mass);
+      }
+      BOOST_TEST(largest_difference(M, M.transpose()) == 0);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_consistent_mass_turns_with_the_moment_of_inertia_of_a_rod) {
+  const double m = kSection.mass_per_length * kLength;
+  const Vector6d turn = rigid_motion(0, 0, 1, 0.4);
+  for (const BeamTheory theory : kTheories) {
+    const double rotary =
+        theory == BeamTheory::timoshenko ? kSection.inertia_per_length * kLength : 0;
+    const Matrix6d M = world(frame_mass(kSection, theory, MassMatrix::consistent, kLength), 0.4);
+    BOOST_TEST(turn.dot(M * turn) == m * kLength * kLength / 3 + rotary,
+               boost::test_tools::tolerance(1e-13));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_beam_stiff_in_shear_is_an_euler_bernoulli_beam) {
+  Section stiff = kSection;
+  stiff.kappa_GA = 1e6 * kSection.EA;
+  stiff.inertia_per_length = 0;
+  for (const MassMatrix kind : {MassMatrix::consistent, MassMatrix::lumped}) {
+    BOOST_TEST(largest_difference(frame_mass(stiff, BeamTheory::timoshenko, kind, kLength),
+                                  frame_mass(stiff, BeamTheory::euler_bernoulli, kind, kLength)) <
+               1e-7);
+  }
+  BOOST_TEST(largest_difference(frame_stiffness(stiff, BeamTheory::timoshenko, kLength),
+                                frame_stiffness(stiff, BeamTheory::euler_bernoulli, kLength)) <
+             1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(the_interpolation_is_a_rigid_motion_where_its_nodes_are) {
+  for (const double phi : {0.0, 0.3, 5.0}) {
+    for (const double xi : {0.0, 0.21, 0.5, 1.0}) {
+      Vector6d turn;
+      turn << 0, 0, 1, 0, kLength, 1;
+      const Vector3d at = frame_interpolation(phi, kLength, xi) * turn;
+      BOOST_TEST(at[0] == 0);
+      BOOST_TEST(std::abs(at[1] - xi * kLength) < 1e-15);
+      BOOST_TEST(std::abs(at[2] - 1) < 1e-15);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_uniform_load_bends_as_the_fixed_end_moments_say) {
+  const Vector6d f = frame_uniform_load({3, -2}, kLength);
+  BOOST_TEST(f[0] + f[3] == 3 * kLength, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(f[1] + f[4] == -2 * kLength, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(f[2] == -2 * kLength * kLength / 12, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(f[5] == -f[2]);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,192 @@
+#include <Eigen/Core>
+#include <boost/test/unit_test.hpp>
+#include <random>
+
+#include "solver/large_motion/system/element_groups.h"
+
+namespace {
+
+using namespace trammel;
+using namespace trammel::large;
+
+template <int N>
+Eigen::Matrix<double, N, 1> random_vector(unsigned seed, double size) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-size, size);
+  Eigen::Matrix<double, N, 1> v;
+  for (int i = 0; i < N; ++i) v[i] = uniform(generator);
+  return v;
+}
+
+template <int P>
+Beam<P> some_beam() {
+  Beam<P> beam;
+  beam.axis = Vector2d(0.6, 0.8);
+  beam.length = 0.7;
+  beam.EI = 3;
+  beam.stretch_compliance = 1e-3;
+  beam.shear_compliance = 2e-3;
+  beam.mass_per_length = 1.3;
+  beam.inertia_per_length = 0.02;
+  return beam;
+}
+
+RigidLink some_link() {
+  RigidLink link;
+  link.arm = Vector2d(0.3, -0.4);
+  return link;
+}
+
+SlidingJoint some_slider() {
+  SlidingJoint joint;
+  joint.normal = Vector2d(-0.6, 0.8);
+  joint.arm = Vector2d(0.2, 0.5);
+  return joint;
+}
+
+LineSpringElement some_spring() {
+  LineSpringElement spring;
+  spring.arm = Vector2d(0.7, 0.2);
+  spring.stretched = 0.1;
+  spring.flexibility = 0.01;
+  return spring;
+}
+
+template <class Element>
+typename Element::Rows gaps(const Element& element, const typename Element::Coordinates& q) {
+  typename Element::Rows gap;
+  typename Element::Gradient G;
+  element.gaps(q, 0, gap, G);
+  return gap;
+}
+
+template <class Element>
+typename Element::Gradient gradient(const Element& element,
+                                    const typename Element::Coordinates& q) {
+  typename Element::Rows gap;
+  typename Element::Gradient G;
+  element.gaps(q, 0, gap, G);
+  return G;
+}
+
+constexpr double kStep = 1e-5;
+
+/// Largest difference of the gradient from central differences of the gaps, of the curvature from
+/// those of the gradient, and of the secant's promise.
+template <class Element>
+void check_derivatives(const Element& element) {
+  using Coordinates = typename Element::Coordinates;
+  const Coordinates q = random_vector<Element::N>(1, 0.8), dq = random_vector<Element::N>(2, 1);
+  const auto lambda = random_vector<Element::R>(3, 1);
+  const Coordinates plus = q + kStep * dq, minus = q - kStep * dq;
+  const auto slope = ((gaps(element, plus) - gaps(element, minus)) / (2 * kStep)).eval();
+  BOOST_TEST((gradient(element, q) * dq - slope).norm() < 1e-9);
+  const Coordinates bend =
+      (gradient(element, plus) - gradient(element, minus)).transpose() * lambda / (2 * kStep);
+  const auto K = element.curvature(q, lambda);
+  BOOST_TEST((K * dq - bend).norm() < 1e-9);
+  BOOST_TEST((K - K.transpose()).norm() < 1e-14);
+  const Coordinates far = q + random_vector<Element::N>(4, 2);
+  const auto change = (gaps(element, far) - gaps(element, q)).eval();
+  BOOST_TEST((element.secant(q, far) * (far - q) - change).norm() < 1e-14);
+}
+
+template <class Element>
+void check_energy_derivatives(const Element& element) {
+  using Coordinates = typename Element::Coordinates;
+  const Coordinates q = random_vector<Element::N>(5, 0.1), dq = random_vector<Element::N>(6, 0.1);
+  const Coordinates none = Coordinates::Zero();
+  const double scale = element.forces(q, none, 0).norm();
+  const Coordinates plus = q + kStep * dq, minus = q - kStep * dq;
+  const double slope = (element.energy(plus) - element.energy(minus)) / (2 * kStep);
+  BOOST_TEST(std::abs(element.forces(q, none, 0).dot(dq) - slope) < 1e-8 * scale);
+  const Coordinates bend =
+      (element.forces(plus, none, 0) - element.forces(minus, none, 0)) / (2 * kStep);
+  BOOST_TEST((element.tangent(q, 1, 0) * dq - bend).norm() < 1e-8 * scale);
+  const Coordinates to = q + random_vector<Element::N>(7, 0.3);
+  const double work = element.secant_forces(q, to, 0).dot(to - q);
+  BOOST_TEST(std::abs(work - element.energy(to) + element.energy(q)) < 1e-12 * element.energy(to));
+}
+
+const Material kSoft{3.0, 2.0, 0.3};
+
+Triangle2d<3> some_triangle() {
+  return {kSoft, 0.5, {Vector2d(0, 0), Vector2d(1, 0.1), Vector2d(0.2, 0.9)}};
+}
+
+Triangle2d<6> some_curved_triangle() {
+  return {kSoft,
+          0.5,
+          {Vector2d(0, 0), Vector2d(1, 0.1), Vector2d(0.2, 0.9), Vector2d(0.5, 0),
+           Vector2d(0.65, 0.55), Vector2d(0.1, 0.45)}};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(large_elements)
+
+BOOST_AUTO_TEST_CASE(tangents_are_derivatives_and_secants_do_the_work_of_the_change) {
+  check_derivatives(some_beam<1>());
+  check_derivatives(some_beam<2>());
+  check_derivatives(some_beam<3>());
+  check_derivatives(some_link());
+  check_derivatives(some_slider());
+  check_derivatives(some_spring());
+  check_energy_derivatives(some_triangle());
+  check_energy_derivatives(some_curved_triangle());
+}
+
+BOOST_AUTO_TEST_CASE(a_beam_turned_and_shifted_as_a_whole_has_no_strain) {
+  const Beam<3> beam = some_beam<3>();
+  for (const double angle : {1e-9, 0.4, 2.0, -40.0}) {
+    Beam<3>::Coordinates q;
+    for (int a = 0; a <= 3; ++a) {
+      const Vector2d place =
+          (0.3 + lobatto_place(3, static_cast<std::size_t>(a))) * beam.length * beam.axis;
+      const Vector2d turn = cosine_minus_one(angle) * place + std::sin(angle) * quarter_turn(place);
+      q.segment<3>(3 * a) << turn + Vector2d(2, -1) * angle, angle;
+    }
+    BOOST_TEST(gaps(beam, q).norm() < 4e-15 * std::abs(angle));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(strains_do_not_see_a_rotation_of_the_whole) {
+  const Beam<2> beam = some_beam<2>();
+  const Beam<2>::Coordinates q = random_vector<9>(8, 0.5);
+  const double angle = 1.1;
+  Beam<2>::Coordinates turned_q;
+  for (int a = 0; a <= 2; ++a) {
+    const Vector2d place = beam.length * lobatto_place(2, static_cast<std::size_t>(a)) * beam.axis;
+    turned_q.segment<2>(3 * a) = turned(place + q.segment<2>(3 * a), angle) - place;
+    turned_q[3 * a + 2] = q[3 * a + 2] + angle;
+  }
+  BOOST_TEST((gaps(beam, turned_q) - gaps(beam, q)).norm() < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(a_triangle_turned_as_a_whole_has_no_energy) {
+  const Triangle2d<3> triangle = some_triangle();
+  const std::array<Vector2d, 3> corners = {Vector2d(0, 0), Vector2d(1, 0.1), Vector2d(0.2, 0.9)};
+  Triangle2d<3>::Coordinates q;
+  for (std::size_t a = 0; a < 3; ++a) {
+    q.segment<2>(2 * static_cast<Index>(a)) = turned(corners[a], 2.1) - corners[a];
+  }
+  BOOST_TEST(triangle.energy(q) < 1e-30);
+}
+
+BOOST_AUTO_TEST_CASE(masses_add_up) {
+  const Beam<3> beam = some_beam<3>();
+  Beam<3>::Coordinates along = Beam<3>::Coordinates::Zero();
+  for (int a = 0; a <= 3; ++a) along[3 * a] = 1;
+  BOOST_TEST(std::abs(along.dot(beam.mass() * along) - 1.3 * 0.7) < 1e-15);
+  const double area = 0.44;
+  const Vector2d a(0, 0), b(1, 0.1), c(0.2, 0.9);
+  const Triangle2d<6> straight(kSoft, 0.5, {a, b, c, (a + b) / 2, (b + c) / 2, (c + a) / 2});
+  Triangle2d<6>::Coordinates shift;
+  for (int k = 0; k < 6; ++k) shift.segment<2>(2 * k) << 0, 1;
+  BOOST_TEST(std::abs(shift.dot(straight.mass() * shift) - 2 * 0.5 * area) < 1e-14);
+  Triangle2d<3>::Coordinates shift3;
+  shift3 << 0, 1, 0, 1, 0, 1;
+  BOOST_TEST(std::abs(shift3.dot(some_triangle().mass() * shift3) - 2 * 0.5 * area) < 1e-14);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,289 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "solver/large_motion/system/joints.h"
+#include "solver/large_motion/solve/state_results.h"
+#include "solver/large_motion/solve/static_path.h"
+#include "solver/manipulator/manipulator.h"
+#include "solver/statics/statics.h"
+#include "tests/support/solver/large_models.h"
+#include "tests/support/solver/table_1.h"
+
+namespace {
+
+using namespace trammel;
+using namespace trammel::large;
+using namespace trammel::testing;
+
+constexpr double kPi = std::numbers::pi;
+
+/// Tip motion (x, y, rotation) of a solved path's last point.
+Vector3d tip(const LargeSystem& system, const StaticPath& path) {
+  return node_motion(system, path.points.back().state.q).row(1).transpose();
+}
+
+struct Elastica {
+  double load, transverse, shortening, angle;
+};
+
+/// Cantilever under a transverse tip load P L^2 / EI (Bisshopp and Drucker 1945), 15 digits by
+/// elliptic integrals.
+const std::vector<Elastica> kElastica = {
+    {.2, .0663644821448305, .00264654834052277, .0996361630374019},
+    {.5, .16214357565837, .0159189624708375, .244533647133218},
+    {1, .301720773799814, .0564332362833769, .461351949711879},
+    {1.5, .410978211248258, .107941500683559, .639539826150778},
+    {2, .493457480396712, .160641720825167, .781749831556543},
+    {3, .603253441129977, .254420184564187, .986016946711354},
+    {4, .669964181277667, .328941242246846, 1.12123934748758},
+    {5, .713791523611913, .38762836072443, 1.21536811761168},
+    {6, .744571148889515, .434588828681905, 1.28369728580125},
+    {7, .767369099740463, .472927428386337, 1.33495985747186},
+    {8, .784982374953315, .504827732133532, 1.37443150670139},
+    {9, .79905552747084, .531820562672527, 1.40546533362395},
+    {10, .810609024880296, .554995597753751, 1.43028553880386},
+    {15, .847715674332297, .635285780362085, 1.50184015417716}};
+
+double elastica_error(const Elastica& exact, Index elements, int order, double angle = 0) {
+  Model model = elastica(elements, angle);
+  const Vector2d along(std::cos(angle), std::sin(angle)), up(-along.y(), along.x());
+  model.loads = {{1, {exact.load * up.x(), exact.load * up.y(), 0}}};
+  const LargeSystem system(model, {}, {order});
+  const StaticPath path = follow_static_path(system);
+  BOOST_REQUIRE(path.outcome.solved());
+  const Vector3d moved = tip(system, path);
+  return std::max({std::abs(up.dot(moved.head<2>()) - exact.transverse),
+                   std::abs(-along.dot(moved.head<2>()) - exact.shortening),
+                   std::abs(moved[2] - exact.angle)});
+}
+
+/// A tip moment that rolls the elastica up: one plain Newton solution for the whole load.
+NewtonResult roll_up(double turns, Index elements, Vector3d& tip_motion) {
+  Model model = elastica(elements);
+  model.loads = {{1, {0, 0, 2 * kPi * turns}}};
+  const LargeSystem system(model);
+  Equilibrium equilibrium(system);
+  State state = system.rest();
+  const NewtonResult result = equilibrium.solve(state, 1);
+  tip_motion = node_motion(system, state.q).row(1).transpose();
+  return result;
+}
+
+/// Largest relative difference between this tier and linear statics under the model's loads times a
+/// factor.
+double difference_from_linear(Model model, double factor) {
+  for (NodalLoad& load : model.loads) load.force *= factor;
+  for (Member& member : model.members) member.load *= factor;
+  const StaticSolution linear = solve_statics(assemble(model));
+  BOOST_REQUIRE(linear.outcome.solved());
+  const LargeSystem system(model);
+  Equilibrium equilibrium(system);
+  State state = system.rest();
+  BOOST_REQUIRE(equilibrium.solve(state, 1).outcome.solved());
+  const Eigen::MatrixX3d moved = node_motion(system, state.q);
+  const double size = linear.displacement.leftCols(2).cwiseAbs().maxCoeff();
+  const double translation = (moved - linear.displacement).leftCols(2).cwiseAbs().maxCoeff() / size;
+  const Eigen::MatrixX3d reaction = reactions(system, state);
+  const double force = linear.reaction.cwiseAbs().maxCoeff();
+  return std::max(translation, (reaction - linear.reaction).cwiseAbs().maxCoeff() / force);
+}
+
+/// The difference falls at least in proportion to the load, down to round-off.
+void check_linear_limit(const Model& model, double floor) {
+  double last = difference_from_linear(model, 1e-2);
+  for (const double factor : {1e-3, 1e-4, 1e-5}) {
+    const double now = difference_from_linear(model, factor);
+    BOOST_TEST(now < std::max(0.11 * last, floor));
+    last = now;
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(large_statics)
+
+BOOST_AUTO_TEST_CASE(the_elastica_under_a_tip_load_agrees_to_eleven_digits) {
+  for (const Elastica& exact : kElastica) BOOST_TEST(elastica_error(exact, 64, 3) < 5e-12);
+}
+
+BOOST_AUTO_TEST_CASE(a_turned_elastica_is_as_exact) {
+  BOOST_TEST(elastica_error(kElastica[12], 64, 3, 0.7) < 1e-11);
+  BOOST_TEST(elastica_error(kElastica[12], 64, 3, -2.9) < 1e-11);
+}
+
+BOOST_AUTO_TEST_CASE(tip_errors_fall_with_twice_the_degree_of_the_elements) {
+  const Elastica exact{10, .810609024880296, .554995597753751, 1.43028553880386};
+  for (const int order : {1, 2, 3}) {
+    const Index elements = order == 3 ? 6 : 16;
+    const double coarse = elastica_error(exact, elements, order);
+    const double fine = elastica_error(exact, 2 * elements, order);
+    const double observed = std::log2(coarse / fine);
+    BOOST_TEST(observed > 2 * order - 0.2);
+    BOOST_TEST(observed < 2 * order + 0.5);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(newton_doubles_the_digits_of_a_beam_rolled_into_a_circle_in_one_step) {
+  Vector3d tip_motion;
+  const NewtonResult result = roll_up(1, 40, tip_motion);
+  BOOST_REQUIRE(result.outcome.solved());
+  BOOST_TEST(result.correction.size() <= 5U);
+  BOOST_TEST(std::abs(tip_motion[0] + 1) < 1e-10);
+  BOOST_TEST(std::abs(tip_motion[1]) < 1e-10);
+  BOOST_TEST(std::abs(tip_motion[2] - 2 * kPi) < 1e-10);
+}
+
+BOOST_AUTO_TEST_CASE(a_beam_rolls_up_ten_times) {
+  Vector3d tip_motion;
+  const NewtonResult result = roll_up(10, 200, tip_motion);
+  BOOST_REQUIRE(result.outcome.solved());
+  BOOST_TEST(result.correction.size() <= 8U);
+  BOOST_TEST(std::abs(tip_motion[0] + 1) < 1e-9);
+  BOOST_TEST(std::abs(tip_motion[1]) < 1e-9);
+  BOOST_TEST(std::abs(tip_motion[2] - 20 * kPi) < 1e-8);
+}
+
+BOOST_AUTO_TEST_CASE(newton_corrections_shrink_quadratically) {
+  Model model = elastica(10);
+  model.loads = {{1, {-0.3, 0.8, 0.2}}};
+  model.members[0].axially_flexible = true;
+  const LargeSystem system(model);
+  Equilibrium equilibrium(system);
+  State state = system.rest();
+  const NewtonResult result = equilibrium.solve(state, 1);
+  BOOST_REQUIRE(result.outcome.solved());
+  int pairs = 0;
+  for (std::size_t i = 0; i + 1 < result.correction.size(); ++i) {
+    const double now = result.correction[i], next = result.correction[i + 1];
+    if (now > 0.1 || next < 1e-13) continue;
+    BOOST_TEST(next < 10 * now * now);
+    ++pairs;
+  }
+  BOOST_TEST(pairs >= 1);
+}
+
+BOOST_AUTO_TEST_CASE(follower_loads_keep_newton_quadratic_and_meet_the_integrated_rod) {
+  // In the frame of the tip a force normal to it is dead: integrate EI theta'' from the tip, s
+  // backwards, by Runge-Kutta, and turn the shape so that the root is level.
+  const double F = 12;
+  const int steps = 4000;
+  Eigen::Vector4d y = Eigen::Vector4d::Zero();  // angle, curvature, x, y along -tangent
+  const auto rate = [F](const Eigen::Vector4d& z) {
+    return Eigen::Vector4d(z[1], -F * std::cos(z[0]), -std::cos(z[0]), -std::sin(z[0]));
+  };
+  const double h = 1.0 / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Eigen::Vector4d a = rate(y), b = rate(y + h / 2 * a), c = rate(y + h / 2 * b);
+    y += h / 6 * (a + 2 * b + 2 * c + rate(y + h * c));
+  }
+  const double turn = -y[0];  // the tip's angle over the root
+  const Vector2d tip_from_root = turned(Vector2d(-y[2], -y[3]), turn);
+  Model model = elastica(30);
+  Scenario scenario;
+  scenario.follower_loads = {{1, {0, F, 0}}};
+  const LargeSystem system(model, scenario);
+  const StaticPath path = follow_static_path(system);
+  BOOST_REQUIRE(path.outcome.solved());
+  const Vector3d moved = tip(system, path);
+  BOOST_TEST(std::abs(moved[2] - turn) < 1e-10);
+  BOOST_TEST((moved.head<2>() + Vector2d(1, 0) - tip_from_root).norm() < 1e-10);
+  const std::vector<double>& last = path.points.back().newton.correction;
+  BOOST_TEST(last.size() <= 6U);
+}
+
+BOOST_AUTO_TEST_CASE(thin_and_thick_shear_flexible_beams_do_not_lock) {
+  for (const double depth : {1e-1, 1e-3, 1e-5, 1e-6}) {
+    const Section section = rectangle({1, 1, 0.3}, depth, 1);
+    for (const double angle : {0.0, 0.5}) {
+      Model model = cantilever(section, 1, 1, angle);
+      model.members[0].theory = BeamTheory::timoshenko;
+      const double load = 1e-6 * section.EI;
+      model.loads = {{1, {-load * std::sin(angle), load * std::cos(angle), 0}}};
+      const LargeSystem system(model);
+      Equilibrium equilibrium(system);
+      State state = system.rest();
+      BOOST_REQUIRE(equilibrium.solve(state, 1).outcome.solved());
+      const Vector3d moved = node_motion(system, state.q).row(1).transpose();
+      const double transverse = Vector2d(-std::sin(angle), std::cos(angle)).dot(moved.head<2>());
+      const double exact = load / (3 * section.EI) + load / section.kappa_GA;
+      BOOST_TEST(std::abs(transverse / exact - 1) < 1e-11);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(small_loads_give_linear_statics_of_a_portal_frame) {
+  Model model;
+  const Section section = rectangle({200e9, 7800, 0.3}, 0.1, 0.05);
+  model.nodes = {{"A", {0, 0}}, {"B", {0, 3}}, {"C", {4, 3.5}}, {"D", {4, 0}}};
+  model.members = {member("AB", 0, 1, section, 2), member("BC", 1, 2, section, 3),
+                   member("CD", 2, 3, section, 1)};
+  model.members[1].ends[1] = {EndFixity::sprung, 1e5, 0};
+  model.members[2].ends[1] = {EndFixity::hinged, 0, 0};
+  model.members[2].theory = BeamTheory::timoshenko;
+  model.members[1].load = {200, -3000};
+  model.supports = {clamp(0), pin(3)};
+  model.loads = {{1, {4000, 0, 500}}};
+  check_linear_limit(model, 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(small_loads_give_linear_statics_of_the_manipulator) {
+  for (const bool rigid : {false, true}) {
+    ManipulatorDesign design = table_1_design();
+    if (rigid) design.platform.kind = PlatformDesign::Kind::rigid;
+    Model model = build_manipulator(design, centred_pose(0.3));
+    const Index p = model.find_node("P");
+    model.loads = {{p, {0.5, 0.2, 0}}};
+    check_linear_limit(model, 1e-7);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(reactions_and_section_forces_balance_the_loads_in_the_bent_shape) {
+  Model model = elastica(12);
+  model.members[0].axially_flexible = true;
+  model.members[0].load = {0.4, -1.5};
+  model.loads = {{1, {1, 2, 0.3}}};
+  const LargeSystem system(model);
+  const StaticPath path = follow_static_path(system);
+  BOOST_REQUIRE(path.outcome.solved());
+  const State& state = path.points.back().state;
+  const Eigen::RowVector3d reaction = reactions(system, state).row(0);
+  BOOST_TEST(std::abs(reaction[0] + 1 + 0.4) < 1e-11);
+  BOOST_TEST(std::abs(reaction[1] + 2 - 1.5) < 1e-11);
+  const Resultants section = member_resultants(system, state);
+  BOOST_TEST(std::abs(section.start(0, 0) + reaction[0]) < 1e-11);
+  BOOST_TEST(std::abs(section.start(0, 1) + reaction[1]) < 1e-11);
+  BOOST_TEST(std::abs(section.start(0, 2) + reaction[2]) < 1e-11);
+  const double angle = node_motion(system, state.q)(1, 2);
+  BOOST_TEST(std::abs(section.end(0, 0) - (std::cos(angle) + 2 * std::sin(angle))) < 1e-11);
+  BOOST_TEST(std::abs(section.end(0, 1) - (2 * std::cos(angle) - std::sin(angle))) < 1e-11);
+  BOOST_TEST(std::abs(section.end(0, 2) - 0.3) < 1e-11);
+}
+
+BOOST_AUTO_TEST_CASE(a_driven_tip_takes_the_force_that_would_move_it_there) {
+  Model loaded = elastica(10);
+  loaded.loads = {{1, {0, 5, 0}}};
+  const LargeSystem by_force(loaded);
+  const StaticPath forced = follow_static_path(by_force);
+  const double raised = tip(by_force, forced)[1];
+  Scenario scenario;
+  scenario.drives = {{"lift", 1, 1, [raised](double t) {
+                        return std::array<double, 3>{t * raised, raised, 0};
+                      }}};
+  const LargeSystem by_drive(elastica(10), scenario);
+  const StaticPath driven = follow_static_path(by_drive);
+  BOOST_REQUIRE(driven.outcome.solved());
+  BOOST_TEST(std::abs(drive_force(by_drive, driven.points.back().state, 0) - 5) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(a_free_motion_is_named_and_not_solved) {
+  Model model = beam(unit_section(), 1, 2);
+  model.supports = {pin(0)};
+  model.loads = {{1, {0, 1, 0}}};
+  const StaticPath path = follow_static_path(LargeSystem(model));
+  BOOST_TEST((path.outcome.status == Status::singular));
+  BOOST_TEST(path.outcome.reason.find("free motion") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

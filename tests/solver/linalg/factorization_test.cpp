@@ -1,0 +1,50 @@
+#include "solver/linalg/factorization.h"
+
+#include <Eigen/SparseCore>
+#include <boost/test/unit_test.hpp>
+#include <thread>
+#include <vector>
+
+using namespace trammel;
+using Eigen::Index;
+
+namespace {
+
+/// Five-point stencil of a square of n x n points.
+Eigen::SparseMatrix<double> square(Index n) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index i = 0; i < n * n; ++i) {
+    entries.emplace_back(i, i, 4.0);
+    for (const Index j : {i + n, (i + 1) % n == 0 ? n * n : i + 1}) {
+      if (j >= n * n) continue;
+      entries.emplace_back(i, j, -1.0);
+      entries.emplace_back(j, i, -1.0);
+    }
+  }
+  Eigen::SparseMatrix<double> A(n * n, n * n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(factorization)
+
+BOOST_AUTO_TEST_CASE(orderings_made_side_by_side_are_those_made_one_by_one) {
+  using Permutation = FillReducingOrdering::PermutationType;
+  constexpr std::size_t kThreads = 4;
+  const Eigen::SparseMatrix<double> A = square(80);  // large enough for nested dissection
+  Permutation alone;
+  FillReducingOrdering()(A, alone);
+  for (int round = 0; round < 3; ++round) {
+    std::vector<Permutation> found(kThreads);
+    std::vector<std::thread> threads;
+    threads.reserve(kThreads);
+    for (Permutation& mine : found)
+      threads.emplace_back([&A, &mine] { FillReducingOrdering()(A, mine); });
+    for (std::thread& thread : threads) thread.join();
+    for (const Permutation& mine : found) BOOST_TEST(mine.indices() == alone.indices());
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

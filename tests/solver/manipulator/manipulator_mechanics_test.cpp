@@ -1,0 +1,326 @@
+// ctest: labels=manipulator
+// The built manipulator through assembly and solution: mass, limits, symmetry, singular choices.
+#include <array>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "solver/modes/modes.h"
+#include "solver/statics/statics.h"
+#include "tests/support/solver/table_1.h"
+
+namespace {
+
+using namespace trammel;
+
+ManipulatorDesign with_platform(PlatformDesign::Kind kind) {
+  ManipulatorDesign design = table_1_design();
+  design.platform.kind = kind;
+  return design;
+}
+
+/// A pose without symmetry.
+constexpr Pose kPose{0.26, 0.15, 0.1};
+const Vector3d kForce{10, 4, 0};
+
+StaticSolution solve(const ManipulatorDesign& design, const Pose& pose, const Vector3d& force) {
+  Model model = build_manipulator(design, pose);
+  model.loads.push_back({model.find_node("P"), force});
+  return solve_statics(assemble(model));
+}
+
+/// Displacement of P, which is node 9 (A1..A3, B1..B3, C1..C3, P).
+Vector2d of_P(const StaticSolution& solution) {
+  BOOST_TEST_REQUIRE(solution.outcome.solved(), solution.outcome.reason);
+  return solution.displacement.row(9).head<2>().transpose();
+}
+
+ModalSolution modes(const ManipulatorDesign& design, const Pose& pose, Index count = 6) {
+  return solve_modes(assemble(build_manipulator(design, pose)), {.count = count});
+}
+
+/// Free coordinates of the velocity field (vx, vy, spin) of a model without supports.
+Eigen::VectorXd rigid_motion(const System& system, const Vector3d& field) {
+  Eigen::VectorXd q(system.constraints.free_count);
+  Eigen::VectorXd u(system.coordinates.size);
+  for (Index i = 0; i < u.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const auto node = static_cast<std::size_t>(system.coordinates.node_of[k]);
+    const Vector2d& x = system.mesh.positions[node];
+    if (system.coordinates.is_rotation[k]) {
+      u(i) = field(2);
+    } else if (system.coordinates.node[node][0] == i) {
+      u(i) = field(0) - field(2) * x.y();
+    } else {
+      u(i) = field(1) + field(2) * x.x();
+    }
+    if (system.constraints.free[k] >= 0) q(system.constraints.free[k]) = u(i);
+  }
+  BOOST_TEST((system.T * q - u).norm() < 1e-12 * u.norm());  // the field obeys every constraint
+  return q;
+}
+
+System without_supports(const ManipulatorDesign& design) {
+  Model model = build_manipulator(design, kPose);
+  model.supports.clear();
+  return assemble(model);
+}
+
+/// Every sensible platform: rigid with each joint, triangles with and without pins.
+std::vector<ManipulatorDesign> platforms() {
+  std::vector<ManipulatorDesign> designs;
+  for (const PlatformJointKind kind : {PlatformJointKind::hinged, PlatformJointKind::welded,
+                                       PlatformJointKind::sprung, PlatformJointKind::eq25_mean}) {
+    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
+    design.platform_joint.fill({kind, 5});
+    designs.push_back(design);
+  }
+  for (const double pin_radius : {0.0, 0.01}) {
+    ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
+    design.platform.refinements = 2;
+    design.platform.pin_radius = pin_radius;
+    designs.push_back(design);
+  }
+  return designs;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(manipulator_mechanics)
+
+BOOST_AUTO_TEST_CASE(the_assembled_mass_is_the_sum_of_what_is_printed_or_what_the_density_gives) {
+  for (ManipulatorDesign design : platforms()) {
+    for (const bool printed : {false, true}) {
+      if (printed) {
+        for (LinkDesign& link : design.proximal) link.mass = 0.0234;
+        for (LinkDesign& link : design.distal) link.mass = 0.0234;
+        design.platform.mass = 0.1205;
+      }
+      const double expected =
+          printed ? 6 * 0.0234 + 0.1205 : 6 * 0.0243 + 2700 * 0.0015 * std::sqrt(0.75) * 0.02;
+      for (const MassMatrix mass : {MassMatrix::consistent, MassMatrix::lumped}) {
+        for (LinkDesign& link : design.proximal) link.mass_matrix = mass;
+        const System system = without_supports(design);
+        for (const Vector3d& field : {Vector3d(1, 0, 0), Vector3d(0, 1, 0)}) {
+          const Eigen::VectorXd q = rigid_motion(system, field);
+          BOOST_TEST(std::abs(q.dot(system.M * q) / expected - 1) < 1e-12);
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_assembled_inertia_is_that_of_slender_links_and_plate_and_what_is_printed) {
+  for (ManipulatorDesign design : platforms()) {
+    const Posture posture = inverse_kinematics(design.geometry, kPose);
+    const PlatformMass plate = platform_mass(design);
+    double expected = plate.inertia + plate.mass * Vector2d(kPose.x, kPose.y).squaredNorm();
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const auto& [from, to] : {std::pair{design.geometry.base[i], posture.B[i]},
+                                     std::pair{posture.B[i], posture.C[i]}})
+        expected += 0.0243 * ((from + to).squaredNorm() / 4 + (to - from).squaredNorm() / 12);
+    }
+    for (const double printed : {0.0, 0.00078}) {
+      if (printed > 0) {
+        for (LinkDesign& link : design.proximal) link.inertia = printed;
+        for (LinkDesign& link : design.distal) link.inertia = printed;
+      }
+      const System system = without_supports(design);
+      const Eigen::VectorXd q = rigid_motion(system, {0, 0, 1});
+      BOOST_TEST(std::abs(q.dot(system.M * q) / (expected + 6 * printed) - 1) < 1e-12);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rigid_motions_of_the_whole_store_no_energy) {
+  for (const ManipulatorDesign& design : platforms()) {
+    const System system = without_supports(design);
+    const double stiffness = Eigen::VectorXd(system.K.diagonal()).maxCoeff();
+    for (const Vector3d& field : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
+      const Eigen::VectorXd q = rigid_motion(system, field);
+      BOOST_TEST((system.K * q).norm() < 1e-12 * stiffness * q.norm());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_rigid_platform_is_the_limit_of_a_stiffer_and_stiffer_plate) {
+  const Vector2d rigid = of_P(solve(with_platform(PlatformDesign::Kind::rigid), kPose, kForce));
+  double last = 0;
+  for (const double factor : {1.0, 10.0, 100.0, 1000.0}) {
+    ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
+    design.platform.material.E *= factor;
+    const double difference = (of_P(solve(design, kPose, kForce)) - rigid).norm() / rigid.norm();
+    if (last > 0) BOOST_TEST(std::abs(last / difference / 10 - 1) < 1e-2);  // as one over factor
+    if (factor == 100) BOOST_TEST(difference < 1e-6);
+    last = difference;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_platform_moves_as_a_rigid_body) {
+  for (const PlatformJointKind kind : {PlatformJointKind::hinged, PlatformJointKind::welded,
+                                       PlatformJointKind::sprung, PlatformJointKind::eq25_mean}) {
+    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
+    design.platform_joint.fill({kind, 5});
+    const StaticSolution s = solve(design, kPose, {10, 4, 0.3});
+    const Posture posture = inverse_kinematics(design.geometry, kPose);
+    const Vector3d P = s.displacement.row(9);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto C = static_cast<Index>(6 + i);
+      const Vector2d c = posture.C[i] - Vector2d(kPose.x, kPose.y);
+      const Vector2d expected = P.head<2>() + P(2) * Vector2d(-c.y(), c.x());
+      BOOST_TEST((s.displacement.row(C).head<2>().transpose() - expected).norm() <
+                 1e-13 * P.head<2>().norm());
+      if (kind == PlatformJointKind::welded)
+        BOOST_TEST(std::abs(s.end_rotation(static_cast<Index>(2 * i + 1), 1) - P(2)) < 1e-15);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(eq_25_holds_in_the_solution_as_a_mean_or_as_a_sum) {
+  for (const auto& [kind, share] : {std::pair{PlatformJointKind::eq25_mean, 1.0 / 3},
+                                    std::pair{PlatformJointKind::eq25_sum, 1.0}}) {
+    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
+    design.platform_joint.fill({kind});
+    const StaticSolution s = solve(design, kPose, {10, 4, 0.3});
+    BOOST_TEST_REQUIRE(s.outcome.solved());
+    const double ends = s.end_rotation(1, 1) + s.end_rotation(3, 1) + s.end_rotation(5, 1);
+    BOOST_TEST(std::abs(ends) > 1e-3);
+    BOOST_TEST(std::abs(s.displacement(9, 2) - share * ends) < 1e-12 * std::abs(ends));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(
+    with_hinged_elbows_the_clamps_carry_the_holding_torques_of_the_rigid_jacobian) {
+  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
+    ManipulatorDesign design = with_platform(kind);
+    design.elbow.fill({ElbowKind::hinged});
+    const Posture posture = inverse_kinematics(design.geometry, kPose);
+    const HoldingTorques hold = holding_torques(jacobians(design.geometry, kPose, posture), kForce);
+    const StaticSolution s = solve(design, kPose, kForce);
+    BOOST_TEST_REQUIRE(s.outcome.solved());
+    for (Index i = 0; i < 3; ++i) {
+      BOOST_TEST(std::abs(s.reaction(i, 2) - hold.torque(i)) < 1e-9 * hold.torque.norm());
+      BOOST_TEST(std::abs(s.resultant_start(2 * i + 1, 0) - hold.tension(i)) <
+                 1e-8 * hold.tension.norm());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(springs_approach_the_weld_as_they_stiffen_and_the_hinge_as_they_soften) {
+  const auto displacement = [](ActiveJoint active, ElbowJoint elbow, PlatformJoint platform) {
+    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
+    design.active.fill(active);
+    design.elbow.fill(elbow);
+    design.platform_joint.fill(platform);
+    return of_P(solve(design, kPose, kForce));
+  };
+  const ActiveJoint locked{ActiveKind::locked};
+  const ElbowJoint welded{ElbowKind::welded};
+  const PlatformJoint fixed{PlatformJointKind::welded};
+  const Vector2d stiff = displacement(locked, welded, fixed);
+  const Vector2d free_active = displacement({ActiveKind::free}, welded, fixed);
+  const Vector2d free_elbow = displacement(locked, {ElbowKind::hinged}, fixed);
+  const Vector2d free_platform = displacement(locked, welded, {PlatformJointKind::hinged});
+  const auto check = [&](const Vector2d& soft, const auto& sprung) {
+    const double size = (soft - stiff).norm();
+    BOOST_TEST(size > 0);
+    BOOST_TEST((sprung(1e6) - stiff).norm() < 1e-4 * size);
+    BOOST_TEST((sprung(1e-5) - soft).norm() < 1e-4 * size);
+    const double ratio = (sprung(1e5) - stiff).norm() / (sprung(1e6) - stiff).norm();
+    BOOST_TEST(std::abs(ratio - 10) < 0.1);  // a series of compliances: as one over stiffness
+  };
+  check(free_active, [&](double k) {
+    return displacement({ActiveKind::sprung, k}, welded, fixed);
+  });
+  check(free_elbow, [&](double k) { return displacement(locked, {ElbowKind::sprung, k}, fixed); });
+  check(free_platform, [&](double k) {
+    return displacement(locked, welded, {PlatformJointKind::sprung, k});
+  });
+}
+
+BOOST_AUTO_TEST_CASE(limbs_pinned_at_both_ends_let_the_platform_turn_where_their_lines_meet) {
+  // Free actuators, welded elbows, hinged platform: each limb only pushes along A_i C_i, and at
+  // phi = 0 the three lines meet in one point wherever P is.
+  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
+    ManipulatorDesign design = with_platform(kind);
+    design.active.fill({ActiveKind::free});
+    for (const Pose& pose : {centred_pose(), Pose{0.26, 0.15, 0}}) {
+      const StaticSolution s = solve(design, pose, {10, 0, 0});
+      BOOST_TEST((s.outcome.status == Status::singular));
+      BOOST_TEST(!s.outcome.reason.empty());
+      const ModalSolution m = modes(design, pose);
+      BOOST_TEST(m.rigid_motions == 1);
+      BOOST_TEST(m.frequency(0) == 0.0);
+      BOOST_TEST(m.frequency(1) > 1.0);
+    }
+    BOOST_TEST(solve(design, kPose, {10, 0, 0}).outcome.solved());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(free_actuators_with_hinged_elbows_are_a_mechanism_of_three_freedoms) {
+  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
+    ManipulatorDesign design = with_platform(kind);
+    design.active.fill({ActiveKind::free});
+    design.elbow.fill({ElbowKind::hinged});
+    BOOST_TEST(!solve(design, kPose, kForce).outcome.solved());
+    BOOST_TEST(modes(design, kPose).rigid_motions == 3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_threefold_pose_repeats_its_frequencies) {
+  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
+    for (const double phi : {0.0, 0.3}) {
+      const ModalSolution m = modes(with_platform(kind), centred_pose(phi), 9);
+      BOOST_TEST_REQUIRE(m.outcome.solved(), m.outcome.reason);
+      // Of every three modes two are a pair: displacement along x and y turn into each other.
+      int pairs = 0;
+      for (Index k = 0; k + 1 < m.frequency.size(); ++k) {
+        const double gap = m.frequency(k + 1) / m.frequency(k) - 1;
+        BOOST_TEST((gap < 1e-10 || gap > 1e-3), "gap " << gap << " above mode " << k);
+        if (gap < 1e-10) ++pairs;
+      }
+      BOOST_TEST(pairs == 3);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_response_to_a_force_turns_with_the_force_in_the_threefold_pose) {
+  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
+    const ManipulatorDesign design = with_platform(kind);
+    const Vector2d along_x = of_P(solve(design, centred_pose(), {10, 0, 0}));
+    const Vector2d along_y = of_P(solve(design, centred_pose(), {0, 10, 0}));
+    // The compliance at P is then a multiple of the identity (it is symmetric besides).
+    BOOST_TEST(std::abs(along_x.x() / along_y.y() - 1) < 1e-10);
+    BOOST_TEST(std::abs(along_x.y()) < 1e-10 * along_x.x());
+    BOOST_TEST(std::abs(along_y.x()) < 1e-10 * along_x.x());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_lowest_frequencies_of_table_1_are_tens_of_hertz) {
+  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
+    const ModalSolution m = modes(with_platform(kind), centred_pose());
+    BOOST_TEST_REQUIRE(m.outcome.solved());
+    BOOST_TEST((m.frequency(0) > 10 && m.frequency(0) < 30), m.frequency.transpose());
+    BOOST_TEST(m.frequency(5) < 150, m.frequency.transpose());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_force_on_a_pin_has_a_limit_under_refinement_and_a_force_on_a_node_has_none) {
+  const auto displacement = [](double pin_radius, int refinements) {
+    ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
+    design.platform.pin_radius = pin_radius;
+    design.platform.refinements = refinements;
+    return of_P(solve(design, kPose, kForce)).x();
+  };
+  // Gains of the displacement from one mesh to the next, halved each time in size.
+  const auto gains = [&](double pin_radius) {
+    std::array<double, 3> u{};
+    for (int k = 0; k < 3; ++k) u[static_cast<std::size_t>(k)] = displacement(pin_radius, 4 + k);
+    return (u[1] - u[0]) / (u[2] - u[1]);
+  };
+  BOOST_TEST(gains(0.04) > 2.2);                // on its way to 4, as h / radius goes to 0
+  BOOST_TEST(std::abs(gains(0.0) - 1) < 0.05);  // theory: 1, a logarithm
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,411 @@
+#include "solver/manipulator/manipulator.h"
+
+#include <Eigen/Geometry>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "solver/mesh/platform_mesh.h"
+#include "tests/support/solver/table_1.h"
+
+namespace {
+
+using namespace trammel;
+
+/// "A1-B1" or "B1-C1".
+std::string link_name(char first, char second, std::size_t i) {
+  const std::string n = std::to_string(i);
+  std::string name(1, first);
+  name.append(n).append("-").append(1, second).append(n);
+  return name;
+}
+
+const Member& member(const Model& model, const std::string& name) {
+  for (const Member& m : model.members) {
+    if (m.name == name) return m;
+  }
+  throw std::runtime_error("no member " + name);
+}
+
+Vector2d position(const Model& model, Index node) {
+  return model.nodes.at(static_cast<std::size_t>(node)).position;
+}
+
+double triangle_area(const Model& model, const Triangle& t) {
+  const Vector2d u = position(model, t.nodes[1]) - position(model, t.nodes[0]);
+  const Vector2d v = position(model, t.nodes[2]) - position(model, t.nodes[0]);
+  return (u.x() * v.y() - u.y() * v.x()) / 2;
+}
+
+/// Mass, centre of mass and polar inertia about the origin of the whole model (links as lines).
+struct Bulk {
+  double mass = 0;
+  Vector2d first_moment = Vector2d::Zero();
+  double inertia = 0;
+};
+
+void add_platform(const Model& model, Bulk& bulk) {
+  for (const PointMass& m : model.masses) {
+    const Vector2d x = position(model, m.node) + m.offset;
+    bulk.mass += m.mass;
+    bulk.first_moment += m.mass * x;
+    bulk.inertia += m.inertia + m.mass * x.squaredNorm();
+  }
+  for (const Triangle& t : model.triangles) {
+    const Plate& plate = model.plates.at(static_cast<std::size_t>(t.plate));
+    const double m = plate.material.rho * plate.thickness * triangle_area(model, t);
+    Vector2d sum = Vector2d::Zero();
+    double squares = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += position(model, t.nodes[k]);
+      squares += position(model, t.nodes[k]).squaredNorm();
+    }
+    bulk.mass += m;
+    bulk.first_moment += m * sum / 3;
+    bulk.inertia += m * (squares + sum.squaredNorm()) / 12;  // of a uniform triangle, exact
+  }
+}
+
+Bulk platform_bulk(const Model& model) {
+  Bulk bulk;
+  add_platform(model, bulk);
+  return bulk;
+}
+
+/// The sentence that refuses the design, or empty.
+std::string refusal(const ManipulatorDesign& design, const Pose& pose = centred_pose()) {
+  try {
+    (void)build_manipulator(design, pose);
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+ManipulatorDesign rigid_design() {
+  ManipulatorDesign design = table_1_design();
+  design.platform.kind = PlatformDesign::Kind::rigid;
+  return design;
+}
+
+/// Unequal everything, P off the centroid.
+ManipulatorDesign uneven_design() {
+  ManipulatorDesign design = table_1_design();
+  design.geometry.platform = {Vector2d{-0.07, -0.06}, Vector2d{0.11, -0.04}, Vector2d{0.02, 0.1}};
+  design.geometry.proximal = {0.24, 0.27, 0.21};
+  design.geometry.distal = {0.2, 0.25, 0.3};
+  design.geometry.working_mode = {-1, 1, -1};
+  return design;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(manipulator)
+
+BOOST_AUTO_TEST_CASE(the_nodes_stand_where_the_kinematics_puts_them) {
+  const ManipulatorDesign design = uneven_design();
+  const Pose pose{0.27, 0.14, 0.2};
+  const Model model = build_manipulator(design, pose);
+  const Posture posture = inverse_kinematics(design.geometry, pose);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string n = std::to_string(i + 1);
+    BOOST_TEST(position(model, model.find_node("A" + n)) == design.geometry.base[i]);
+    BOOST_TEST(position(model, model.find_node("B" + n)) == posture.B[i]);
+    BOOST_TEST(position(model, model.find_node("C" + n)) == posture.C[i]);
+    for (const auto& [name, length] :
+         {std::pair{link_name('A', 'B', i + 1), design.geometry.proximal[i]},
+          std::pair{link_name('B', 'C', i + 1), design.geometry.distal[i]}}) {
+      const Member& m = member(model, name);
+      const double between = (position(model, m.nodes[1]) - position(model, m.nodes[0])).norm();
+      BOOST_TEST(std::abs(between - length) < 1e-15);
+    }
+  }
+  BOOST_TEST(position(model, model.find_node("P")) == Vector2d(0.27, 0.14));
+  BOOST_TEST(model.members.size() == 6U);
+  BOOST_TEST(model.supports.size() == 3U);
+}
+
+BOOST_AUTO_TEST_CASE(a_link_bends_about_its_thickness_and_weighs_what_its_density_says) {
+  const ManipulatorDesign design = table_1_design();
+  const Section s = member(build_manipulator(design, centred_pose()), "A1-B1").section;
+  BOOST_TEST(std::abs(s.EA / (6.9e10 * 4.5e-5) - 1) < 1e-15);
+  BOOST_TEST(std::abs(s.EI / (6.9e10 * 0.03 * 0.0015 * 0.0015 * 0.0015 / 12) - 1) < 1e-15);
+  BOOST_TEST(std::abs(s.kappa_GA / (5.0 / 6 * 6.9e10 / 2.66 * 4.5e-5) - 1) < 1e-15);
+  BOOST_TEST(std::abs(s.mass_per_length * 0.2 / 0.0243 - 1) < 1e-15);
+  BOOST_TEST(std::abs(s.inertia_per_length / (2700 * 0.03 * std::pow(0.0015, 3) / 12) - 1) < 1e-14);
+  BOOST_TEST(std::abs(s.section_modulus / (0.03 * 0.0015 * 0.0015 / 6) - 1) < 1e-15);
+  BOOST_TEST(std::abs(s.area / 4.5e-5 - 1) < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(a_printed_link_mass_is_the_links_total_whatever_its_length) {
+  ManipulatorDesign design = uneven_design();
+  for (auto* links : {&design.proximal, &design.distal}) {
+    for (LinkDesign& link : *links) link.mass = 0.0234;
+  }
+  const Model model = build_manipulator(design, {0.27, 0.14, 0.2});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Section p = member(model, link_name('A', 'B', i + 1)).section;
+    const Section d = member(model, link_name('B', 'C', i + 1)).section;
+    BOOST_TEST(std::abs(p.mass_per_length * design.geometry.proximal[i] / 0.0234 - 1) < 1e-15);
+    BOOST_TEST(std::abs(d.mass_per_length * design.geometry.distal[i] / 0.0234 - 1) < 1e-15);
+    // The rotary inertia of a slice follows its mass: rho I / rho A = h^2 / 12.
+    BOOST_TEST(std::abs(p.inertia_per_length / p.mass_per_length / (0.0015 * 0.0015 / 12) - 1) <
+               1e-14);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_printed_link_inertia_turns_half_with_each_end_whatever_the_mesh) {
+  for (const Index elements : {1, 4, 16}) {
+    ManipulatorDesign design = table_1_design();
+    design.distal[1].inertia = 0.00078;
+    design.distal[1].elements = elements;
+    const Model model = build_manipulator(design, centred_pose());
+    double total = 0;
+    for (const Member& m : model.members) {
+      for (const MemberEnd& end : m.ends) total += end.inertia;
+    }
+    BOOST_TEST(total == 0.00078);
+    BOOST_TEST(member(model, "B2-C2").ends[0].inertia == 0.00039);
+    BOOST_TEST(member(model, "B2-C2").elements == elements);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_rigid_platform_has_the_mass_and_inertia_of_the_plate_it_replaces) {
+  for (ManipulatorDesign design : {table_1_design(), uneven_design()}) {
+    const Pose pose{0.26, 0.15, 0.3};
+    design.platform.mass.reset();
+    for (const bool printed : {false, true}) {
+      if (printed) design.platform.mass = 0.1205;
+      design.platform.kind = PlatformDesign::Kind::triangles;
+      const Bulk plate = platform_bulk(build_manipulator(design, pose));
+      design.platform.kind = PlatformDesign::Kind::rigid;
+      const Bulk body = platform_bulk(build_manipulator(design, pose));
+      BOOST_TEST(std::abs(body.mass / plate.mass - 1) < 1e-14);
+      BOOST_TEST((body.first_moment - plate.first_moment).norm() < 1e-14 * plate.mass);
+      BOOST_TEST(std::abs(body.inertia / plate.inertia - 1) < 1e-14);
+      if (printed) BOOST_TEST(std::abs(body.mass / 0.1205 - 1) < 1e-15);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_plate_of_table_1_weighs_70_grams) {
+  const PlatformMass m = platform_mass(rigid_design());
+  BOOST_TEST(std::abs(m.mass / (2700 * 0.0015 * std::sqrt(3.0) / 4 * 0.04) - 1) < 1e-15);
+  BOOST_TEST(std::abs(m.mass - 0.0701) < 1e-4);
+  BOOST_TEST(std::abs(m.inertia / (m.mass * 0.04 / 12) - 1) < 1e-14);  // m a^2 / 12
+  BOOST_TEST(m.center.norm() == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_printed_platform_inertia_is_about_P_and_holds_for_any_centre_of_mass) {
+  ManipulatorDesign design = uneven_design();
+  design.platform.kind = PlatformDesign::Kind::rigid;
+  design.platform.mass = 0.1205;
+  design.platform.inertia = 0.000799;
+  const Model model = build_manipulator(design, {0.27, 0.14, 0.2});
+  BOOST_TEST_REQUIRE(model.masses.size() == 1U);
+  const PointMass& m = model.masses[0];
+  BOOST_TEST(std::abs(m.inertia + m.mass * m.offset.squaredNorm() - 0.000799) < 1e-18);
+  const Vector2d centroid = (position(model, 6) + position(model, 7) + position(model, 8)) / 3;
+  BOOST_TEST((position(model, m.node) + m.offset - centroid).norm() < 1e-15);
+
+  design.platform.inertia = 1e-6;
+  BOOST_TEST(refusal(design).find("inertia about P must be at least") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(refinement_keeps_area_mass_and_inertia_and_turns_no_triangle_over) {
+  for (ManipulatorDesign design : {table_1_design(), uneven_design()}) {
+    const Bulk coarse = platform_bulk(build_manipulator(design, centred_pose()));
+    for (int level = 1; level <= 4; ++level) {
+      design.platform.refinements = level;
+      const Model model = build_manipulator(design, centred_pose());
+      const Bulk fine = platform_bulk(model);
+      BOOST_TEST(std::abs(fine.mass / coarse.mass - 1) < 1e-13);
+      BOOST_TEST(std::abs(fine.inertia / coarse.inertia - 1) < 1e-13);
+      const auto count = static_cast<std::size_t>(3 * std::pow(4, level));
+      BOOST_TEST(model.triangles.size() == count);
+      for (const Triangle& t : model.triangles) BOOST_TEST(triangle_area(model, t) > 0);
+      // Euler's formula for a disc: V - E + F = 1 with E = (3 F + boundary) / 2.
+      const std::size_t boundary = 3 * (std::size_t{1} << static_cast<unsigned>(level));
+      const std::size_t plate_nodes = model.nodes.size() - 6;
+      BOOST_TEST(plate_nodes + count == 1 + (3 * count + boundary) / 2);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_platform_numbered_clockwise_is_the_same_plate) {
+  ManipulatorDesign design = table_1_design();
+  const Bulk before = platform_bulk(build_manipulator(design, centred_pose()));
+  std::swap(design.geometry.platform[0], design.geometry.platform[1]);
+  std::swap(design.geometry.base[0], design.geometry.base[1]);
+  const Model model = build_manipulator(design, centred_pose());
+  for (const Triangle& t : model.triangles) BOOST_TEST(triangle_area(model, t) > 0);
+  BOOST_TEST(std::abs(platform_bulk(model).inertia / before.inertia - 1) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(pin_weights_move_the_pin_with_any_rigid_motion_and_any_uniform_strain) {
+  const auto vertices = uneven_design().geometry.platform;
+  for (const int refinements : {0, 2, 5}) {
+    const TriangleMesh mesh = platform_mesh(vertices, Vector2d::Zero(), refinements);
+    for (std::size_t v = 0; v < 4; ++v) {
+      double sum = 0;
+      Vector2d mean = Vector2d::Zero();
+      for (const auto& [node, weight] : pin_weights(mesh, mesh.nodes[v], 0.01)) {
+        sum += weight;
+        mean += weight * mesh.nodes[static_cast<std::size_t>(node)];
+      }
+      BOOST_TEST(std::abs(sum - 1) < 1e-13);
+      BOOST_TEST((mean - mesh.nodes[v]).norm() < 1e-14);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_pin_averages_a_smooth_field_alike_on_every_fine_mesh) {
+  const auto vertices = table_1_geometry().platform;
+  const auto field = [](const Vector2d& x) {
+    return std::sin(60 * x.x() + 1) * std::cos(40 * x.y() + 0.3);
+  };
+  Eigen::Vector4d last = Eigen::Vector4d::Zero();
+  double last_change = 0;
+  for (int level = 4; level <= 7; ++level) {
+    const TriangleMesh mesh = platform_mesh(vertices, Vector2d::Zero(), level);
+    Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+    for (std::size_t v = 0; v < 4; ++v) {
+      for (const auto& [node, weight] : pin_weights(mesh, mesh.nodes[v], 0.04))
+        mean(static_cast<Index>(v)) += weight * field(mesh.nodes[static_cast<std::size_t>(node)]);
+    }
+    const double change = (mean - last).norm();
+    if (level >= 6) BOOST_TEST(std::abs(last_change / change - 4) < 0.3);  // theory: O(h^2)
+    last_change = change;
+    last = mean;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(with_pins_the_links_hold_the_plate_by_constraints_only) {
+  ManipulatorDesign design = table_1_design();
+  design.platform.refinements = 3;
+  design.platform.pin_radius = 0.01;
+  const Model model = build_manipulator(design, centred_pose(0.2));
+  BOOST_TEST(model.constraints.size() == 8U);
+  for (const Triangle& t : model.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(t.nodes[k] > model.find_node("P"));
+    BOOST_TEST(triangle_area(model, t) > 0);
+  }
+  // Every constraint holds for a translation and a small rotation of everything.
+  for (const LinearConstraint& tie : model.constraints) {
+    double translation = 0;
+    double rotation = 0;
+    double size = 0;
+    for (const auto& [coordinate, factor] : tie.terms) {
+      const Vector2d x = position(model, coordinate.node);
+      translation += factor;
+      rotation += factor * (coordinate.kind == Coordinate::Kind::x ? -x.y() : x.x());
+      size += std::abs(factor);
+    }
+    BOOST_TEST(std::abs(translation) < 1e-14 * size);
+    BOOST_TEST(std::abs(rotation) < 1e-14 * size);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_choice_of_a_joint_becomes_the_fixity_it_means) {
+  ManipulatorDesign design = rigid_design();
+  design.active = {ActiveJoint{ActiveKind::locked}, {ActiveKind::free}, {ActiveKind::sprung, 7}};
+  design.elbow = {ElbowJoint{ElbowKind::welded}, {ElbowKind::hinged}, {ElbowKind::sprung, 8}};
+  design.platform_joint = {PlatformJoint{PlatformJointKind::welded},
+                           {PlatformJointKind::hinged},
+                           {PlatformJointKind::sprung, 9}};
+  const Model model = build_manipulator(design, centred_pose());
+  const auto fixity = [&](const std::string& name, std::size_t end) {
+    return member(model, name).ends[end].fixity;
+  };
+  BOOST_TEST((fixity("A1-B1", 0) == EndFixity::welded && model.supports[0].fixed[2]));
+  BOOST_TEST((fixity("A2-B2", 0) == EndFixity::hinged && !model.supports[1].fixed[2]));
+  BOOST_TEST((fixity("A3-B3", 0) == EndFixity::sprung && model.supports[2].fixed[2]));
+  BOOST_TEST(member(model, "A3-B3").ends[0].stiffness == 7.0);
+  BOOST_TEST((fixity("B1-C1", 0) == EndFixity::welded));
+  BOOST_TEST((fixity("B2-C2", 0) == EndFixity::hinged));
+  BOOST_TEST(member(model, "B3-C3").ends[0].stiffness == 8.0);
+  BOOST_TEST((fixity("B1-C1", 1) == EndFixity::welded));
+  BOOST_TEST((fixity("B2-C2", 1) == EndFixity::hinged));
+  BOOST_TEST(member(model, "B3-C3").ends[1].stiffness == 9.0);
+  // The proximal links keep node B's rotation, so that none is left without stiffness.
+  for (const char* name : {"A1-B1", "A2-B2", "A3-B3"})
+    BOOST_TEST((fixity(name, 1) == EndFixity::welded));
+}
+
+BOOST_AUTO_TEST_CASE(eq_25_ties_the_platform_to_the_mean_or_the_sum_of_its_link_ends) {
+  ManipulatorDesign design = rigid_design();
+  for (const auto& [kind, share] : {std::pair{PlatformJointKind::eq25_mean, -1.0 / 3},
+                                    std::pair{PlatformJointKind::eq25_sum, -1.0}}) {
+    design.platform_joint.fill({kind});
+    const Model model = build_manipulator(design, centred_pose());
+    BOOST_TEST_REQUIRE(model.constraints.size() == 1U);
+    const auto& terms = model.constraints[0].terms;
+    BOOST_TEST_REQUIRE(terms.size() == 4U);
+    BOOST_TEST((terms[0].first.kind == Coordinate::Kind::rotation));
+    BOOST_TEST(terms[0].first.node == model.find_node("P"));
+    for (std::size_t i = 1; i < 4; ++i) {
+      BOOST_TEST((terms[i].first.kind == Coordinate::Kind::end_rotation));
+      BOOST_TEST(terms[i].second == share);
+      const Member& m = model.members.at(static_cast<std::size_t>(terms[i].first.member));
+      BOOST_TEST(m.name == link_name('B', 'C', i));
+      BOOST_TEST(terms[i].first.end == 1);
+      BOOST_TEST((m.ends[1].fixity == EndFixity::hinged));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(combinations_without_a_meaning_are_refused_with_the_reason) {
+  const auto has = [](const std::string& sentence, const std::string& part) {
+    return sentence.find(part) != std::string::npos;
+  };
+  for (const PlatformJointKind kind : {PlatformJointKind::welded, PlatformJointKind::sprung}) {
+    ManipulatorDesign design = table_1_design();
+    design.platform_joint[1] = {kind, 1};
+    BOOST_TEST(has(refusal(design), "platform at C2: a node of constant-strain triangles has no"));
+  }
+  ManipulatorDesign design = table_1_design();
+  design.platform_joint.fill({PlatformJointKind::eq25_mean});
+  BOOST_TEST(has(refusal(design), "Eq. 25 gives the rotation of a rigid platform"));
+  design = rigid_design();
+  design.platform_joint[0] = {PlatformJointKind::eq25_sum};
+  BOOST_TEST(has(refusal(design), "choose the same for C1, C2 and C3"));
+  design = table_1_design();
+  design.platform.inertia = 0.000799;
+  BOOST_TEST(has(refusal(design), "needs a rigid platform"));
+  design = table_1_design();
+  design.active[2] = {ActiveKind::sprung, 0};
+  BOOST_TEST(has(refusal(design), "the spring stiffness of the active joint A3"));
+  design = table_1_design();
+  design.elbow[0] = {ElbowKind::sprung, -1};
+  BOOST_TEST(has(refusal(design), "the spring stiffness of the elbow joint B1"));
+  design = table_1_design();
+  design.proximal[0].thickness = 0;
+  BOOST_TEST(has(refusal(design), "thickness"));
+  design = table_1_design();
+  design.distal[0].mass = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(has(refusal(design), "mass"));
+  design = table_1_design();
+  design.distal[0].elements = 0;
+  BOOST_TEST(has(refusal(design), "at least one element"));
+  design = table_1_design();
+  design.platform.refinements = -1;
+  BOOST_TEST(has(refusal(design), "refinements"));
+  design = table_1_design();
+  design.platform.pin_radius = -0.01;
+  BOOST_TEST(has(refusal(design), "pin radius"));
+  design = table_1_design();
+  design.platform.pin_radius = 0.08;
+  design.platform.refinements = 6;
+  BOOST_TEST(has(refusal(design), "choose a smaller pin radius or fewer refinements"));
+  design = table_1_design();
+  for (Vector2d& c : design.geometry.platform) c += Vector2d(0.2, 0);
+  BOOST_TEST(has(refusal(design, {0.05, 0.144, 0}), "needs P inside the triangle"));
+  design.geometry.platform = {Vector2d{-0.1, 0}, Vector2d{0.1, 0}, Vector2d{0.05, 0}};
+  BOOST_TEST(has(refusal(design), "has no area"));
+  BOOST_TEST(has(refusal(table_1_design(), {-0.2, 0.144, 0}), "limb 2 (A2-B2-C2) cannot reach"));
+  BOOST_TEST(refusal(table_1_design()).empty());
+  BOOST_TEST(refusal(rigid_design()).empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,173 @@
+#include "solver/manipulator/trajectory.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace trammel;
+
+constexpr double kPi = std::numbers::pi;
+
+Vector3d as_vector(const Pose& p) {
+  return {p.x, p.y, p.phi};
+}
+
+/// Velocity and acceleration against central differences of pose and velocity.
+void check_derivatives(const Path& path, double t, double h, double tolerance) {
+  const TrajectoryPoint before = at(path, t - h);
+  const TrajectoryPoint now = at(path, t);
+  const TrajectoryPoint after = at(path, t + h);
+  const Vector3d v = (as_vector(after.pose) - as_vector(before.pose)) / (2 * h);
+  const Vector3d a = (after.velocity - before.velocity) / (2 * h);
+  BOOST_TEST((v - now.velocity).norm() < tolerance);
+  BOOST_TEST((a - now.acceleration).norm() < tolerance);
+}
+
+const Pose kFrom{0.2, 0.1, -0.1};
+const Pose kTo{0.3, 0.15, 0.4};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(trajectory)
+
+BOOST_AUTO_TEST_CASE(the_paper_circle_starts_on_the_right_and_turns_counterclockwise) {
+  const Path circle = Circle{{0.25, 0.144}, 0.01};
+  const auto points = sample(circle, 631, 0.01);
+  BOOST_TEST_REQUIRE(points.size() == 631U);
+  BOOST_TEST(points.front().pose.x == 0.26);
+  BOOST_TEST(points.front().pose.y == 0.144);
+  BOOST_TEST(points.front().velocity.y() == 0.01);
+  BOOST_TEST(points.back().time == 6.3);
+  for (const TrajectoryPoint& p : points) {
+    const Vector2d r(p.pose.x - 0.25, p.pose.y - 0.144);
+    BOOST_TEST(std::abs(r.norm() - 0.01) < 1e-16);
+    BOOST_TEST(std::abs(r.dot(p.velocity.head<2>())) < 1e-17);
+    BOOST_TEST((p.acceleration.head<2>() + r).norm() < 1e-16);
+    BOOST_TEST(p.velocity(2) == 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(going_round_twice_as_fast_doubles_velocity_and_quadruples_acceleration) {
+  const Path slow = Circle{{0.25, 0.144}, 0.01, 1, 0.2};
+  const Path fast = Circle{{0.25, 0.144}, 0.01, 2, 0.2};
+  for (const double t : {0.0, 0.7, 3.1}) {
+    const TrajectoryPoint s = at(slow, 2 * t);
+    const TrajectoryPoint f = at(fast, t);
+    BOOST_TEST(f.pose.x == s.pose.x);
+    BOOST_TEST(f.pose.phi == 0.2);
+    BOOST_TEST((f.velocity - 2 * s.velocity).norm() == 0.0);
+    BOOST_TEST((f.acceleration - 4 * s.acceleration).norm() == 0.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(velocity_and_acceleration_are_the_derivatives_of_the_pose) {
+  check_derivatives(Circle{{0.25, 0.144}, 0.01, 3, 0.1}, 0.4, 1e-4, 1e-8);
+  check_derivatives(Line{kFrom, kTo, 2}, 0.4, 1e-3, 1e-12);
+  check_derivatives(RestToRest{kFrom, kTo, 2}, 0.4, 1e-4, 1e-7);
+  check_derivatives(
+      make_spline({0, 0.5, 0.8, 2}, {kFrom, kTo, {0.1, 0.2, 0}, kFrom}, SplineEnds::natural), 0.6,
+      1e-4, 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(a_line_arrives_on_time_at_constant_speed) {
+  const Path line = Line{kFrom, kTo, 2};
+  BOOST_TEST((as_vector(at(line, 2).pose) - as_vector(kTo)).norm() < 1e-16);
+  BOOST_TEST((at(line, 0.3).velocity - at(line, 1.9).velocity).norm() == 0.0);
+  BOOST_TEST(at(line, 1).acceleration.norm() == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_motion_from_rest_to_rest_stands_still_at_both_ends) {
+  const Path path = RestToRest{kFrom, kTo, 2};
+  for (const double t : {-1.0, 0.0, 2.0, 5.0}) {
+    BOOST_TEST(at(path, t).velocity.norm() == 0.0);
+    BOOST_TEST(at(path, t).acceleration.norm() == 0.0);
+  }
+  BOOST_TEST((as_vector(at(path, 2).pose) - as_vector(kTo)).norm() < 1e-16);
+  // Symmetric in time about the middle, where it is fastest: 15/8 of the mean speed.
+  const Vector3d mean = (as_vector(kTo) - as_vector(kFrom)) / 2;
+  BOOST_TEST((at(path, 1).velocity - 15.0 / 8 * mean).norm() < 1e-15);
+  BOOST_TEST((at(path, 0.5).velocity - at(path, 1.5).velocity).norm() < 1e-15);
+}
+
+BOOST_AUTO_TEST_CASE(a_spline_through_points_of_a_cubic_is_that_cubic) {
+  // x = t^3 - 3 t^2 on [0, 2] starts and ends at rest: the spline at rest must reproduce it.
+  const auto cubic = [](double t) { return t * t * (t - 3); };
+  const std::vector<double> times{0, 0.3, 0.9, 1.2, 2};
+  std::vector<Pose> poses;
+  poses.reserve(times.size());
+  for (const double t : times) poses.push_back({cubic(t), 2 * cubic(t), 1});
+  const Path path = make_spline(times, poses, SplineEnds::at_rest);
+  for (int k = 0; k <= 40; ++k) {
+    const double t = 0.05 * k;
+    const TrajectoryPoint p = at(path, t);
+    BOOST_TEST(std::abs(p.pose.x - cubic(t)) < 1e-14);
+    BOOST_TEST(std::abs(p.velocity.y() - 2 * (3 * t * t - 6 * t)) < 1e-13);
+    BOOST_TEST(std::abs(p.acceleration.x() - (6 * t - 6)) < 1e-13);
+    BOOST_TEST(std::abs(p.pose.phi - 1) < 1e-15);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_periodic_spline_approaches_the_circle_with_the_fourth_power_of_the_step) {
+  const Circle circle{{0.25, 0.144}, 0.01};
+  double last = 0;
+  for (const int n : {16, 32, 64}) {
+    std::vector<double> times;
+    std::vector<Pose> poses;
+    for (int k = 0; k <= n; ++k) {
+      times.push_back(2 * kPi * k / n);
+      poses.push_back(k == n ? poses.front() : at(circle, times.back()).pose);
+    }
+    const Path path = make_spline(times, poses, SplineEnds::periodic);
+    double worst = 0;
+    for (int k = 0; k <= 628; ++k) {
+      const double t = 0.01 * k;
+      worst = std::max(worst, (as_vector(at(path, t).pose) - as_vector(at(circle, t).pose)).norm());
+    }
+    if (last > 0) BOOST_TEST(std::abs(std::log2(last / worst) - 4) < 0.1);  // theory: 4
+    last = worst;
+    BOOST_TEST((at(path, times.front()).velocity - at(path, times.back()).velocity).norm() < 1e-15);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_last_step_reaches_the_end_of_a_spline_in_spite_of_its_rounding) {
+  const Spline spline =
+      make_spline({0, 2, 6.3}, {{0.25, 0.14}, {0.26, 0.15}, {0.24, 0.15}}, SplineEnds::natural);
+  BOOST_TEST(63 * 0.1 > 6.3);
+  const std::vector<TrajectoryPoint> points = sample(spline, 64, 0.1);
+  BOOST_TEST(points.back().pose.x == 0.24, boost::test_tools::tolerance(1e-15));
+  BOOST_CHECK_THROW((void)sample(spline, 65, 0.1), ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(a_path_without_meaning_is_refused_with_a_sentence) {
+  const double nan = std::nan("");
+  BOOST_CHECK_THROW((void)at(Circle{{0, 0}, -1}, 0), ModelError);
+  BOOST_CHECK_THROW((void)at(Circle{{nan, 0}, 1}, 0), ModelError);
+  BOOST_CHECK_THROW((void)at(Circle{{0, 0}, 1}, nan), ModelError);
+  BOOST_CHECK_THROW((void)at(Line{kFrom, kTo, 0}, 0), ModelError);
+  BOOST_CHECK_THROW((void)at(RestToRest{kFrom, {nan, 0, 0}, 1}, 0), ModelError);
+  BOOST_CHECK_THROW((void)sample(Circle{{0, 0}, 1}, 0, 0.1), ModelError);
+  BOOST_CHECK_THROW((void)sample(Circle{{0, 0}, 1}, 5, 0), ModelError);
+  const std::vector<Pose> three{kFrom, kTo, kFrom};
+  BOOST_CHECK_THROW((void)make_spline({0, 1}, {kFrom, kTo}, SplineEnds::natural), ModelError);
+  BOOST_CHECK_THROW((void)make_spline({0, 1, 1}, three, SplineEnds::natural), ModelError);
+  BOOST_CHECK_THROW((void)make_spline({0, 1, nan}, three, SplineEnds::natural), ModelError);
+  BOOST_CHECK_THROW((void)make_spline({0, 1, 2}, {kFrom, kTo, kTo}, SplineEnds::periodic),
+                    ModelError);
+  BOOST_CHECK_THROW((void)at(make_spline({0, 1, 2}, three, SplineEnds::natural), 2.1), ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(a_path_stands_still_if_it_goes_nowhere_and_not_if_it_rests_now_and_then) {
+  BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0, 1}));
+  BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0.01, 0}));
+  BOOST_TEST(!stands_still(Circle{{0.25, 0.144}, 0.01, 1}));
+  BOOST_TEST(stands_still(Line{kFrom, kFrom, 1}));
+  BOOST_TEST(!stands_still(Line{kFrom, kTo, 1}));
+  BOOST_TEST(stands_still(RestToRest{kTo, kTo, 1}));
+  BOOST_TEST(!stands_still(RestToRest{kFrom, kTo, 1}));  // at rest before 0 and after 1 s
+  BOOST_TEST(stands_still(make_spline({0, 1, 2}, {kTo, kTo, kTo}, SplineEnds::at_rest)));
+  BOOST_TEST(!stands_still(make_spline({0, 1, 2}, {kTo, kFrom, kTo}, SplineEnds::at_rest)));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

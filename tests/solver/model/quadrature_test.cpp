@@ -1,0 +1,54 @@
+#include "solver/model/quadrature.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+namespace t = trammel;
+
+namespace {
+
+double line_moment(int power) {
+  double sum = 0;
+  for (const auto& point : t::line_quadrature()) sum += point.weight * std::pow(point.at, power);
+  return sum;
+}
+
+/// Mean of L_0^a L_1^b L_2^c over a triangle: 2 a! b! c! / (a + b + c + 2)!.
+double exact_mean(int a, int b, int c) {
+  return 2 * std::tgamma(a + 1) * std::tgamma(b + 1) * std::tgamma(c + 1) /
+         std::tgamma(a + b + c + 3);
+}
+
+double mean(int a, int b, int c) {
+  double sum = 0;
+  for (const auto& point : t::triangle_quadrature()) {
+    sum += point.weight * std::pow(point.at[0], a) * std::pow(point.at[1], b) *
+           std::pow(point.at[2], c);
+  }
+  return sum;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(quadrature)
+
+BOOST_AUTO_TEST_CASE(the_line_rule_is_exact_to_degree_nine_and_no_further) {
+  for (int power = 0; power <= 9; ++power) {
+    BOOST_TEST(line_moment(power) == 1.0 / (power + 1), boost::test_tools::tolerance(1e-14));
+  }
+  BOOST_TEST(std::abs(line_moment(10) - 1.0 / 11) > 1e-7);
+}
+
+BOOST_AUTO_TEST_CASE(the_triangle_rule_is_exact_to_degree_eight_and_no_further) {
+  for (int degree = 0; degree <= 8; ++degree) {
+    for (int a = 0; a <= degree; ++a) {
+      for (int b = 0; a + b <= degree; ++b) {
+        BOOST_TEST(mean(a, b, degree - a - b) == exact_mean(a, b, degree - a - b),
+                   boost::test_tools::tolerance(1e-13));
+      }
+    }
+  }
+  BOOST_TEST(std::abs(mean(10, 0, 0) / exact_mean(10, 0, 0) - 1) > 1e-6);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

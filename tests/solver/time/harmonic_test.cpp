@@ -1,0 +1,133 @@
+#include "solver/time/harmonic.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "solver/statics/statics.h"
+#include "tests/support/solver/frames.h"
+
+using namespace trammel;
+using namespace trammel::testing;
+using boost::test_tools::tolerance;
+
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+Model oscillator() {
+  Model model;
+  model.nodes = {{"m", {0, 0}}};
+  model.masses = {{0, 2, 0, {0, 0}}};
+  model.springs = {{"k", {0, -1}, {50, 1000, 0}}};
+  model.loads = {{0, {3, 0, 0}}};
+  return model;
+}
+
+/// NAFEMS Test 5H: the deep beam of FV5 under 1e6 N/m, two halves so that mid-span is a node.
+Model test_5h(Index elements) {
+  const Section section = rectangle({200e9, 8000, 0.3}, 2, 2, 0.849673);
+  Model model;
+  model.nodes = {{"A", {0, 0}}, {"C", {5, 0}}, {"B", {10, 0}}};
+  model.members = {member("AC", 0, 1, section, elements), member("CB", 1, 2, section, elements)};
+  for (Member& m : model.members) {
+    m.theory = BeamTheory::timoshenko;
+    m.load = {0, 1e6};
+  }
+  model.supports = {pin(0), roller(2)};
+  return model;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(harmonic)
+
+BOOST_AUTO_TEST_CASE(an_oscillator_answers_as_its_formula_with_either_damping) {
+  const System system = assemble(oscillator());
+  const double w0 = 5;
+  const double ratio = 0.03;
+  const RayleighDamping rayleigh = {0.1, 0.008};  // ratio at w0: (0.1 / 5 + 0.008 * 5) / 2 = 0.03
+  for (const double f : {0.1, 0.7, w0 / kTurn, 2.0}) {
+    const double w = kTurn * f;
+    const std::complex<double> modal =
+        3.0 / (2.0 * std::complex<double>(w0 * w0 - w * w, 2 * ratio * w0 * w));
+    const HarmonicResponse a(system, {{}, {ratio}});
+    BOOST_TEST(std::abs(a.at(f)[0] - modal) < 1e-12 * std::abs(modal));
+    const HarmonicResponse b(system, {rayleigh, {}});
+    BOOST_TEST(std::abs(b.at(f)[0] - modal) < 1e-12 * std::abs(modal));
+    const HarmonicResponse c(system, {rayleigh, {0, 0}});  // modes that add no damping
+    BOOST_TEST(std::abs(c.at(f)[0] - modal) < 1e-12 * std::abs(modal));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(at_rest_it_is_statics) {
+  const System system = assemble(test_5h(4));
+  const StaticSolution statics = solve_statics(system);
+  for (const std::size_t damped : {0, 3}) {
+    const HarmonicResponse response(system, {{}, std::vector<double>(damped, 0.02)});
+    const Eigen::VectorXcd q = response.at(0);
+    BOOST_TEST((q.real() - statics.q).norm() < 1e-9 * statics.q.norm());
+    const HarmonicAmplitudes a = harmonic_amplitudes(system, q, 0);
+    BOOST_TEST(a.resultant_end(0, 2) == std::abs(statics.resultant_end(0, 2)), tolerance(1e-9));
+    BOOST_TEST(a.member_stress[0] == statics.member_stress[0], tolerance(1e-9));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(damping_more_modes_changes_only_what_is_damped) {
+  // Rayleigh damping on all and none: superposing modes or solving directly is the same.
+  const System system = assemble(test_5h(4));
+  const HarmonicResponse direct(system, {{1.0, 1e-4}, {}});
+  const HarmonicResponse superposed(system, {{1.0, 1e-4}, std::vector<double>(6, 0.0)});
+  for (const double f : {10.0, 42.6, 100.0}) {
+    BOOST_TEST((direct.at(f) - superposed.at(f)).norm() < 1e-9 * direct.at(f).norm());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_deep_beam_of_test_5h_peaks_as_beam_theory_says) {
+  const System system = assemble(test_5h(20));
+  const HarmonicResponse response(system, {{}, std::vector<double>(16, 0.02)});
+  BOOST_REQUIRE(response.outcome().solved());
+  const HarmonicPeak peak =
+      harmonic_peak(response, 40, 45, [&](const Eigen::VectorXcd& q, double f) {
+        return harmonic_amplitudes(system, q, f).displacement(1, 1);
+      });
+  BOOST_TEST(peak.frequency == 42.628, tolerance(4e-5));
+  BOOST_TEST(peak.amplitude == 13.489e-3, tolerance(1e-4));
+  const HarmonicAmplitudes a =
+      harmonic_amplitudes(system, response.at(peak.frequency), peak.frequency);
+  BOOST_TEST(a.resultant_end(0, 2) / (8.0 / 6) == 242.55e6, tolerance(2e-4));
+}
+
+BOOST_AUTO_TEST_CASE(rayleigh_damping_of_test_5h_is_close_to_two_per_cent) {
+  const System system = assemble(test_5h(10));
+  const HarmonicResponse response(system, {{5.36, 7.46e-5}, {}});
+  const HarmonicPeak peak =
+      harmonic_peak(response, 40, 45, [&](const Eigen::VectorXcd& q, double f) {
+        return harmonic_amplitudes(system, q, f).displacement(1, 1);
+      });
+  BOOST_TEST(peak.amplitude == 13.45e-3, tolerance(1e-2));
+}
+
+BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
+  Model model = cantilever(unit_section(), 1, 4, 0.5);
+  model.nodes.push_back({"C", {1.4, 0.9}});
+  model.members.push_back(member("BC", 1, 2, unit_section(), 3));
+  const auto answer = [&](Index loaded, Index seen) {
+    model.loads = {{loaded, {1, 0, 0}}};
+    const System system = assemble(model);
+    const HarmonicResponse response(system, {{0.2, 0.001}, {0.01, 0.02}});
+    const Eigen::VectorXcd q = response.at(0.7);
+    const Eigen::VectorXcd u = system.T.cast<std::complex<double>>() * q;
+    return u[system.coordinates.node[static_cast<std::size_t>(seen)][0]];
+  };
+  BOOST_TEST(std::abs(answer(1, 2) - answer(2, 1)) < 1e-9 * std::abs(answer(1, 2)));
+}
+
+BOOST_AUTO_TEST_CASE(a_negative_damping_ratio_is_an_error) {
+  const System system = assemble(oscillator());
+  BOOST_CHECK_THROW(HarmonicResponse(system, {{}, {-0.1}}), ModelError);
+  BOOST_CHECK_THROW(HarmonicResponse(system, {{}, {0.1, 0.1, 0.1}}), ModelError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+#include <vector>
+
+#include "harness/analysis/analysis.h"
+#include "tests/support/harness/support.h"
+
+namespace trammel::testing {
+
+/// A case as it stands, without the references that its checks may name.
+inline Document document_of(const Json& json) {
+  const Folder folder;
+  return patched(read(folder, json), "base");
+}
+
+inline AnalysisResult result_of(const Json& json) {
+  const References references;
+  return analyse(document_of(json), references, {});
+}
+
+inline const std::vector<double>& values(const AnalysisResult& result, const std::string& name) {
+  BOOST_REQUIRE_MESSAGE(result.quantities.count(name) == 1, name);
+  return result.quantities.at(name).values;
+}
+
+/// The value of a quantity that has one.
+inline double only(const AnalysisResult& result, const std::string& name) {
+  BOOST_REQUIRE_MESSAGE(values(result, name).size() == 1, name);
+  return values(result, name).front();
+}
+
+}  // namespace trammel::testing

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "harness/input/case.h"
+#include "harness/base/errors.h"
+#include "harness/base/json.h"
+
+namespace trammel::testing {
+
+/// A folder of its own that is gone afterwards.
+class Folder {
+ public:
+  Folder() {
+    static int count = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("trammel-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path write(const std::string& name,
+                                            const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  /// A case under its own name.
+  [[nodiscard]] std::filesystem::path write(const Json& json) const {
+    return write(json.at("id").get<std::string>() + ".json", json.dump(1));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What an InputError says; empty when nothing was thrown.
+template <class Work>
+std::string complaint(const Work& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A steel cantilever of 2 m along x, 0.1 m deep, 0.05 m wide, 100 N across its tip.
+inline Json cantilever() {
+  return Json::parse(R"({
+    "id": "cantilever", "title": "Cantilever with a force at its tip",
+    "model": {
+      "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}},
+      "sections": {"bar": {"material": "steel", "rectangle": {"thickness_m": 0.1, "width_m": 0.05}}},
+      "elements": 4,
+      "nodes": {"A": [0, 0], "B": [2, 0]},
+      "members": {"AB": {"nodes": ["A", "B"], "section": "bar"}},
+      "supports": {"A": ["x", "y", "rotation"]},
+      "loads": {"tip": {"node": "B", "force_N": [0, 100]}}
+    },
+    "analysis": {"statics": {}}
+  })");
+}
+
+/// A quarter of a ring between radii 1 m and 2 m, held on its two straight edges, 0.3 MPa outside.
+inline Json quarter_ring() {
+  return Json::parse(R"({
+    "id": "ring", "title": "A quarter of a ring under pressure",
+    "model": {
+      "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}},
+      "nodes": {"A": [1, 0], "B": [2, 0], "C": [0, 2], "D": [0, 1],
+                "M": [1.414213562373095, 1.414213562373095]},
+      "edges": {"inner": {"nodes": ["D", "A"], "circle": {"center_m": [0, 0], "radius_m": 1}},
+                "outer": {"nodes": ["B", "C"], "circle": {"center_m": [0, 0], "radius_m": 2}},
+                "bottom": {"nodes": ["A", "B"]}, "left": {"nodes": ["D", "C"]}},
+      "plates": {"ring": {"material": "steel", "thickness_m": 0.01, "element": "six-node",
+                          "divisions": 2,
+                          "blocks": {"b": {"corners": ["A", "B", "C", "D"], "cells": [1, 2]}}}},
+      "supports": {"bottom": ["y"], "left": ["x"]},
+      "loads": {"p": {"edge": "outer", "normal_Pa": -3e5}}
+    },
+    "analysis": {"statics": {}}
+  })");
+}
+
+/// The manipulator of Table 1 at the centre of its base.
+inline Json manipulator() {
+  return Json::parse(R"({
+    "id": "robot", "title": "A 3-RRR manipulator",
+    "model": {
+      "manipulator": {
+        "base_side_m": 0.5,
+        "links": {"proximal_length_m": 0.2, "distal_length_m": 0.2, "thickness_m": 0.0015,
+                  "width_m": 0.03, "mass_kg": "from-density", "beam": "euler-bernoulli",
+                  "mass_matrix": "consistent", "elements": 2},
+        "platform": {"kind": "rigid", "side_m": 0.2, "thickness_m": 0.0015,
+                     "mass_kg": "from-density"},
+        "material": {"E_Pa": 6.9e10, "rho_kg_m3": 2700, "nu": 0.33},
+        "joints": {"active": "locked", "elbow": "welded", "platform": "hinged"},
+        "working_mode": [-1, -1, -1]
+      },
+      "pose": {"x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
+      "loads": {"P": {"node": "P", "force_N": [10, 0]}}
+    },
+    "analysis": {"modes": {"count": 6}}
+  })");
+}
+
+/// A case of that JSON, as if it stood in `folder`.
+inline Case read(const Folder& folder, const Json& json) {
+  return load_case(folder.write(json));
+}
+
+}  // namespace trammel::testing

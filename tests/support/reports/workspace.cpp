@@ -1,0 +1,52 @@
+#include "tests/support/reports/workspace.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "reports/page/report.h"
+#include "tests/support/reports/sample.h"
+
+namespace trammel::tests {
+
+namespace fs = std::filesystem;
+
+Workspace::Workspace() {
+  std::string name = (fs::temp_directory_path() / "trammel-report-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+Workspace::~Workspace() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+fs::path Workspace::results(const nlohmann::ordered_json& json) const {
+  const fs::path file = path_ / "results.json";
+  std::ofstream(file) << json.dump(1);
+  return file;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("no " + file.string());
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+const fs::path& sample_report() {
+  static const Workspace workspace;
+  static const fs::path folder = [] {
+    fs::path out = workspace.path() / "report";
+    write_report(workspace.results(sample_results()), out);
+    return out;
+  }();
+  return folder;
+}
+
+}  // namespace trammel::tests

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "solver/model/model.h"
+
+/// Small frames that the tests of the solver share.
+namespace trammel::testing {
+
+/// Rectangle `depth` x `width` of a material; depth in the plane.
+inline Section rectangle(const Material& material, double depth, double width,
+                         double shear_coefficient = 5.0 / 6.0) {
+  const double A = depth * width;
+  const double I = width * depth * depth * depth / 12;
+  const double G = material.E / (2 * (1 + material.nu));
+  return {material.E * A,   material.E * I,   shear_coefficient * G * A,
+          material.rho * A, material.rho * I, A,
+          I / (depth / 2)};
+}
+
+inline Member member(std::string name, Index first, Index second, const Section& section,
+                     Index elements = 1) {
+  Member m;
+  m.name = std::move(name);
+  m.nodes = {first, second};
+  m.section = m.end_section = section;
+  m.elements = elements;
+  return m;
+}
+
+inline Support clamp(Index node) {
+  return {"", node, {true, true, true}};
+}
+inline Support pin(Index node) {
+  return {"", node, {true, true, false}};
+}
+inline Support roller(Index node) {
+  return {"", node, {false, true, false}};
+}
+
+/// A beam from the origin at an angle [rad], without supports.
+inline Model beam(const Section& section, double length, Index elements, double angle = 0) {
+  Model model;
+  model.nodes = {{"A", {0, 0}}, {"B", {length * std::cos(angle), length * std::sin(angle)}}};
+  model.members = {member("AB", 0, 1, section, elements)};
+  return model;
+}
+
+inline Model cantilever(const Section& section, double length, Index elements, double angle = 0) {
+  Model model = beam(section, length, elements, angle);
+  model.supports = {clamp(0)};
+  return model;
+}
+
+/// Section with EI = 1, a mass of 1 a metre and a stiff axis.
+inline Section unit_section(double EA = 1e6) {
+  return {EA, 1, 0, 1, 0, 1, 1};
+}
+
+/// NAFEMS FV2: eight arms of 5 m from a common centre, their tips pinned.
+inline Model pinned_double_cross(Index elements_an_arm) {
+  const double pi = std::acos(-1.0);
+  Model model;
+  model.nodes = {{"centre", {0, 0}}};
+  const Section section = rectangle({200e9, 8000, 0.3}, 0.125, 0.125);
+  for (Index k = 0; k < 8; ++k) {
+    const double angle = static_cast<double>(k) * pi / 4;
+    model.nodes.push_back({"tip" + std::to_string(k), {5 * std::cos(angle), 5 * std::sin(angle)}});
+    model.members.push_back(member("arm" + std::to_string(k), 0, k + 1, section, elements_an_arm));
+    model.supports.push_back(pin(k + 1));
+  }
+  return model;
+}
+
+}  // namespace trammel::testing

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/manipulator/manipulator.h"
+
+/// The manipulator of the paper's Table 1, for the tests.
+namespace trammel {
+
+inline ManipulatorGeometry table_1_geometry() {
+  ManipulatorGeometry g;
+  g.base = equilateral_base(0.5);
+  g.platform = equilateral_platform(0.2);
+  g.proximal = {0.2, 0.2, 0.2};
+  g.distal = {0.2, 0.2, 0.2};
+  return g;
+}
+
+/// Not of the paper: unequal links, base and platform, P off the centroid, mixed working modes.
+inline ManipulatorGeometry uneven_geometry() {
+  ManipulatorGeometry g;
+  g.base = {Vector2d{0.02, -0.01}, Vector2d{0.61, 0.03}, Vector2d{0.2, 0.47}};
+  g.platform = {Vector2d{-0.07, -0.06}, Vector2d{0.11, -0.04}, Vector2d{0.02, 0.1}};
+  g.proximal = {0.24, 0.27, 0.21};
+  g.distal = {0.2, 0.25, 0.3};
+  g.working_mode = {-1, 1, -1};
+  return g;
+}
+
+/// The centroid of the base.
+inline Pose centred_pose(double phi = 0) {
+  return {0.25, 0.25 / std::numbers::sqrt3, phi};
+}
+
+/// Locked actuators, welded elbows, hinged platform joints; masses from density.
+inline ManipulatorDesign table_1_design() {
+  const Material al_1060{6.9e10, 2700, 0.33};
+  LinkDesign link;
+  link.thickness = 0.0015;
+  link.width = 0.03;
+  link.material = al_1060;
+  ManipulatorDesign design;
+  design.geometry = table_1_geometry();
+  design.proximal.fill(link);
+  design.distal.fill(link);
+  design.platform.thickness = 0.0015;
+  design.platform.material = al_1060;
+  design.active.fill({ActiveKind::locked});
+  design.elbow.fill({ElbowKind::welded});
+  design.platform_joint.fill({PlatformJointKind::hinged});
+  return design;
+}
+
+}  // namespace trammel
