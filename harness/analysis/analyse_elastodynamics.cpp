@@ -7,6 +7,7 @@
 #include "harness/scene/time_reader.h"
 #include "solver/manipulator/elastodynamics.h"
 #include "solver/modes/modes.h"
+#include "solver/manipulator/reduced_design.h"
 
 namespace trammel {
 namespace {

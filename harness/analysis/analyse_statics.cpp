@@ -5,7 +5,7 @@
 
 #include "harness/analysis/analysis_kinds.h"
 #include "solver/large_motion/solve/large_statics.h"
-#include "solver/model/nan_max.h"
+#include "solver/model/numbers.h"
 #include "solver/statics/statics.h"
 
 namespace trammel {

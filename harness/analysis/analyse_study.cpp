@@ -4,7 +4,7 @@
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/input/case.h"
 #include "harness/input/json_view.h"
-#include "harness/judge/judge.h"
+#include "harness/base/statistic.h"
 
 namespace trammel {
 namespace {

@@ -9,6 +9,7 @@
 #include "harness/scene/time_reader.h"
 #include "harness/base/text.h"
 #include "solver/effects/dynamic_effect_estimates.h"
+#include "solver/assembly/reduced_model.h"
 
 namespace trammel {
 namespace {

@@ -4,6 +4,7 @@
 #include "solver/mesh/distorted_mesh.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/refinement.h"
+#include "solver/assembly/strain.h"
 
 namespace trammel {
 namespace {

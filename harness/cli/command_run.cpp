@@ -13,6 +13,7 @@
 #include "harness/run/results.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/base/statistic.h"
 
 namespace trammel {
 namespace {

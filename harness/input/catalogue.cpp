@@ -16,12 +16,22 @@ fs::path catalogue() {
   return home() / "cases";
 }
 
+/// Rooms that hold something else than cases.
+bool holds_no_cases(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return name == "schema" || name == "cost" || name == "claims";
+}
+
+/// All case files of all rooms, sorted by name.
 std::vector<fs::path> all_files() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(catalogue())) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  for (auto entry = fs::recursive_directory_iterator(catalogue());
+       entry != fs::recursive_directory_iterator(); ++entry) {
+    if (entry->is_directory() && holds_no_cases(entry->path())) entry.disable_recursion_pending();
+    if (entry->path().extension() == ".json") files.push_back(entry->path());
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
   return files;
 }
 
@@ -46,10 +56,12 @@ bool is_name(const std::string& text) {
 
 fs::path by_name(const std::string& name) {
   if (!is_name(name)) return {};
-  fs::path file = catalogue() / name;
-  if (file.extension() != ".json") file += ".json";
-  std::error_code error;
-  return fs::is_regular_file(file, error) ? file : fs::path();
+  fs::path wanted(name);
+  if (wanted.extension() != ".json") wanted += ".json";
+  for (const fs::path& file : all_files()) {
+    if (file.filename() == wanted) return file;
+  }
+  return {};
 }
 
 }  // namespace

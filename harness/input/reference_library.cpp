@@ -16,22 +16,17 @@ fs::path stored() {
   return home() / "references" / "values";
 }
 
-std::vector<fs::path> places(const std::string& id, const fs::path& case_file) {
-  const std::string name = id + ".json";
-  const fs::path folder = fs::absolute(case_file).parent_path();
-  std::error_code error;
-  if (fs::equivalent(folder, home() / "cases", error)) return {stored() / name};
-  return {folder / name, folder / "references" / name, stored() / name};
+bool is_in_catalogue(const fs::path& folder) {
+  const fs::path inside = fs::relative(folder, home() / "cases");
+  return !inside.empty() && *inside.begin() != "..";
 }
 
-std::vector<std::string> stored_names() {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(stored(), error)) {
-    names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
+/// Where a case of the user's own may have its references beside it.
+std::vector<fs::path> places_beside(const std::string& id, const fs::path& case_file) {
+  const std::string name = id + ".json";
+  const fs::path folder = fs::absolute(case_file).parent_path();
+  if (is_in_catalogue(folder)) return {};
+  return {folder / name, folder / "references" / name};
 }
 
 CitedReference read(const fs::path& file) {
@@ -64,15 +59,20 @@ CitedReference read(const fs::path& file) {
 const Reference& References::get(const Cursor& id) const {
   const auto name = id.get<std::string>();
   const std::lock_guard<std::mutex> guard(lock_);
-  for (const fs::path& file : places(name, id.document().origin(id.pointer()).file)) {
+  if (stored_.empty()) stored_ = reference_files(stored());
+  std::vector<fs::path> files = places_beside(name, id.document().origin(id.pointer()).file);
+  if (const auto file = stored_.find(name); file != stored_.end()) files.push_back(file->second);
+  for (const fs::path& file : files) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) continue;
     auto found = read_.find(file);
     if (found == read_.end()) found = read_.emplace(file, read(file)).first;
     return found->second.reference;
   }
+  std::vector<std::string> names;
+  for (const auto& item : stored_) names.push_back(item.first);
   throw id.error("expected the name of a reference (got '" + printable(name) + "')" +
-                 did_you_mean(name, stored_names()));
+                 did_you_mean(name, names));
 }
 
 std::map<std::string, CitedReference> References::used() const {

@@ -31,6 +31,7 @@ class References {
 
  private:
   mutable std::mutex lock_;
+  mutable std::map<std::string, std::filesystem::path> stored_;  // by id, listed once
   mutable std::map<std::filesystem::path, CitedReference> read_;
 };
 

@@ -58,8 +58,4 @@ struct Evidence {
 /// A gate that does not hold: everything but a pass and what is only recorded.
 [[nodiscard]] bool breaks_gate(Verdict verdict);
 
-/// One number from many. NaN comes through.
-/// @param name  "max", "min", "max_abs", ... as in the schema
-[[nodiscard]] double statistic_of(const std::string& name, const std::vector<double>& values);
-
 }  // namespace trammel

@@ -7,6 +7,7 @@
 #include "harness/input/case.h"
 #include "harness/base/diagnostic.h"
 #include "harness/judge/judge.h"
+#include "harness/base/statistic.h"
 
 namespace trammel {
 namespace {

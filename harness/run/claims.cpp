@@ -8,6 +8,7 @@
 
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
+#include "harness/base/statistic.h"
 
 namespace trammel {
 namespace {
@@ -266,7 +267,7 @@ bool Ledger::follows() const {
 }
 
 Document load_ledger() {
-  const auto file = home() / "cases" / "ledger" / ledger_file;
+  const auto file = home() / "cases" / "paper" / "claims" / ledger_file;
   Document document;
   document.lay(file.string(), "", read_json(file));
   document.check("ledger");

@@ -6,7 +6,7 @@
 
 #include "harness/run/run.h"
 
-/// The ledger of a publication's claims: from results, by the rules of cases/ledger/, to a verdict
+/// The ledger of a publication's claims: from results, by the rules of cases/paper/claims/, to a verdict
 /// for each claim.
 namespace trammel {
 
@@ -50,7 +50,7 @@ struct Ledger {
   [[nodiscard]] bool follows() const;
 };
 
-/// The one ledger of the catalogue, cases/ledger/varalakshmi-2017.json.
+/// The one ledger of the catalogue, cases/paper/claims/varalakshmi-2017.json.
 /// @throws InputError  where it cannot be read or breaks its schema.
 [[nodiscard]] Document load_ledger();
 

@@ -4,6 +4,8 @@
 #include "harness/scene/manipulator_reader.h"
 #include "harness/scene/joint_reader.h"
 #include "solver/large_motion/system/linear_joints.h"
+#include "solver/assembly/reduced_model.h"
+#include "solver/manipulator/reduced_design.h"
 
 namespace trammel {
 namespace {

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 
+#include "solver/model/numbers.h"
+
 namespace trammel {
 namespace {
 
 constexpr std::size_t most_nodes_with_middles = 1500;
 constexpr std::size_t points_a_member = 12;
 
-std::size_t at(Index index) {
-  return static_cast<std::size_t>(index);
-}
-
 /// Pieces that an element is drawn in.
 std::size_t pieces(const System& system, const FrameElement& element) {
-  const auto elements = at(system.model.members[at(element.member)].elements);
+  const auto elements = to_size(system.model.members[to_size(element.member)].elements);
   if (element.is_bar()) return 1;
   return std::max<std::size_t>(1, (points_a_member + elements - 1) / elements);
 }
@@ -24,7 +22,7 @@ struct DrawnNodes {
   std::vector<std::size_t> mesh;
   std::vector<Index> number;
 
-  [[nodiscard]] std::size_t of(Index node) const { return at(number[at(node)]); }
+  [[nodiscard]] std::size_t of(Index node) const { return to_size(number[to_size(node)]); }
 };
 
 DrawnNodes drawn_nodes(const System& system) {
@@ -34,7 +32,7 @@ DrawnNodes drawn_nodes(const System& system) {
     for (const Triangle& triangle : system.model.triangles) {
       for (std::size_t k = 3; triangle.quadratic() && k < 6; ++k) {
         const Index middle = triangle.nodes[k];
-        if (system.model.nodes[at(middle)].name.empty()) drawn.number[at(middle)] = -1;
+        if (system.model.nodes[to_size(middle)].name.empty()) drawn.number[to_size(middle)] = -1;
       }
     }
   }
@@ -49,8 +47,8 @@ DrawnNodes drawn_nodes(const System& system) {
 void draw_members(const System& system, const DrawnNodes& drawn, Drawing& drawing) {
   for (const FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
-    const Vector2d start = system.mesh.positions[at(element.nodes[0])];
-    const Vector2d span = system.mesh.positions[at(element.nodes[1])] - start;
+    const Vector2d start = system.mesh.positions[to_size(element.nodes[0])];
+    const Vector2d span = system.mesh.positions[to_size(element.nodes[1])] - start;
     std::size_t before = drawn.of(element.nodes[0]);
     for (std::size_t k = 1; k < count; ++k) {
       drawing.nodes.emplace_back(start +
@@ -68,7 +66,7 @@ void draw_triangles(const Model& model, const DrawnNodes& drawn, Drawing& drawin
     for (std::size_t k = 0; k < 3; ++k) {
       around.push_back(drawn.of(triangle.nodes[k]));
       const Index middle = triangle.nodes[3 + k];
-      if (middle >= 0 && drawn.number[at(middle)] >= 0) around.push_back(drawn.of(middle));
+      if (middle >= 0 && drawn.number[to_size(middle)] >= 0) around.push_back(drawn.of(middle));
     }
   }
 }
@@ -92,18 +90,18 @@ void draw_joints(const Model& model, bool is_manipulator, const DrawnNodes& draw
   std::vector<std::string> kind(model.nodes.size());
   for (const Member& member : model.members) {
     for (std::size_t end = 0; end < 2; ++end) {
-      std::string& word = kind[at(member.nodes[end])];
+      std::string& word = kind[to_size(member.nodes[end])];
       if (member.ends[end].fixity == EndFixity::hinged) word = "hinged";
       if (member.ends[end].fixity == EndFixity::sprung) word = "sprung";
     }
   }
   for (const RigidBody& body : model.rigid_bodies) {
-    std::string& word = kind[at(body.reference)];
+    std::string& word = kind[to_size(body.reference)];
     if (word.empty()) word = "rigid";
   }
   for (const Support& support : model.supports) {
-    const bool named = !support.name.empty() && !model.nodes[at(support.node)].name.empty();
-    if (named) kind[at(support.node)] = "support";
+    const bool named = !support.name.empty() && !model.nodes[to_size(support.node)].name.empty();
+    if (named) kind[to_size(support.node)] = "support";
   }
   if (is_manipulator) {
     for (std::size_t i = 0; i < 3; ++i) {

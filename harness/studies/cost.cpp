@@ -6,7 +6,7 @@
 
 #include "harness/analysis/analysis.h"
 #include "harness/base/stopwatch.h"
-#include "solver/model/nan_max.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 namespace {

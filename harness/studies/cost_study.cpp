@@ -6,9 +6,9 @@
 #include "harness/input/catalogue.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
-#include "harness/judge/judge.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/base/statistic.h"
 
 namespace trammel {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "harness/input/reference_library.h"
 #include "harness/base/stopwatch.h"
-#include "solver/model/nan_max.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 namespace {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 namespace trammel {
 namespace {
@@ -160,6 +161,15 @@ Reference read_reference(const Json& json, const std::string& name) {
   }
   read.uncertainty = read_uncertainty(json, read, name);
   return read;
+}
+
+std::map<std::string, std::filesystem::path> reference_files(const std::filesystem::path& folder) {
+  std::map<std::string, std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".json") files.emplace(entry.path().stem(), entry.path());
+  }
+  return files;
 }
 
 Reference load_reference(const std::filesystem::path& file) {

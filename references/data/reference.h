@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
@@ -33,6 +34,10 @@ class ReferenceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// The files of all rooms below a folder, by the ids that are their names.
+[[nodiscard]] std::map<std::string, std::filesystem::path> reference_files(
+    const std::filesystem::path& folder);
 
 /// @throws ReferenceError
 [[nodiscard]] Reference load_reference(const std::filesystem::path& file);

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "reports/drawing/figure.h"
 #include "reports/data/json_view.h"
 
 namespace trammel::reports {
@@ -52,10 +51,6 @@ struct CostStudies {
 
 /// @throws std::runtime_error  "/pointer: what was expected"
 [[nodiscard]] CostStudies read_cost_studies(const JsonView& view);
-
-/// Time over error on logarithmic axes with the efficient front; what failed in a strip at the
-/// edge.
-[[nodiscard]] Figure cost_figure(const CostStudy& study);
 
 /// "192 element evaluations, 2 factorizations".
 [[nodiscard]] std::string counters_text(

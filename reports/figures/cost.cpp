@@ -1,7 +1,8 @@
+#include "reports/figures/cost.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "reports/data/cost_study.h"
 #include "reports/text/number.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"

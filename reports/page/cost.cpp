@@ -2,6 +2,7 @@
 
 #include "reports/text/number.h"
 #include "reports/page/sections.h"
+#include "reports/figures/cost.h"
 
 namespace trammel::reports {
 

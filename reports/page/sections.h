@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/page/check_status_data.h"
 #include "reports/page/gallery.h"
 #include "reports/text/html.h"
 #include "reports/data/results.h"
@@ -84,17 +85,7 @@ struct CostPanel {
 /// Machine, compiler, libraries.
 [[nodiscard]] Data environment_section(const Results& results);
 
-/// Signs and class names of a standing: keys standing, standing_class, sign.
-void set_standing(Data& data, Standing standing);
-
-/// Counts as a list of {n, standing, standing_class, sign, percent} without the zeros.
-[[nodiscard]] Data counts_list(const Counts& counts);
-
 /// All checks of a case with every digit.
 [[nodiscard]] Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs);
-
-[[nodiscard]] std::string case_anchor(const std::string& id);
-[[nodiscard]] std::string family_anchor(const std::string& id);
-[[nodiscard]] std::string reference_anchor(const std::string& id);
 
 }  // namespace trammel::reports

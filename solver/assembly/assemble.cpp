@@ -10,6 +10,7 @@
 #include "solver/linalg/symmetric_builder.h"
 #include "solver/assembly/system.h"
 #include "solver/assembly/validate.h"
+#include "solver/assembly/reduced_model.h"
 
 namespace trammel {
 namespace {
@@ -200,15 +201,6 @@ Vector6d element_load(const FrameElement& element, const Vector2d& load) {
 
 System assemble(const Model& model, Effects kept) {
   return Assembler(reduced(model, kept), kept).run();
-}
-
-Counters& Counters::operator+=(const Counters& more) {
-  element_evaluations += more.element_evaluations;
-  factorizations += more.factorizations;
-  solves += more.solves;
-  steps += more.steps;
-  for (std::size_t i = 0; i < effect_count; ++i) effects[i] += more.effects[i];
-  return *this;
 }
 
 Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {

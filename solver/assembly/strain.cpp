@@ -52,4 +52,10 @@ double strain_magnitude(const System& system, const Eigen::VectorXd& u) {
   return sum;
 }
 
+Operator stiffness_operator(const System& system) {
+  return [&system](const Eigen::VectorXd& q) -> Eigen::VectorXd {
+    return system.T.transpose() * internal_forces(system, system.T * q);
+  };
+}
+
 }  // namespace trammel

@@ -5,6 +5,7 @@
 
 #include "solver/elements/frame_element.h"
 #include "solver/assembly/system.h"
+#include "solver/linalg/refinement.h"
 #include "solver/elements/triangle6_element.h"
 #include "solver/elements/triangle_element.h"
 
@@ -70,5 +71,8 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// Rounding level of the deformation energy: sum over elements of (|B| |u|)^T C (|B| |u|). A motion
 /// whose u^T K u is below about eps^2 times this does not deform anything.
 [[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
+
+/// K x from the elements' deformations.
+[[nodiscard]] Operator stiffness_operator(const System& system);
 
 }  // namespace trammel

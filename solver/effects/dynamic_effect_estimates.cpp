@@ -9,6 +9,7 @@
 #include "solver/effects/energy_shares.h"
 #include "solver/linalg/factorization.h"
 #include "solver/modes/modes.h"
+#include "solver/manipulator/reduced_design.h"
 
 namespace trammel {
 namespace {

@@ -8,15 +8,13 @@
 #include "solver/statics/postprocessing.h"
 #include "solver/statics/statics.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/assembly/reduced_model.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 namespace {
 
 using Eigen::VectorXd;
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// What a solution says, by kind: each kind is measured by its largest.
 struct Readings {
@@ -69,7 +67,7 @@ class LinearState {
   }
 
   [[nodiscard]] const Member& member_of(const FrameElement& e) const {
-    return system.model.members[at(e.member)];
+    return system.model.members[to_size(e.member)];
   }
   [[nodiscard]] Vector3d rigidity(const FrameElement& e) const {
     Vector3d c = frame_rigidity(e.section, member_of(e).theory, e.length);
@@ -172,7 +170,7 @@ VectorXd part_forces(const LinearState& state, Effect effect) {
     const Index i = visited++;
     auto part = (c.asDiagonal() * (B * detail::gather(coordinates, state.u))).eval();
     if (i < frames) {
-      const Vector3d w = part_of(state, system.mesh.frame[at(i)], effect);
+      const Vector3d w = part_of(state, system.mesh.frame[to_size(i)], effect);
       for (Index k = 0; k < part.size(); ++k) part[k] *= w[k];
     } else if (i < plates) {
       if (effect != Effect::platform_flexibility) return;
@@ -249,7 +247,7 @@ void add_plate_strains(const LinearState& state, VectorXd& force) {
                           (along_x.squaredNorm() - along_y.squaredNorm()) / 2,
                           along_x.dot(along_y));
     const TrianglePoints points = corners(model, triangle);
-    const Plate& plate = model.plates[at(triangle.plate)];
+    const Plate& plate = model.plates[to_size(triangle.plate)];
     const Vector3d c =
         membrane_rigidity(plate.material, plate.thickness * std::abs(signed_area(points)));
     const Vector6d f = triangle_deformation(points).transpose() * c.cwiseProduct(strain);
@@ -259,7 +257,7 @@ void add_plate_strains(const LinearState& state, VectorXd& force) {
 
 /// The rotation of an element's end; of a bar its own.
 double end_rotation(const LinearState& state, const FrameElement& e, Index end) {
-  const Index rotation = e.coordinates[at(end + 2)];
+  const Index rotation = e.coordinates[to_size(end + 2)];
   if (rotation >= 0) return state.u[rotation];
   return (frame_turning(e.direction, e.length) * detail::gather(e.coordinates, state.u))[0];
 }
@@ -268,10 +266,10 @@ double end_rotation(const LinearState& state, const FrameElement& e, Index end) 
 double rigid_turning(const LinearState& state) {
   double farthest = 0;
   for (const RigidBody& body : state.system.model.rigid_bodies) {
-    const double turn = state.u[state.system.coordinates.node[at(body.reference)][2]];
+    const double turn = state.u[state.system.coordinates.node[to_size(body.reference)][2]];
     for (const Index node : body.attached) {
-      const double arm = (state.system.model.nodes[at(node)].position -
-                          state.system.model.nodes[at(body.reference)].position)
+      const double arm = (state.system.model.nodes[to_size(node)].position -
+                          state.system.model.nodes[to_size(body.reference)].position)
                              .norm();
       farthest = std::max(farthest, arm * turn * turn / 2);
     }
@@ -349,7 +347,7 @@ Change without_weight(LinearState& state, bool of_members, double& share) {
 }
 
 double span(const Model& model, const Member& member) {
-  return (model.nodes[at(member.nodes[1])].position - model.nodes[at(member.nodes[0])].position)
+  return (model.nodes[to_size(member.nodes[1])].position - model.nodes[to_size(member.nodes[0])].position)
       .norm();
 }
 

@@ -10,10 +10,6 @@ namespace trammel {
 
 namespace {
 
-void require(bool holds, const char* sentence) {
-  if (!holds) throw ModelError(sentence);
-}
-
 bool squarable(const Eigen::MatrixXd& m) {
   return m.allFinite() && (m.size() == 0 || m.cwiseAbs().maxCoeff() < 1e150);
 }

@@ -14,10 +14,6 @@ namespace trammel {
 
 namespace {
 
-void require(bool holds, const char* sentence) {
-  if (!holds) throw ModelError(sentence);
-}
-
 Eigen::MatrixXd scaled_inputs(const Grnn& network) {
   return network.inputs * network.scale.cwiseInverse().asDiagonal();
 }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "solver/model/numbers.h"
+
 namespace trammel {
 namespace {
 
@@ -16,7 +18,6 @@ using Eigen::VectorXd;
 
 constexpr const char* kIllConditioned =
     "the stiffness matrix is too ill-conditioned for double precision";
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr Index kDenseSize = 64;    // free coordinates; above, Lanczos is faster for a few modes
 constexpr double kSettled = 1e-11;  // relative change of an eigenvalue in one inverse iteration
 constexpr double kClearGap = 1e-3;  // between neighbours that are certainly not copies

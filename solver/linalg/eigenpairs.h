@@ -6,7 +6,8 @@
 #include "solver/linalg/factorization.h"
 #include "solver/model/outcome.h"
 #include "solver/linalg/refinement.h"
-#include "solver/assembly/system.h"
+#include "solver/model/counters.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 

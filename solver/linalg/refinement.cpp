@@ -1,14 +1,6 @@
 #include "solver/linalg/refinement.h"
 
-#include "solver/assembly/strain.h"
-
 namespace trammel {
-
-Operator stiffness_operator(const System& system) {
-  return [&system](const Eigen::VectorXd& q) -> Eigen::VectorXd {
-    return system.T.transpose() * internal_forces(system, system.T * q);
-  };
-}
 
 Refined refined_solve(const Operator& A, const Factorization& factorization,
                       const Eigen::VectorXd& b, Counters& counters) {

@@ -4,15 +4,12 @@
 #include <functional>
 
 #include "solver/linalg/factorization.h"
-#include "solver/assembly/system.h"
+#include "solver/model/counters.h"
 
 namespace trammel {
 
 /// A symmetric operator on the free coordinates, x -> A x, more exact than its assembled matrix.
 using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
-
-/// K x from the elements' deformations.
-[[nodiscard]] Operator stiffness_operator(const System& system);
 
 struct Refined {
   Eigen::VectorXd x;

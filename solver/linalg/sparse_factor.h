@@ -4,7 +4,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "solver/assembly/system.h"
+#include "solver/model/counters.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 

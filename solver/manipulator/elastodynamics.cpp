@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/model/nan_max.h"
+#include "solver/model/numbers.h"
 #include "solver/time/modal_superposition.h"
 #include "solver/modes/modes.h"
 #include "solver/model/plane.h"
@@ -17,9 +17,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Below this ratio of pivot to diagonal the stiffness counts as singular.
-constexpr double kSingular = 1e-13;
+constexpr double kSingularPivotRatio = 1e-13;
 
 Model loaded_model(const ElastodynamicsOptions& options) {
   Model model = build_manipulator(options.design, at(options.path, options.time.start).pose);
@@ -69,7 +68,7 @@ class Journey {
     if (!factored_) {
       factored_ = true;
       ++counters_.factorizations;
-      regular_ = stiffness_.factorize(moving_.K()) && stiffness_.pivot_ratio() > kSingular;
+      regular_ = stiffness_.factorize(moving_.K()) && stiffness_.pivot_ratio() > kSingularPivotRatio;
     }
     if (!regular_) return false;
     ++counters_.solves;
@@ -225,7 +224,7 @@ class Recovery {
       before = e.member;
       double& largest = state_.member_stress[e.member];
       for (const Eigen::RowVector3d& s : {first, second}) {
-        largest = larger(
+        largest = nan_max(
             largest, std::abs(s[0]) / e.section.area + std::abs(s[2]) / e.section.section_modulus);
       }
     }
@@ -376,7 +375,7 @@ class Recorder {
   void follow(const MovingSystem& moving) {
     const double inertia = journey_.size(moving.inertia_load());
     const double share = inertia == 0 ? 0 : inertia / journey_.size(moving.load());
-    inertia_ = larger(inertia_, share);
+    inertia_ = nan_max(inertia_, share);
     const NominalMotion& motion = moving.motion();
     for (const auto* parts : {&motion.member, &motion.plate, &motion.rigid_body}) {
       for (const PartMotion& part : *parts) turning_ = std::max(turning_, std::abs(part.rate));

@@ -9,16 +9,11 @@
 #include <sstream>
 
 #include "solver/model/plane.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 
 namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Below this singular value ratio not one digit of a solution can be trusted: the rows of J_x
-/// carry some ten roundings each.
-constexpr double kSingular = 64 * kEps;
 
 template <Real T>
 Eigen::Vector2<T> unit(const T& angle) {
@@ -205,7 +200,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     if (!residual.allFinite()) break;
     const Eigen::ColPivHouseholderQR<Matrix3d> qr(J);
     const double pivot_ratio = std::abs(qr.matrixR()(2, 2)) / std::abs(qr.matrixR()(0, 0));
-    if (!(pivot_ratio > kSingular)) {
+    if (!(pivot_ratio > kSingularRatio)) {
       result.outcome = {Status::singular,
                         "a parallel singularity: the actuators do not determine the platform"};
       return result;
@@ -247,7 +242,7 @@ HoldingTorques holding_torques(const Jacobians& j, const Vector3d& wrench) {
   HoldingTorques result;
   result.torque.setConstant(kNaN);
   result.tension.setConstant(kNaN);
-  if (!(j.parallel_distance > kSingular)) {
+  if (!(j.parallel_distance > kSingularRatio)) {
     result.outcome = {Status::singular,
                       "a parallel singularity: no finite actuator torques hold the platform"};
     return result;

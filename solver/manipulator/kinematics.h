@@ -6,9 +6,14 @@
 #include "solver/model/dual.h"
 #include "solver/model/model.h"
 #include "solver/model/outcome.h"
+#include "solver/model/numbers.h"
 
 /// Rigid kinematics of the planar 3-RRR manipulator: limbs A_i B_i C_i, active joints at A_i.
 namespace trammel {
+
+/// Below this singular value ratio not one digit of a solution can be trusted: the rows of J_x
+/// carry some ten roundings each.
+inline constexpr double kSingularRatio = 64 * kEps;
 
 using Eigen::Matrix3d;
 

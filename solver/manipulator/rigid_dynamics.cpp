@@ -5,13 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/model/numbers.h"
+#include "solver/manipulator/kinematics.h"
+
 namespace trammel {
 
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSingular = 64 * kEps;
 
 template <class S>
 using Vec2 = Eigen::Matrix<S, 2, 1>;
@@ -250,10 +250,10 @@ Outcome state_outcome(const Posture& posture, const ManipulatorGeometry& geometr
                       const Pose& pose) {
   if (!posture.outcome.solved()) return posture.outcome;
   const Jacobians j = jacobians(geometry, pose, posture);
-  if (!(j.parallel_distance > kSingular))
+  if (!(j.parallel_distance > kSingularRatio))
     return {Status::singular,
             "a parallel singularity: the actuators do not determine the platform's motion"};
-  if (!(j.serial_distance > kSingular))
+  if (!(j.serial_distance > kSingularRatio))
     return {Status::singular,
             "a serial singularity: a limb is straight or folded and its actuator does not follow "
             "from the platform's motion"};

@@ -7,9 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/manipulator/manipulator.h"
-#include "solver/model/model.h"
-
 /// What a scene may call for. An effect that is off is taken out of the model before anything is
 /// built from it: no degree of freedom, no matrix and no evaluation is left of it.
 namespace trammel {
@@ -60,15 +57,5 @@ class Effects {
 
 /// Evaluations that effects have caused: element matrices, loads of elements, springs.
 using EffectCounts = std::array<std::int64_t, effect_count>;
-
-/// The effects that the parts have, as they are described. What belongs to an analysis rather than
-/// to parts (inertia, damping, gyroscopic forces, geometric stiffening, large displacement) is not
-/// among them.
-[[nodiscard]] Effects admitted_effects(const Model& model);
-
-/// The model without the effects that are not in `kept`.
-[[nodiscard]] Model reduced(Model model, Effects kept);
-/// The same before it is built.
-[[nodiscard]] ManipulatorDesign reduced(ManipulatorDesign design, Effects kept);
 
 }  // namespace trammel

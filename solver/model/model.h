@@ -8,13 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "solver/model/numbers.h"
+
 /// The planar model: what a case file describes and what `assemble` turns into matrices.
 /// Everything is in SI units and world axes; indices point into the vectors of the same Model.
 namespace trammel {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Index = Eigen::Index;
 
 /// Isotropic linear elastic material. Over Dual (dual.h) it carries a derivative.
 template <class T>
@@ -180,5 +181,10 @@ class ModelError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// @throws ModelError  with the message, where the condition does not hold.
+inline void require(bool condition, const char* message) {
+  if (!condition) throw ModelError(message);
+}
 
 }  // namespace trammel

@@ -9,6 +9,7 @@
 #include "solver/assembly/inertia.h"
 #include "solver/sensitivity/seeded_design.h"
 #include "solver/assembly/strain.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 namespace {
@@ -17,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Quantity = DesignParameter::Quantity;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Frequencies nearer than this to each other, relatively, are one set. Shapes of modes farther
 /// apart are good to the modes' round-off over it.
 constexpr double kSameFrequency = 1e-7;

@@ -6,6 +6,7 @@
 #include "solver/linalg/refinement.h"
 #include "solver/statics/statics.h"
 #include "solver/assembly/strain.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 
@@ -39,7 +40,6 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.shape = pairs.vector;
   solution.inertia_count = pairs.inertia_count;
   solution.roundoff.resize(pairs.value.size());
-  constexpr double kEps = std::numeric_limits<double>::epsilon();
   const SparseMatrix size = softening.cwiseAbs();
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Eigen::VectorXd x = pairs.vector.col(j);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/model/nan_max.h"
+#include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 #include "solver/assembly/strain.h"
 

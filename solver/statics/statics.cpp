@@ -8,6 +8,7 @@
 #include "solver/statics/zero_energy_modes.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/linalg/refinement.h"
+#include "solver/assembly/strain.h"
 
 namespace trammel {
 namespace {

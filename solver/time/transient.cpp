@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "solver/linalg/sparse_factor.h"
+#include "solver/model/numbers.h"
 
 namespace trammel {
 namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
 /// A step counts as solved when what is left of the equation is below this share of its terms, or
 /// is round-off of its largest products.
 constexpr double kResidual = 1e-10;

@@ -1,31 +1,28 @@
 #include "solver/large_motion/solve/rigid_start.h"
 
 #include "solver/large_motion/system/shapes.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::large {
 
 namespace {
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Collects values of free coordinates, the last one wins.
 class Collector {
  public:
   explicit Collector(const LargeSystem& system)
-      : value_(VectorXd::Zero(system.coordinates())), given_(at(system.coordinates()), false) {}
+      : value_(VectorXd::Zero(system.coordinates())), given_(to_size(system.coordinates()), false) {}
 
   void set(Index k, double value) {
     if (k < 0 || k >= value_.size()) return;
     value_[k] = value;
-    given_[at(k)] = true;
+    given_[to_size(k)] = true;
   }
 
   [[nodiscard]] GivenVelocities take() const {
     GivenVelocities all;
     for (Index k = 0; k < value_.size(); ++k) {
-      if (given_[at(k)]) all.emplace_back(k, value_[k]);
+      if (given_[to_size(k)]) all.emplace_back(k, value_[k]);
     }
     return all;
   }
@@ -37,9 +34,9 @@ class Collector {
 
 void set_element(const LargeSystem& system, const MemberElement& element,
                  const Eigen::MatrixX3d& node, double turning, Collector& given) {
-  const Member& member = system.model().members[at(element.member)];
-  const Vector2d& from = system.model().nodes[at(member.nodes[0])].position;
-  const Vector2d along = system.model().nodes[at(member.nodes[1])].position - from;
+  const Member& member = system.model().members[to_size(element.member)];
+  const Vector2d& from = system.model().nodes[to_size(member.nodes[0])].position;
+  const Vector2d along = system.model().nodes[to_size(member.nodes[1])].position - from;
   const std::size_t stride = element.is_bar() ? 2 : 3;
   const std::size_t count = element.coordinates.size() / stride;
   for (std::size_t a = 0; a < count; ++a) {
@@ -47,7 +44,7 @@ void set_element(const LargeSystem& system, const MemberElement& element,
     const Vector2d place = element.start + x * (element.end - element.start);
     const double s = (place - from).dot(along) / along.squaredNorm();
     for (Index k = 0; k < 2; ++k) {
-      given.set(element.coordinates[stride * a + at(k)],
+      given.set(element.coordinates[stride * a + to_size(k)],
                 (1 - s) * node(member.nodes[0], k) + s * node(member.nodes[1], k));
     }
     if (stride == 3) given.set(element.coordinates[stride * a + 2], turning);
@@ -63,7 +60,7 @@ GivenVelocities rigid_start(const LargeSystem& system, const Eigen::MatrixX3d& n
     set_element(system, element, node, member[element.member], given);
   }
   for (Index i = 0; i < node.rows(); ++i) {
-    for (Index k = 0; k < 3; ++k) given.set(system.layout().node[at(i)][at(k)], node(i, k));
+    for (Index k = 0; k < 3; ++k) given.set(system.layout().node[to_size(i)][to_size(k)], node(i, k));
   }
   return given.take();
 }

@@ -5,14 +5,11 @@
 #include "solver/large_motion/system/joints.h"
 #include "solver/large_motion/system/member_beam.h"
 #include "solver/large_motion/system/element_group.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::large {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,8 +50,8 @@ Eigen::Matrix<double, N, 1> end_forces(const Element& element, const LargeSystem
 template <int P>
 void read_beam(const LargeSystem& system, const State& state, Index index, bool first,
                Eigen::Ref<Eigen::RowVector3d> out) {
-  const MemberElement& element = system.layout().elements[at(index)];
-  const Member& member = system.model().members[at(element.member)];
+  const MemberElement& element = system.layout().elements[to_size(index)];
+  const Member& member = system.model().members[to_size(element.member)];
   const Beam<P> beam = make_beam<P>(member, element);
   std::array<Index, 3 * (P + 1)> where{};
   std::copy(element.coordinates.begin(), element.coordinates.end(), where.begin());
@@ -63,7 +60,7 @@ void read_beam(const LargeSystem& system, const State& state, Index index, bool 
   const int k = first ? 0 : 3 * P;
   const double share = beam.length * shapes<P>().integral[first ? 0 : P] * state.load;
   f.template segment<2>(k) -= share * member.load;
-  const double angle = value_or(state.q, where[at(k + 2)], 0);
+  const double angle = value_or(state.q, where[to_size(k + 2)], 0);
   const Vector2d e1 = turned(beam.axis, angle);
   const Vector2d e2 = quarter_turn(e1);
   const double sign = first ? -1 : 1;
@@ -78,7 +75,7 @@ void read_bar(const LargeSystem& system, const State& state, Index index,
 
 void read_element(const LargeSystem& system, const State& state, Index index, bool first,
                   Eigen::Ref<Eigen::RowVector3d> out) {
-  if (system.layout().elements[at(index)].is_bar()) {
+  if (system.layout().elements[to_size(index)].is_bar()) {
     read_bar(system, state, index, out);
   } else if (system.order() == 1) {
     read_beam<1>(system, state, index, first, out);
@@ -95,7 +92,7 @@ Eigen::MatrixX3d node_motion(const LargeSystem& system, const VectorXd& values) 
   const Layout& layout = system.layout();
   Eigen::MatrixX3d motion(static_cast<Index>(layout.node.size()), 3);
   for (Index i = 0; i < motion.rows(); ++i) {
-    for (Index k = 0; k < 3; ++k) motion(i, k) = value_or(values, layout.node[at(i)][at(k)], kNone);
+    for (Index k = 0; k < 3; ++k) motion(i, k) = value_or(values, layout.node[to_size(i)][to_size(k)], kNone);
   }
   return motion;
 }
@@ -105,7 +102,7 @@ Eigen::MatrixX2d end_rotations(const LargeSystem& system, const VectorXd& values
   Eigen::MatrixX2d rotation(static_cast<Index>(layout.end_rotation.size()), 2);
   for (Index m = 0; m < rotation.rows(); ++m) {
     for (Index end = 0; end < 2; ++end) {
-      rotation(m, end) = value_or(values, layout.end_rotation[at(m)][at(end)], kNone);
+      rotation(m, end) = value_or(values, layout.end_rotation[to_size(m)][to_size(end)], kNone);
     }
   }
   return rotation;
@@ -118,10 +115,10 @@ Eigen::MatrixX3d reactions(const LargeSystem& system, const State& state) {
   Eigen::MatrixX3d reaction =
       Eigen::MatrixX3d::Zero(static_cast<Index>(system.model().supports.size()), 3);
   for (Index i = 0; i < reaction.rows(); ++i) {
-    const Support& support = system.model().supports[at(i)];
+    const Support& support = system.model().supports[to_size(i)];
     for (Index k = 0; k < 3; ++k) {
-      const Index coordinate = layout.node[at(support.node)][at(k)];
-      if (support.fixed[at(k)] && coordinate >= layout.free) reaction(i, k) = force[coordinate];
+      const Index coordinate = layout.node[to_size(support.node)][to_size(k)];
+      if (support.fixed[to_size(k)] && coordinate >= layout.free) reaction(i, k) = force[coordinate];
     }
   }
   return reaction;
@@ -133,8 +130,8 @@ Resultants member_resultants(const LargeSystem& system, const State& state) {
   Resultants resultants{Eigen::MatrixX3d(count, 3), Eigen::MatrixX3d(count, 3)};
   for (Index m = 0; m < count; ++m) {
     Eigen::RowVector3d start, end;
-    read_element(system, state, layout.first_element[at(m)], true, start);
-    read_element(system, state, layout.first_element[at(m + 1)] - 1, false, end);
+    read_element(system, state, layout.first_element[to_size(m)], true, start);
+    read_element(system, state, layout.first_element[to_size(m + 1)] - 1, false, end);
     resultants.start.row(m) = start;
     resultants.end.row(m) = end;
   }
@@ -148,8 +145,8 @@ double drive_force(const LargeSystem& system, const State& state, Index drive) {
 Eigen::MatrixX2d member_line(const LargeSystem& system, const VectorXd& q, Index member) {
   const Layout& layout = system.layout();
   std::vector<Vector2d> points;
-  for (Index e = layout.first_element[at(member)]; e < layout.first_element[at(member + 1)]; ++e) {
-    const MemberElement& element = layout.elements[at(e)];
+  for (Index e = layout.first_element[to_size(member)]; e < layout.first_element[to_size(member + 1)]; ++e) {
+    const MemberElement& element = layout.elements[to_size(e)];
     const std::size_t stride = element.is_bar() ? 2 : 3;
     const std::size_t count = element.coordinates.size() / stride;
     for (std::size_t a = points.empty() ? 0 : 1; a < count; ++a) {
@@ -160,7 +157,7 @@ Eigen::MatrixX2d member_line(const LargeSystem& system, const VectorXd& q, Index
     }
   }
   Eigen::MatrixX2d line(static_cast<Index>(points.size()), 2);
-  for (Index i = 0; i < line.rows(); ++i) line.row(i) = points[at(i)].transpose();
+  for (Index i = 0; i < line.rows(); ++i) line.row(i) = points[to_size(i)].transpose();
   return line;
 }
 

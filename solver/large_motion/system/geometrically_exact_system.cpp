@@ -9,14 +9,11 @@
 #include "solver/large_motion/system/member_beam.h"
 #include "solver/large_motion/system/element_groups.h"
 #include "solver/assembly/validate.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::large {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 double extent(const Model& model) {
   if (model.nodes.empty()) return 1;
@@ -26,7 +23,7 @@ double extent(const Model& model) {
     high = high.cwiseMax(node.position);
   }
   for (const PointMass& mass : model.masses) {
-    const Vector2d centre = model.nodes[at(mass.node)].position + mass.offset;
+    const Vector2d centre = model.nodes[to_size(mass.node)].position + mass.offset;
     low = low.cwiseMin(centre);
     high = high.cwiseMax(centre);
   }
@@ -77,14 +74,14 @@ void LargeSystem::add_beams() {
   for (std::size_t e = 0; e < layout_.elements.size(); ++e) {
     const MemberElement& element = layout_.elements[e];
     if (element.is_bar()) continue;
-    const Member& member = model_.members[at(element.member)];
+    const Member& member = model_.members[to_size(element.member)];
     const Beam<P> beam = make_beam<P>(member, element);
     std::array<Index, 3 * (P + 1)> where{};
     std::copy(element.coordinates.begin(), element.coordinates.end(), where.begin());
     add_masses_of<Beam<P>::N>(beam.mass(), where);
     for (int a = 0; a <= P; ++a) {
       for (int k = 0; k < 2; ++k) {
-        loads_[where[at(3 * a + k)]] += beam.length * shapes<P>().integral[a] * member.load[k];
+        loads_[where[to_size(3 * a + k)]] += beam.length * shapes<P>().integral[a] * member.load[k];
       }
     }
     element_row_[e] = rows_;
@@ -99,7 +96,7 @@ void LargeSystem::add_bars() {
   for (std::size_t e = 0; e < layout_.elements.size(); ++e) {
     const MemberElement& element = layout_.elements[e];
     if (!element.is_bar()) continue;
-    const Member& member = model_.members[at(element.member)];
+    const Member& member = model_.members[to_size(element.member)];
     Bar bar;
     bar.arm = element.end - element.start;
     bar.flexibility = member.axially_flexible ? element.length() / element.section.EA : 0.0;
@@ -131,7 +128,7 @@ void LargeSystem::add_masses_of(const Eigen::Matrix<double, N, N>& mass,
                                 const std::array<Index, N>& where) {
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j) {
-      if (mass(i, j) != 0) mass_entries_.emplace_back(where[at(i)], where[at(j)], mass(i, j));
+      if (mass(i, j) != 0) mass_entries_.emplace_back(where[to_size(i)], where[to_size(j)], mass(i, j));
     }
   }
 }
@@ -144,11 +141,11 @@ void LargeSystem::add_plates() {
     std::array<Vector2d, nodes> corners;
     std::array<Index, 2 * nodes> where{};
     for (std::size_t a = 0; a < nodes; ++a) {
-      corners[a] = model_.nodes[at(triangle.nodes[a])].position;
-      where[2 * a] = layout_.node[at(triangle.nodes[a])][0];
-      where[2 * a + 1] = layout_.node[at(triangle.nodes[a])][1];
+      corners[a] = model_.nodes[to_size(triangle.nodes[a])].position;
+      where[2 * a] = layout_.node[to_size(triangle.nodes[a])][0];
+      where[2 * a + 1] = layout_.node[to_size(triangle.nodes[a])][1];
     }
-    const Plate& plate = model_.plates[at(triangle.plate)];
+    const Plate& plate = model_.plates[to_size(triangle.plate)];
     const Triangle2d<nodes> element(plate.material, plate.thickness, corners);
     add_masses_of<2 * nodes>(element.mass(), where);
     term->add(element, where);
@@ -171,7 +168,7 @@ void LargeSystem::add_springs() {
       const double stiffness = spring.stiffness[static_cast<Index>(k)];
       if (stiffness == 0) continue;
       const auto place = [&](Index node) {
-        return node < 0 ? Index{-1} : layout_.node[at(node)][k];
+        return node < 0 ? Index{-1} : layout_.node[to_size(node)][k];
       };
       term->add({stiffness}, {place(spring.nodes[0]), place(spring.nodes[1])});
     }
@@ -180,7 +177,7 @@ void LargeSystem::add_springs() {
     for (std::size_t end = 0; end < 2; ++end) {
       const MemberEnd& fixity = model_.members[m].ends[end];
       if (fixity.fixity != EndFixity::sprung) continue;
-      const Index node = layout_.node[at(model_.members[m].nodes[end])][2];
+      const Index node = layout_.node[to_size(model_.members[m].nodes[end])][2];
       term->add({fixity.stiffness}, {node, layout_.end_rotation[m][end]});
     }
   }
@@ -191,7 +188,7 @@ void LargeSystem::add_masses() {
   auto links = std::make_unique<RowTerm<RigidLink>>(layout_.free, rows_);
   for (std::size_t i = 0; i < model_.masses.size(); ++i) {
     const PointMass& mass = model_.masses[i];
-    const std::array<Index, 3>& node = layout_.node[at(mass.node)];
+    const std::array<Index, 3>& node = layout_.node[to_size(mass.node)];
     const std::array<Index, 2>& centre = layout_.mass_centre[i];
     for (const Index k : centre) point_mass_.emplace_back(k, mass.mass);
     if (mass.inertia != 0) point_mass_.emplace_back(node[2], mass.inertia);
@@ -201,11 +198,11 @@ void LargeSystem::add_masses() {
     links->add(link, {node[0], node[1], node[2], centre[0], centre[1]});
   }
   for (const RigidBody& body : model_.rigid_bodies) {
-    const std::array<Index, 3>& a = layout_.node[at(body.reference)];
+    const std::array<Index, 3>& a = layout_.node[to_size(body.reference)];
     for (const Index attached : body.attached) {
-      const std::array<Index, 3>& b = layout_.node[at(attached)];
+      const std::array<Index, 3>& b = layout_.node[to_size(attached)];
       RigidLink link;
-      link.arm = model_.nodes[at(attached)].position - model_.nodes[at(body.reference)].position;
+      link.arm = model_.nodes[to_size(attached)].position - model_.nodes[to_size(body.reference)].position;
       links->add(link, {a[0], a[1], a[2], b[0], b[1]});
     }
   }
@@ -220,10 +217,10 @@ void LargeSystem::add_joints() {
     joint.normal = Vector2d(-std::sin(slider.direction), std::cos(slider.direction));
     std::array<Index, 3> rail{-1, -1, -1};
     if (slider.rail >= 0) {
-      rail = layout_.node[at(slider.rail)];
-      joint.arm = model_.nodes[at(slider.node)].position - model_.nodes[at(slider.rail)].position;
+      rail = layout_.node[to_size(slider.rail)];
+      joint.arm = model_.nodes[to_size(slider.node)].position - model_.nodes[to_size(slider.rail)].position;
     }
-    const std::array<Index, 3>& node = layout_.node[at(slider.node)];
+    const std::array<Index, 3>& node = layout_.node[to_size(slider.node)];
     sliders->add(joint, {rail[0], rail[1], rail[2], node[0], node[1]});
   }
   rows_ += sliders->size();
@@ -232,13 +229,13 @@ void LargeSystem::add_joints() {
   for (const LineSpring& spring : scenario_.line_springs) {
     LineSpringElement element;
     element.arm =
-        model_.nodes[at(spring.nodes[1])].position - model_.nodes[at(spring.nodes[0])].position;
+        model_.nodes[to_size(spring.nodes[1])].position - model_.nodes[to_size(spring.nodes[0])].position;
     if (std::isfinite(spring.rest_length)) {
       element.stretched = element.arm.norm() - spring.rest_length;
     }
     element.flexibility = 1 / spring.stiffness;
-    const auto& a = layout_.node[at(spring.nodes[0])];
-    const auto& b = layout_.node[at(spring.nodes[1])];
+    const auto& a = layout_.node[to_size(spring.nodes[0])];
+    const auto& b = layout_.node[to_size(spring.nodes[1])];
     springs->add(element, {a[0], a[1], b[0], b[1]});
   }
   rows_ += springs->size();
@@ -251,7 +248,7 @@ void LargeSystem::add_drives() {
   for (const Drive& drive : scenario_.drives) {
     DrivenCoordinate driven;
     driven.law = drive.law;
-    term->add(driven, {layout_.node[at(drive.node)][at(drive.direction)]});
+    term->add(driven, {layout_.node[to_size(drive.node)][to_size(drive.direction)]});
   }
   rows_ += term->size();
   if (term->size() > 0) terms_.push_back(std::move(term));
@@ -261,11 +258,11 @@ void LargeSystem::add_linear_rows() {
   auto term = std::make_unique<LinearRows>(layout_.free, rows_);
   for (const Slider& slider : scenario_.sliders) {
     if (!slider.keeps_angle) continue;
-    const Index b = layout_.node[at(slider.node)][2];
+    const Index b = layout_.node[to_size(slider.node)][2];
     if (slider.rail < 0) {
       term->add({{b}, VectorXd::Ones(1)});
     } else {
-      const Index a = layout_.node[at(slider.rail)][2];
+      const Index a = layout_.node[to_size(slider.rail)][2];
       term->add({{a, b}, Eigen::Vector2d(-1, 1)});
     }
   }
@@ -279,7 +276,7 @@ void LargeSystem::add_linear_rows() {
       if (k < 0) {
         throw ModelError("constraint " + constraint.name + " names a rotation that no part has");
       }
-      if (layout_.is_rotation[at(k)]) ++rotations;
+      if (layout_.is_rotation[to_size(k)]) ++rotations;
       row.factors[static_cast<Index>(row.coordinates.size())] = factor;
       row.coordinates.push_back(k);
     }
@@ -298,7 +295,7 @@ void LargeSystem::add_loads() {
   for (const NodalLoad& load : model_.loads) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double force = load.force[static_cast<Index>(k)];
-      if (force != 0) loads_[layout_.node[at(load.node)][k]] += force;
+      if (force != 0) loads_[layout_.node[to_size(load.node)][k]] += force;
     }
   }
   for (const EdgeLoad& load : model_.edge_loads) {
@@ -306,13 +303,13 @@ void LargeSystem::add_loads() {
     for (std::size_t i = 0; i < 3; ++i) {
       if (load.nodes[i] < 0) continue;
       for (std::size_t k = 0; k < 2; ++k) {
-        loads_[layout_.node[at(load.nodes[i])][k]] += force[i][static_cast<Index>(k)];
+        loads_[layout_.node[to_size(load.nodes[i])][k]] += force[i][static_cast<Index>(k)];
       }
     }
   }
   auto term = std::make_unique<FollowerTerm>(layout_.free);
   for (const FollowerLoad& load : scenario_.follower_loads) {
-    term->add(load.force, layout_.node[at(load.node)]);
+    term->add(load.force, layout_.node[to_size(load.node)]);
   }
   followers_ = term.get();
   terms_.push_back(std::move(term));
@@ -338,7 +335,7 @@ void LargeSystem::finish() {
   gravity_ = mass_ * pull;
   const double size = extent(model_);
   scale_.resize(layout_.free);
-  for (Index i = 0; i < layout_.free; ++i) scale_[i] = layout_.is_rotation[at(i)] ? 1.0 : size;
+  for (Index i = 0; i < layout_.free; ++i) scale_[i] = layout_.is_rotation[to_size(i)] ? 1.0 : size;
   join_scales();
   for (const std::unique_ptr<Term>& term : terms_) term->append_blocks(blocks_);
   compliance_ = VectorXd::Zero(rows_);
@@ -372,11 +369,11 @@ void LargeSystem::join_scales() {
     }
   }
   for (const Triangle& triangle : model_.triangles) {
-    const Plate& plate = model_.plates[at(triangle.plate)];
+    const Plate& plate = model_.plates[to_size(triangle.plate)];
     for (const Index node : triangle.nodes) {
       if (node < 0) continue;
       for (std::size_t k = 0; k < 2; ++k) {
-        stiffness[layout_.node[at(node)][k]] += plate.material.E * plate.thickness;
+        stiffness[layout_.node[to_size(node)][k]] += plate.material.E * plate.thickness;
       }
     }
   }
@@ -398,7 +395,7 @@ void LargeSystem::join_scales() {
   const auto assign = [&](auto* rows) {
     if (rows == nullptr) return;
     for (Index e = 0; e < rows->size(); ++e) {
-      auto& joint = rows->elements()[at(e)];
+      auto& joint = rows->elements()[to_size(e)];
       joint.stiffness_scale = typical(stiffness, rows->coordinates(e), usual_stiffness);
       joint.mass_scale = typical(mass, rows->coordinates(e), usual_mass);
     }

@@ -6,14 +6,11 @@
 
 #include "solver/elements/frame_element.h"
 #include "solver/model/labels.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::large {
 
 namespace {
-
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
 
 class Numbering {
  public:
@@ -38,19 +35,19 @@ class Numbering {
     owner_.resize(model_.nodes.size());
     std::iota(owner_.begin(), owner_.end(), Index{0});
     for (const RigidBody& body : model_.rigid_bodies) {
-      for (const Index node : body.attached) owner_[at(owner(node))] = owner(body.reference);
+      for (const Index node : body.attached) owner_[to_size(owner(node))] = owner(body.reference);
     }
   }
 
   Index owner(Index node) const {
-    while (owner_[at(node)] != node) node = owner_[at(node)];
+    while (owner_[to_size(node)] != node) node = owner_[to_size(node)];
     return node;
   }
 
   void find_rotations() {
     turns_.assign(model_.nodes.size(), false);
     const auto need = [&](Index node) {
-      if (node >= 0) turns_[at(owner(node))] = true;
+      if (node >= 0) turns_[to_size(owner(node))] = true;
     };
     for (const Member& member : model_.members) {
       for (std::size_t end = 0; end < 2; ++end) {
@@ -99,24 +96,24 @@ class Numbering {
       }
     }
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
-      layout_.node[i][2] = layout_.node[at(owner(static_cast<Index>(i)))][2];
+      layout_.node[i][2] = layout_.node[to_size(owner(static_cast<Index>(i)))][2];
     }
   }
 
   void number_member(Index m) {
-    const Member& member = model_.members[at(m)];
+    const Member& member = model_.members[to_size(m)];
     layout_.first_element.push_back(static_cast<Index>(layout_.elements.size()));
     std::array<Index, 2> rotation{-1, -1};
     const bool bends = interpolate(member.section, member.end_section, 0.5).EI > 0;
     for (std::size_t end = 0; end < 2 && bends; ++end) {
       const bool welded = member.ends[end].fixity == EndFixity::welded;
-      rotation[end] = welded ? layout_.node[at(member.nodes[end])][2] : add(true);
+      rotation[end] = welded ? layout_.node[to_size(member.nodes[end])][2] : add(true);
     }
     layout_.end_rotation.push_back(rotation);
-    const auto& first = layout_.node[at(member.nodes[0])];
-    const auto& last = layout_.node[at(member.nodes[1])];
-    const Vector2d& from = model_.nodes[at(member.nodes[0])].position;
-    const Vector2d span = model_.nodes[at(member.nodes[1])].position - from;
+    const auto& first = layout_.node[to_size(member.nodes[0])];
+    const auto& last = layout_.node[to_size(member.nodes[1])];
+    const Vector2d& from = model_.nodes[to_size(member.nodes[0])].position;
+    const Vector2d span = model_.nodes[to_size(member.nodes[1])].position - from;
     std::array<Index, 3> left = {first[0], first[1], rotation[0]};
     const double count = static_cast<double>(member.elements);
     for (Index e = 0; e < member.elements; ++e) {
@@ -149,7 +146,7 @@ class Numbering {
     for (const PointMass& mass : model_.masses) {
       if (mass.offset.isZero(0)) {
         layout_.mass_centre.push_back(
-            {layout_.node[at(mass.node)][0], layout_.node[at(mass.node)][1]});
+            {layout_.node[to_size(mass.node)][0], layout_.node[to_size(mass.node)][1]});
       } else {
         const Index x = add(false);
         layout_.mass_centre.push_back({x, add(false)});
@@ -160,51 +157,51 @@ class Numbering {
   /// A constraint that makes two coordinates equal, such as a revolute joint between nodes in one
   /// place, is one coordinate.
   void share_equal() {
-    shared_.resize(at(layout_.total));
+    shared_.resize(to_size(layout_.total));
     std::iota(shared_.begin(), shared_.end(), Index{0});
     for (const LinearConstraint& constraint : model_.constraints) {
       const std::optional<std::array<Index, 2>> pair = layout_.equal(constraint);
-      if (pair) shared_[at(leader((*pair)[0]))] = leader((*pair)[1]);
+      if (pair) shared_[to_size(leader((*pair)[0]))] = leader((*pair)[1]);
     }
   }
 
   Index leader(Index i) const {
-    while (shared_[at(i)] != i) i = shared_[at(i)];
+    while (shared_[to_size(i)] != i) i = shared_[to_size(i)];
     return i;
   }
 
   void hold_supports() {
     for (const Support& support : model_.supports) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const Index coordinate = layout_.node[at(support.node)][k];
-        if (support.fixed[k] && coordinate >= 0) held_[at(leader(coordinate))] = true;
+        const Index coordinate = layout_.node[to_size(support.node)][k];
+        if (support.fixed[k] && coordinate >= 0) held_[to_size(leader(coordinate))] = true;
       }
     }
     for (const Drive& drive : scenario_.drives) {
-      if (held_[at(leader(layout_.node[at(drive.node)][at(drive.direction)]))]) {
+      if (held_[to_size(leader(layout_.node[to_size(drive.node)][to_size(drive.direction)]))]) {
         throw ModelError(part_label("drive", drive.name, 0) + " moves what a support holds");
       }
     }
   }
 
   void free_first() {
-    std::vector<Index> place(at(layout_.total), -1);
+    std::vector<Index> place(to_size(layout_.total), -1);
     Index next = 0;
     for (const bool held : {false, true}) {
       for (Index i = 0; i < layout_.total; ++i) {
-        if (leader(i) == i && held_[at(i)] == held) place[at(i)] = next++;
+        if (leader(i) == i && held_[to_size(i)] == held) place[to_size(i)] = next++;
       }
       if (!held) layout_.free = next;
     }
-    std::vector<bool> is_rotation(at(next));
+    std::vector<bool> is_rotation(to_size(next));
     for (Index i = 0; i < layout_.total; ++i) {
-      place[at(i)] = place[at(leader(i))];
-      is_rotation[at(place[at(i)])] = layout_.is_rotation[at(i)];
+      place[to_size(i)] = place[to_size(leader(i))];
+      is_rotation[to_size(place[to_size(i)])] = layout_.is_rotation[to_size(i)];
     }
     layout_.total = next;
     layout_.is_rotation = std::move(is_rotation);
     const auto move = [&](Index& i) {
-      if (i >= 0) i = place[at(i)];
+      if (i >= 0) i = place[to_size(i)];
     };
     for (auto& node : layout_.node) {
       for (Index& i : node) move(i);
@@ -233,16 +230,16 @@ class Numbering {
 
 Index Layout::of(const Coordinate& coordinate) const {
   if (coordinate.kind == Coordinate::Kind::end_rotation) {
-    if (coordinate.member < 0 || at(coordinate.member) >= end_rotation.size() ||
+    if (coordinate.member < 0 || to_size(coordinate.member) >= end_rotation.size() ||
         coordinate.end < 0 || coordinate.end > 1) {
       throw ModelError("a constraint names an end of a member that does not exist");
     }
-    return end_rotation[at(coordinate.member)][at(coordinate.end)];
+    return end_rotation[to_size(coordinate.member)][to_size(coordinate.end)];
   }
-  if (coordinate.node < 0 || at(coordinate.node) >= node.size()) {
+  if (coordinate.node < 0 || to_size(coordinate.node) >= node.size()) {
     throw ModelError("a constraint names a node that does not exist");
   }
-  return node[at(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
+  return node[to_size(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
 }
 
 std::optional<std::array<Index, 2>> Layout::equal(const LinearConstraint& constraint) const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "harness/analysis/analysis.h"
+#include "harness/input/catalogue.h"
 #include "tests/support/harness/support.h"
 
 /// Battery 14: whatever the options, a result is finite or says why there is none.
@@ -14,9 +15,7 @@ using testing::Folder;
 namespace {
 
 Json catalogue_case(const char* id) {
-  const std::filesystem::path file =
-      std::filesystem::path(TRAMMEL_SOURCE_DIR) / "cases" / (std::string(id) + ".json");
-  Json json = load_case(file).document.value();
+  Json json = load_case(find_case(id)).document.value();
   for (const char* key :
        {"extends", "checks", "battery", "variants", "sweeps", "figures", "expect_status"}) {
     json.erase(key);

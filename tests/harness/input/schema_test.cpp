@@ -5,6 +5,8 @@
 
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
+#include "harness/input/catalogue.h"
+#include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 
 using namespace trammel;
@@ -98,10 +100,9 @@ BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
 
 BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
   int seen = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(home() / "references" / "values")) {
-    const auto found = find_fault(read_json(entry.path()), "reference");
-    BOOST_TEST(!found.has_value(), entry.path().filename()
-                                       << (found ? ": " + found->pointer + found->message : ""));
+  for (const auto& [id, file] : reference_files(home() / "references" / "values")) {
+    const auto found = find_fault(read_json(file), "reference");
+    BOOST_TEST(!found.has_value(), id << (found ? ": " + found->pointer + found->message : ""));
     ++seen;
   }
   BOOST_TEST(seen > 10);
@@ -109,11 +110,11 @@ BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
 
 BOOST_AUTO_TEST_CASE(orders_of_singular_corners_are_twice_the_stored_exponents) {
   const auto exponent = [](const std::string& of) {
-    const std::string name = of + "-corner-exponent.json";
-    return read_json(home() / "references" / "values" / name)["values"][0].get<double>();
+    const auto files = reference_files(home() / "references" / "values");
+    return read_json(files.at(of + "-corner-exponent"))["values"][0].get<double>();
   };
   const auto sweep = [](const std::string& of, const std::string& variant) {
-    const Json json = read_json(home() / "cases" / (of + ".json"));
+    const Json json = read_json(find_case(of));
     return (variant.empty() ? json : json["variants"][variant])["sweeps"]["divisions"];
   };
   const auto check = [](const Json& order, double exponent_at_corner) {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "tests/support/harness/support.h"
+#include "harness/base/statistic.h"
 
 using namespace trammel;
 using testing::complaint;

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "harness/input/catalogue.h"
 #include "tests/support/harness/support.h"
 
 using namespace trammel;
@@ -157,7 +158,7 @@ BOOST_AUTO_TEST_CASE(the_sweeps_of_a_case_are_a_study) {
 BOOST_AUTO_TEST_CASE(what_the_checks_of_a_case_know_exactly_is_what_its_sweep_is_measured_by) {
   const References references;
   const Case given =
-      load_case(std::filesystem::path(TRAMMEL_SOURCE_DIR) / "cases" / "beam-cantilever.json");
+      load_case(find_case("beam-cantilever"));
   const CostStudy study = cost_study_of_sweeps(given, base_variant, {}, references);
   BOOST_TEST(!study.truth.has_value());
   BOOST_TEST_REQUIRE(study.settings.front().observed.size() == 1U);

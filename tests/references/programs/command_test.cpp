@@ -55,7 +55,7 @@ bool one_line(const std::string& text) {
 BOOST_AUTO_TEST_SUITE(command)
 
 BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
-  const Outcome outcome = run({(values / "cantilever-roots.json").string()});
+  const Outcome outcome = run({(values / "beams/beam-modes/cantilever-roots.json").string()});
   BOOST_TEST(outcome.status == 0);
   BOOST_TEST(outcome.out.find("cantilever-roots [1] by beam-roots") == 0U);
   BOOST_TEST(outcome.out.find("1.8751040687119611") != std::string::npos);
@@ -63,17 +63,17 @@ BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
 }
 
 BOOST_AUTO_TEST_CASE(a_corrupted_reference_is_caught_with_status_1) {
-  Json reference = read_json(values / "cantilever-roots.json");
+  Json reference = read_json(values / "beams/beam-modes/cantilever-roots.json");
   reference["values"][2] = reference["values"][2].get<double>() + 1e-9;
   const ScratchFile file(reference.dump());
-  const Outcome outcome = run({file.path(), (values / "centroid.json").string()});
+  const Outcome outcome = run({file.path(), (values / "manipulator/centroid.json").string()});
   BOOST_TEST(outcome.status == 1);
   BOOST_TEST(outcome.out.find("DOES NOT HOLD") != std::string::npos);
   BOOST_TEST(outcome.out.find("centroid") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_printed_reference_has_nothing_to_derive) {
-  const Outcome outcome = run({(values / "table-2-ansys.json").string()});
+  const Outcome outcome = run({(values / "paper/table-2-ansys.json").string()});
   BOOST_TEST(outcome.status == 0);
   BOOST_TEST(outcome.out == "table-2-ansys [Hz]: no derivation\n");
 }

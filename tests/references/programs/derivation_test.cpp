@@ -16,11 +16,9 @@ namespace {
 
 const fs::path root = fs::path(TRAMMEL_SOURCE_DIR) / "references";
 
-std::vector<fs::path> reference_files() {
+std::vector<fs::path> stored_files() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(root / "values")) {
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  }
+  for (const auto& item : trammel::reference_files(root / "values")) files.push_back(item.second);
   return files;
 }
 
@@ -28,7 +26,7 @@ std::vector<fs::path> reference_files() {
 const std::map<std::string, Comparison>& comparisons() {
   static const auto all = [] {
     std::map<std::string, Comparison> result;
-    for (const fs::path& file : reference_files()) {
+    for (const fs::path& file : stored_files()) {
       result[file.stem().generic_string()] = compare_with_derivation(read_json(file));
     }
     return result;
@@ -61,7 +59,7 @@ BOOST_AUTO_TEST_CASE(every_stored_value_with_a_derivation_is_what_comes_out_of_i
 
 BOOST_AUTO_TEST_CASE(an_exact_value_has_a_derivation_and_every_source_is_in_the_bibliography) {
   const Json bibliography = read_json(root / "bibliography.json");
-  for (const fs::path& file : reference_files()) {
+  for (const fs::path& file : stored_files()) {
     BOOST_TEST_CONTEXT(file.filename().generic_string()) {
       const Json reference = read_json(file);
       BOOST_TEST((reference.at("kind") != "exact" || reference.contains("derivation")));
@@ -78,7 +76,7 @@ BOOST_AUTO_TEST_CASE(an_exact_value_has_a_derivation_and_every_source_is_in_the_
 }
 
 BOOST_AUTO_TEST_CASE(every_passport_is_read_with_the_uncertainty_that_the_derivation_is_held_to) {
-  for (const fs::path& file : reference_files()) {
+  for (const fs::path& file : stored_files()) {
     BOOST_TEST_CONTEXT(file.filename().generic_string()) {
       const trammel::Reference reference = trammel::load_reference(file);
       const Comparison& comparison = comparisons().at(reference.id);
@@ -93,7 +91,7 @@ BOOST_AUTO_TEST_CASE(every_passport_is_read_with_the_uncertainty_that_the_deriva
 
 BOOST_AUTO_TEST_CASE(a_stored_exact_value_corrupted_in_its_tenth_digit_is_caught) {
   int corrupted = 0;
-  for (const fs::path& file : reference_files()) {
+  for (const fs::path& file : stored_files()) {
     const std::string name = file.stem().generic_string();
     if (read_json(file).at("kind") != "exact") continue;
     BOOST_TEST_CONTEXT(name) {

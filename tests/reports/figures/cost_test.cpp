@@ -5,6 +5,7 @@
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
+#include "reports/figures/cost.h"
 
 using namespace trammel::tests;
 using namespace trammel::reports;

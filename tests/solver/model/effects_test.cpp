@@ -8,6 +8,7 @@
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
+#include "solver/assembly/reduced_model.h"
 
 using namespace trammel;
 

@@ -1,5 +1,7 @@
+#include "reports/page/check_status_data.h"
+
 #include "reports/text/number.h"
-#include "reports/page/sections.h"
+#include "reports/drawing/figure.h"
 
 namespace trammel::reports {
 

@@ -1,22 +1,22 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
-#include "solver/model/nan_max.h"
+#include "solver/model/numbers.h"
 
 using namespace trammel;
 
-BOOST_AUTO_TEST_SUITE(nan_max)
+BOOST_AUTO_TEST_SUITE(numbers)
 
 BOOST_AUTO_TEST_CASE(what_is_not_a_number_stays_whatever_follows) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
-  BOOST_TEST(larger(1, 2) == 2);
-  BOOST_TEST(larger(2, 1) == 2);
-  BOOST_TEST(larger(-1, -2) == -1);
-  BOOST_TEST(larger(1, infinite) == infinite);
+  BOOST_TEST(nan_max(1, 2) == 2);
+  BOOST_TEST(nan_max(2, 1) == 2);
+  BOOST_TEST(nan_max(-1, -2) == -1);
+  BOOST_TEST(nan_max(1, infinite) == infinite);
   for (const double x : {-1.0, 0.0, 1.0, infinite}) {
-    BOOST_TEST(std::isnan(larger(nothing, x)));
-    BOOST_TEST(std::isnan(larger(x, nothing)));
+    BOOST_TEST(std::isnan(nan_max(nothing, x)));
+    BOOST_TEST(std::isnan(nan_max(x, nothing)));
   }
 }
 

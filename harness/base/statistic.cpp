@@ -1,0 +1,36 @@
+#include "harness/base/statistic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace trammel {
+
+double statistic_of(const std::string& name, const std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const bool finite =
+      std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  if (!finite) return std::numeric_limits<double>::quiet_NaN();
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto count = static_cast<double>(values.size());
+  if (name == "max") return *most;
+  if (name == "min") return *least;
+  if (name == "max_abs") return std::max(std::abs(*least), std::abs(*most));
+  if (name == "min_abs") {
+    return std::abs(*std::min_element(values.begin(), values.end(), [](double a, double b) {
+      return std::abs(a) < std::abs(b);
+    }));
+  }
+  if (name == "sum") return std::accumulate(values.begin(), values.end(), 0.0);
+  if (name == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / count;
+  if (name == "first") return values.front();
+  if (name == "last") return values.back();
+  if (name == "range") return *most - *least;
+  if (name == "rms") {
+    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / count);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace trammel

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "reports/data/check_status.h"
+#include "reports/text/html.h"
+
+namespace trammel::reports {
+
+/// Signs and class names of a standing: keys standing, standing_class, sign.
+void set_standing(Data& data, Standing standing);
+
+/// Counts as a list of {n, standing, standing_class, sign, percent} without the zeros.
+[[nodiscard]] Data counts_list(const Counts& counts);
+
+[[nodiscard]] std::string case_anchor(const std::string& id);
+[[nodiscard]] std::string family_anchor(const std::string& id);
+[[nodiscard]] std::string reference_anchor(const std::string& id);
+
+}  // namespace trammel::reports

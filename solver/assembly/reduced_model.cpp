@@ -1,0 +1,77 @@
+#include "solver/assembly/reduced_model.h"
+
+#include <algorithm>
+
+#include "solver/elements/frame_element.h"
+
+namespace trammel {
+namespace {
+
+bool bends(const Member& member) {
+  return interpolate(member.section, member.end_section, 0.5).EI > 0;
+}
+
+bool has_mass(const Member& member) {
+  return member.section.mass_per_length > 0 || member.end_section.mass_per_length > 0 ||
+         member.ends[0].inertia > 0 || member.ends[1].inertia > 0;
+}
+
+bool is_sprung(const Member& member) {
+  return std::any_of(member.ends.begin(), member.ends.end(),
+                     [](const MemberEnd& end) { return end.fixity == EndFixity::sprung; });
+}
+
+bool has_weight(const Model& model) {
+  if (model.gravity.isZero(0)) return false;
+  return std::any_of(model.members.begin(), model.members.end(), has_mass) ||
+         std::any_of(model.masses.begin(), model.masses.end(),
+                     [](const PointMass& lump) { return lump.mass > 0; }) ||
+         std::any_of(model.plates.begin(), model.plates.end(),
+                     [](const Plate& plate) { return plate.material.rho > 0; });
+}
+
+void take_mass(Section& section) {
+  section.mass_per_length = 0;
+  section.inertia_per_length = 0;
+}
+
+void reduce(Member& member, Effects kept) {
+  if (!kept.has(Effect::axial_flexibility) && bends(member)) member.axially_flexible = false;
+  member.theory =
+      beam_theory(shears(member.theory) && kept.has(Effect::shear),
+                  has_rotary_inertia(member.theory) && kept.has(Effect::rotary_inertia));
+  for (MemberEnd& end : member.ends) {
+    const bool stiff = end.fixity == EndFixity::sprung && !kept.has(Effect::joint_compliance);
+    if (stiff) end = {EndFixity::welded, 0, end.inertia};
+    if (!kept.has(Effect::link_mass)) end.inertia = 0;
+  }
+  if (kept.has(Effect::link_mass)) return;
+  take_mass(member.section);
+  take_mass(member.end_section);
+}
+
+}  // namespace
+
+Effects admitted_effects(const Model& model) {
+  Effects effects;
+  for (const Member& member : model.members) {
+    if (member.axially_flexible && bends(member)) {
+      effects = effects.with(Effect::axial_flexibility);
+    }
+    if (shears(member.theory) && bends(member)) effects = effects.with(Effect::shear);
+    const bool turns = has_rotary_inertia(member.theory) && member.section.inertia_per_length > 0;
+    if (turns) effects = effects.with(Effect::rotary_inertia);
+    if (is_sprung(member)) effects = effects.with(Effect::joint_compliance);
+    if (has_mass(member)) effects = effects.with(Effect::link_mass);
+  }
+  if (has_weight(model)) effects = effects.with(Effect::gravity);
+  return effects;
+}
+
+Model reduced(Model model, Effects kept) {
+  for (Member& member : model.members) reduce(member, kept);
+  if (!kept.has(Effect::gravity)) model.gravity.setZero();
+  return model;
+}
+
+}  // namespace trammel
