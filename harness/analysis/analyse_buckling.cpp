@@ -7,7 +7,7 @@
 namespace trammel {
 namespace {
 
-constexpr Index shapes_drawn = 12;
+constexpr Index kMaxDrawnShapes = 12;
 
 std::string label(Index mode, double factor) {
   char text[64];
@@ -16,14 +16,14 @@ std::string label(Index mode, double factor) {
   return text;
 }
 
-BucklingOptions read_options(const Cursor& analysis) {
+BucklingOptions read_options(const JsonView& analysis) {
   return {analysis.get<Index>("count", 3), read_eigen_path(analysis)};
 }
 
 /// The forces on nodes at a load factor: critical_force_N:NAME.
-void record_forces(const Cursor& analysis, const std::string& mode, double factor, double roundoff,
+void record_forces(const JsonView& analysis, const std::string& mode, double factor, double roundoff,
                    Recorder& record) {
-  const Cursor model = Cursor(analysis.document())["model"];
+  const JsonView model = JsonView(analysis.document())["model"];
   const auto loads = model.find("loads");
   if (!loads) return;
   for (const auto& [name, place] : loads->entries()) {
@@ -36,19 +36,19 @@ void record_forces(const Cursor& analysis, const std::string& mode, double facto
 
 }  // namespace
 
-StepResult analyse_buckling(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
+StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_model, std::size_t step, bool draw,
                             Recorder& record) {
-  const System system = assemble(build_model(scene, step));
+  const System system = assemble(build_model(case_model, step));
   const BucklingSolution buckling = solve_buckling(system, read_options(analysis));
   StepResult result{buckling.outcome, buckling.counters, std::nullopt};
-  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
   for (Index i = 0; i < buckling.load_factor.size(); ++i) {
     const double factor = buckling.load_factor[i];
-    const std::string mode = scene.path ? std::to_string(i + 1) : "";
+    const std::string mode = case_model.path ? std::to_string(i + 1) : "";
     record.add("load_factor", mode, factor, buckling.roundoff[i]);
     record_forces(analysis, mode.empty() ? "" : "." + mode, factor, buckling.roundoff[i], record);
-    if (result.drawing && i < shapes_drawn) {
+    if (result.drawing && i < kMaxDrawnShapes) {
       result.drawing->shapes.push_back(draw_shape(system, buckling.shape.col(i), label(i, factor)));
     }
   }

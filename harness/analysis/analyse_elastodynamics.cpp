@@ -7,7 +7,7 @@
 #include "harness/scene/time_reader.h"
 #include "solver/manipulator/elastodynamics.h"
 #include "solver/modes/modes.h"
-#include "solver/manipulator/reduced_design.h"
+#include "solver/manipulator/restrict_design_effects.h"
 
 namespace trammel {
 namespace {
@@ -80,7 +80,7 @@ void record_distance(const char* name, const ElastodynamicsSolution& a,
 void record_step_errors(ElastodynamicsOptions options, const ElastodynamicsSolution& solution,
                         Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
-  if (stands_still(options.path) && !options.convective) {
+  if (stands_still(options.path) && !options.gyroscopic) {
     options.modal_superposition = true;
     record_distance("integration_error", solve_elastodynamics(options), solution, record);
     options.modal_superposition = false;
@@ -94,7 +94,7 @@ void record_damping(const RayleighDamping& damping, const System& start, Recorde
   const double above = overdamped_range(damping).above / (2 * std::numbers::pi);
   if (!std::isfinite(above)) return;
   record.add("overdamped_above_Hz", "", above);
-  const std::optional<Index> below = count_modes_below(start, above);
+  const std::optional<Index> below = sturm_count(start, above);
   record.add("modes_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
 
@@ -108,7 +108,7 @@ void record_summary(const ElastodynamicsSolution& solution, Recorder& record) {
     record.add("nominal_inertia_number", "", effects.nominal_inertia);
   }
   record.add("elastic_inertia_number", "", effects.elastic_inertia);
-  record.add("transformation_rate_number", "", effects.convective);
+  record.add("transformation_rate_number", "", effects.gyroscopic);
   const TransientSummary& summary = solution.summary;
   if (summary.accepted == 0) return;  // quasi-static, or modes superposed
   record.add("steps", "", static_cast<double>(summary.accepted));
@@ -120,28 +120,28 @@ void record_summary(const ElastodynamicsSolution& solution, Recorder& record) {
 
 }  // namespace
 
-ElastodynamicsOptions read_elastodynamics(const Cursor& analysis, const Scene& scene) {
+ElastodynamicsOptions read_elastodynamics(const JsonView& analysis, const CaseModel& case_model) {
   // The same things have no place here as in the dynamics of rigid links.
-  static_cast<void>(read_rigid_manipulator(analysis, scene));
-  if (!scene.path) throw analysis.error("expected a trajectory: a pose alone has no time");
-  if (!loads_at_P_only(scene)) {
+  static_cast<void>(read_rigid_manipulator(analysis, case_model));
+  if (!case_model.path) throw analysis.error("expected a trajectory: a pose alone has no time");
+  if (!loads_at_P_only(case_model)) {
     throw analysis.error("expected loads at P only: those elsewhere would turn with the platform");
   }
   ElastodynamicsOptions options;
-  const Effects effects = scene.effects;
-  options.design = reduced(*scene.manipulator, effects);
-  options.path = *scene.path;
-  for (const NodalLoad& load : scene.parts.loads) options.wrench += load.force;
-  if (effects.has(Effect::gravity)) options.gravity = scene.parts.gravity;
+  const Effects effects = case_model.effects;
+  options.design = restrict_effects(*case_model.manipulator, effects);
+  options.path = *case_model.path;
+  for (const NodalLoad& load : case_model.structure.loads) options.wrench += load.force;
+  if (effects.has(Effect::gravity)) options.gravity = case_model.structure.gravity;
   options.damping = {.mass = 0, .stiffness = 0};
   if (effects.has(Effect::damping)) options.damping = read_rayleigh(analysis.find("damping"));
   options.elastic_inertia = effects.has(Effect::inertia);
-  options.convective = effects.has(Effect::gyroscopic);
-  if (const auto words = analysis.find("effects")) {
-    options.nominal_inertia = words->get("nominal_inertia", true);
-    const bool rates = words->get("transformation_rate_terms", false);
-    if (rates && !words->get("elastic_inertia", true)) {
-      throw(*words)["transformation_rate_terms"].error(
+  options.gyroscopic = effects.has(Effect::gyroscopic);
+  if (const auto approximations = analysis.find("effects")) {
+    options.nominal_inertia = approximations->get("nominal_inertia", true);
+    const bool rates = approximations->get("transformation_rate_terms", false);
+    if (rates && !approximations->get("elastic_inertia", true)) {
+      throw(*approximations)["transformation_rate_terms"].error(
           "expected elastic inertia with it: these terms are a part of it");
     }
   }
@@ -152,7 +152,7 @@ ElastodynamicsOptions read_elastodynamics(const Cursor& analysis, const Scene& s
     throw analysis["modal_superposition"].error(
         "expected a platform that stands still: modes are superposed where M and K are constant");
   }
-  for (const TrajectoryPoint& point : scene.motion) {
+  for (const TrajectoryPoint& point : case_model.motion) {
     options.time.sample_times.push_back(point.time);
   }
   options.time.start = options.time.sample_times.front();
@@ -163,16 +163,16 @@ ElastodynamicsOptions read_elastodynamics(const Cursor& analysis, const Scene& s
   return options;
 }
 
-StepResult analyse_elastodynamics(const Cursor& analysis, const Scene& scene, bool draw,
+StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                   Recorder& record) {
-  const ElastodynamicsOptions options = read_elastodynamics(analysis, scene);
+  const ElastodynamicsOptions options = read_elastodynamics(analysis, case_model);
   const ElastodynamicsSolution solution = solve_elastodynamics(options);
   StepResult result{solution.outcome, solution.summary.counters, std::nullopt};
-  const System start = assemble(build_model(scene, 0));
+  const System start = assemble(build_model(case_model, 0));
   if (draw) result.drawing = draw_model(start, true);
   if (!solution.outcome.solved()) return result;
   for (std::size_t i = 0; i < solution.state.size(); ++i) {
-    record_path(scene, i, record);
+    record_path(case_model, i, record);
     record_solution(start.model, solution.state[i], -1, record);
     record.add("equilibrium_residual_N", "", solution.state[i].equilibrium_residual);
     record.add("moment_residual_N_m", "", solution.state[i].moment_residual);

@@ -44,7 +44,7 @@ void record_errors(const TrajectoryPoint& nominal, const TrajectoryPoint& moved,
 void record_energy(const RigidManipulator& m, const ForwardDynamics& found, const Vector3d& torque,
                    const Vector3d& wrench, Recorder& record) {
   std::vector<double> kinetic, change;
-  double work = 0, start = 0, most = 0;
+  double work = 0, start = 0, max_kinetic = 0;
   InverseDynamics before;
   for (std::size_t k = 0; k < found.motion.size(); ++k) {
     const TrajectoryPoint& point = found.motion[k];
@@ -58,49 +58,49 @@ void record_energy(const RigidManipulator& m, const ForwardDynamics& found, cons
     if (k == 0) start = energy;
     kinetic.push_back(now.kinetic_energy);
     change.push_back(energy - start);
-    most = std::max(most, now.kinetic_energy);
+    max_kinetic = std::max(max_kinetic, now.kinetic_energy);
     before = now;
   }
   for (std::size_t k = 0; k < kinetic.size(); ++k) {
     record.add("kinetic_energy_J", "", kinetic[k]);
-    record.add("energy_residual", "", most > 0 ? change[k] / most : change[k]);
+    record.add("energy_residual", "", max_kinetic > 0 ? change[k] / max_kinetic : change[k]);
   }
 }
 
 }  // namespace
 
-StepResult analyse_forward_dynamics(const Cursor& analysis, const Scene& scene, bool draw,
+StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                     Recorder& record) {
-  const RigidManipulator manipulator = read_rigid_manipulator(analysis, scene);
-  if (!scene.path) throw analysis.error("expected a model with a trajectory");
-  if (!loads_at_P_only(scene)) {
+  const RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
+  if (!case_model.path) throw analysis.error("expected a model with a trajectory");
+  if (!loads_at_P_only(case_model)) {
     throw analysis.error("expected loads at P alone: at a corner their moment changes as it turns");
   }
-  const Vector3d wrench = wrench_on_platform(scene, scene.motion.front().pose);
+  const Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
   const bool given = analysis.has("torque_N_m");
   Vector3d constant = Vector3d::Zero();
   for (std::size_t i = 0; given && i < 3; ++i) {
     constant(static_cast<Index>(i)) = analysis["torque_N_m"][i].get<double>();
   }
   // A step of the integrator may look a little past the path's end, where a spline has none.
-  const double last = scene.motion.back().time;
+  const double last = case_model.motion.back().time;
   const auto torque = [&](double time) -> Vector3d {
     if (given) return constant;
-    return inverse_dynamics(manipulator, at(*scene.path, std::min(time, last)), wrench).torque;
+    return inverse_dynamics(manipulator, at(*case_model.path, std::min(time, last)), wrench).torque;
   };
   std::vector<double> times;
-  for (const TrajectoryPoint& point : scene.motion) times.push_back(point.time);
+  for (const TrajectoryPoint& point : case_model.motion) times.push_back(point.time);
   ForwardOptions options;
   options.tolerance = analysis.get("tolerance", options.tolerance);
   const ForwardDynamics found =
-      forward_dynamics(manipulator, scene.motion.front(), torque, times, wrench, options);
+      forward_dynamics(manipulator, case_model.motion.front(), torque, times, wrench, options);
   StepResult result;
   result.outcome = found.outcome;
-  if (draw) result.drawing = draw_manipulator(manipulator.geometry, scene.motion);
+  if (draw) result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
   for (std::size_t step = 0; step < found.motion.size(); ++step) {
-    record_path(scene, step, record);
+    record_path(case_model, step, record);
     record_motion(found.motion[step], record);
-    if (!given) record_errors(scene.motion[step], found.motion[step], record);
+    if (!given) record_errors(case_model.motion[step], found.motion[step], record);
   }
   if (given) record_energy(manipulator, found, constant, wrench, record);
   record.add("steps", "", static_cast<double>(found.steps));

@@ -11,13 +11,13 @@
 namespace trammel {
 namespace {
 
-InputScaling read_scaling(const Cursor& analysis) {
+InputScaling read_scaling(const JsonView& analysis) {
   const auto word = analysis.get<std::string>("scaling", "none");
   if (word == "deviation") return InputScaling::deviation;
   return word == "range" ? InputScaling::range : InputScaling::none;
 }
 
-CrossValidation read_validation(const Cursor& search) {
+CrossValidation read_validation(const JsonView& search) {
   CrossValidation validation;
   validation.folds = search.get<Index>("folds", 0);
   const auto order = search.get<std::string>("order", "interleaved");
@@ -28,14 +28,14 @@ CrossValidation read_validation(const Cursor& search) {
   return validation;
 }
 
-Split read_split(const Cursor& analysis) {
+Split read_split(const JsonView& analysis) {
   const auto word = analysis.get<std::string>("split", "first");
   if (word == "interleaved") return Split::interleaved;
   return word == "shuffled" ? Split::shuffled : Split::first;
 }
 
 /// The smoothing: as given, or the one with the least error of cross-validation.
-void choose_sigma(const Cursor& analysis, Grnn& network, Recorder& record) {
+void choose_sigma(const JsonView& analysis, Grnn& network, Recorder& record) {
   if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma")) {
     throw analysis.error("expected either 'sigma' or 'spread' (got both)");
   }
@@ -44,7 +44,7 @@ void choose_sigma(const Cursor& analysis, Grnn& network, Recorder& record) {
   } else if (analysis.has("spread")) {
     network.sigma = sigma_of_spread(analysis.number("spread"));
   } else {
-    const Cursor search = analysis.has("search") ? analysis["search"] : analysis;
+    const JsonView search = analysis.has("search") ? analysis["search"] : analysis;
     const Index count = search.get<Index>("count", 41);
     const bool given = search.has("from");
     const SigmaSearch found =
@@ -108,7 +108,7 @@ void record_part(const std::string& part, const std::vector<Index>& which,
   for (Index j = 0; j < own.cols(); ++j) {
     const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
     for (Index i = 0; i < own.rows(); ++i) {
-      record.add(part + "_" + column.what + "_error" + column.unit, column.of, own(i, j));
+      record.add(part + "_" + column.quantity + "_error" + column.unit, column.item, own(i, j));
     }
   }
   record.add(part + "_rms_error", "", rms(own, scales));
@@ -121,13 +121,13 @@ void record_part(const std::string& part, const std::vector<Index>& which,
 void record_skill(const Grnn& network, const GrnnSamples& samples, const std::vector<Index>& which,
                   double error, const OutputScales& scales, Recorder& record) {
   const Eigen::MatrixXd queries = rows(samples.inputs, which);
-  const Eigen::MatrixXd truth = rows(samples.outputs, which);
+  const Eigen::MatrixXd expected = rows(samples.outputs, which);
   const auto against = [&](const char* name, double sigma) {
     Grnn trivial = network;
     trivial.sigma = sigma;
-    const double theirs = rms(predict(trivial, queries) - truth, scales);
-    record.add("held_out_rms_error", name, theirs);
-    record.add("skill_over", name, 1 - (error / theirs) * (error / theirs));
+    const double baseline_error = rms(predict(trivial, queries) - expected, scales);
+    record.add("held_out_rms_error", name, baseline_error);
+    record.add("skill_over", name, 1 - (error / baseline_error) * (error / baseline_error));
   };
   against("mean", 1e150);
   against("nearest", 1e-300);
@@ -152,8 +152,8 @@ EvaluationTime timed(const std::string& name, std::size_t evaluations, const Wor
 /// from the torques at a point to the motion at the next, and from the motion to the torques.
 std::vector<EvaluationTime> time_against_solving(const Grnn& network,
                                                  const RigidManipulator& manipulator,
-                                                 const Scene& scene, const GrnnSamples& samples) {
-  const std::size_t count = scene.motion.size();
+                                                 const CaseModel& case_model, const GrnnSamples& samples) {
+  const std::size_t count = case_model.motion.size();
   double sink = 0;  // what is computed is used, so that it cannot be left out
   std::vector<EvaluationTime> timings;
   timings.push_back(timed("prediction_in_a_batch", count,
@@ -164,22 +164,22 @@ std::vector<EvaluationTime> time_against_solving(const Grnn& network,
     }
   }));
   timings.push_back(timed("inverse_dynamics", count, [&] {
-    for (const TrajectoryPoint& point : scene.motion) {
-      sink += inverse_dynamics(manipulator, point, wrench_on_platform(scene, point.pose)).torque(0);
+    for (const TrajectoryPoint& point : case_model.motion) {
+      sink += inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose)).torque(0);
     }
   }));
-  if (count < 2 || !loads_at_P_only(scene)) return timings;
-  const Vector3d wrench = wrench_on_platform(scene, scene.motion.front().pose);
+  if (count < 2 || !loads_at_P_only(case_model)) return timings;
+  const Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
   timings.push_back(timed("forward_dynamics_to_the_next_point", count - 1, [&] {
     for (std::size_t k = 0; k + 1 < count; ++k) {
-      const double from = scene.motion[k].time, to = scene.motion[k + 1].time;
+      const double from = case_model.motion[k].time, to = case_model.motion[k + 1].time;
       const auto row = static_cast<Index>(k);
       const auto torque = [&](double time) -> Vector3d {
         const double s = (time - from) / (to - from);
         return ((1 - s) * samples.inputs.row(row) + s * samples.inputs.row(row + 1)).transpose();
       };
       const ForwardDynamics next =
-          forward_dynamics(manipulator, scene.motion[k], torque, {to}, wrench);
+          forward_dynamics(manipulator, case_model.motion[k], torque, {to}, wrench);
       if (next.outcome.solved()) sink += next.motion.back().pose.x;
     }
   }));
@@ -192,8 +192,8 @@ void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predi
   for (Index j = 0; j < predicted.cols(); ++j) {
     const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
     for (Index k = 0; k < predicted.rows(); ++k) {
-      record.add("active_" + column.what + column.unit, column.of, samples.outputs(k, j));
-      record.add("predicted_" + column.what + column.unit, column.of, predicted(k, j));
+      record.add("active_" + column.quantity + column.unit, column.item, samples.outputs(k, j));
+      record.add("predicted_" + column.quantity + column.unit, column.item, predicted(k, j));
     }
   }
   for (const bool trains_here : trains) record.add("trains", "", trains_here ? 1 : 0);
@@ -201,12 +201,12 @@ void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predi
 
 /// Where the platform would be with the predicted angles of the active joints, by forward
 /// kinematics from its true pose; NaN where it cannot be assembled.
-void record_positions(const ManipulatorGeometry& geometry, const Scene& scene,
+void record_positions(const ManipulatorGeometry& geometry, const CaseModel& case_model,
                       const Eigen::MatrixXd& predicted, Recorder& record) {
-  for (std::size_t k = 0; k < scene.motion.size(); ++k) {
+  for (std::size_t k = 0; k < case_model.motion.size(); ++k) {
     const auto row = static_cast<Index>(k);
     const std::array<double, 3> active = {predicted(row, 0), predicted(row, 1), predicted(row, 2)};
-    const ForwardKinematics found = forward_kinematics(geometry, active, scene.motion[k].pose);
+    const ForwardKinematics found = forward_kinematics(geometry, active, case_model.motion[k].pose);
     const bool solved = found.outcome.solved();
     record.add("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
     record.add("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
@@ -214,7 +214,7 @@ void record_positions(const ManipulatorGeometry& geometry, const Scene& scene,
 }
 
 /// Samples of the case's own: predictions at its queries.
-StepResult predict_own(const Cursor& analysis, Recorder& record) {
+StepResult predict_own(const JsonView& analysis, Recorder& record) {
   const GrnnSamples samples = read_samples(analysis["samples"]);
   const Eigen::MatrixXd queries = read_rows(analysis["queries"]);
   if (queries.cols() != samples.inputs.cols()) {
@@ -227,7 +227,7 @@ StepResult predict_own(const Cursor& analysis, Recorder& record) {
     const Eigen::MatrixXd predicted = predict(network, queries);
     for (Index k = 0; k < predicted.rows(); ++k) {
       for (Index j = 0; j < predicted.cols(); ++j) {
-        record.add("prediction", samples.columns[static_cast<std::size_t>(j)].of, predicted(k, j));
+        record.add("prediction", samples.columns[static_cast<std::size_t>(j)].item, predicted(k, j));
       }
     }
   } catch (const ModelError& error) {
@@ -238,13 +238,13 @@ StepResult predict_own(const Cursor& analysis, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_grnn(const Cursor& analysis, const std::optional<Scene>& scene, bool draw,
+StepResult analyse_grnn(const JsonView& analysis, const std::optional<CaseModel>& case_model, bool draw,
                         Recorder& record) {
-  if (!scene) return predict_own(analysis, record);
-  const RigidManipulator manipulator = read_rigid_manipulator(analysis, *scene);
-  if (!scene->path) throw analysis.error("expected a model with a trajectory, or samples");
+  if (!case_model) return predict_own(analysis, record);
+  const RigidManipulator manipulator = read_rigid_manipulator(analysis, *case_model);
+  if (!case_model->path) throw analysis.error("expected a model with a trajectory, or samples");
   StepResult result;
-  const PathSamples path = samples_of_path(manipulator, *scene);
+  const PathSamples path = samples_of_path(manipulator, *case_model);
   result.outcome = path.outcome;
   if (!result.outcome.solved()) return result;
   const GrnnSamples& samples = path.samples;
@@ -255,7 +255,7 @@ StepResult analyse_grnn(const Cursor& analysis, const std::optional<Scene>& scen
                                   std::to_string(count));
   }
   const std::vector<bool> trains =
-      training_part(count, train, read_split(analysis), analysis.get<std::uint64_t>("seed", 1));
+      training_mask(count, train, read_split(analysis), analysis.get<std::uint64_t>("seed", 1));
   const Parts parts = parts_of(trains);
   Grnn network = make_grnn(rows(samples.inputs, parts.training),
                            rows(samples.outputs, parts.training), 1, read_scaling(analysis));
@@ -263,11 +263,11 @@ StepResult analyse_grnn(const Cursor& analysis, const std::optional<Scene>& scen
   const Eigen::MatrixXd predicted = predict(network, samples.inputs);
   const Eigen::MatrixXd error = predicted - samples.outputs;
   const OutputScales scales(samples.outputs);
-  for (std::size_t step = 0; step < scene->motion.size(); ++step) {
-    record_path(*scene, step, record);
+  for (std::size_t step = 0; step < case_model->motion.size(); ++step) {
+    record_path(*case_model, step, record);
   }
   record_predictions(samples, predicted, trains, record);
-  record_positions(manipulator.geometry, *scene, predicted, record);
+  record_positions(manipulator.geometry, *case_model, predicted, record);
   record_part("training", parts.training, samples, error, scales, record);
   record_part("held_out", parts.held_out, samples, error, scales, record);
   if (!parts.held_out.empty()) {
@@ -276,8 +276,8 @@ StepResult analyse_grnn(const Cursor& analysis, const std::optional<Scene>& scen
   }
   record.add("kernel_evaluations", "", static_cast<double>(train));
   if (draw) {
-    result.drawing = draw_manipulator(manipulator.geometry, scene->motion);
-    result.timings = time_against_solving(network, manipulator, *scene, samples);
+    result.drawing = draw_manipulator(manipulator.geometry, case_model->motion);
+    result.timings = time_against_solving(network, manipulator, *case_model, samples);
   }
   return result;
 }

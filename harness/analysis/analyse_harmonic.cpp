@@ -7,7 +7,7 @@
 namespace trammel {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The steady response of one system, by outputs.
 class Response {
@@ -25,7 +25,7 @@ class Response {
     for (const Output& output : outputs) {
       record.add(
           output.name, "",
-          q.size() > 0 ? amplitude_of(output, system_.model, amplitudes, frequency) : nothing);
+          q.size() > 0 ? amplitude_of(output, system_.model, amplitudes, frequency) : kNaN);
     }
   }
 
@@ -36,7 +36,7 @@ class Response {
           return amplitude_of(output, system_.model, harmonic_amplitudes(system_, q, frequency),
                               frequency);
         });
-    record.add(output.of("peak_"), "", found.amplitude);
+    record.add(output.prefixed("peak_"), "", found.amplitude);
     record.add("peak_frequency_Hz", output.name, found.frequency);
     return found.frequency;
   }
@@ -60,19 +60,19 @@ class Response {
 
 }  // namespace
 
-StepResult analyse_harmonic(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
+StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_model, std::size_t step, bool draw,
                             Recorder& record) {
-  if (scene.path) throw analysis.error("expected a model at one place");
+  if (case_model.path) throw analysis.error("expected a model at one place");
   const double low = analysis.number("from_Hz");
   const double high = analysis.number("to_Hz");
   if (!(high > low)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
-  const System system = assemble(build_model(scene, step));
+  const System system = assemble(build_model(case_model, step));
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const HarmonicDamping damping = read_damping(analysis);
   try {
     const Response response(system, damping);
     StepResult result{response.of_system().outcome(), {}, std::nullopt};
-    if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+    if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
     if (!result.outcome.solved()) return result;
     const auto points = analysis.get<Index>("points", 101);
     for (Index i = 0; i < points; ++i) {

@@ -6,13 +6,13 @@
 namespace trammel {
 namespace {
 
-using Names = std::array<std::string, 3>;
-const Names& active_names() {
-  static const Names names = {"A1", "A2", "A3"};
+using JointNames = std::array<std::string, 3>;
+const JointNames& active_names() {
+  static const JointNames names = {"A1", "A2", "A3"};
   return names;
 }
-const Names& elbow_names() {
-  static const Names names = {"B1", "B2", "B3"};
+const JointNames& elbow_names() {
+  static const JointNames names = {"B1", "B2", "B3"};
   return names;
 }
 const std::array<std::string, 7>& body_names() {
@@ -70,20 +70,20 @@ void record_properties(const RigidManipulator& manipulator, const TrajectoryPoin
       property_residuals(manipulator, rigid_terms(manipulator, point.pose, point.velocity));
   record.add("symmetry_residual", "", residuals.symmetry);
   record.add("skewness_residual", "", residuals.skewness);
-  record.add("least_inertia_kg_m2", "", residuals.least_eigenvalue);
+  record.add("least_inertia_kg_m2", "", residuals.min_eigenvalue);
 }
 
 /// Work of the actuators over exactly one turn, by the trapezoid rule, which for a periodic
 /// integrand converges faster than any power of the step: inertia, gravity and a constant load
 /// leave none. Beside it what goes to and fro, the integral of |power|.
-void record_turn(const RigidManipulator& manipulator, const Scene& scene, const Circle& circle,
+void record_turn(const RigidManipulator& manipulator, const CaseModel& case_model, const Circle& circle,
                  int points, Recorder& record) {
   const double period = 2 * std::numbers::pi / std::abs(circle.angular_speed);
   double work = 0, turnover = 0;
   for (int k = 0; k < points; ++k) {
     const TrajectoryPoint point = at(circle, period * k / points);
     const InverseDynamics found =
-        inverse_dynamics(manipulator, point, wrench_on_platform(scene, point.pose));
+        inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) return;  // the path's own points tell why
     work += found.actuator_power * period / points;
     turnover += std::abs(found.actuator_power) * period / points;
@@ -95,19 +95,19 @@ void record_turn(const RigidManipulator& manipulator, const Scene& scene, const 
 
 }  // namespace
 
-StepResult analyse_inverse_dynamics(const Cursor& analysis, const Scene& scene, bool draw,
+StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                     Recorder& record) {
-  const RigidManipulator manipulator = read_rigid_manipulator(analysis, scene);
+  const RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   const bool bodies = analysis.get("bodies", false);
   StepResult result;
-  if (draw) result.drawing = draw_manipulator(manipulator.geometry, scene.motion);
-  for (std::size_t step = 0; step < scene.motion.size(); ++step) {
-    const TrajectoryPoint& point = scene.motion[step];
-    record_path(scene, step, record);
+  if (draw) result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
+  for (std::size_t step = 0; step < case_model.motion.size(); ++step) {
+    const TrajectoryPoint& point = case_model.motion[step];
+    record_path(case_model, step, record);
     const InverseDynamics found =
-        inverse_dynamics(manipulator, point, wrench_on_platform(scene, point.pose));
+        inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) {
-      result.outcome = at_point(scene, step, found.outcome);
+      result.outcome = at_point(case_model, step, found.outcome);
       return result;
     }
     record_joints(found, record);
@@ -115,9 +115,9 @@ StepResult analyse_inverse_dynamics(const Cursor& analysis, const Scene& scene, 
     record_properties(manipulator, point, record);
     if (bodies) record_bodies(found, record);
   }
-  const auto* circle = scene.path ? std::get_if<Circle>(&*scene.path) : nullptr;
+  const auto* circle = case_model.path ? std::get_if<Circle>(&*case_model.path) : nullptr;
   if (circle && circle->angular_speed != 0) {
-    record_turn(manipulator, scene, *circle, analysis.get("turn_points", 64), record);
+    record_turn(manipulator, case_model, *circle, analysis.get("turn_points", 64), record);
   }
   return result;
 }

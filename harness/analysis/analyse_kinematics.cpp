@@ -2,16 +2,16 @@
 #include "harness/scene/rigid_case_model.h"
 
 namespace trammel {
-StepResult analyse_kinematics(const Scene& scene, std::size_t step, bool draw, Recorder& record) {
-  const Pose& pose = scene.motion[step].pose;
-  const ManipulatorGeometry& geometry = scene.manipulator->geometry;
+StepResult analyse_kinematics(const CaseModel& case_model, std::size_t step, bool draw, Recorder& record) {
+  const Pose& pose = case_model.motion[step].pose;
+  const ManipulatorGeometry& geometry = case_model.manipulator->geometry;
   const Posture posture = inverse_kinematics(geometry, pose);
   StepResult result;
   result.outcome = posture.outcome;
-  if (draw) result.drawing = draw_manipulator(geometry, scene.motion);
+  if (draw) result.drawing = draw_manipulator(geometry, case_model.motion);
   if (!posture.outcome.solved()) return result;
   const Jacobians at = jacobians(geometry, pose, posture);
-  const HoldingTorques holding = holding_torques(at, wrench_on_platform(scene, pose));
+  const HoldingTorques holding = holding_torques(at, wrench_on_platform(case_model, pose));
   result.outcome = holding.outcome;
   static const std::array<std::string, 3> active = {"A1", "A2", "A3"}, elbow = {"B1", "B2", "B3"},
                                           distal = {"B1-C1", "B2-C2", "B3-C3"};

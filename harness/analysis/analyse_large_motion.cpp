@@ -12,10 +12,10 @@
 namespace trammel {
 namespace {
 
-using large::LargeSystem;
+using large::GeometricallyExactSystem;
 using large::State;
 
-constexpr int most_poses = 8;
+constexpr int kMaxPoses = 8;
 
 /// Rotation of a node, less that of another (-1: of the ground).
 struct Angle {
@@ -25,35 +25,35 @@ struct Angle {
 };
 
 /// What is kept at each output time.
-struct Kept {
+struct OutputSelection {
   std::vector<Index> nodes;
   Index seen_from = -1;
   std::vector<Angle> angles;
 };
 
-Kept read_kept(const Cursor& analysis, const Model& model) {
-  Kept kept;
+OutputSelection read_kept(const JsonView& analysis, const Model& model) {
+  OutputSelection selection;
   if (const auto names = analysis.find("nodes")) {
     for (const auto& entry : names->entries()) {
-      kept.nodes.push_back(find_node(entry.second, model));
+      selection.nodes.push_back(find_node(entry.second, model));
     }
   } else {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-      if (!model.nodes[i].name.empty()) kept.nodes.push_back(static_cast<Index>(i));
+      if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<Index>(i));
     }
   }
-  if (analysis.has("seen_from")) kept.seen_from = find_node(analysis["seen_from"], model);
+  if (analysis.has("seen_from")) selection.seen_from = find_node(analysis["seen_from"], model);
   if (const auto angles = analysis.find("angles")) {
     for (const auto& [name, place] : angles->entries()) {
       Angle angle{name, find_node(place["node"], model), -1, place.get("start_rad", 0.0)};
       if (place.has("from")) angle.from = find_node(place["from"], model);
-      kept.angles.push_back(angle);
+      selection.angles.push_back(angle);
     }
   }
-  return kept;
+  return selection;
 }
 
-large::IntegrationOptions read_options(const Cursor& analysis) {
+large::IntegrationOptions read_options(const JsonView& analysis) {
   large::IntegrationOptions options;
   if (analysis.get<std::string>("integrator", "generalized-alpha") == "energy-momentum") {
     options.integrator = large::Integrator::energy_momentum;
@@ -64,28 +64,28 @@ large::IntegrationOptions read_options(const Cursor& analysis) {
   options.adaptive = analysis.has("tolerance");
   options.tolerance = analysis.get("tolerance", options.tolerance);
   options.spectral_radius = analysis.get("spectral_radius", options.spectral_radius);
-  options.steps = analysis.get("steps", options.steps);
+  options.max_steps = analysis.get("steps", options.max_steps);
   return options;
 }
 
 /// Writes down each state that the integrator shows.
-class Log {
+class MotionRecorder {
  public:
-  Log(const LargeSystem& system, Kept kept, Recorder& record)
-      : system_(system), kept_(std::move(kept)), record_(record) {}
+  MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection, Recorder& record)
+      : system_(system), selection_(std::move(selection)), record_(record) {}
 
   void look(const State& state) {
     record_.add("time_s", "", state.t);
     const Eigen::MatrixX3d motion = node_motion(system_, state.q);
     const Eigen::MatrixX3d velocity = node_motion(system_, state.v);
-    for (const Index node : kept_.nodes) look_at(node, motion, velocity);
-    for (const Angle& angle : kept_.angles) look_at(angle, motion, velocity);
+    for (const Index node : selection_.nodes) look_at(node, motion, velocity);
+    for (const Angle& angle : selection_.angles) look_at(angle, motion, velocity);
     look_at_forces(state);
     look_at_energy(state);
   }
 
   [[nodiscard]] double energy_drift() const {
-    return most_kinetic_ > 0 ? drift_ / most_kinetic_ : 0.0;
+    return max_kinetic_ > 0 ? drift_ / max_kinetic_ : 0.0;
   }
 
  private:
@@ -100,13 +100,13 @@ class Log {
       record_.add("rotation_rad", named.name, u[2]);
       record_.add("angular_velocity_rad_per_s", named.name, v[2]);
     }
-    if (kept_.seen_from >= 0 && node != kept_.seen_from) look_from(node, motion);
+    if (selection_.seen_from >= 0 && node != selection_.seen_from) look_from(node, motion);
   }
 
   void look_from(Index node, const Eigen::MatrixX3d& motion) {
     const std::vector<Node>& nodes = system_.model().nodes;
     const Node& named = nodes[static_cast<std::size_t>(node)];
-    const Index eye = kept_.seen_from;
+    const Index eye = selection_.seen_from;
     const Vector2d arm = named.position - nodes[static_cast<std::size_t>(eye)].position;
     const Vector2d moved = (motion.row(node) - motion.row(eye)).head<2>().transpose();
     const double turn = motion(eye, 2);
@@ -124,18 +124,18 @@ class Log {
 
   void look_at(const Angle& angle, const Eigen::MatrixX3d& motion,
                const Eigen::MatrixX3d& velocity) {
-    const auto of = [&](const Eigen::MatrixX3d& values) {
+    const auto component_of = [&](const Eigen::MatrixX3d& values) {
       return values(angle.node, 2) - (angle.from >= 0 ? values(angle.from, 2) : 0.0);
     };
-    record_.add("angle_rad", angle.name, angle.start + of(motion));
-    record_.add("angle_rate_rad_per_s", angle.name, of(velocity));
+    record_.add("angle_rad", angle.name, angle.start + component_of(motion));
+    record_.add("angle_rate_rad_per_s", angle.name, component_of(velocity));
   }
 
   void look_at_forces(const State& state) {
     const Eigen::MatrixX3d reaction = reactions(system_, state);
     for (std::size_t i = 0; i < system_.model().supports.size(); ++i) {
       const Support& support = system_.model().supports[i];
-      if (std::find(kept_.nodes.begin(), kept_.nodes.end(), support.node) == kept_.nodes.end()) {
+      if (std::find(selection_.nodes.begin(), selection_.nodes.end(), support.node) == selection_.nodes.end()) {
         continue;
       }
       const auto row = static_cast<Index>(i);
@@ -146,8 +146,8 @@ class Log {
       }
       if (support.fixed[2]) record_.add("reaction_moment_N_m", support.name, reaction(row, 2));
     }
-    for (std::size_t i = 0; i < system_.scenario().drives.size(); ++i) {
-      const large::Drive& drive = system_.scenario().drives[i];
+    for (std::size_t i = 0; i < system_.large_motion().drives.size(); ++i) {
+      const large::Drive& drive = system_.large_motion().drives[i];
       record_.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
                   drive_force(system_, state, static_cast<Index>(i)));
     }
@@ -161,18 +161,18 @@ class Log {
     if (first_) start_energy_ = energy.total();
     first_ = false;
     drift_ = std::max(drift_, std::abs(energy.total() - start_energy_));
-    most_kinetic_ = std::max(most_kinetic_, energy.kinetic);
+    max_kinetic_ = std::max(max_kinetic_, energy.kinetic);
   }
 
-  const LargeSystem& system_;
-  Kept kept_;
+  const GeometricallyExactSystem& system_;
+  OutputSelection selection_;
   Recorder& record_;
   bool first_ = true;
-  double start_energy_ = 0, drift_ = 0, most_kinetic_ = 0;
+  double start_energy_ = 0, drift_ = 0, max_kinetic_ = 0;
 };
 
 /// How far P is from where the rigid twin would have it.
-void record_deflection(const LargeSystem& system, const State& state, const Path& path,
+void record_deflection(const GeometricallyExactSystem& system, const State& state, const Path& path,
                        Recorder& record) {
   const Index p = system.model().find_node("P");
   const Eigen::MatrixX3d motion = node_motion(system, state.q);
@@ -187,7 +187,7 @@ void record_deflection(const LargeSystem& system, const State& state, const Path
 }
 
 /// From where the model stands, or with the velocities of the rigid twin that it follows.
-large::IntegrationSummary move(const LargeSystem& system, const Scene& scene, bool tracking,
+large::IntegrationSummary integrate_motion(const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
                                const large::IntegrationOptions& options, bool extrapolated,
                                const large::Observer& look) {
   State state;
@@ -195,36 +195,36 @@ large::IntegrationSummary move(const LargeSystem& system, const Scene& scene, bo
     return extrapolated ? integrate_extrapolated(system, state, options, look)
                         : integrate(system, state, options, look);
   }
-  state = system.rest();
+  state = system.reference_state();
   large::IntegrationSummary summary;
-  summary.outcome = make_consistent(system, state, tracking_start(scene, system), options.step);
+  summary.outcome = make_consistent(system, state, tracking_start(case_model, system), options.step);
   if (!summary.outcome.solved()) return summary;
   const large::ConstrainedSystem& equations = system;
   return integrate(equations, state, options, look);
 }
 
-void record_summary(const large::IntegrationSummary& summary, const Log& log, Recorder& record) {
+void record_summary(const large::IntegrationSummary& summary, const MotionRecorder& log, Recorder& record) {
   record.add("steps", "", static_cast<double>(summary.steps));
   record.add("rejected_steps", "", static_cast<double>(summary.rejected));
   record.add("newton_iterations", "", static_cast<double>(summary.iterations));
-  record.add("smallest_step_s", "", summary.smallest_step);
-  record.add("constraint_gap", "", summary.largest_gap);
-  record.add("constraint_gap_rate", "", summary.largest_gap_rate);
+  record.add("smallest_step_s", "", summary.min_step);
+  record.add("constraint_gap", "", summary.max_constraint_residual);
+  record.add("constraint_gap_rate", "", summary.max_constraint_rate);
   record.add("energy_drift", "", log.energy_drift());
 }
 
 }  // namespace
 
-StepResult analyse_large_motion(const Cursor& analysis, const Scene& scene, bool draw,
+StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                 Recorder& record) {
-  Model model = build_bare_model(scene, 0);
-  large::Scenario scenario = scene.mechanism;
-  read_drives(analysis, model, scenario);
-  read_history(analysis, model, scenario);
+  Model model = build_bare_model(case_model, 0);
+  large::LargeMotionModel large_motion = case_model.joint_elements;
+  read_drives(analysis, model, large_motion);
+  read_history(analysis, model, large_motion);
   const bool extrapolated = analysis.get("extrapolated", false);
   const bool tracking = analysis.get("track", false);
   if (tracking) {
-    track(analysis["track"], scene, model, scenario);
+    add_tracking_drives(analysis["track"], case_model, model, large_motion);
     for (const char* key : {"extrapolated", "start_velocities"}) {
       if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
     }
@@ -232,21 +232,21 @@ StepResult analyse_large_motion(const Cursor& analysis, const Scene& scene, bool
       throw analysis["integrator"].error("expected generalized-alpha beside 'track'");
     }
   }
-  const LargeSystem system(model, scenario, {analysis.get("degree", 3)});
+  const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
   const large::IntegrationOptions options = read_options(analysis);
   StepResult result;
-  if (draw) result.drawing = draw_large_model(system, scene.manipulator.has_value());
-  Log log(system, read_kept(analysis, model), record);
+  if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
+  MotionRecorder log(system, read_kept(analysis, model), record);
   int poses = 0;
   const auto look = [&](const State& state) {
     log.look(state);
-    if (tracking) record_deflection(system, state, *scene.path, record);
-    if (!result.drawing || state.t < options.end_time * poses / most_poses) return;
+    if (tracking) record_deflection(system, state, *case_model.path, record);
+    if (!result.drawing || state.t < options.end_time * poses / kMaxPoses) return;
     ++poses;
     result.drawing->poses.push_back(draw_large_pose(system, state.q, rounded(state.t, 3) + " s"));
   };
   const large::IntegrationSummary summary =
-      move(system, scene, tracking, options, extrapolated, look);
+      integrate_motion(system, case_model, tracking, options, extrapolated, look);
   result.outcome = summary.outcome;
   result.counters = summary.counters;
   result.counters.element_evaluations = system.element_evaluations();

@@ -9,7 +9,7 @@ namespace trammel {
 namespace {
 
 /// Every error is relative, so that the size of the field does not matter.
-constexpr double amplitude_per_length = 1e-3;
+constexpr double kAmplitudePerLength = 1e-3;
 
 /// @param thickness  in the plane [m]
 Section rectangle(const Material& material, double thickness, double width,
@@ -25,8 +25,8 @@ Section rectangle(const Material& material, double thickness, double width,
   return section;
 }
 
-MembraneTest read_membrane(const Cursor& place) {
-  const Cursor part = place["membrane"];
+MembraneTest read_membrane(const JsonView& place) {
+  const JsonView part = place["membrane"];
   const Material material = read_material(part["material"]);
   MembraneTest test;
   const std::string field = part.text("field");
@@ -39,7 +39,7 @@ MembraneTest read_membrane(const Cursor& place) {
   test.problem.rho = material.rho;
   test.problem.length = part.number("length_m");
   test.problem.height = part.number("height_m");
-  test.problem.amplitude = amplitude_per_length * test.problem.length;
+  test.problem.amplitude = kAmplitudePerLength * test.problem.length;
   test.problem.omega = place.get("angular_frequency_rad_s", 0.0);
   test.thickness = part.number("thickness_m");
   test.six_nodes = part.text("triangles") == "six-node";
@@ -48,8 +48,8 @@ MembraneTest read_membrane(const Cursor& place) {
   return test;
 }
 
-BeamTest read_beam(const Cursor& place) {
-  const Cursor part = place["beam"];
+BeamTest read_beam(const JsonView& place) {
+  const JsonView part = place["beam"];
   const std::string shear = part.text("shear");
   BeamTest test;
   test.field = part.text("field") == "cubic" ? manufactured::BeamField::cubic
@@ -60,7 +60,7 @@ BeamTest read_beam(const Cursor& place) {
   test.section = rectangle(read_material(part["material"]), part.number("thickness_m"),
                            part.number("width_m"), part.get("shear_coefficient", 5.0 / 6));
   test.length = part.number("length_m");
-  test.amplitude = amplitude_per_length * test.length;
+  test.amplitude = kAmplitudePerLength * test.length;
   test.omega = place.get("angular_frequency_rad_s", 0.0);
   test.cells = place["cells"].get<Index>();
   test.distortion = place.get("distortion", 0.0);
@@ -94,7 +94,7 @@ StepResult finish(const ManufacturedSolution& solution, bool draw) {
   return result;
 }
 
-StepResult run_membrane(const Cursor& place, bool draw, Recorder& record) {
+StepResult run_membrane(const JsonView& place, bool draw, Recorder& record) {
   const MembraneTest test = read_membrane(place);
   const MembraneTestResult found = run_membrane_test(test);
   StepResult result = finish(found.solution, draw);
@@ -107,7 +107,7 @@ StepResult run_membrane(const Cursor& place, bool draw, Recorder& record) {
   return result;
 }
 
-StepResult run_beam(const Cursor& place, bool draw, Recorder& record) {
+StepResult run_beam(const JsonView& place, bool draw, Recorder& record) {
   const BeamTest test = read_beam(place);
   const BeamTestResult found = run_beam_test(test);
   StepResult result = finish(found.solution, draw);
@@ -127,7 +127,7 @@ StepResult run_beam(const Cursor& place, bool draw, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_manufactured(const Cursor& manufactured, bool draw, Recorder& record) {
+StepResult analyse_manufactured(const JsonView& manufactured, bool draw, Recorder& record) {
   if (manufactured.has("membrane") == manufactured.has("beam")) {
     throw manufactured.error("expected either 'membrane' or 'beam'");
   }

@@ -10,9 +10,9 @@
 namespace trammel {
 namespace {
 
-constexpr Index shapes_drawn = 12;
+constexpr Index kMaxDrawnShapes = 12;
 
-ModesOptions read_options(const Cursor& analysis) {
+ModesOptions read_options(const JsonView& analysis) {
   return {analysis["count"].get<Index>(), read_eigen_path(analysis)};
 }
 
@@ -23,24 +23,24 @@ std::string label(Index mode, double frequency) {
 }
 
 /// What cannot stand beside the modes of a state that loads or rotation make.
-void refuse(const Cursor& analysis, const char* key, const char* beside, const char* reason) {
+void refuse(const JsonView& analysis, const char* key, const char* beside, const char* reason) {
   if (!analysis.has(key) || analysis[key].json() == false) return;
   throw analysis[key].error(std::string("expected it without '") + beside + "': " + reason);
 }
 
 /// The system in the coordinates that the analysis asks for.
-System condensed(const Cursor& analysis, const Scene& scene, System system) {
+System condensed(const JsonView& analysis, const CaseModel& case_model, System system) {
   if (!analysis.has("reduction")) return system;
   refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the whole model");
-  if (scene.effects.has(Effect::geometric_stiffening)) {
+  if (case_model.effects.has(Effect::geometric_stiffening)) {
     throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
   }
   return reduce_members(system, analysis["reduction"]["modes_of_a_member"].get<Index>());
 }
 
-ModalSolution modes_of(const Cursor& analysis, const Scene& scene, const System& system) {
+ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_model, const System& system) {
   const ModesOptions options = read_options(analysis);
-  if (!scene.effects.has(Effect::geometric_stiffening)) return solve_modes(system, options);
+  if (!case_model.effects.has(Effect::geometric_stiffening)) return solve_modes(system, options);
   refuse(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
          "it counts the modes of the unloaded model");
   return solve_prestressed_modes(system, options).modes;
@@ -48,40 +48,40 @@ ModalSolution modes_of(const Cursor& analysis, const Scene& scene, const System&
 
 }  // namespace
 
-StepResult analyse_modes(const Cursor& analysis, const Scene& scene, std::size_t step, bool draw,
+StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, std::size_t step, bool draw,
                          Recorder& record) {
   if (analysis.has("rotating")) {
     refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
     refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
-    if (scene.path) throw analysis["rotating"].error("expected a model at one place");
-    return analyse_rotating(analysis, assemble(build_model(scene, step)), scene.effects, draw,
+    if (case_model.path) throw analysis["rotating"].error("expected a model at one place");
+    return analyse_rotating(analysis, assemble(build_model(case_model, step)), case_model.effects, draw,
                             record);
   }
   const System system =
-      condensed(analysis, scene, assemble(build_model(scene, step), scene.effects));
-  const ModalSolution modes = modes_of(analysis, scene, system);
+      condensed(analysis, case_model, assemble(build_model(case_model, step), case_model.effects));
+  const ModalSolution modes = modes_of(analysis, case_model, system);
   StepResult result{modes.outcome, modes.counters, std::nullopt};
-  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!modes.outcome.solved()) return result;
   for (Index i = 0; i < modes.frequency.size(); ++i) {
-    const std::string of = scene.path ? std::to_string(i + 1) : "";
-    record.add("frequency_Hz", of, modes.frequency[i], modes.roundoff[i]);
-    record.add("frequency_roundoff", of, modes.roundoff[i]);
+    const std::string item = case_model.path ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", item, modes.frequency[i], modes.roundoff[i]);
+    record.add("frequency_roundoff", item, modes.roundoff[i]);
     if (i > 0) {
-      record.add("frequency_gap", of,
+      record.add("frequency_gap", item,
                  (modes.frequency[i] - modes.frequency[i - 1]) / modes.frequency[i]);
     }
-    if (result.drawing && i < shapes_drawn) {
+    if (result.drawing && i < kMaxDrawnShapes) {
       result.drawing->shapes.push_back(
           draw_shape(system, modes.shape.col(i), label(i, modes.frequency[i])));
     }
   }
   if (analysis.has("count_below_Hz")) {
-    const std::optional<Index> below = count_modes_below(system, analysis.number("count_below_Hz"));
+    const std::optional<Index> below = sturm_count(system, analysis.number("count_below_Hz"));
     record.add("modes_below", "", below ? static_cast<double>(*below) : std::nan(""));
   }
-  record.add("rigid_motions", "", static_cast<double>(modes.rigid_motions));
+  record.add("rigid_motions", "", static_cast<double>(modes.zero_energy_mode_count));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;
 }

@@ -11,10 +11,10 @@ namespace trammel {
 namespace {
 
 /// What came of all options together.
-struct Tally {
+struct OptionCounts {
   int tried = 0, solved = 0, singular = 0, not_converged = 0, refused = 0;
   int not_finite = 0;        ///< solved, with a number that is none
-  int unsaid = 0;            ///< not solved, without the words that its reason must have
+  int incomplete_reasons = 0;            ///< not solved, without the words that its reason must have
   double disagreement = -1;  ///< of what must not change, over what round-off allows
 
   void disagree(double by) { disagreement = std::max(disagreement, by); }
@@ -23,19 +23,19 @@ struct Tally {
 /// The options of one kind of analysis.
 struct Options {
   std::vector<Json> combinations;  ///< patches of it
-  bool alike = false;              ///< none of them may change a number
-  std::vector<std::string> words;  ///< in a reason why it does not converge
+  bool must_agree = false;              ///< none of them may change a number
+  std::vector<std::string> required_terms;  ///< in a reason why it does not converge
 };
 
 /// One value of each option that varies, in every combination, over what is set for all.
-std::vector<Json> combinations_of(const Cursor& place) {
+std::vector<Json> combinations_of(const JsonView& place) {
   std::vector<Json> found = {place.has("set") ? place["set"].json() : Json::object()};
   if (!place.has("vary")) return found;
   for (const auto& [option, values] : place["vary"].entries()) {
     std::vector<Json> more;
-    for (const Json& one : found) {
+    for (const Json& added : found) {
       for (const Json& value : values.json()) {
-        more.push_back(one);
+        more.push_back(added);
         more.back()[option] = value;
       }
     }
@@ -44,30 +44,30 @@ std::vector<Json> combinations_of(const Cursor& place) {
   return found;
 }
 
-Options options_of(const Cursor& place, const std::string& kind) {
+Options options_of(const JsonView& place, const std::string& kind) {
   Options options{{Json::object()}, false, {}};
   const auto own = place["of"].find(kind);
   if (!own) return options;
   options.combinations = combinations_of(*own);
-  options.alike = own->get("alike", false);
-  options.words = own->get("says", std::vector<std::string>{});
+  options.must_agree = own->get("alike", false);
+  options.required_terms = own->get("says", std::vector<std::string>{});
   return options;
 }
 
 /// Largest difference over the round-off that both promise; what promises nothing is left out.
-double disagreement_of(const Quantities& a, const Quantities& b) {
+double max_relative_difference(const Quantities& a, const Quantities& b) {
   double largest = 0;
-  for (const auto& [name, one] : a) {
+  for (const auto& [name, added] : a) {
     const auto other = b.find(name);
-    if (other == b.end() || one.roundoff.size() != one.values.size()) continue;
-    if (other->second.values.size() != one.values.size()) {
+    if (other == b.end() || added.roundoff.size() != added.values.size()) continue;
+    if (other->second.values.size() != added.values.size()) {
       return std::numeric_limits<double>::infinity();
     }
-    for (std::size_t i = 0; i < one.values.size(); ++i) {
-      const double x = one.values[i], y = other->second.values[i];
-      const double allowed = std::abs(x) * (one.roundoff[i] + (i < other->second.roundoff.size()
+    for (std::size_t i = 0; i < added.values.size(); ++i) {
+      const double x = added.values[i], y = other->second.values[i];
+      const double allowed = std::abs(x) * (added.roundoff[i] + (i < other->second.roundoff.size()
                                                                    ? other->second.roundoff[i]
-                                                                   : one.roundoff[i]));
+                                                                   : added.roundoff[i]));
       if (x != y) largest = std::max(largest, std::abs(x - y) / allowed);
     }
   }
@@ -81,60 +81,60 @@ bool all_finite(const Quantities& quantities) {
   });
 }
 
-bool says_all(const std::string& reason, const std::vector<std::string>& words) {
-  return !reason.empty() && std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+bool contains_all(const std::string& reason, const std::vector<std::string>& required_terms) {
+  return !reason.empty() && std::all_of(required_terms.begin(), required_terms.end(), [&](const std::string& word) {
     return reason.find(word) != std::string::npos;
   });
 }
 
-void count(const AnalysisResult& result, const std::vector<std::string>& words, Tally& tally) {
+void count(const AnalysisResult& result, const std::vector<std::string>& required_terms, OptionCounts& counts) {
   switch (result.outcome.status) {
     case Status::solved:
-      ++tally.solved;
-      tally.not_finite += all_finite(result.quantities) ? 0 : 1;
+      ++counts.solved;
+      counts.not_finite += all_finite(result.quantities) ? 0 : 1;
       return;
     case Status::singular:
-      ++tally.singular;
-      tally.unsaid += result.outcome.reason.empty() ? 1 : 0;
+      ++counts.singular;
+      counts.incomplete_reasons += result.outcome.reason.empty() ? 1 : 0;
       return;
     case Status::not_converged:
-      ++tally.not_converged;
-      tally.unsaid += says_all(result.outcome.reason, words) ? 0 : 1;
+      ++counts.not_converged;
+      counts.incomplete_reasons += contains_all(result.outcome.reason, required_terms) ? 0 : 1;
       return;
   }
 }
 
 /// Every combination of options on one computation.
-void try_all(const Document& document, const Cursor& place, const References& references,
-             Tally& tally) {
+void run_combinations(const Document& document, const JsonView& place, const References& references,
+             OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
   const Options options = options_of(place, kind);
   const Origin written = place.document().origin(place["of"].pointer());
   std::optional<AnalysisResult> first;
   for (const Json& combination : options.combinations) {
     Document patched = document;
-    patched.lay(written.file, written.pointer, {{"analysis", {{kind, combination}}}});
-    ++tally.tried;
+    patched.apply_patch(written.file, written.pointer, {{"analysis", {{kind, combination}}}});
+    ++counts.tried;
     try {
-      patched.check("case");
+      patched.validate("case");
       AnalysisResult result = analyse(patched, references, {false});
-      count(result, options.words, tally);
-      if (!options.alike) continue;
+      count(result, options.required_terms, counts);
+      if (!options.must_agree) continue;
       if (!first) {
         first = std::move(result);
       } else if (result.outcome.status != first->outcome.status) {
-        tally.disagree(std::numeric_limits<double>::infinity());
+        counts.disagree(std::numeric_limits<double>::infinity());
       } else {
-        tally.disagree(disagreement_of(first->quantities, result.quantities));
+        counts.disagree(max_relative_difference(first->quantities, result.quantities));
       }
     } catch (const InputError&) {
-      ++tally.refused;  // in words, as any bad input
+      ++counts.refused;  // in words, as any bad input
     }
   }
 }
 
 /// The computations of a variant: one, or some levels of its study.
-std::vector<Document> computations_of(const Document& document, const Cursor& choice) {
+std::vector<Document> computations_of(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;
   std::vector<Level> all = study_levels(document);
@@ -149,48 +149,48 @@ std::vector<Document> computations_of(const Document& document, const Cursor& ch
   return found;
 }
 
-void record_tally(const std::string& of, const Tally& tally, Recorder& record) {
-  record.add("tried", of, tally.tried);
-  record.add("solved", of, tally.solved);
-  record.add("singular", of, tally.singular);
-  record.add("not_converged", of, tally.not_converged);
-  record.add("refused", of, tally.refused);
-  record.add("not_finite", of, tally.not_finite);
-  record.add("unsaid", of, tally.unsaid);
-  if (tally.disagreement >= 0) record.add("disagreement", of, tally.disagreement);
+void record_counts(const std::string& item, const OptionCounts& counts, Recorder& record) {
+  record.add("tried", item, counts.tried);
+  record.add("solved", item, counts.solved);
+  record.add("singular", item, counts.singular);
+  record.add("not_converged", item, counts.not_converged);
+  record.add("refused", item, counts.refused);
+  record.add("not_finite", item, counts.not_finite);
+  record.add("unsaid", item, counts.incomplete_reasons);
+  if (counts.disagreement >= 0) record.add("disagreement", item, counts.disagreement);
 }
 
-void add(const Tally& one, Tally& all) {
-  all.tried += one.tried;
-  all.solved += one.solved;
-  all.singular += one.singular;
-  all.not_converged += one.not_converged;
-  all.refused += one.refused;
-  all.not_finite += one.not_finite;
-  all.unsaid += one.unsaid;
-  all.disagree(one.disagreement);
+void add(const OptionCounts& added, OptionCounts& all) {
+  all.tried += added.tried;
+  all.solved += added.solved;
+  all.singular += added.singular;
+  all.not_converged += added.not_converged;
+  all.refused += added.refused;
+  all.not_finite += added.not_finite;
+  all.incomplete_reasons += added.incomplete_reasons;
+  all.disagree(added.disagreement);
 }
 
 }  // namespace
 
 void analyse_options(const Document& document, const References& references, Recorder& record) {
-  const Cursor place = Cursor(document)["analysis"]["options"];
+  const JsonView place = JsonView(document)["analysis"]["options"];
   const std::string here = document.origin(place.pointer()).file;
-  Tally all;
+  OptionCounts all;
   for (const auto& [name, choice] : place["cases"].entries()) {
-    const Case tried = load_case(find_extended(name, here));
-    Tally own;
+    const Case tried = load_case(find_base_case(name, here));
+    OptionCounts own;
     for (const std::string& variant : tried.variants()) {
       const Document whole = patched(tried, variant);
       if (analysis_kind(whole) == "options") throw choice.error("expected a case of another kind");
-      for (const Document& one : computations_of(whole, choice)) {
-        try_all(one, place, references, own);
+      for (const Document& added : computations_of(whole, choice)) {
+        run_combinations(added, place, references, own);
       }
     }
-    record_tally(name, own, record);
+    record_counts(name, own, record);
     add(own, all);
   }
-  record_tally("", all, record);
+  record_counts("", all, record);
 }
 
 }  // namespace trammel

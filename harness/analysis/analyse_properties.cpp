@@ -66,8 +66,8 @@ void record_body(const std::string& name, const Body& body, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_properties(const Scene& scene, std::size_t step, bool, Recorder& record) {
-  const Model model = build_model(scene, step);
+StepResult analyse_properties(const CaseModel& case_model, std::size_t step, bool, Recorder& record) {
+  const Model model = build_model(case_model, step);
   Body total;
   for (const Member& member : model.members) {
     const Body body = body_of(model, member);
@@ -89,7 +89,7 @@ StepResult analyse_properties(const Scene& scene, std::size_t step, bool, Record
   for (const PointMass& mass : model.masses) {
     const Node& node = model.nodes[static_cast<std::size_t>(mass.node)];
     const Body body{mass.mass, node.position + mass.offset, mass.inertia};
-    const bool is_platform = scene.manipulator && model.plates.empty() && node.name == "P" &&
+    const bool is_platform = case_model.manipulator && model.plates.empty() && node.name == "P" &&
                              &mass == &model.masses.front();
     record_body(is_platform ? "platform" : "at-" + node.name, body, record);
     total = join(total, body);

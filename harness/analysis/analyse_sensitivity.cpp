@@ -14,7 +14,7 @@ struct Named {
   DesignParameter parameter;
 };
 
-std::vector<Named> read_parameters(const Cursor& parameters) {
+std::vector<Named> read_parameters(const JsonView& parameters) {
   std::vector<Named> read;
   for (const auto& [name, place] : parameters.entries()) {
     read.push_back({name, read_design_parameter(place)});
@@ -32,10 +32,10 @@ struct Derivatives {
 
 /// Differences, parameter by parameter.
 template <class Difference>
-Derivatives one_by_one(const std::vector<DesignParameter>& parameters, const Difference& of) {
+Derivatives one_by_one(const std::vector<DesignParameter>& parameters, const Difference& difference) {
   Derivatives all;
   for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
-    const FrequencyDifferences one = of(parameters[p]);
+    const FrequencyDifferences one = difference(parameters[p]);
     all.counters += one.counters;
     all.outcome = one.outcome;
     all.frequency = one.frequency;
@@ -46,12 +46,12 @@ Derivatives one_by_one(const std::vector<DesignParameter>& parameters, const Dif
 }
 
 /// By another route than Eq. 35.
-Derivatives derive_by(const Cursor& method, const Scene& scene,
+Derivatives derive_by(const JsonView& method, const CaseModel& case_model,
                       const std::vector<DesignParameter>& parameters, Index count) {
-  const ManipulatorDesign& design = *scene.manipulator;
-  const Pose& pose = scene.motion.front().pose;
+  const ManipulatorDesign& design = *case_model.manipulator;
+  const Pose& pose = case_model.motion.front().pose;
   if (method.json() == "complex-step") {
-    const FrequencyComplexStep found = step_frequencies(design, pose, parameters, count);
+    const FrequencyComplexStep found = differentiate_by_complex_step(design, pose, parameters, count);
     return {found.outcome, found.frequency, found.derivative, found.counters};
   }
   if (method.json() == "extrapolated-differences") {
@@ -69,16 +69,16 @@ Derivatives derive_by(const Cursor& method, const Scene& scene,
 
 /// Error of the derivative against extrapolated differences, as a share of frequency over
 /// parameter, which is what a derivative of a frequency is like.
-void record_differences(const Scene& scene, const Named& named, const FrequencySensitivity& found,
+void record_differences(const CaseModel& case_model, const Named& named, const FrequencySensitivity& found,
                         Index column, Recorder& record, StepResult& result) {
   const Index count = found.frequency.size();
   const FrequencyDifferences differences = differentiate_frequencies(
-      *scene.manipulator, scene.motion.front().pose, named.parameter, count);
+      *case_model.manipulator, case_model.motion.front().pose, named.parameter, count);
   if (!differences.outcome.solved()) {
     result.outcome = differences.outcome;
     return;
   }
-  const double value = parameter_value(*scene.manipulator, named.parameter);
+  const double value = parameter_value(*case_model.manipulator, named.parameter);
   for (Index i = 0; i < count; ++i) {
     if (found.frequency[i] == 0) continue;  // rigid motions
     const double error = std::abs(found.derivative(i, column) - differences.derivative[i]);
@@ -88,10 +88,10 @@ void record_differences(const Scene& scene, const Named& named, const FrequencyS
 
 }  // namespace
 
-StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool draw,
+StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                Recorder& record) {
-  if (scene.path) throw analysis.error("expected a model with a pose, not a trajectory");
-  static_cast<void>(read_rigid_manipulator(analysis, scene));  // nothing beside the manipulator
+  if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
+  static_cast<void>(read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
   const std::vector<Named> named = read_parameters(analysis["parameters"]);
   std::vector<DesignParameter> parameters;
   parameters.reserve(named.size());
@@ -101,16 +101,16 @@ StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool 
   const bool exactly = !method || method->json() == "energies";
   FrequencySensitivity found;
   if (exactly) {
-    found = frequency_sensitivity(*scene.manipulator, scene.motion.front().pose, parameters, count);
+    found = frequency_sensitivity(*case_model.manipulator, case_model.motion.front().pose, parameters, count);
   } else {
-    const Derivatives other = derive_by(*method, scene, parameters, count);
+    const Derivatives other = derive_by(*method, case_model, parameters, count);
     found.outcome = other.outcome;
     found.frequency = other.frequency;
     found.derivative = other.derivative;
     found.counters = other.counters;
   }
   StepResult result{found.outcome, found.counters, std::nullopt};
-  if (draw) result.drawing = draw_model(assemble(build_model(scene, 0)), true);
+  if (draw) result.drawing = draw_model(assemble(build_model(case_model, 0)), true);
   if (!found.outcome.solved()) return result;
   for (Index i = 0; i < found.frequency.size(); ++i) {
     record.add("frequency_Hz", "", found.frequency[i]);
@@ -123,7 +123,7 @@ StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool 
   }
   for (std::size_t p = 0; p < named.size(); ++p) {
     const auto column = static_cast<Index>(p);
-    const double value = parameter_value(*scene.manipulator, named[p].parameter);
+    const double value = parameter_value(*case_model.manipulator, named[p].parameter);
     for (Index i = 0; i < found.frequency.size(); ++i) {
       const double derivative = found.derivative(i, column);
       record.add(sensitivity_name(named[p].parameter.quantity), named[p].name, derivative);
@@ -131,7 +131,7 @@ StepResult analyse_sensitivity(const Cursor& analysis, const Scene& scene, bool 
       record.add("relative_sensitivity", named[p].name, derivative * value / found.frequency[i]);
     }
     if (analysis.get("differences", false)) {
-      record_differences(scene, named[p], found, column, record, result);
+      record_differences(case_model, named[p], found, column, record, result);
     }
   }
   return result;

@@ -12,25 +12,25 @@
 namespace trammel {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double gap = std::numeric_limits<double>::quiet_NaN();  // between two curves
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kCurveGap = std::numeric_limits<double>::quiet_NaN();  // between two curves
 
 /// What one orientation comes to, by each reading of "the sensitivity".
 struct Reading {
-  double center_frequency = gap, center = gap;  ///< at the position that counts as the centre
-  double mean_frequency = gap, mean = gap;      ///< over all positions of the map
-  double largest = gap;                         ///< in magnitude, clear of the boundary
+  double center_frequency = kCurveGap, center = kCurveGap;  ///< at the position that counts as the centre
+  double mean_frequency = kCurveGap, mean = kCurveGap;      ///< over all positions of the map
+  double largest = kCurveGap;                         ///< in magnitude, clear of the boundary
 };
 
-void record_curves(const std::string& name, const std::string& of,
+void record_curves(const std::string& name, const std::string& item,
                    const std::vector<Polyline>& curves, Recorder& record) {
   for (const Polyline& curve : curves) {
     for (const Vector2d& point : curve) {
-      record.add(name + "_x_m", of, point.x());
-      record.add(name + "_y_m", of, point.y());
+      record.add(name + "_x_m", item, point.x());
+      record.add(name + "_y_m", item, point.y());
     }
-    record.add(name + "_x_m", of, gap);
-    record.add(name + "_y_m", of, gap);
+    record.add(name + "_x_m", item, kCurveGap);
+    record.add(name + "_y_m", item, kCurveGap);
   }
 }
 
@@ -42,17 +42,17 @@ double for_map(double value) {
 }
 
 void record_position(const SensitivityMap& map, Index j, Index i, const std::string& quantity,
-                     const std::string& of, Recorder& record) {
+                     const std::string& item, Recorder& record) {
   const double x = map.grid.x0 + static_cast<double>(i) * map.grid.dx;
   const double y = map.grid.y0 + static_cast<double>(j) * map.grid.dy;
-  record.add("position_x_m", of, for_map(x));
-  record.add("position_y_m", of, for_map(y));
-  record.add("frequency_Hz", of, for_map(map.frequency(j, i)));
-  record.add(quantity, of, for_map(map.derivative(j, i)));
+  record.add("position_x_m", item, for_map(x));
+  record.add("position_y_m", item, for_map(y));
+  record.add("frequency_Hz", item, for_map(map.frequency(j, i)));
+  record.add(quantity, item, for_map(map.derivative(j, i)));
 }
 
 /// @param positions  record each of them, too
-Reading read_map(const SensitivityMap& map, const std::string& quantity, const std::string& of,
+Reading read_map(const SensitivityMap& map, const std::string& quantity, const std::string& item,
                  double margin, bool positions, Recorder& record) {
   Reading reading{.mean_frequency = 0, .mean = 0, .largest = 0};
   double count = 0;
@@ -60,7 +60,7 @@ Reading read_map(const SensitivityMap& map, const std::string& quantity, const s
     for (Index i = 0; i < map.grid.columns; ++i) {
       const double rate = map.derivative(j, i);
       if (!std::isfinite(rate)) continue;  // out of reach, or on its boundary
-      if (positions) record_position(map, j, i, quantity, of, record);
+      if (positions) record_position(map, j, i, quantity, item, record);
       reading.mean_frequency += map.frequency(j, i);
       reading.mean += rate;
       ++count;
@@ -75,10 +75,10 @@ Reading read_map(const SensitivityMap& map, const std::string& quantity, const s
 
 /// Rises from the first orientation to each of the others, in magnitude.
 void record_rises(const std::vector<Reading>& readings, Recorder& record) {
-  const auto rise = [&](const char* name, const char* of, double Reading::*number) {
+  const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);
     for (std::size_t k = 1; k < readings.size(); ++k) {
-      record.add(name, of, 100 * (std::abs(readings[k].*number) / first - 1));
+      record.add(name, item, 100 * (std::abs(readings[k].*number) / first - 1));
     }
   };
   rise("sensitivity_rise_percent", "center", &Reading::center);
@@ -90,10 +90,10 @@ void record_rises(const std::vector<Reading>& readings, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_sensitivity_map(const Cursor& analysis, const Scene& scene, Recorder& record) {
-  if (scene.path) throw analysis.error("expected a model with a pose, not a trajectory");
-  static_cast<void>(read_rigid_manipulator(analysis, scene));  // nothing beside the manipulator
-  const ManipulatorDesign& design = *scene.manipulator;
+StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& case_model, Recorder& record) {
+  if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
+  static_cast<void>(read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
+  const ManipulatorDesign& design = *case_model.manipulator;
   DesignParameter parameter;
   if (const auto given = analysis.find("parameter")) parameter = read_design_parameter(*given);
   const std::string quantity = sensitivity_name(parameter.quantity);
@@ -103,26 +103,26 @@ StepResult analyse_sensitivity_map(const Cursor& analysis, const Scene& scene, R
   std::vector<Reading> readings;
   for (const auto& entry : analysis["orientations_deg"].entries()) {
     const auto degrees = entry.second.get<double>();
-    const std::string of = "phi-" + shortest(degrees);
-    Pose center = scene.motion.front().pose;
-    center.phi = degrees * degree;
+    const std::string item = "phi-" + shortest(degrees);
+    Pose center = case_model.motion.front().pose;
+    center.phi = degrees * kDegree;
     const PoseGrid grid =
         reachable_grid(design.geometry, center.phi, analysis["columns"].get<Index>());
     const SensitivityMap map = map_first_frequency(design, parameter, grid);
     result.counters += map.counters;
-    Reading reading = read_map(map, quantity, of, margin, positions, record);
+    Reading reading = read_map(map, quantity, item, margin, positions, record);
     const FirstFrequency at_center = first_frequency(design, parameter, center);
     result.outcome = at_center.outcome;
     if (!result.outcome.solved()) {
-      result.outcome.reason.insert(0, "at the centre, " + of + ": ");
+      result.outcome.reason.insert(0, "at the centre, " + item + ": ");
       return result;
     }
     reading.center_frequency = at_center.frequency;
     reading.center = at_center.derivative;
     readings.push_back(reading);
     if (positions) {
-      record_curves("boundary", of, reach_boundary(design.geometry, center.phi, 360), record);
-      record_curves("singular", of, parallel_singularities(design.geometry, grid), record);
+      record_curves("boundary", item, workspace_boundary(design.geometry, center.phi, 360), record);
+      record_curves("singular", item, parallel_singularities(design.geometry, grid), record);
     }
     record.add("center_frequency_Hz", "", reading.center_frequency);
     record.add("center_" + quantity, "", reading.center);

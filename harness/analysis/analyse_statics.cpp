@@ -48,12 +48,12 @@ void record_members(const Model& model, const StaticSolution& solution, double r
     const std::array<Eigen::RowVector3d, 2> resultants = {solution.resultant_start.row(row),
                                                           solution.resultant_end.row(row)};
     for (std::size_t end = 0; end < 2; ++end) {
-      const std::string of = name + (end == 0 ? ".start" : ".end");
+      const std::string item = name + (end == 0 ? ".start" : ".end");
       const double rotation = solution.end_rotation(row, static_cast<Index>(end));
-      if (!std::isnan(rotation)) record.add("end_rotation_rad", of, rotation, roundoff);
-      record.add("axial_force_N", of, resultants[end][0], roundoff);
-      record.add("shear_force_N", of, resultants[end][1], roundoff);
-      record.add("bending_moment_N_m", of, resultants[end][2], roundoff);
+      if (!std::isnan(rotation)) record.add("end_rotation_rad", item, rotation, roundoff);
+      record.add("axial_force_N", item, resultants[end][0], roundoff);
+      record.add("shear_force_N", item, resultants[end][1], roundoff);
+      record.add("bending_moment_N_m", item, resultants[end][2], roundoff);
     }
     // Not finite where the section does not say how far its outermost fibre is.
     if (row < solution.member_stress.size() && std::isfinite(solution.member_stress[row])) {
@@ -104,7 +104,7 @@ void record_plates(const Model& model, const StaticSolution& solution, double ro
     const Eigen::RowVector3d s = solution.triangle_stress.row(static_cast<Index>(i));
     const double von_mises = std::sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]);
     double& plate = largest[static_cast<std::size_t>(model.triangles[i].plate)];
-    plate = larger(plate, von_mises);
+    plate = nan_max(plate, von_mises);
   }
   for (std::size_t p = 0; p < largest.size(); ++p) {
     record.add("von_mises_stress_Pa", model.plates[p].name, largest[p], roundoff);
@@ -112,12 +112,12 @@ void record_plates(const Model& model, const StaticSolution& solution, double ro
 }
 
 /// With large displacement: in the geometrically exact tier.
-StepResult analyse_exactly(const Scene& scene, std::size_t step, bool draw, Recorder& record) {
-  const Model model = build_bare_model(scene, step);
-  const StaticSolution solution = solve_large_statics(model, scene.mechanism);
+StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool draw, Recorder& record) {
+  const Model model = build_bare_model(case_model, step);
+  const StaticSolution solution = solve_large_statics(model, case_model.joint_elements);
   StepResult result{solution.outcome, solution.counters, std::nullopt};
   if (draw) {
-    result.drawing = draw_model(assemble(build_model(scene, step)), scene.manipulator.has_value());
+    result.drawing = draw_model(assemble(build_model(case_model, step)), case_model.manipulator.has_value());
   }
   if (solution.outcome.solved()) record_solution(model, solution, -1, record);
   return result;
@@ -133,27 +133,27 @@ void record_solution(const Model& model, const StaticSolution& solution, double 
   record_plates(model, solution, roundoff, record);
 }
 
-StepResult analyse_statics(const Scene& scene, std::size_t step, bool draw, Recorder& record) {
-  if (scene.effects.has(Effect::large_displacement)) {
-    return analyse_exactly(scene, step, draw, record);
+StepResult analyse_statics(const CaseModel& case_model, std::size_t step, bool draw, Recorder& record) {
+  if (case_model.effects.has(Effect::large_displacement)) {
+    return analyse_exactly(case_model, step, draw, record);
   }
-  const System system = assemble(build_model(scene, step), scene.effects);
+  const System system = assemble(build_model(case_model, step), case_model.effects);
   const StaticSolution solution =
-      solve_statics(system, {.second_order = scene.effects.has(Effect::geometric_stiffening)});
+      solve_statics(system, {.second_order = case_model.effects.has(Effect::geometric_stiffening)});
   StepResult result{solution.outcome, solution.counters, std::nullopt};
-  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!solution.outcome.solved()) return result;
-  const double roundoff = std::pow(10.0, -solution.digits_left);
+  const double roundoff = std::pow(10.0, -solution.estimated_correct_digits);
   const Model& model = system.model;
   record_solution(model, solution, roundoff, record);
-  if (!scene.path) record_bending_stress(model, solution, roundoff, record);
+  if (!case_model.path) record_bending_stress(model, solution, roundoff, record);
   // The pins of a platform are points that no mesh resolves.
-  if (!scene.manipulator) record_node_stresses(model, solution, roundoff, record);
+  if (!case_model.manipulator) record_node_stresses(model, solution, roundoff, record);
   // Loads times displacements: twice the strain energy.
   record.add("compliance_J", "", system.f.dot(solution.q), roundoff);
   record.add("equilibrium_residual_N", "", solution.equilibrium_residual);
   record.add("moment_residual_N_m", "", solution.moment_residual);
-  record.add("digits_left", "", solution.digits_left);
+  record.add("digits_left", "", solution.estimated_correct_digits);
   if (result.drawing) {
     result.drawing->shapes.push_back(draw_shape(system, solution.q, "under the loads"));
   }

@@ -9,14 +9,14 @@
 namespace trammel {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The case with the inner analysis in place of the study.
 Document with_inner_analysis(Document document) {
   const Json inner = document.value().at("analysis").at("study").at("of");
   const Origin written = document.origin("/analysis/study/of");
-  document.lay(written.file, written.pointer, {{"analysis", {{"study", nullptr}}}});
-  document.lay(written.file, written.pointer, {{"analysis", inner}});
+  document.apply_patch(written.file, written.pointer, {{"analysis", {{"study", nullptr}}}});
+  document.apply_patch(written.file, written.pointer, {{"analysis", inner}});
   return document;
 }
 
@@ -25,12 +25,12 @@ double status_code(Status status) {
 }
 
 /// A number and its round-off error as far as it is known (else negative).
-struct Kept {
-  double value = nothing, roundoff = -1;
+struct KeptQuantity {
+  double value = kNaN, roundoff = -1;
 };
 
 /// The one number of a quantity that is kept. @throws InputError  where there is none.
-Kept number_of(const Quantities& quantities, const std::string& name, const Cursor& keep) {
+KeptQuantity number_of(const Quantities& quantities, const std::string& name, const JsonView& keep) {
   const auto found = quantities.find(name);
   if (found == quantities.end()) {
     std::string some;
@@ -52,10 +52,10 @@ Kept number_of(const Quantities& quantities, const std::string& name, const Curs
   return {values[index], index < roundoff.size() ? roundoff[index] : -1};
 }
 
-std::vector<double> truth_of(const std::vector<Kept>& kept, const Cursor& keep,
+std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, const JsonView& keep,
                              const References& references) {
   if (!keep.has("reference")) {
-    const Kept& one = keep.text("against") == "first" ? kept.front() : kept.back();
+    const KeptQuantity& one = keep.text("against") == "first" ? kept.front() : kept.back();
     return std::vector<double>(kept.size(), one.value);
   }
   const Reference& reference = references.get(keep["reference"]);
@@ -67,41 +67,41 @@ std::vector<double> truth_of(const std::vector<Kept>& kept, const Cursor& keep,
 }
 
 /// Errors, what share of the round-off that the solver promised they are, and where they are least.
-void record_errors(const std::string& name, const std::vector<Kept>& kept,
-                   const std::vector<double>& parameter, const Cursor& keep,
+void record_errors(const std::string& name, const std::vector<KeptQuantity>& kept,
+                   const std::vector<double>& parameter, const JsonView& keep,
                    const References& references, Recorder& record) {
   if (!keep.has("reference") && !keep.has("against")) return;
-  const std::vector<double> truth = truth_of(kept, keep, references);
-  double least = std::numeric_limits<double>::infinity(), best = nothing;
+  const std::vector<double> reference_solution = reference_values(kept, keep, references);
+  double min_error = std::numeric_limits<double>::infinity(), best = kNaN;
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    const double error = std::abs(kept[i].value - truth[i]) / std::abs(truth[i]);
+    const double error = std::abs(kept[i].value - reference_solution[i]) / std::abs(reference_solution[i]);
     record.add("relative_error", name, error);
-    if (error < least) {
-      least = error;
+    if (error < min_error) {
+      min_error = error;
       best = parameter[i];
     }
     if (kept[i].roundoff >= 0) {
       record.add("roundoff", name, kept[i].roundoff);
       record.add("error_over_roundoff", name, error / kept[i].roundoff);
     } else if (std::isnan(kept[i].value)) {
-      record.add("roundoff", name, nothing);
-      record.add("error_over_roundoff", name, nothing);
+      record.add("roundoff", name, kNaN);
+      record.add("error_over_roundoff", name, kNaN);
     }
   }
   if (keep.has("reference") && !std::isnan(best)) record.add("least_error_at", name, best);
 }
 
 /// A level for each point of the model's trajectory; its parameter is the time.
-std::vector<Level> trajectory_levels(const Document& document, const Cursor& study) {
-  const Scene scene = read_scene(document);
-  if (!scene.path) throw study["trajectory"].error("expected a model with a trajectory");
+std::vector<Level> trajectory_levels(const Document& document, const JsonView& study) {
+  const CaseModel case_model = read_case_model(document);
+  if (!case_model.path) throw study["trajectory"].error("expected a model with a trajectory");
   const Origin written = document.origin("/model/trajectory");
   std::vector<Level> found;
-  for (const TrajectoryPoint& point : scene.motion) {
+  for (const TrajectoryPoint& point : case_model.motion) {
     const Pose& pose = point.pose;
     const Json place = {{"x_m", pose.x}, {"y_m", pose.y}, {"phi_rad", pose.phi}};
     found.push_back({point.time, document});
-    found.back().document.lay(written.file, written.pointer,
+    found.back().document.apply_patch(written.file, written.pointer,
                               {{"model", {{"trajectory", nullptr}, {"pose", place}}}});
   }
   return found;
@@ -110,7 +110,7 @@ std::vector<Level> trajectory_levels(const Document& document, const Cursor& stu
 }  // namespace
 
 std::vector<Level> study_levels(const Document& document) {
-  const Cursor study = Cursor(document)["analysis"]["study"];
+  const JsonView study = JsonView(document)["analysis"]["study"];
   if (study["of"].has("study")) throw study["of"].error("expected another analysis than a study");
   const bool along = study.get("trajectory", false);
   if (along == study.has("values")) {
@@ -123,11 +123,11 @@ std::vector<Level> study_levels(const Document& document) {
 
 StepResult analyse_study(const Document& document, const References& references, bool draw,
                          Recorder& record) {
-  const Cursor study = Cursor(document)["analysis"]["study"];
+  const JsonView study = JsonView(document)["analysis"]["study"];
   const auto kept_places = study.find("keep");
   const auto keep =
-      kept_places ? kept_places->entries() : std::vector<std::pair<std::string, Cursor>>{};
-  std::vector<std::vector<Kept>> kept(keep.size());
+      kept_places ? kept_places->entries() : std::vector<std::pair<std::string, JsonView>>{};
+  std::vector<std::vector<KeptQuantity>> kept(keep.size());
   std::vector<double> parameter;
   StepResult result;
   for (const Level& level : study_levels(document)) {
@@ -137,14 +137,14 @@ StepResult analyse_study(const Document& document, const References& references,
     record.add("status", "", status_code(found.outcome.status));
     for (std::size_t k = 0; k < keep.size(); ++k) {
       const auto& [name, place] = keep[k];
-      kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place) : Kept{});
+      kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place) : KeptQuantity{});
     }
     result.counters += found.counters;
     if (found.drawing) result.drawing = std::move(found.drawing);
   }
   for (std::size_t k = 0; k < keep.size(); ++k) {
     const auto& [name, place] = keep[k];
-    for (const Kept& one : kept[k]) record.add(name, "", one.value);
+    for (const KeptQuantity& one : kept[k]) record.add(name, "", one.value);
     record_errors(name, kept[k], parameter, place, references, record);
   }
   return result;

@@ -32,14 +32,14 @@ class EnergyDrift {
     const double total = kinetic + strain;
     if (start_ < 0) start_ = total;
     drift_ = std::max(drift_, std::abs(total - start_));
-    most_kinetic_ = std::max(most_kinetic_, kinetic);
+    max_kinetic_ = std::max(max_kinetic_, kinetic);
   }
   void record(Recorder& record) const {
-    if (most_kinetic_ > 0) record.add("energy_drift", "", drift_ / most_kinetic_);
+    if (max_kinetic_ > 0) record.add("energy_drift", "", drift_ / max_kinetic_);
   }
 
  private:
-  double start_ = -1, drift_ = 0, most_kinetic_ = 0;
+  double start_ = -1, drift_ = 0, max_kinetic_ = 0;
 };
 
 void record_energy(const System& system, const MotionHistory& motion, Index sample,
@@ -57,21 +57,21 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
                   const Eigen::MatrixXd& values, Recorder& record) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const Peak found = peak(motion.time, values.row(static_cast<Index>(i)).transpose());
-    record.add(outputs[i].of("peak_"), "", found.value);
+    record.add(outputs[i].prefixed("peak_"), "", found.value);
     record.add("peak_time_s", outputs[i].name, found.time);
   }
 }
 
 }  // namespace
 
-StepResult analyse_transient(const Cursor& analysis, const Scene& scene, std::size_t step,
+StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                              bool draw, Recorder& record) {
-  if (scene.path) throw analysis.error("expected a model at one place");
-  const System system = assemble(build_model(scene, step));
+  if (case_model.path) throw analysis.error("expected a model at one place");
+  const System system = assemble(build_model(case_model, step));
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const MotionHistory motion = compute_motion(analysis, system);
   StepResult result{motion.outcome, motion.counters, std::nullopt};
-  if (draw) result.drawing = draw_model(system, scene.manipulator.has_value());
+  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) return result;
   const bool with_forces = std::any_of(outputs.begin(), outputs.end(),
                                        [](const Output& one) { return one.needs_forces(); });

@@ -6,44 +6,44 @@
 namespace trammel {
 namespace {
 
-StepResult analyse_step(const std::string& kind, const Cursor& analysis, const Scene& scene,
+StepResult analyse_step(const std::string& kind, const JsonView& analysis, const CaseModel& case_model,
                         std::size_t step, bool draw, Recorder& record) {
-  if (kind == "modes") return analyse_modes(analysis, scene, step, draw, record);
-  if (kind == "statics") return analyse_statics(scene, step, draw, record);
-  if (kind == "buckling") return analyse_buckling(analysis, scene, step, draw, record);
-  if (kind == "large-statics") return analyse_large_statics(analysis, scene, step, draw, record);
-  if (kind == "harmonic") return analyse_harmonic(analysis, scene, step, draw, record);
-  if (kind == "transient") return analyse_transient(analysis, scene, step, draw, record);
-  if (kind == "kinematics") return analyse_kinematics(scene, step, draw, record);
-  return analyse_properties(scene, step, draw, record);
+  if (kind == "modes") return analyse_modes(analysis, case_model, step, draw, record);
+  if (kind == "statics") return analyse_statics(case_model, step, draw, record);
+  if (kind == "buckling") return analyse_buckling(analysis, case_model, step, draw, record);
+  if (kind == "large-statics") return analyse_large_statics(analysis, case_model, step, draw, record);
+  if (kind == "harmonic") return analyse_harmonic(analysis, case_model, step, draw, record);
+  if (kind == "transient") return analyse_transient(analysis, case_model, step, draw, record);
+  if (kind == "kinematics") return analyse_kinematics(case_model, step, draw, record);
+  return analyse_properties(case_model, step, draw, record);
 }
 
 /// Step by step along the path; ends where a step has no solution.
-StepResult analyse_steps(const std::string& kind, const Cursor& analysis, const Scene& scene,
+StepResult analyse_steps(const std::string& kind, const JsonView& analysis, const CaseModel& case_model,
                          bool draw, Recorder& record) {
   StepResult all;
-  for (std::size_t step = 0; step < scene.steps(); ++step) {
-    record_path(scene, step, record);
-    StepResult found = analyse_step(kind, analysis, scene, step, draw && step == 0, record);
+  for (std::size_t step = 0; step < case_model.steps(); ++step) {
+    record_path(case_model, step, record);
+    StepResult found = analyse_step(kind, analysis, case_model, step, draw && step == 0, record);
     all.counters += found.counters;
     if (found.drawing) all.drawing = std::move(found.drawing);
     if (found.outcome.solved()) continue;
-    all.outcome = at_point(scene, step, found.outcome);
+    all.outcome = at_point(case_model, step, found.outcome);
     break;
   }
   return all;
 }
 
-StepResult analyse_scene(const std::string& kind, const Cursor& analysis, const Scene& scene,
+StepResult analyse_case_model(const std::string& kind, const JsonView& analysis, const CaseModel& case_model,
                          bool draw, Recorder& record) {
-  if (kind == "inverse-dynamics") return analyse_inverse_dynamics(analysis, scene, draw, record);
-  if (kind == "forward-dynamics") return analyse_forward_dynamics(analysis, scene, draw, record);
-  if (kind == "large-motion") return analyse_large_motion(analysis, scene, draw, record);
-  if (kind == "grnn") return analyse_grnn(analysis, scene, draw, record);
-  if (kind == "elastodynamics") return analyse_elastodynamics(analysis, scene, draw, record);
-  if (kind == "sensitivity") return analyse_sensitivity(analysis, scene, draw, record);
-  if (kind == "sensitivity-map") return analyse_sensitivity_map(analysis, scene, record);
-  return analyse_steps(kind, analysis, scene, draw, record);
+  if (kind == "inverse-dynamics") return analyse_inverse_dynamics(analysis, case_model, draw, record);
+  if (kind == "forward-dynamics") return analyse_forward_dynamics(analysis, case_model, draw, record);
+  if (kind == "large-motion") return analyse_large_motion(analysis, case_model, draw, record);
+  if (kind == "grnn") return analyse_grnn(analysis, case_model, draw, record);
+  if (kind == "elastodynamics") return analyse_elastodynamics(analysis, case_model, draw, record);
+  if (kind == "sensitivity") return analyse_sensitivity(analysis, case_model, draw, record);
+  if (kind == "sensitivity-map") return analyse_sensitivity_map(analysis, case_model, record);
+  return analyse_steps(kind, analysis, case_model, draw, record);
 }
 
 /// What was recorded counts where a solution was found.
@@ -53,23 +53,23 @@ AnalysisResult result_of(StepResult found, Recorder& record) {
   result.drawing = std::move(found.drawing);
   result.counters = found.counters;
   result.timings = std::move(found.timings);
-  if (result.outcome.solved()) result.quantities = record.take();
+  if (result.outcome.solved()) result.quantities = record.release();
   return result;
 }
 
 }  // namespace
 
-void record_path(const Scene& scene, std::size_t step, Recorder& record) {
-  if (!scene.path) return;
-  const TrajectoryPoint& point = scene.motion[step];
+void record_path(const CaseModel& case_model, std::size_t step, Recorder& record) {
+  if (!case_model.path) return;
+  const TrajectoryPoint& point = case_model.motion[step];
   record.add("time_s", "", point.time);
   record.add("pose_x_m", "", point.pose.x);
   record.add("pose_y_m", "", point.pose.y);
   record.add("pose_phi_rad", "", point.pose.phi);
 }
 
-Outcome at_point(const Scene& scene, std::size_t step, Outcome outcome) {
-  if (scene.path) outcome.reason.insert(0, "point " + std::to_string(step) + ": ");
+Outcome at_point(const CaseModel& case_model, std::size_t step, Outcome outcome) {
+  if (case_model.path) outcome.reason.insert(0, "point " + std::to_string(step) + ": ");
   return outcome;
 }
 
@@ -80,7 +80,7 @@ std::string analysis_kind(const Document& document) {
 AnalysisResult analyse(const Document& document, const References& references,
                        const AnalysisOptions& options) {
   const std::string kind = analysis_kind(document);
-  const Cursor place = Cursor(document)["analysis"][kind];
+  const JsonView place = JsonView(document)["analysis"][kind];
   Recorder record;
   if (kind == "comparison") {
     compare_references(place, references, record);
@@ -99,15 +99,15 @@ AnalysisResult analyse(const Document& document, const References& references,
   if (kind == "grnn" && place.has("samples")) {
     return result_of(analyse_grnn(place, std::nullopt, options.drawing, record), record);
   }
-  Scene scene = read_scene(document);
-  if (kind == "kinematics" && !scene.manipulator) {
+  CaseModel case_model = read_case_model(document);
+  if (kind == "kinematics" && !case_model.manipulator) {
     throw place.error("expected a model with a manipulator");
   }
   try {
-    EffectChoice choice = choose_effects(document, scene);
-    scene.effects = choice.chosen;
+    EffectChoice choice = choose_effects(document, case_model);
+    case_model.effects = choice.chosen;
     AnalysisResult result =
-        result_of(analyse_scene(kind, place, scene, options.drawing, record), record);
+        result_of(analyse_case_model(kind, place, case_model, options.drawing, record), record);
     result.analysis = kind;
     result.effects = std::move(choice.reasons);
     return result;

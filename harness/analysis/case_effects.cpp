@@ -9,27 +9,27 @@
 #include "harness/scene/time_reader.h"
 #include "harness/base/text.h"
 #include "solver/effects/dynamic_effect_estimates.h"
-#include "solver/assembly/reduced_model.h"
+#include "solver/assembly/restrict_model_effects.h"
 
 namespace trammel {
 namespace {
 
 Effects& carried_by(EffectScope& scope, Effect effect) {
-  return scope.carries[static_cast<std::size_t>(effect)];
+  return scope.dependents[static_cast<std::size_t>(effect)];
 }
 
 /// A word of the analysis itself that says whether there is an effect.
-struct EffectWord {
+struct EffectKey {
   Effect effect;
   std::vector<const char*> place;  ///< below the analysis
   bool otherwise;                  ///< where nothing is said
 };
 
 bool is_rotating(const Document& document) {
-  return Cursor(document)["analysis"][analysis_kind(document)].has("rotating");
+  return JsonView(document)["analysis"][analysis_kind(document)].has("rotating");
 }
 
-std::vector<EffectWord> effect_words(const Document& document) {
+std::vector<EffectKey> effect_keys(const Document& document) {
   const std::string kind = analysis_kind(document);
   if (kind == "statics") return {{Effect::geometric_stiffening, {"second_order"}, false}};
   if (kind == "elastodynamics") {
@@ -41,9 +41,9 @@ std::vector<EffectWord> effect_words(const Document& document) {
 }
 
 /// What the analysis says of it, if anything.
-std::optional<Cursor> find_word(const Document& document, const EffectWord& word) {
-  std::optional<Cursor> place = Cursor(document)["analysis"][analysis_kind(document)];
-  for (const char* key : word.place) {
+std::optional<JsonView> find_key(const Document& document, const EffectKey& effect_key) {
+  std::optional<JsonView> place = JsonView(document)["analysis"][analysis_kind(document)];
+  for (const char* key : effect_key.place) {
     if (place) place = place->find(key);
   }
   return place;
@@ -51,16 +51,16 @@ std::optional<Cursor> find_word(const Document& document, const EffectWord& word
 
 EffectScope statics_scope(const Model& model) {
   EffectScope scope;
-  scope.admitted = admitted_effects(model).without(Effect::rotary_inertia);
-  if (!scope.admitted.has(Effect::gravity)) {
-    scope.admitted = scope.admitted.without(Effect::link_mass);
+  scope.applicable = applicable_effects(model).without(Effect::rotary_inertia);
+  if (!scope.applicable.has(Effect::gravity)) {
+    scope.applicable = scope.applicable.without(Effect::link_mass);
   }
-  scope.admitted =
-      scope.admitted.with(Effect::geometric_stiffening).with(Effect::large_displacement);
+  scope.applicable =
+      scope.applicable.with(Effect::geometric_stiffening).with(Effect::large_displacement);
   carried_by(scope, Effect::gravity) = Effects().with(Effect::link_mass);
   const Effects large = Effects().with(Effect::large_displacement);
   carried_by(scope, Effect::geometric_stiffening) = large;
-  if (would_be_overheld(model)) carried_by(scope, Effect::axial_flexibility) = large;
+  if (is_axially_overconstrained(model)) carried_by(scope, Effect::axial_flexibility) = large;
   return scope;
 }
 
@@ -72,10 +72,10 @@ bool is_loaded(const Model& model) {
 
 EffectScope modes_scope(const Model& model) {
   EffectScope scope;
-  scope.admitted = admitted_effects(model).with(Effect::inertia);
+  scope.applicable = applicable_effects(model).with(Effect::inertia);
   scope.required = Effects().with(Effect::inertia);
-  if (is_loaded(model) || scope.admitted.has(Effect::gravity)) {
-    scope.admitted = scope.admitted.with(Effect::geometric_stiffening);
+  if (is_loaded(model) || scope.applicable.has(Effect::gravity)) {
+    scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   }
   carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   carried_by(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
@@ -85,13 +85,13 @@ EffectScope modes_scope(const Model& model) {
 /// Whatever the frame holds as it turns stays.
 EffectScope rotating_scope(const Document& document, const Model& model) {
   EffectScope scope;
-  scope.admitted = admitted_effects(model).with(Effect::inertia).with(Effect::geometric_stiffening);
+  scope.applicable = applicable_effects(model).with(Effect::inertia).with(Effect::geometric_stiffening);
   scope.required = Effects().with(Effect::inertia);
-  if (scope.admitted.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
-  const Cursor rotating = Cursor(document)["analysis"]["modes"]["rotating"];
+  if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
+  const JsonView rotating = JsonView(document)["analysis"]["modes"]["rotating"];
   // Coriolis forces point out of the plane where the axis lies in it.
   if (rotating.get<std::string>("axis", "normal") == "normal") {
-    scope.admitted = scope.admitted.with(Effect::gyroscopic);
+    scope.applicable = scope.applicable.with(Effect::gyroscopic);
   }
   carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
@@ -99,15 +99,15 @@ EffectScope rotating_scope(const Document& document, const Model& model) {
 
 EffectScope motion_scope(const Document& document, const Model& model) {
   EffectScope scope;
-  scope.admitted = admitted_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
+  scope.applicable = applicable_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
   const RayleighDamping damping =
-      read_rayleigh(Cursor(document)["analysis"]["elastodynamics"].find("damping"));
+      read_rayleigh(JsonView(document)["analysis"]["elastodynamics"].find("damping"));
   const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
   if (damping.mass != 0 || damping.stiffness != 0) {
-    scope.admitted = scope.admitted.with(Effect::damping);
+    scope.applicable = scope.applicable.with(Effect::damping);
   }
   // Inextensible links turn, and constraints that turn with them cost more than stretch does.
-  if (scope.admitted.has(Effect::axial_flexibility)) {
+  if (scope.applicable.has(Effect::axial_flexibility)) {
     scope.required = Effects().with(Effect::axial_flexibility);
   }
   carried_by(scope, Effect::inertia) = with_velocity;
@@ -117,17 +117,17 @@ EffectScope motion_scope(const Document& document, const Model& model) {
 
 /// Without "effects": the parts' own words, and the analysis's.
 Effects stated_effects(const Document& document, const EffectScope& scope) {
-  Effects stated = scope.admitted.without(Effect::large_displacement);
-  for (const EffectWord& word : effect_words(document)) {
-    const auto said = find_word(document, word);
-    if (said ? said->get<bool>() : word.otherwise) continue;
-    stated = scope.without(stated, word.effect);
+  Effects stated = scope.applicable.without(Effect::large_displacement);
+  for (const EffectKey& effect_key : effect_keys(document)) {
+    const auto specified = find_key(document, effect_key);
+    if (specified ? specified->get<bool>() : effect_key.otherwise) continue;
+    stated = scope.without(stated, effect_key.effect);
   }
   return stated;
 }
 
 /// Why a scene does not have an effect.
-std::string missing_words(Effect effect, const std::string& kind) {
+std::string describe_missing(Effect effect, const std::string& kind) {
   switch (effect) {
     case Effect::axial_flexibility:
       return "no member both bends and stretches ('axial')";
@@ -165,43 +165,43 @@ std::string percent(double share) {
 }
 
 /// Why an effect stays, whatever it is worth.
-const char* required_words(Effect effect, const std::string& kind) {
+const char* describe_required(Effect effect, const std::string& kind) {
   return kind == "elastodynamics" && effect == Effect::axial_flexibility
              ? "kept, for constraints that turn with the links cost more than it does"
              : "the analysis is of it";
 }
 
-std::vector<EffectReason> plain_reasons(const EffectScope& scope, Effects chosen,
-                                        const std::string& kind, const std::string& word) {
+std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope, Effects chosen,
+                                        const std::string& kind, const std::string& effect_key) {
   std::vector<EffectReason> reasons;
   for (const Effect effect : Effects::all().list()) {
     EffectReason one;
     one.effect = effect;
-    one.admitted = scope.admitted.has(effect);
-    one.on = one.admitted && chosen.has(effect);
-    one.why = !one.admitted                ? missing_words(effect, kind)
-              : scope.required.has(effect) ? required_words(effect, kind)
-              : one.on                     ? word
-                                           : "not " + word;
+    one.applicable = scope.applicable.has(effect);
+    one.active = one.applicable && chosen.has(effect);
+    one.why = !one.applicable                ? describe_missing(effect, kind)
+              : scope.required.has(effect) ? describe_required(effect, kind)
+              : one.active                     ? effect_key
+                                           : "not " + effect_key;
     reasons.push_back(std::move(one));
   }
   return reasons;
 }
 
 /// Names, which the schema has checked.
-Effects read_names(const Cursor& names, const EffectScope& scope, const std::string& kind) {
+Effects read_names(const JsonView& names, const EffectScope& scope, const std::string& kind) {
   Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
     const auto effect = effect_named(place.get<std::string>());
-    if (!scope.admitted.has(*effect)) {
+    if (!scope.applicable.has(*effect)) {
       throw place.error("expected an effect that the scene admits (got '" +
-                        std::string(name_of(*effect)) + "': " + missing_words(*effect, kind) + ")");
+                        std::string(name_of(*effect)) + "': " + describe_missing(*effect, kind) + ")");
     }
     chosen = chosen.with(*effect);
   }
   for (const Effect effect : chosen.list()) {
-    for (const Effect carrier : scope.admitted.list()) {
-      const bool carried = scope.carries[static_cast<std::size_t>(carrier)].has(effect);
+    for (const Effect carrier : scope.applicable.list()) {
+      const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
       if (carried && !chosen.has(carrier)) {
         throw names.error("expected '" + std::string(name_of(carrier)) + "' beside '" +
                           std::string(name_of(effect)) + "', which is nothing without it");
@@ -212,13 +212,13 @@ Effects read_names(const Cursor& names, const EffectScope& scope, const std::str
 }
 
 /// The whole model at a few of its poses, on a mesh that is good enough to decide by.
-std::vector<Model> sample_poses(const Scene& scene) {
+std::vector<Model> sample_poses(const CaseModel& case_model) {
   constexpr std::size_t kPoses = 4;
   constexpr Index kElements = 8;
-  const std::size_t count = std::min(kPoses, scene.steps());
+  const std::size_t count = std::min(kPoses, case_model.steps());
   std::vector<Model> models;
   for (std::size_t i = 0; i < count; ++i) {
-    models.push_back(build_model(scene, i * scene.steps() / count));
+    models.push_back(build_model(case_model, i * case_model.steps() / count));
     for (Member& member : models.back().members) {
       member.elements = std::min(member.elements, kElements);
     }
@@ -226,14 +226,14 @@ std::vector<Model> sample_poses(const Scene& scene) {
   return models;
 }
 
-std::string why_words(const EffectEstimate& estimate, bool on, double tolerance,
+std::string describe_decision(const EffectEstimate& estimate, bool active, double tolerance,
                       const EffectScope& scope, Effects chosen) {
   const std::string alone = percent(estimate.size());
-  if (!on) {
+  if (!active) {
     return "without it the results change by " + alone + ", within " + percent(tolerance) +
            (estimate.size() > 0 ? " together with all that is off" : "");
   }
-  for (const Effect carried : scope.carries[static_cast<std::size_t>(estimate.effect)].list()) {
+  for (const Effect carried : scope.dependents[static_cast<std::size_t>(estimate.effect)].list()) {
     if (chosen.has(carried) && estimate.size() < tolerance) {
       return std::string(name_of(carried)) + " needs it";
     }
@@ -245,30 +245,30 @@ std::string why_words(const EffectEstimate& estimate, bool on, double tolerance,
          percent(tolerance) + " less a tenth in hand";
 }
 
-EffectEstimates estimate(const Document& document, const Scene& scene, const EffectScope& scope) {
+EffectEstimates estimate(const Document& document, const CaseModel& case_model, const EffectScope& scope) {
   const std::string kind = analysis_kind(document);
-  const Cursor analysis = Cursor(document)["analysis"][kind];
+  const JsonView analysis = JsonView(document)["analysis"][kind];
   if (kind == "elastodynamics") {
-    return estimate_motion_effects(read_elastodynamics(analysis, scene), scope.admitted);
+    return estimate_motion_effects(read_elastodynamics(analysis, case_model), scope.applicable);
   }
-  const std::vector<Model> poses = sample_poses(scene);
-  if (kind == "statics") return estimate_static_effects(poses, scope.admitted);
+  const std::vector<Model> poses = sample_poses(case_model);
+  if (kind == "statics") return estimate_static_effects(poses, scope.applicable);
   if (is_rotating(document)) {
-    return estimate_rotating_effects(poses.front(), scope.admitted, read_rotating_options(analysis),
+    return estimate_rotating_effects(poses.front(), scope.applicable, read_rotating_options(analysis),
                                      read_speeds(analysis));
   }
-  return estimate_modal_effects(poses, scope.admitted, analysis["count"].get<Index>());
+  return estimate_modal_effects(poses, scope.applicable, analysis["count"].get<Index>());
 }
 
-EffectChoice choose_automatically(const Document& document, const Scene& scene,
+EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,
                                   const EffectScope& scope, double tolerance) {
   const std::string kind = analysis_kind(document);
-  const EffectEstimates estimates = estimate(document, scene, scope);
+  const EffectEstimates estimates = estimate(document, case_model, scope);
   EffectChoice choice;
   choice.tolerance = tolerance;
   choice.counters = estimates.counters;
   choice.chosen = choose_effects(estimates, scope, tolerance);
-  choice.reasons = plain_reasons(
+  choice.reasons = reasons_without_estimates(
       scope, choice.chosen, kind,
       "decided: there is no linear solution to decide by (" + estimates.outcome.reason + ")");
   if (!estimates.outcome.solved()) return choice;
@@ -277,7 +277,7 @@ EffectChoice choose_automatically(const Document& document, const Scene& scene,
     if (scope.required.has(estimate.effect)) continue;
     one.number = estimate.number;
     one.change = estimate.size();
-    one.why = why_words(estimate, one.on, tolerance, scope, choice.chosen);
+    one.why = describe_decision(estimate, one.active, tolerance, scope, choice.chosen);
   }
   return choice;
 }
@@ -289,51 +289,51 @@ bool knows_effects(const Document& document) {
   return kind == "statics" || kind == "modes" || kind == "elastodynamics";
 }
 
-EffectScope effect_scope(const Document& document, const Scene& scene) {
-  const Model model = build_model(scene, 0);
+EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
+  const Model model = build_model(case_model, 0);
   const std::string kind = analysis_kind(document);
   EffectScope scope = kind == "statics"          ? statics_scope(model)
                       : kind == "elastodynamics" ? motion_scope(document, model)
                       : is_rotating(document)    ? rotating_scope(document, model)
                                                  : modes_scope(model);
   if (!model.triangles.empty()) {
-    scope.admitted = scope.admitted.with(Effect::platform_flexibility);
+    scope.applicable = scope.applicable.with(Effect::platform_flexibility);
     // Plates that are no platform are what there is.
-    if (!scene.manipulator) scope.required = scope.required.with(Effect::platform_flexibility);
+    if (!case_model.manipulator) scope.required = scope.required.with(Effect::platform_flexibility);
   }
   return scope;
 }
 
-EffectChoice choose_effects(const Document& document, const Scene& scene) {
-  const auto asked = Cursor(document).find("effects");
+EffectChoice choose_effects(const Document& document, const CaseModel& case_model) {
+  const auto requested = JsonView(document).find("effects");
   if (!knows_effects(document)) {
-    if (asked)
-      throw asked->error(std::string("expected an analysis that knows effects: ") +
-                         analyses_with_effects);
+    if (requested)
+      throw requested->error(std::string("expected an analysis that knows effects: ") +
+                         kAnalysesWithEffects);
     return {};
   }
   const std::string kind = analysis_kind(document);
-  const EffectScope scope = effect_scope(document, scene);
+  const EffectScope scope = effect_scope(document, case_model);
   EffectChoice choice;
-  if (!asked) {
+  if (!requested) {
     choice.chosen = stated_effects(document, scope);
-    choice.reasons = plain_reasons(scope, choice.chosen, kind, "stated by the parts");
+    choice.reasons = reasons_without_estimates(scope, choice.chosen, kind, "stated by the parts");
     return choice;
   }
-  for (const EffectWord& word : effect_words(document)) {
-    const auto said = find_word(document, word);
-    if (!said) continue;
-    throw said->error("expected 'effects' alone to say it: " + std::string(name_of(word.effect)));
+  for (const EffectKey& effect_key : effect_keys(document)) {
+    const auto specified = find_key(document, effect_key);
+    if (!specified) continue;
+    throw specified->error("expected 'effects' alone to say it: " + std::string(name_of(effect_key.effect)));
   }
-  if (asked->json().is_object()) {
-    return choose_automatically(document, scene, scope, (*asked)["auto"].number("tolerance"));
+  if (requested->json().is_object()) {
+    return choose_automatically(document, case_model, scope, (*requested)["auto"].number("tolerance"));
   }
-  choice.chosen = read_names(*asked, scope, kind);
-  choice.reasons = plain_reasons(scope, choice.chosen, kind, "asked for");
+  choice.chosen = read_names(*requested, scope, kind);
+  choice.reasons = reasons_without_estimates(scope, choice.chosen, kind, "asked for");
   return choice;
 }
 
-std::string number_words(Effect effect, const std::string& analysis) {
+std::string describe_effect_number(Effect effect, const std::string& analysis) {
   const bool statics = analysis == "statics", motion = analysis == "elastodynamics";
   switch (effect) {
     case Effect::axial_flexibility:
@@ -372,14 +372,14 @@ Document with_effects(const Document& document, Effects effects) {
   Json names = Json::array();
   for (const Effect effect : effects.list()) names.push_back(std::string(name_of(effect)));
   Json patch = {{"effects", names}};
-  for (const EffectWord& word : effect_words(document)) {
+  for (const EffectKey& effect_key : effect_keys(document)) {
     std::string pointer = "/analysis/" + analysis_kind(document);
-    const bool below = word.place.size() > 1;  // what holds the word must not come from nothing
-    if (below && !find_word(document, word)) continue;
-    for (const char* key : word.place) pointer += std::string("/") + key;
+    const bool below = effect_key.place.size() > 1;  // what holds the word must not come from nothing
+    if (below && !find_key(document, effect_key)) continue;
+    for (const char* key : effect_key.place) pointer += std::string("/") + key;
     patch[JsonPointer(pointer)] = nullptr;
   }
-  changed.lay(document.origin("").file, "", patch);
+  changed.apply_patch(document.origin("").file, "", patch);
   return changed;
 }
 

@@ -13,9 +13,9 @@ namespace trammel {
 /// One effect in a case, and why it is there or not.
 struct EffectReason {
   Effect effect{};
-  bool admitted = false;  ///< what the parts and the analysis have at all
-  bool on = false;
-  std::optional<double> number;  ///< dimensionless; `number_words` says of what
+  bool applicable = false;  ///< what the parts and the analysis have at all
+  bool active = false;
+  std::optional<double> number;  ///< dimensionless; `describe_effect_number` says of what
   std::optional<double> change;  ///< what leaving it out alone would change, relative
   std::string why;
 };
@@ -28,21 +28,21 @@ struct EffectChoice {
   Counters counters;                  ///< what the choice has cost
 };
 
-inline constexpr const char* analyses_with_effects = "statics, modes or elastodynamics";
+inline constexpr const char* kAnalysesWithEffects = "statics, modes or elastodynamics";
 
 /// Whether the case's analysis knows effects.
 [[nodiscard]] bool knows_effects(const Document& document);
 
 /// What the analysis of the whole scene can do with.
-[[nodiscard]] EffectScope effect_scope(const Document& document, const Scene& scene);
+[[nodiscard]] EffectScope effect_scope(const Document& document, const CaseModel& case_model);
 
 /// Reads "effects": names, or {"auto": {"tolerance": ...}}; without it, what the words of the parts
-/// and of the analysis say. `scene` is the whole scene, with all effects.
+/// and of the analysis say. `case_model` is the whole scene, with all effects.
 /// @throws InputError  for an effect that the scene does not admit.
-[[nodiscard]] EffectChoice choose_effects(const Document& document, const Scene& scene);
+[[nodiscard]] EffectChoice choose_effects(const Document& document, const CaseModel& case_model);
 
 /// What an effect's dimensionless number is.
-[[nodiscard]] std::string number_words(Effect effect, const std::string& analysis);
+[[nodiscard]] std::string describe_effect_number(Effect effect, const std::string& analysis);
 
 /// The case with these effects asked for by name.
 [[nodiscard]] Document with_effects(const Document& document, Effects effects);

@@ -8,7 +8,7 @@
 
 namespace trammel {
 
-Eigen::MatrixXd read_rows(const Cursor& rows) {
+Eigen::MatrixXd read_rows(const JsonView& rows) {
   const std::size_t columns = rows[0].size();
   Eigen::MatrixXd matrix(static_cast<Index>(rows.size()), static_cast<Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -22,7 +22,7 @@ Eigen::MatrixXd read_rows(const Cursor& rows) {
   return matrix;
 }
 
-GrnnSamples read_samples(const Cursor& samples) {
+GrnnSamples read_samples(const JsonView& samples) {
   GrnnSamples read{read_rows(samples["inputs"]), read_rows(samples["outputs"]), {}};
   if (read.inputs.rows() != read.outputs.rows()) {
     throw samples["outputs"].error("expected as many rows as inputs have, " +
@@ -34,8 +34,8 @@ GrnnSamples read_samples(const Cursor& samples) {
   return read;
 }
 
-PathSamples samples_of_path(const RigidManipulator& manipulator, const Scene& scene) {
-  const auto count = static_cast<Index>(scene.motion.size());
+PathSamples samples_of_path(const RigidManipulator& manipulator, const CaseModel& case_model) {
+  const auto count = static_cast<Index>(case_model.motion.size());
   PathSamples result;
   GrnnSamples& samples = result.samples;
   samples.inputs.resize(count, 3);
@@ -45,11 +45,11 @@ PathSamples samples_of_path(const RigidManipulator& manipulator, const Scene& sc
     samples.columns.push_back({"velocity", "_rad_per_s", joint});
   }
   for (Index k = 0; k < count; ++k) {
-    const TrajectoryPoint& point = scene.motion[static_cast<std::size_t>(k)];
+    const TrajectoryPoint& point = case_model.motion[static_cast<std::size_t>(k)];
     const InverseDynamics found =
-        inverse_dynamics(manipulator, point, wrench_on_platform(scene, point.pose));
+        inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) {
-      result.outcome = at_point(scene, static_cast<std::size_t>(k), found.outcome);
+      result.outcome = at_point(case_model, static_cast<std::size_t>(k), found.outcome);
       return result;
     }
     samples.inputs.row(k) = found.torque.transpose();

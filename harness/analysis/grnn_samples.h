@@ -11,9 +11,9 @@
 namespace trammel {
 
 struct GrnnOutput {
-  std::string what;  ///< angle, velocity; empty for samples without a meaning
+  std::string quantity;  ///< angle, velocity; empty for samples without a meaning
   std::string unit;  ///< as quantities' names carry it: "_rad"; empty where there is none
-  std::string of;    ///< A1, ... or the number of the column
+  std::string item;    ///< A1, ... or the number of the column
 };
 
 struct GrnnSamples {
@@ -24,10 +24,10 @@ struct GrnnSamples {
 
 /// Samples as a case gives them, "inputs" and "outputs".
 /// @throws InputError  where rows are not equally long, or not equally many.
-[[nodiscard]] GrnnSamples read_samples(const Cursor& samples);
+[[nodiscard]] GrnnSamples read_samples(const JsonView& samples);
 
 /// @throws InputError  where rows are not equally long.
-[[nodiscard]] Eigen::MatrixXd read_rows(const Cursor& rows);
+[[nodiscard]] Eigen::MatrixXd read_rows(const JsonView& rows);
 
 /// The paper's samples (Section 4.3): inputs are the torques of the inverse dynamics at each point
 /// of the scene's path, outputs the angles and velocities of the active joints. Angles are
@@ -36,6 +36,6 @@ struct PathSamples {
   Outcome outcome;  ///< of the first point without a solution
   GrnnSamples samples;
 };
-[[nodiscard]] PathSamples samples_of_path(const RigidManipulator& manipulator, const Scene& scene);
+[[nodiscard]] PathSamples samples_of_path(const RigidManipulator& manipulator, const CaseModel& case_model);
 
 }  // namespace trammel

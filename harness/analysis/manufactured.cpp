@@ -37,7 +37,7 @@ ManufacturedSolution solve(System system, double omega) {
 void support_membrane(Model& model, const manufactured::MembraneProblem& problem) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Vector2d& p = model.nodes[i].position;
-    const auto [x, y] = manufactured::held(problem, p.x(), p.y());
+    const auto [x, y] = manufactured::fixed_displacements(problem, p.x(), p.y());
     if (x || y)
       model.supports.push_back({model.nodes[i].name, static_cast<Index>(i), {x, y, false}});
   }
@@ -54,7 +54,7 @@ void load_membrane(System& system, const manufactured::MembraneProblem& problem)
   });
 }
 
-MembraneFieldPoint membrane_truth(const manufactured::MembraneProblem& problem, const Vector2d& p) {
+MembraneFieldPoint exact_membrane_field(const manufactured::MembraneProblem& problem, const Vector2d& p) {
   const auto s = manufactured::evaluate<double>(problem, p.x(), p.y());
   return {
       {s.displacement[0], s.displacement[1]}, s.rotation, {s.stress[0], s.stress[1], s.stress[2]}};
@@ -99,7 +99,7 @@ MembraneTestResult run_membrane_test(const MembraneTest& test) {
   const ManufacturedSolution& solution = result.solution;
   if (!solution.outcome.solved()) return result;
   result.errors = membrane_errors(solution.system, solution.q,
-                                  [&](const Vector2d& p) { return membrane_truth(problem, p); });
+                                  [&](const Vector2d& p) { return exact_membrane_field(problem, p); });
   return result;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-PiecewiseLinearLoad read_load(const Cursor& transient, const VectorXd& pattern) {
+PiecewiseLinearLoad read_load(const JsonView& transient, const VectorXd& pattern) {
   const auto history = transient.find("load_history");
   if (!history) return {pattern, {0.0}, Eigen::MatrixXd::Ones(1, 1)};
   const auto time = (*history)["time_s"].get<std::vector<double>>();
@@ -44,7 +44,7 @@ double factor_at(const PiecewiseLinearLoad& load, double time) {
   return factor[0];
 }
 
-TimeScheme read_scheme(const Cursor& transient) {
+TimeScheme read_scheme(const JsonView& transient) {
   const auto method = transient.find("method");
   if (!method) return average_acceleration();
   if (const auto stated = method->find("newmark")) {
@@ -57,7 +57,7 @@ TimeScheme read_scheme(const Cursor& transient) {
   return word == "central-difference" ? central_difference() : average_acceleration();
 }
 
-bool superposes(const Cursor& transient) {
+bool superposes(const JsonView& transient) {
   return transient.has("method") && transient["method"].json() == "modal-superposition";
 }
 
@@ -79,7 +79,7 @@ VectorXd uniform_motion(const System& system, const Vector2d& velocity) {
   return factorization.solve(system.T.transpose() * wanted);
 }
 
-InitialState read_initial(const Cursor& transient, const System& system, Outcome& outcome) {
+InitialState read_initial(const JsonView& transient, const System& system, Outcome& outcome) {
   const auto initial = transient.find("initial");
   if (!initial || initial->json() == "rest") return {};
   if (initial->json() == "static") {
@@ -90,7 +90,7 @@ InitialState read_initial(const Cursor& transient, const System& system, Outcome
   return {{}, uniform_motion(system, read_point((*initial)["velocity_m_per_s"]))};
 }
 
-std::vector<double> sample_times(const Cursor& transient) {
+std::vector<double> sample_times(const JsonView& transient) {
   const double duration = transient.number("duration_s");
   const double steps = std::ceil(duration / transient.number("step_s") * (1 - 1e-12));
   constexpr double most = 1e7;
@@ -109,12 +109,12 @@ std::vector<double> sample_times(const Cursor& transient) {
 }
 
 /// The axes that the motion is seen from.
-TurningAxes read_axes(const Cursor& transient) {
+PrescribedRotation read_axes(const JsonView& transient) {
   for (const char* key : {"load_history", "initial"}) {
     if (transient.has(key)) throw transient[key].error("expected it without 'turning_axes'");
   }
-  const Cursor place = transient["turning_axes"];
-  TurningAxes axes;
+  const JsonView place = transient["turning_axes"];
+  PrescribedRotation axes;
   axes.speed = [law = read_law(place["law"])](double time) {
     const std::array<double, 3> motion = law(time);
     return std::array<double, 2>{motion[1], motion[2]};
@@ -126,7 +126,7 @@ TurningAxes read_axes(const Cursor& transient) {
 
 class Motion {
  public:
-  Motion(const Cursor& transient, const System& system)
+  Motion(const JsonView& transient, const System& system)
       : transient_(transient), system_(system), load_(read_load(transient, system.f)) {}
 
   MotionHistory run() {
@@ -150,10 +150,10 @@ class Motion {
     equation.K = system_.K;
     if (!damp(equation)) return;
     if (transient_.has("turning_axes")) {
-      history_.outcome = turn_axes(system_, read_axes(transient_), equation);
+      history_.outcome = add_rotating_frame_terms(system_, read_axes(transient_), equation);
       if (!history_.outcome.solved()) return;
     } else {
-      load_.act_on(equation);
+      load_.apply_to(equation);
     }
     TransientOptions options;
     options.end = transient_.number("duration_s");
@@ -180,7 +180,7 @@ class Motion {
     equation.C = damping_matrix(damping.rayleigh, system_.M, system_.K);
     if (damping.modal_ratio.empty()) return true;
     const ModalSolution modes =
-        solve_modes(system_, {std::ssize(damping.modal_ratio), EigenPath::automatic});
+        solve_modes(system_, {std::ssize(damping.modal_ratio), EigenMethod::automatic});
     history_.outcome = modes.outcome;
     if (!modes.outcome.solved()) return false;
     damping = read_damping(transient_, modes.frequency.size());
@@ -197,7 +197,7 @@ class Motion {
     if (transient_.has("turning_axes")) {
       throw transient_["turning_axes"].error("expected it without 'modal-superposition'");
     }
-    const ModalBasis basis = every_mode(system_.M, system_.K);
+    const ModalBasis basis = all_modes(system_.M, system_.K);
     const HarmonicDamping damping = read_damping(transient_, basis.omega.size());
     VectorXd decay = decay_rates(damping.rayleigh, basis.omega);
     for (Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {
@@ -226,7 +226,7 @@ class Motion {
     }
   }
 
-  const Cursor& transient_;
+  const JsonView& transient_;
   const System& system_;
   PiecewiseLinearLoad load_;
   InitialState initial_;
@@ -235,7 +235,7 @@ class Motion {
 
 }  // namespace
 
-MotionHistory compute_motion(const Cursor& transient, const System& system) {
+MotionHistory compute_motion(const JsonView& transient, const System& system) {
   try {
     return Motion(transient, system).run();
   } catch (const ModelError& error) {

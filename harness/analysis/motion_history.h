@@ -20,6 +20,6 @@ struct MotionHistory {
 
 /// As the key "transient" of the analysis says.
 /// @throws InputError  for a history or damping without meaning.
-[[nodiscard]] MotionHistory compute_motion(const Cursor& transient, const System& system);
+[[nodiscard]] MotionHistory compute_motion(const JsonView& transient, const System& system);
 
 }  // namespace trammel

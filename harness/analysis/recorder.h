@@ -10,13 +10,13 @@ namespace trammel {
 /// up with one number a point.
 class Recorder {
  public:
-  /// @param of  what it belongs to, after the colon; empty: nothing
-  void add(const std::string& name, const std::string& of, double value, double roundoff = -1) {
-    Quantity& quantity = quantities_[of.empty() ? name : name + ":" + of];
+  /// @param item  what it belongs to, after the colon; empty: nothing
+  void add(const std::string& name, const std::string& item, double value, double roundoff = -1) {
+    Quantity& quantity = quantities_[item.empty() ? name : name + ":" + item];
     quantity.values.push_back(value);
     if (roundoff >= 0) quantity.roundoff.push_back(roundoff);
   }
-  [[nodiscard]] Quantities take() { return std::move(quantities_); }
+  [[nodiscard]] Quantities release() { return std::move(quantities_); }
 
  private:
   Quantities quantities_;

@@ -9,12 +9,12 @@
 namespace trammel {
 namespace {
 
-constexpr Index shapes_drawn = 12;
+constexpr Index kMaxDrawnShapes = 12;
 
-SpinAxis read_axis(const Cursor& rotating) {
+RotationAxis read_axis(const JsonView& rotating) {
   const std::string axis = rotating.get<std::string>("axis", "normal");
-  if (axis == "x") return SpinAxis::x;
-  return axis == "y" ? SpinAxis::y : SpinAxis::normal;
+  if (axis == "x") return RotationAxis::x;
+  return axis == "y" ? RotationAxis::y : RotationAxis::normal;
 }
 
 std::string label(Index mode, double frequency) {
@@ -33,9 +33,9 @@ Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
 
 void record_modes(const RotatingModes& modes, bool several, Recorder& record) {
   for (Index i = 0; i < modes.frequency.size(); ++i) {
-    const std::string of = several ? std::to_string(i + 1) : "";
-    record.add("frequency_Hz", of, modes.frequency[i]);
-    record.add("growth_rate_per_s", of, modes.growth_rate[i]);
+    const std::string item = several ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", item, modes.frequency[i]);
+    record.add("growth_rate_per_s", item, modes.growth_rate[i]);
   }
   record.add("stable", "", modes.stable ? 1 : 0);
 }
@@ -52,46 +52,46 @@ void record_state(const System& system, const RotatingModes& modes, Recorder& re
 
 }  // namespace
 
-RotatingOptions read_rotating_options(const Cursor& modes) {
-  const Cursor rotating = modes["rotating"];
+RotatingOptions read_rotating_options(const JsonView& modes) {
+  const JsonView rotating = modes["rotating"];
   RotatingOptions options;
   options.count = modes["count"].get<Index>();
   options.path = read_eigen_path(modes);
-  options.spin.axis = read_axis(rotating);
-  if (rotating.has("center_m")) options.spin.centre = read_point(rotating["center_m"]);
-  options.deformed_tension = rotating.get<std::string>("tension", "deformed") == "deformed";
+  options.frame.axis = read_axis(rotating);
+  if (rotating.has("center_m")) options.frame.centre = read_point(rotating["center_m"]);
+  options.prestress_at_steady_state = rotating.get<std::string>("tension", "deformed") == "deformed";
   return options;
 }
 
-std::vector<double> read_speeds(const Cursor& modes) {
+std::vector<double> read_speeds(const JsonView& modes) {
   const Json& stated = modes["rotating"]["angular_speed_rad_s"].json();
   if (stated.is_array()) return stated.get<std::vector<double>>();
   return {stated.get<double>()};
 }
 
-StepResult analyse_rotating(const Cursor& modes, const System& system, Effects effects, bool draw,
+StepResult analyse_rotating(const JsonView& modes, const System& system, Effects effects, bool draw,
                             Recorder& record) {
   const bool several = modes["rotating"]["angular_speed_rad_s"].json().is_array();
   const std::vector<double> speeds = read_speeds(modes);
   RotatingOptions options = read_rotating_options(modes);
-  options.coriolis = effects.has(Effect::gyroscopic);
+  options.gyroscopic = effects.has(Effect::gyroscopic);
   options.stiffening = effects.has(Effect::geometric_stiffening);
   StepResult result{{}, system.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, false);
   for (const double speed : speeds) {
-    options.spin.speed = speed;
+    options.frame.speed = speed;
     const RotatingModes found = solve_rotating_modes(system, options);
-    Counters its = found.counters;  // which begin with the system's
-    its.element_evaluations = 0;
-    for (std::size_t i = 0; i < effect_count; ++i) its.effects[i] -= system.counters.effects[i];
-    result.counters += its;
+    Counters step_counters = found.counters;  // which begin with the system's
+    step_counters.element_evaluations = 0;
+    for (std::size_t i = 0; i < kEffectCount; ++i) step_counters.effects[i] -= system.counters.effects[i];
+    result.counters += step_counters;
     result.outcome = found.outcome;
     if (!found.outcome.solved()) return result;
     record.add("angular_speed_rad_s", "", speed);
     record_modes(found, several, record);
     record_state(system, found, record);
     if (!result.drawing || several) continue;
-    for (Index i = 0; i < std::min(found.frequency.size(), shapes_drawn); ++i) {
+    for (Index i = 0; i < std::min(found.frequency.size(), kMaxDrawnShapes); ++i) {
       result.drawing->shapes.push_back(
           draw_shape(system, snapshot(found.shape.col(i)), label(i, found.frequency[i])));
     }

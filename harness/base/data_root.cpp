@@ -15,7 +15,7 @@ bool holds_the_data(const fs::path& folder) {
   return fs::exists(folder / "cases" / "schema" / "case.schema.json", error);
 }
 
-fs::path find_home() {
+fs::path find_data_root() {
   if (const char* set = std::getenv("TRAMMEL_HOME"); set != nullptr && *set != '\0') {
     if (holds_the_data(set)) return fs::absolute(set);
     throw InputError("TRAMMEL_HOME: expected a folder with cases/schema (got '" + std::string(set) +
@@ -35,8 +35,8 @@ fs::path find_home() {
 
 }  // namespace
 
-const fs::path& home() {
-  static const fs::path folder = find_home();
+const fs::path& data_root() {
+  static const fs::path folder = find_data_root();
   return folder;
 }
 

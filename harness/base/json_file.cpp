@@ -11,7 +11,7 @@
 namespace trammel {
 namespace {
 
-constexpr std::size_t deepest = 100;
+constexpr std::size_t kMaxDepth = 100;
 
 /// Walks through a text without building it, and notes the first thing that is wrong.
 class StrictReader : public nlohmann::json_sax<Json> {
@@ -77,9 +77,9 @@ class StrictReader : public nlohmann::json_sax<Json> {
   }
   bool open(bool object) {
     value();
-    if (levels_.size() == deepest) {
+    if (levels_.size() == kMaxDepth) {
       throw InputError(file_, pointer(),
-                       "expected at most " + std::to_string(deepest) + " levels of nesting");
+                       "expected at most " + std::to_string(kMaxDepth) + " levels of nesting");
     }
     levels_.push_back({object, {}, {}, 0});
     return true;

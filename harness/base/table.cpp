@@ -16,21 +16,21 @@ std::size_t width_of(const std::string& text) {
 
 }  // namespace
 
-Table::Table(std::vector<std::string> columns) : heads_(std::move(columns)) {
-  for (std::string& head : heads_) {
-    right_.push_back(!head.empty() && head.front() == '>');
-    if (right_.back()) head.erase(0, 1);
+Table::Table(std::vector<std::string> columns) : headers_(std::move(columns)) {
+  for (std::string& head : headers_) {
+    right_aligned_.push_back(!head.empty() && head.front() == '>');
+    if (right_aligned_.back()) head.erase(0, 1);
   }
 }
 
 void Table::add(std::vector<std::string> row) {
-  row.resize(heads_.size());
+  row.resize(headers_.size());
   rows_.push_back(std::move(row));
 }
 
 void Table::print(std::ostream& out, const std::string& indent) const {
   std::vector<std::size_t> width;
-  for (const std::string& head : heads_) width.push_back(width_of(head));
+  for (const std::string& head : headers_) width.push_back(width_of(head));
   for (const auto& row : rows_) {
     for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], width_of(row[c]));
   }
@@ -38,12 +38,12 @@ void Table::print(std::ostream& out, const std::string& indent) const {
     std::string text = indent;
     for (std::size_t c = 0; c < row.size(); ++c) {
       const std::string space(width[c] - width_of(row[c]), ' ');
-      text += (c > 0 ? "  " : "") + (right_[c] ? space + row[c] : row[c] + space);
+      text += (c > 0 ? "  " : "") + (right_aligned_[c] ? space + row[c] : row[c] + space);
     }
     text.erase(text.find_last_not_of(' ') + 1);
     out << text << '\n';
   };
-  line(heads_);
+  line(headers_);
   for (const auto& row : rows_) line(row);
 }
 

@@ -16,8 +16,8 @@ class Table {
   void print(std::ostream& out, const std::string& indent = "") const;
 
  private:
-  std::vector<std::string> heads_;
-  std::vector<bool> right_;
+  std::vector<std::string> headers_;
+  std::vector<bool> right_aligned_;
   std::vector<std::vector<std::string>> rows_;
 };
 

@@ -50,11 +50,11 @@ std::string quoted(const std::string& word) {
   return std::string("'").append(word).append("'");
 }
 
-std::string join(const std::vector<std::string>& words, const std::string& last) {
+std::string join(const std::vector<std::string>& items, const std::string& last) {
   std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " " + last + " " : ", ";
-    text += words[i];
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? " " + last + " " : ", ";
+    text += items[i];
   }
   return text;
 }

@@ -23,7 +23,7 @@ namespace trammel {
 [[nodiscard]] std::string quoted(const std::string& word);
 
 /// "a, b or c"
-[[nodiscard]] std::string join(const std::vector<std::string>& words, const std::string& last);
+[[nodiscard]] std::string join(const std::vector<std::string>& items, const std::string& last);
 
 /// The shortest decimal that reads back the same double.
 [[nodiscard]] std::string shortest(double value);

@@ -9,7 +9,7 @@
 namespace trammel {
 namespace {
 
-constexpr int most_runs_each = 1000;
+constexpr int kMaxRunsEach = 1000;
 
 struct Elapsed {
   double cpu_s = 0, wall_s = 0;
@@ -25,7 +25,7 @@ Elapsed measure(const std::function<void()>& work, int runs) {
 int runs_for(const std::function<void()>& work, double shortest_s) {
   work();
   const double once = std::max(measure(work, 1).cpu_s, 1e-7);
-  return std::clamp(static_cast<int>(std::ceil(shortest_s / once)), 1, most_runs_each);
+  return std::clamp(static_cast<int>(std::ceil(shortest_s / once)), 1, kMaxRunsEach);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Timing {
 /// A spread above this leaves the median of seven uncertain by more than about 9 % (standard error
 /// 1.25 s / sqrt(7), where s = quartile distance / 1.35): more than neighbours on a front differ
 /// by.
-inline constexpr double widest_spread = 0.25;
+inline constexpr double kMaxSpread = 0.25;
 
 /// Runs every work once to warm up, then in each repeat all of them once, in an order shuffled
 /// anew: what the machine does meanwhile meets all alike.

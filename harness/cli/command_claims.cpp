@@ -13,24 +13,24 @@ namespace trammel {
 namespace {
 
 /// "0.99998 (circle-load)" or "0.0051 ... 0.0079 (circle-load)".
-std::string measured(const LedgerReading& reading) {
-  if (reading.entries.empty()) return "";
-  const auto [least, most] = std::minmax_element(
-      reading.entries.begin(), reading.entries.end(),
-      [](const LedgerEntry& a, const LedgerEntry& b) { return a.value < b.value; });
-  std::string text = rounded(least->value, 5);
-  if (most->value != least->value) text += " ... " + rounded(most->value, 5);
-  if (reading.unit != "1") text += " " + reading.unit;
-  return text + " (" + reading.entries.front().case_id + ")";
+std::string measured(const Interpretation& interpretation) {
+  if (interpretation.entries.empty()) return "";
+  const auto [smallest, greatest] = std::minmax_element(
+      interpretation.entries.begin(), interpretation.entries.end(),
+      [](const InterpretationEntry& a, const InterpretationEntry& b) { return a.value < b.value; });
+  std::string text = rounded(smallest->value, 5);
+  if (greatest->value != smallest->value) text += " ... " + rounded(greatest->value, 5);
+  if (interpretation.unit != "1") text += " " + interpretation.unit;
+  return text + " (" + interpretation.entries.front().case_id + ")";
 }
 
-void print_claim(const LedgerClaim& claim) {
-  std::cout << claim.id << ". " << in_words(claim.verdict);
-  if (!claim.follows()) std::cout << "  ** recorded: " << in_words(claim.expected) << " **";
+void print_claim(const Claim& claim) {
+  std::cout << claim.id << ". " << to_text(claim.verdict);
+  if (!claim.as_expected()) std::cout << "  ** recorded: " << to_text(claim.expected) << " **";
   std::cout << '\n' << wrapped(claim.claim, "   ");
-  for (const LedgerReading& reading : claim.readings) {
-    std::cout << wrapped(in_words(reading.verdict) + ": " + reading.what +
-                             (reading.entries.empty() ? "" : ": " + measured(reading)),
+  for (const Interpretation& interpretation : claim.interpretations) {
+    std::cout << wrapped(to_text(interpretation.verdict) + ": " + interpretation.what +
+                             (interpretation.entries.empty() ? "" : ": " + measured(interpretation)),
                          "     ");
   }
   if (!claim.undecidable.empty()) std::cout << wrapped(claim.undecidable, "     ");
@@ -38,8 +38,8 @@ void print_claim(const LedgerClaim& claim) {
 
 }  // namespace
 
-int ledger_command(unsigned jobs, bool json) {
-  const Document document = load_ledger();
+int claims_command(unsigned jobs, bool json) {
+  const Document document = load_claims();
   const References references;
   Progress progress;
   RunOptions options;
@@ -47,14 +47,14 @@ int ledger_command(unsigned jobs, bool json) {
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   const std::vector<Run> runs =
       run_cases(cases_of(document, load_catalogue({})), references, options);
-  const Ledger ledger = judge_ledger(document, runs);
+  const ClaimSet claim_set = evaluate_claims(document, runs);
   if (json) {
-    std::cout << pretty(to_json(ledger));
+    std::cout << pretty(to_json(claim_set));
   } else {
-    std::cout << ledger.title << "\n\n";
-    for (const LedgerClaim& claim : ledger.claims) print_claim(claim);
+    std::cout << claim_set.title << "\n\n";
+    for (const Claim& claim : claim_set.claims) print_claim(claim);
   }
-  return ledger.follows() ? 0 : 1;
+  return claim_set.as_expected() ? 0 : 1;
 }
 
 }  // namespace trammel

@@ -25,13 +25,13 @@ struct Side {
   Run run;
 };
 
-Side load_side(const std::string& words, const References& references) {
+Side load_side(const std::string& name, const References& references) {
   // A colon in a file's own name is no variant.
-  const auto colon = words.rfind(':');
+  const auto colon = name.rfind(':');
   const bool split =
-      colon != std::string::npos && words.find('/', colon) == std::string::npos && colon > 0;
-  const Case given = load_case(find_case(split ? words.substr(0, colon) : words));
-  const std::string variant = split ? words.substr(colon + 1) : base_variant;
+      colon != std::string::npos && name.find('/', colon) == std::string::npos && colon > 0;
+  const Case given = load_case(find_case(split ? name.substr(0, colon) : name));
+  const std::string variant = split ? name.substr(colon + 1) : kBaseVariant;
   Side side{given.id() + ":" + variant, patched(given, variant), {}};
   Run& run = side.run;
   run.case_id = given.id();
@@ -131,8 +131,8 @@ bool is_json_file(const std::filesystem::path& file) {
 }
 
 /// What a file holds, read once; null for a case of the catalogue.
-Json contents(const std::string& words) {
-  return is_json_file(words) ? read_json(words) : Json();
+Json contents(const std::string& name) {
+  return is_json_file(name) ? read_json(name) : Json();
 }
 
 bool is_results(const Json& json) {
@@ -140,19 +140,19 @@ bool is_results(const Json& json) {
 }
 
 /// Why something cannot be compared with a results file.
-[[noreturn]] void refuse_beside_results(const std::string& words, const Json& json) {
-  if (!is_json_file(words)) (void)find_case(words.substr(0, words.rfind(':')));
+[[noreturn]] void refuse_beside_results(const std::string& name, const Json& json) {
+  if (!is_json_file(name)) (void)find_case(name.substr(0, name.rfind(':')));
   if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
-    const auto fault = find_fault(json, "results");
-    if (fault) throw InputError(words, fault->pointer, fault->message);
+    const auto schema_error = find_schema_error(json, "results");
+    if (schema_error) throw InputError(name, schema_error->pointer, schema_error->message);
   }
   throw InputError("expected two variants or two result files (got one of each)");
 }
 
 /// "case:variant" -> quantities of a results file.
 std::map<std::string, Named> read_runs(const std::string& file, const Json& json) {
-  if (const auto fault = find_fault(json, "results")) {
-    throw InputError(file, fault->pointer, fault->message);
+  if (const auto schema_error = find_schema_error(json, "results")) {
+    throw InputError(file, schema_error->pointer, schema_error->message);
   }
   std::map<std::string, Named> runs;
   for (const Json& run : json.at("runs")) {
@@ -206,11 +206,11 @@ void compare_costs(const Json& a, const Json& b) {
     });
     if (other == others.end()) continue;
     std::vector<std::string> titles;
-    const std::vector<CostPoint> ours = named_points(study, titles);
-    const FrontAgreement both = compare_fronts(ours, named_points(*other, titles));
+    const std::vector<CostPoint> points_a = named_points(study, titles);
+    const ParetoFrontAgreement both = compare_pareto_fronts(points_a, named_points(*other, titles));
     table.add({study.at("id").get<std::string>(), std::to_string(both.shared),
                std::to_string(both.either), std::to_string(both.same_cheapest),
-               std::to_string(both.asked), rounded(100 * both.median_difference, 2) + " % apart",
+               std::to_string(both.targets), rounded(100 * both.median_difference, 2) + " % apart",
                rounded(100 * both.largest_difference, 2) + " %"});
   }
   if (table.empty()) return;

@@ -36,7 +36,7 @@ void print(const Convergence& found) {
   Table table({">" + series.sweep, ">value", ">error", ">order", ">band", ">factor", ""});
   for (std::size_t k = 0; k < series.values.size(); ++k) {
     table.add({rounded(series.parameter[k]), rounded(series.values[k], 12),
-               rounded(found.error[k], 3), rounded(found.order[k], 4), rounded(found.band[k], 3),
+               rounded(found.error[k], 3), rounded(found.order[k], 4), rounded(found.gci[k], 3),
                rounded(found.factor[k], 3), note(found, k)});
   }
   table.print(std::cout, "    ");
@@ -64,16 +64,16 @@ int converge_command(const std::string& name, const std::string& variant, unsign
   }
   if (!variant.empty()) (void)patched(given, variant);
   const References references;
-  const std::vector<Run> runs = run_cases({given}, references, {variant, jobs, Follow::all, {}});
+  const std::vector<Run> runs = run_cases({given}, references, {variant, jobs, TrackedQuantities::all, {}});
   for (const Run& run : runs) {
-    if (run.trouble != Run::Trouble::none) {
+    if (run.error != Run::RunError::none) {
       std::cerr << run.reason << '\n';
-      return run.trouble == Run::Trouble::input ? 2 : 3;
+      return run.error == Run::RunError::input ? 2 : 3;
     }
     std::cout << run.case_id << ":" << run.variant << "\n\n";
     for (const Convergence& found : run.convergence) print(found);
   }
-  print_bands(bands_of(runs), std::cout);
+  print_numerical_uncertainty(numerical_uncertainty_of(runs), std::cout);
   std::cout
       << "error: relative, of the exact value or else of the extrapolated one; band: grid\n"
          "convergence index with Roache's factor, 1.25 where the order is near theory, else 3\n";

@@ -16,7 +16,7 @@ namespace trammel {
 namespace {
 
 namespace fs = std::filesystem;
-using Standing = MeasuredSetting::Standing;
+using MeasurementStatus = MeasuredSetting::MeasurementStatus;
 
 /// Studies of the catalogue that a word means: of that family, or of that name.
 std::vector<fs::path> studies_named(const std::string& word, std::vector<std::string>& known) {
@@ -43,14 +43,14 @@ fs::path find_one(const std::string& word, const std::vector<std::string>& known
   }
 }
 
-std::vector<CostStudy> read_studies(const CostCommand& command, Sweeping sweeping,
+std::vector<CostStudy> read_studies(const CostCommand& command, SweepExtent extent,
                                     const References& references) {
   std::vector<CostStudy> studies;
   std::set<fs::path> seen;
   bool any_case = false;
   const auto add = [&](const fs::path& file) {
     if (seen.insert(fs::weakly_canonical(file)).second) {
-      studies.push_back(load_cost_study(file, sweeping, references));
+      studies.push_back(load_cost_study(file, extent, references));
     }
   };
   for (const std::string& word : command.what) {
@@ -64,7 +64,7 @@ std::vector<CostStudy> read_studies(const CostCommand& command, Sweeping sweepin
       continue;
     }
     any_case = true;
-    const std::string variant = command.variant.empty() ? base_variant : command.variant;
+    const std::string variant = command.variant.empty() ? kBaseVariant : command.variant;
     studies.push_back(cost_study_of_sweeps(load_case(file), variant, command.sweeps, references));
   }
   if (!any_case && (!command.sweeps.empty() || !command.variant.empty())) {
@@ -75,9 +75,9 @@ std::vector<CostStudy> read_studies(const CostCommand& command, Sweeping sweepin
   return studies;
 }
 
-std::string mark(const MeasuredSetting& measured, bool on_front) {
-  if (on_front) return "*";
-  return measured.standing == Standing::measured ? "" : to_string(measured.standing);
+std::string mark(const MeasuredSetting& measured, bool on_pareto_front) {
+  if (on_pareto_front) return "*";
+  return measured.status == MeasurementStatus::measured ? "" : to_string(measured.status);
 }
 
 void print_settings(const MeasuredStudy& measured) {
@@ -85,16 +85,16 @@ void print_settings(const MeasuredStudy& measured) {
                ">solves", ">steps", ""});
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
-    const MeasuredSetting& one = measured.settings[i];
-    const bool on_front = std::any_of(measured.front.begin(), measured.front.end(),
+    const MeasuredSetting& measurement = measured.settings[i];
+    const bool on_pareto_front = std::any_of(measured.pareto_front.begin(), measured.pareto_front.end(),
                                       [i](const CostPoint& point) { return point.setting == i; });
     const std::string& title = measured.study.settings[i].title;
-    table.add({title, one.error ? rounded(one.error->get(measured.study.norm), 3) : "-",
-               rounded(one.relative, 3), one.timing ? rounded(one.timing->spread(), 2) : "-",
-               rounded(one.cpu_s, 3), std::to_string(one.counters.element_evaluations),
-               std::to_string(one.counters.factorizations), std::to_string(one.counters.solves),
-               std::to_string(one.counters.steps), mark(one, on_front)});
-    if (!one.reason.empty()) reasons.push_back(title + ": " + one.reason);
+    table.add({title, measurement.error ? rounded(measurement.error->get(measured.study.norm), 3) : "-",
+               rounded(measurement.relative, 3), measurement.timing ? rounded(measurement.timing->spread(), 2) : "-",
+               rounded(measurement.cpu_s, 3), std::to_string(measurement.counters.element_evaluations),
+               std::to_string(measurement.counters.factorizations), std::to_string(measurement.counters.solves),
+               std::to_string(measurement.counters.steps), mark(measurement, on_pareto_front)});
+    if (!measurement.reason.empty()) reasons.push_back(title + ": " + measurement.reason);
   }
   table.print(std::cout, "  ");
   for (const std::string& reason : reasons) std::cout << wrapped(reason, "    ");
@@ -102,10 +102,10 @@ void print_settings(const MeasuredStudy& measured) {
 
 void print_cheapest(const MeasuredStudy& measured) {
   Table table({">within", "cheapest setting", ">error", ">time"});
-  for (const double error : asked_errors()) {
+  for (const double error : target_errors()) {
     const auto found = cheapest(measured.points, error);
-    const std::string asked = error < 1e-3 ? rounded(error) : rounded(100 * error) + " %";
-    table.add({asked, found ? measured.study.settings[found->setting].title : "none of these",
+    const std::string target = error < 1e-3 ? rounded(error) : rounded(100 * error) + " %";
+    table.add({target, found ? measured.study.settings[found->setting].title : "none of these",
                found ? rounded(found->error, 2) : "", found ? rounded(found->time, 3) : ""});
   }
   table.print(std::cout, "  ");
@@ -115,17 +115,17 @@ void print(const MeasuredStudy& measured) {
   const CostStudy& study = measured.study;
   std::cout << study.family << ": " << study.title << '\n'
             << wrapped("Error (" + std::string(to_string(study.norm)) + ") against " +
-                           study.truth_words + ", " + study.scale_words + "; time relative to '" +
+                           study.reference_description + ", " + study.scale_description + "; time relative to '" +
                            study.settings[study.baseline].title + "'; * on the efficient front.",
                        "  ");
   print_settings(measured);
   print_cheapest(measured);
-  std::cout << wrapped(measured.words, "  ");
-  const FrontAgreement& both = measured.repeatability;
+  std::cout << wrapped(measured.conclusion, "  ");
+  const ParetoFrontAgreement& both = measured.repeatability;
   std::cout << wrapped("Odd and even repeats by themselves: " + std::to_string(both.shared) +
                            " of " + std::to_string(both.either) + " settings on both fronts, " +
                            std::to_string(both.same_cheapest) + " of " +
-                           std::to_string(both.asked) + " cheapest settings the same, times " +
+                           std::to_string(both.targets) + " cheapest settings the same, times " +
                            rounded(100 * both.median_difference, 2) + " % apart (median), " +
                            rounded(100 * both.largest_difference, 2) + " % at most.",
                        "  ")
@@ -144,8 +144,8 @@ TimingOptions timing_of(const CostCommand& command) {
 int cost_command(const CostCommand& command, const Renderers& renderers) {
   require_writable(command.out);
   const References references;
-  const Sweeping sweeping = command.quick ? Sweeping::quick : Sweeping::full;
-  std::vector<CostStudy> studies = read_studies(command, sweeping, references);
+  const SweepExtent extent = command.quick ? SweepExtent::quick : SweepExtent::full;
+  std::vector<CostStudy> studies = read_studies(command, extent, references);
   CostOptions options{timing_of(command), {}};
   std::vector<MeasuredStudy> measured;
   for (CostStudy& study : studies) {
@@ -157,7 +157,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
     print(measured.back());
   }
   Json results = results_of({}, {}, references);
-  results["cost"] = cost_json(measured, sweeping, options.timing);
+  results["cost"] = cost_json(measured, extent, options.timing);
   const fs::path file = write_results(results, command.out);
   const fs::path page = renderers.report ? renderers.report(file, command.out) : file;
   std::cout << "results in " << file.string() << "\npage in " << page.string() << std::endl;
@@ -167,7 +167,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   return any_lost ? 1 : 0;
 }
 
-Json quick_cost(const References& references, std::vector<std::string>& troubles) {
+Json quick_cost(const References& references, std::vector<std::string>& error_messages) {
   Progress progress;
   const CostOptions options;
   const std::vector<fs::path> files = cost_study_files();
@@ -175,13 +175,13 @@ Json quick_cost(const References& references, std::vector<std::string>& troubles
   for (const fs::path& file : files) {
     try {
       measured.push_back(
-          measure(load_cost_study(file, Sweeping::quick, references), options, references));
+          measure(load_cost_study(file, SweepExtent::quick, references), options, references));
     } catch (const InputError& error) {
-      troubles.emplace_back(error.what());
+      error_messages.emplace_back(error.what());
     }
-    progress.show(measured.size() + troubles.size(), files.size());
+    progress.show(measured.size() + error_messages.size(), files.size());
   }
-  return cost_json(measured, Sweeping::quick, options.timing);
+  return cost_json(measured, SweepExtent::quick, options.timing);
 }
 
 }  // namespace trammel

@@ -21,10 +21,10 @@ std::string percent(double share) {
 }
 
 std::string kinds_of(const Changes& changes) {
-  std::vector<std::string> words;
-  for (const auto& [kind, change] : changes) words.push_back(kind + " " + percent(change));
+  std::vector<std::string> texts;
+  for (const auto& [kind, change] : changes) texts.push_back(kind + " " + percent(change));
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  for (const std::string& word : texts) text += (text.empty() ? "" : ", ") + word;
   return text;
 }
 
@@ -44,7 +44,7 @@ void add_row(Table& table, const std::string& what, const EffectRun& run, const 
     return;
   }
   const bool noisy = run.cpu_spread > 0.1;
-  table.add({what, percent(largest(run.changes)), kinds_of(run.changes),
+  table.add({what, percent(max_change(run.changes)), kinds_of(run.changes),
              ratio(run.cpu_s, full.cpu_s) + (noisy ? " ~" : ""),
              std::to_string(run.counters.element_evaluations),
              std::to_string(run.counters.factorizations), std::to_string(run.counters.solves)});
@@ -54,9 +54,9 @@ void print_singles(const EffectStudy& study) {
   Table table(
       {"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
   add_row(table, "nothing", study.full, study.full);
-  for (const LeftOut& one : study.singles) {
-    const Effects with_carried = study.full.effects.without(one.run.effects);
-    add_row(table, names_of(with_carried.list()), one.run, study.full);
+  for (const Ablation& ablation : study.singles) {
+    const Effects with_dependents = study.full.effects.without(ablation.run.effects);
+    add_row(table, names_of(with_dependents.list()), ablation.run, study.full);
   }
   add_row(table, "all but the chosen", study.chosen, study.full);
   table.print(std::cout, "  ");
@@ -67,14 +67,14 @@ void print_singles(const EffectStudy& study) {
 /// Pairs whose joint change is not the larger, nor the sum, of the two.
 void print_pairs(const EffectStudy& study) {
   const auto single = [&](Effect effect) {
-    for (const LeftOut& one : study.singles) {
-      if (one.effects.front() == effect) return largest(one.run.changes);
+    for (const Ablation& ablation : study.singles) {
+      if (ablation.effects.front() == effect) return max_change(ablation.run.changes);
     }
     return 0.0;
   };
   Table table({"pair", ">together [%]", ">one [%]", ">other [%]"});
-  for (const LeftOut& pair : study.pairs) {
-    const double together = largest(pair.run.changes);
+  for (const Ablation& pair : study.pairs) {
+    const double together = max_change(pair.run.changes);
     const double a = single(pair.effects[0]), b = single(pair.effects[1]);
     const double slack = 0.1 * study.tolerance;
     const bool interact = std::isfinite(together) && std::isfinite(a) && std::isfinite(b) &&
@@ -93,14 +93,14 @@ void print_pairs(const EffectStudy& study) {
 
 void print_verdict(const EffectStudy& study) {
   std::cout << "\nChosen    " << effect_names(study.choice.chosen) << '\n';
-  const double off = largest(study.chosen.changes);
-  std::cout << "Within    " << (study.within() ? "yes" : "no") << ": " << percent(off)
+  const double off = max_change(study.chosen.changes);
+  std::cout << "Within    " << (study.within_tolerance() ? "yes" : "no") << ": " << percent(off)
             << " % from the whole scene, where " << percent(study.tolerance) << " % are allowed\n";
-  std::cout << "Minimal   " << (study.minimal() ? "yes" : "no");
-  for (const LeftOut& one : study.from_chosen) {
-    const double change = largest(one.run.changes);
+  std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no");
+  for (const Ablation& ablation : study.from_chosen) {
+    const double change = max_change(ablation.run.changes);
     if (change <= study.tolerance) {
-      std::cout << "; " << percent(change) << " % without " << names_of(one.effects)
+      std::cout << "; " << percent(change) << " % without " << names_of(ablation.effects)
                 << (change > 0.9 * study.tolerance ? ", kept by the tenth in hand"
                                                    : ", which the estimate took for more");
     }
@@ -113,35 +113,35 @@ void print_verdict(const EffectStudy& study) {
   }
 }
 
-Document draw_scene(const EffectsCommand& command, std::uint64_t n) {
+Document random_case(const EffectsCommand& command, std::uint64_t n) {
   return command.motion ? random_motion(command.seed, n) : random_scene(command.seed, n);
 }
 
 /// What the random scenes come to.
-struct Tally {
+struct HitCounts {
   std::size_t scenes = 0, unsolved = 0, within = 0, minimal = 0;
   std::vector<std::string> misses;
 };
 
-void judge(const EffectStudy& study, const std::string& name, Tally& tally) {
+void count_result(const EffectStudy& study, const std::string& name, HitCounts& counts) {
   if (!study.full.outcome.solved()) {
-    ++tally.unsolved;
+    ++counts.unsolved;
     return;
   }
-  ++tally.scenes;
-  if (study.within()) ++tally.within;
-  if (study.minimal()) ++tally.minimal;
-  if (!study.within()) {
-    tally.misses.push_back(name + ": off by " + percent(largest(study.chosen.changes)) + " % (" +
+  ++counts.scenes;
+  if (study.within_tolerance()) ++counts.within;
+  if (study.is_minimal()) ++counts.minimal;
+  if (!study.within_tolerance()) {
+    counts.misses.push_back(name + ": off by " + percent(max_change(study.chosen.changes)) + " % (" +
                            kinds_of(study.chosen.changes) + ") with " +
                            effect_names(study.choice.chosen));
   }
-  if (study.minimal()) return;
-  for (const LeftOut& one : study.from_chosen) {
-    const double change = largest(one.run.changes);
+  if (study.is_minimal()) return;
+  for (const Ablation& ablation : study.from_chosen) {
+    const double change = max_change(ablation.run.changes);
     if (change > study.tolerance) continue;
-    const auto& reason = study.choice.reasons[static_cast<std::size_t>(one.effects.front())];
-    tally.misses.push_back(name + ": could do without " + names_of(one.effects) + ", " +
+    const auto& reason = study.choice.reasons[static_cast<std::size_t>(ablation.effects.front())];
+    counts.misses.push_back(name + ": could do without " + names_of(ablation.effects) + ", " +
                            percent(change) + " %; estimated " + percent(reason.change.value_or(0)) +
                            " %");
   }
@@ -152,9 +152,9 @@ void judge(const EffectStudy& study, const std::string& name, Tally& tally) {
 int effects_command(const EffectsCommand& command) {
   const bool random = command.name.empty();
   const Document document = [&] {
-    if (random) return draw_scene(command, command.scene);
+    if (random) return random_case(command, command.scene);
     const Case given = load_case(find_case(command.name));
-    return patched(given, command.variant.empty() ? base_variant : command.variant);
+    return patched(given, command.variant.empty() ? kBaseVariant : command.variant);
   }();
   const EffectStudy study = study_effects(document, {command.tolerance, true, command.repeats});
   const Json& json = document.value();
@@ -170,7 +170,7 @@ int effects_command(const EffectsCommand& command) {
   print_singles(study);
   print_pairs(study);
   print_verdict(study);
-  return study.within() ? 0 : 1;
+  return study.within_tolerance() ? 0 : 1;
 }
 
 int labelled_effects_command(const EffectsCommand& command) {
@@ -179,16 +179,16 @@ int labelled_effects_command(const EffectsCommand& command) {
   bool within = true;
   std::size_t scenes = 0;
   for (const Case& given : load_catalogue(command.labels)) {
-    const Document document = patched(given, base_variant);
+    const Document document = patched(given, kBaseVariant);
     if (!knows_effects(document)) continue;
     const EffectStudy study = study_effects(document, {command.tolerance, false, command.repeats});
     if (!study.full.outcome.solved()) continue;
     ++scenes;
-    within = within && study.within();
+    within = within && study.within_tolerance();
     const Counters &chosen = study.chosen.counters, &full = study.full.counters;
     table.add({given.id(), effect_names(study.choice.chosen),
-               percent(largest(study.chosen.changes)), percent(study.tolerance),
-               study.minimal() ? "yes" : "no", ratio(study.chosen.cpu_s, study.full.cpu_s),
+               percent(max_change(study.chosen.changes)), percent(study.tolerance),
+               study.is_minimal() ? "yes" : "no", ratio(study.chosen.cpu_s, study.full.cpu_s),
                ratio(study.choice_cpu_s, study.full.cpu_s),
                ratio(static_cast<double>(chosen.element_evaluations),
                      static_cast<double>(full.element_evaluations)),
@@ -202,30 +202,30 @@ int labelled_effects_command(const EffectsCommand& command) {
 }
 
 int random_effects_command(const EffectsCommand& command) {
-  Tally tally;
+  HitCounts counts;
   {
     Progress progress;
-    for (std::uint64_t n = 0; tally.scenes < command.random && n < 2 * command.random; ++n) {
-      const Document document = draw_scene(command, n);
-      judge(study_effects(document, {command.tolerance, false, 0}),
-            document.value().at("id").get<std::string>(), tally);
-      progress.show(tally.scenes, command.random);
+    for (std::uint64_t n = 0; counts.scenes < command.random && n < 2 * command.random; ++n) {
+      const Document document = random_case(command, n);
+      count_result(study_effects(document, {command.tolerance, false, 0}),
+            document.value().at("id").get<std::string>(), counts);
+      progress.show(counts.scenes, command.random);
     }
   }
-  for (const std::string& miss : tally.misses) std::cout << wrapped(miss, "  ");
+  for (const std::string& miss : counts.misses) std::cout << wrapped(miss, "  ");
   const auto share = [&](std::size_t hits) {
-    return static_cast<double>(hits) / static_cast<double>(tally.scenes);
+    return static_cast<double>(hits) / static_cast<double>(counts.scenes);
   };
   const auto rate = [&](std::size_t hits) {
-    return std::to_string(hits) + " of " + std::to_string(tally.scenes) + ", " +
+    return std::to_string(hits) + " of " + std::to_string(counts.scenes) + ", " +
            rounded(100 * share(hits), 3) + " %";
   };
   std::cout << "Random scenes, seed " << command.seed << ", tolerance "
             << percent(command.tolerance) << " %\n"
-            << "  within the tolerance of the whole scene  " << rate(tally.within) << '\n'
-            << "  minimal                                  " << rate(tally.minimal) << '\n'
-            << "  without a solution to compare with       " << tally.unsolved << '\n';
-  return share(tally.within) >= 0.99 && share(tally.minimal) >= 0.9 ? 0 : 1;
+            << "  within the tolerance of the whole scene  " << rate(counts.within) << '\n'
+            << "  minimal                                  " << rate(counts.minimal) << '\n'
+            << "  without a solution to compare with       " << counts.unsolved << '\n';
+  return share(counts.within) >= 0.99 && share(counts.minimal) >= 0.9 ? 0 : 1;
 }
 
 }  // namespace trammel

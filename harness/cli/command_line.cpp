@@ -15,13 +15,13 @@
 namespace trammel {
 namespace {
 
-constexpr const char* about =
+constexpr const char* kAbout =
     R"(Verification and validation of flexible-link planar parallel manipulators.
 
 A case is a JSON file: a model, an analysis, and checks against references with passports. A name
 is looked up in the catalogue; a path is a file of your own, in any folder.)";
 
-constexpr const char* footer = R"(
+constexpr const char* kFooter = R"(
 Examples:
   trammel list                              what there is
   trammel describe manipulator-modes        what a case models, checks and compares with
@@ -43,7 +43,7 @@ class CommandLine {
  public:
   explicit CommandLine(const Renderers& renderers) : renderers_(renderers) {
     app_.name("trammel");
-    app_.footer(footer);
+    app_.footer(kFooter);
     app_.set_version_flag("--version", TRAMMEL_VERSION);
     app_.require_subcommand(1);
     define_list();
@@ -52,30 +52,30 @@ class CommandLine {
     define_compare();
     define_converge();
     define_cost();
-    define_ledger();
+    define_claims();
     define_effects();
     define_report();
   }
 
-  int run(const std::vector<std::string>& words) {
+  int run(const std::vector<std::string>& arguments) {
     // CLI11 takes them from the back, and keeps what is left.
-    std::vector<std::string> stack(words.rbegin(), words.rend());
+    std::vector<std::string> stack(arguments.rbegin(), arguments.rend());
     try {
       app_.parse(stack);
     } catch (const CLI::ParseError& error) {
       if (error.get_exit_code() == 0) return app_.exit(error);
-      throw InputError("trammel: " + explained(error, words));
+      throw InputError("trammel: " + explained(error, arguments));
     }
     return command_();
   }
 
  private:
-  std::string explained(const CLI::ParseError& error, const std::vector<std::string>& words) {
+  std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
     std::vector<std::string> names;
     for (const CLI::App* sub : app_.get_subcommands([](const CLI::App*) { return true; })) {
       names.push_back(sub->get_name());
     }
-    const std::string first = words.empty() ? "" : words.front();
+    const std::string first = arguments.empty() ? "" : arguments.front();
     const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
     if (first.empty()) return "expected a command (see trammel --help)";
     if (!is_command && first.front() != '-') {
@@ -172,14 +172,14 @@ class CommandLine {
         ->capture_default_str();
     sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
   }
-  void define_ledger() {
+  void define_claims() {
     CLI::App* sub =
         add("ledger", "The paper's claims, and what the results say of each",
             "\nRuns the cases that the claims rest on. Exit status 1 where a verdict is "
             "not the recorded one.\n\nExample:\n  trammel ledger");
     add_jobs(sub);
     sub->add_flag("--json", json_, "As JSON, with every number");
-    sub->callback([this] { command_ = [this] { return ledger_command(run_.jobs, json_); }; });
+    sub->callback([this] { command_ = [this] { return claims_command(run_.jobs, json_); }; });
   }
   void define_effects() {
     CLI::App* sub = add("effects", "What each effect is worth in a scene, estimated and measured",
@@ -235,7 +235,7 @@ class CommandLine {
   }
 
   const Renderers& renderers_;
-  CLI::App app_{about};
+  CLI::App app_{kAbout};
   RunCommand run_{{}, {}, "", std::max(1U, std::thread::hardware_concurrency()), "trammel-results"};
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   EffectsCommand effects_;
@@ -246,9 +246,9 @@ class CommandLine {
 
 }  // namespace
 
-int run_command_line(const std::vector<std::string>& words, const Renderers& renderers) {
+int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   try {
-    return CommandLine(renderers).run(words);
+    return CommandLine(renderers).run(arguments);
   } catch (const InputError& error) {
     std::cerr << error.what() << '\n';
     return 2;

@@ -18,8 +18,8 @@ struct Renderers {
 
 /// Runs the program. @returns 0: every gate holds, 1: a check failed, 2: bad usage or input, 3: our
 /// own fault.
-/// @param words  the command line without the program's name
-[[nodiscard]] int run_command_line(const std::vector<std::string>& words,
+/// @param arguments  the command line without the program's name
+[[nodiscard]] int run_command_line(const std::vector<std::string>& arguments,
                                    const Renderers& renderers);
 
 }  // namespace trammel

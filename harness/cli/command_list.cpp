@@ -39,23 +39,23 @@ std::string count_of(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::string model_words(const Document& document) {
+std::string describe_model(const Document& document) {
   const std::string kind = analysis_kind(document);
   if (kind == "comparison") return "no model: references against each other";
   if (kind == "options") return "those of other cases";
   if (kind == "study" && !document.value().contains("model")) return "made by the analysis";
   if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
   if (kind == "grnn" && !document.value().contains("model")) return "none: samples of its own";
-  const Scene scene = read_scene(document);
-  const Model model = build_bare_model(scene, 0);
+  const CaseModel case_model = read_case_model(document);
+  const Model model = build_bare_model(case_model, 0);
   std::string text;
-  if (scene.manipulator) {
-    const auto& platform = scene.manipulator->platform;
+  if (case_model.manipulator) {
+    const auto& platform = case_model.manipulator->platform;
     text = platform.kind == PlatformDesign::Kind::rigid
                ? "3-RRR manipulator with a rigid platform"
                : "3-RRR manipulator with a platform of triangles";
-    const Pose& pose = scene.motion.front().pose;
-    text += scene.path ? ", along " + count_of(scene.motion.size(), "pose")
+    const Pose& pose = case_model.motion.front().pose;
+    text += case_model.path ? ", along " + count_of(case_model.motion.size(), "pose")
                        : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
                              " m, phi = " + shortest(pose.phi) + " rad";
   } else {
@@ -69,7 +69,7 @@ std::string model_words(const Document& document) {
   if (!model.triangles.empty()) text += ", " + count_of(model.triangles.size(), "triangle");
   if (!model.masses.empty()) text += ", " + count_of(model.masses.size(), "point mass");
   if (!model.springs.empty()) text += ", " + count_of(model.springs.size(), "spring");
-  const large::Scenario& more = scene.mechanism;
+  const large::LargeMotionModel& more = case_model.joint_elements;
   if (!more.line_springs.empty()) text += ", " + count_of(more.line_springs.size(), "line spring");
   if (!more.sliders.empty()) text += ", " + count_of(more.sliders.size(), "slider");
   if (!model.loads.empty()) text += ", " + count_of(model.loads.size(), "load");
@@ -79,7 +79,7 @@ std::string model_words(const Document& document) {
   return text;
 }
 
-std::string windows_in_words(const Check& check) {
+std::string describe_windows(const Check& check) {
   if (check.windows.empty()) return "recorded, does not gate";
   if (check.symmetric) return "within " + shortest(check.windows[0].high);
   std::vector<std::string> each;
@@ -89,7 +89,7 @@ std::string windows_in_words(const Check& check) {
   return "in " + join(each, "and");
 }
 
-std::string check_words(const Check& check) {
+std::string describe_check(const Check& check) {
   std::string text = check.statistic.empty() ? "" : check.statistic + " of ";
   text += check.quantity;
   if (!check.index.empty()) {
@@ -109,32 +109,32 @@ std::string check_words(const Check& check) {
            shortest(check.order->within) + " of theory";
   }
   text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
-  text += windows_in_words(check);
+  text += describe_windows(check);
   if (check.expectation == Expectation::known_discrepancy) text += " (a known discrepancy)";
   return text;
 }
 
 void describe_effects(const Case& given) {
-  const Document base = patched(given, base_variant);
+  const Document base = patched(given, kBaseVariant);
   if (!knows_effects(base)) return;
-  print_effects(choose_effects(base, read_scene(base)), analysis_kind(base));
+  print_effects(choose_effects(base, read_case_model(base)), analysis_kind(base));
 }
 
 void describe_checks(const Case& given, const References& references) {
-  const Document base = patched(given, base_variant);
-  const std::vector<Check> checks = read_checks(base, base_variant, given.variants());
+  const Document base = patched(given, kBaseVariant);
+  const std::vector<Check> checks = read_checks(base, kBaseVariant, given.variants());
   if (checks.empty()) return;
   std::cout << "\nChecks\n";
-  const Cursor places = Cursor(base)["checks"];
+  const JsonView places = JsonView(base)["checks"];
   for (const Check& check : checks) {
     std::cout << "  " << check.name << "  (" << to_string(check.role) << ")\n"
-              << wrapped(check_words(check), "      ") << wrapped(check.why, "      ");
+              << wrapped(describe_check(check), "      ") << wrapped(check.why, "      ");
     if (!check.reference.empty()) (void)references.get(places[check.name]["reference"]);
   }
 }
 
 void describe_inputs(const Case& given, const References& references) {
-  const Document base = patched(given, base_variant);
+  const Document base = patched(given, kBaseVariant);
   if (!base.value().contains("uncertainty")) return;
   std::cout << "\nInputs, as well as they are known\n";
   Table table({"input", ">half width", "", "why"});
@@ -169,18 +169,18 @@ int list_cases(const std::vector<std::string>& labels, bool json) {
   const std::vector<Case> cases = load_catalogue(labels);
   if (json) {
     Json all = Json::array();
-    for (const Case& one : cases) all.push_back(summary(one));
+    for (const Case& test_case : cases) all.push_back(summary(test_case));
     std::cout << pretty(all);
     return 0;
   }
   Table table({"case", "analysis", ">variants", "labels", "title"});
-  for (const Case& one : cases) {
+  for (const Case& test_case : cases) {
     std::string labels_text;
-    for (const std::string& label : one.labels()) {
+    for (const std::string& label : test_case.labels()) {
       labels_text += (labels_text.empty() ? "" : ",") + label;
     }
-    table.add({one.id(), analysis_kind(one.document), std::to_string(one.variants().size()),
-               labels_text, one.title()});
+    table.add({test_case.id(), analysis_kind(test_case.document), std::to_string(test_case.variants().size()),
+               labels_text, test_case.title()});
   }
   table.print(std::cout);
   std::cout << count_of(cases.size(), "case") << '\n';
@@ -198,7 +198,7 @@ int describe_case(const std::string& name, bool json) {
   const References references;
   std::cout << given.id() << ": " << given.title() << '\n';
   std::cout << wrapped(text_of(given, "description"), "  ");
-  std::cout << "\nModel     " << model_words(patched(given, base_variant)) << '\n';
+  std::cout << "\nModel     " << describe_model(patched(given, kBaseVariant)) << '\n';
   std::cout << "Analysis  " << analysis_kind(given.document) << " "
             << given.document.value().at("analysis").begin()->dump() << '\n';
   std::cout << "File      " << given.file.string() << '\n';
@@ -206,11 +206,11 @@ int describe_case(const std::string& name, bool json) {
     std::cout << "\nVariants\n";
     Table table({"name", "what it changes"});
     for (const std::string& variant : given.variants()) {
-      if (variant != base_variant) table.add({variant, given.variant_title(variant)});
+      if (variant != kBaseVariant) table.add({variant, given.variant_title(variant)});
     }
     table.print(std::cout, "  ");
   }
-  if (const auto sweeps = Cursor(given.document).find("sweeps")) {
+  if (const auto sweeps = JsonView(given.document).find("sweeps")) {
     std::cout << "\nSweeps\n";
     for (const auto& [sweep, place] : sweeps->entries()) {
       std::cout << "  " << sweep << "  " << place["values"].json().dump();

@@ -34,10 +34,10 @@ Selection load(const std::vector<std::filesystem::path>& files) {
       if (files.size() == 1) throw;
       Run run;
       run.case_id = file.stem().string();
-      run.variant = base_variant;
+      run.variant = kBaseVariant;
       run.status = "error";
       run.reason = error.what();
-      run.trouble = Run::Trouble::input;
+      run.error = Run::RunError::input;
       selection.broken.push_back(std::move(run));
     }
   }
@@ -46,18 +46,18 @@ Selection load(const std::vector<std::filesystem::path>& files) {
 
 void require_distinct(const std::vector<Case>& cases) {
   std::map<std::string, std::string> seen;
-  for (const Case& one : cases) {
-    const auto [entry, fresh] = seen.emplace(one.id(), one.file.string());
+  for (const Case& test_case : cases) {
+    const auto [entry, fresh] = seen.emplace(test_case.id(), test_case.file.string());
     if (!fresh) {
-      throw InputError("expected cases of different names (got '" + one.id() + "' in " +
-                       entry->second + " and in " + one.file.string() + ")");
+      throw InputError("expected cases of different names (got '" + test_case.id() + "' in " +
+                       entry->second + " and in " + test_case.file.string() + ")");
     }
   }
 }
 
 void require_variant(const std::vector<Case>& cases, const std::string& variant) {
   if (variant.empty()) return;
-  for (const Case& one : cases) (void)patched(one, variant);
+  for (const Case& test_case : cases) (void)patched(test_case, variant);
 }
 
 std::vector<Run> compute(const Selection& selection, const References& references,
@@ -72,34 +72,34 @@ std::vector<Run> compute(const Selection& selection, const References& reference
 
 /// The entry of a check that deserves to be told: the first one that does not hold, else the one
 /// farthest out.
-struct Told {
-  const Judgement* worst = nullptr;
+struct CheckSummary {
+  const CheckResult* worst = nullptr;
   std::size_t entries = 0;
 };
 
-std::vector<Told> by_check(const Run& run) {
-  std::vector<Told> told;
-  for (const Judgement& one : run.judgements) {
+std::vector<CheckSummary> summarise_checks(const Run& run) {
+  std::vector<CheckSummary> told;
+  for (const CheckResult& check_result : run.check_results) {
     auto same = std::find_if(told.begin(), told.end(),
-                             [&](const Told& check) { return check.worst->name == one.name; });
-    if (same == told.end()) same = told.insert(told.end(), {&one, 0});
-    Told& check = *same;
+                             [&](const CheckSummary& check) { return check.worst->name == check_result.name; });
+    if (same == told.end()) same = told.insert(told.end(), {&check_result, 0});
+    CheckSummary& check = *same;
     ++check.entries;
-    const auto rank = [](const Judgement& judged) {
-      return std::pair(breaks_gate(judged.verdict) ? 1 : 0,
+    const auto rank = [](const CheckResult& judged) {
+      return std::pair(fails_gate(judged.verdict) ? 1 : 0,
                        std::abs(judged.difference.value_or(0)));
     };
-    if (rank(one) > rank(*check.worst)) check.worst = &one;
+    if (rank(check_result) > rank(*check.worst)) check.worst = &check_result;
   }
   return told;
 }
 
 /// Digits that tell the ends of a window from each other and from what lies between them.
-int digits_of(const Judgement& one) {
+int digits_of(const CheckResult& check_result) {
   constexpr int least = 3, most = 12;
-  if (!one.window || one.symmetric) return least;
-  const double low = one.window->low, high = one.window->high;
-  const auto judged = one.measure == "bound" ? one.computed : one.difference;
+  if (!check_result.window || check_result.symmetric) return least;
+  const double low = check_result.window->low, high = check_result.window->high;
+  const auto judged = check_result.measure == "bound" ? check_result.computed : check_result.difference;
   const auto apart = [](double a, double b, int digits) {
     return a == b || !std::isfinite(a) || !std::isfinite(b) ||
            rounded(a, digits) != rounded(b, digits);
@@ -112,22 +112,22 @@ int digits_of(const Judgement& one) {
   return most;
 }
 
-std::string allowed(const Judgement& one) {
-  if (!one.window) return "";
-  if (one.symmetric) return "+-" + rounded(one.window->high, 3);
-  const int digits = digits_of(one);
-  const std::string low = rounded(one.window->low, digits),
-                    high = rounded(one.window->high, digits);
-  if (!std::isfinite(one.window->low)) return "at most " + high;
-  if (!std::isfinite(one.window->high)) return "at least " + low;
+std::string tolerance_text(const CheckResult& check_result) {
+  if (!check_result.window) return "";
+  if (check_result.symmetric) return "+-" + rounded(check_result.window->high, 3);
+  const int digits = digits_of(check_result);
+  const std::string low = rounded(check_result.window->low, digits),
+                    high = rounded(check_result.window->high, digits);
+  if (!std::isfinite(check_result.window->low)) return "at most " + high;
+  if (!std::isfinite(check_result.window->high)) return "at least " + low;
   return "[" + low + ", " + high + "]";
 }
 
-std::string verdict_word(const Judgement& one) {
-  if (one.verdict == Verdict::pass && one.expectation == Expectation::known_discrepancy) {
+std::string verdict_text(const CheckResult& check_result) {
+  if (check_result.verdict == Verdict::pass && check_result.expectation == Expectation::known_discrepancy) {
     return "known";
   }
-  return to_string(one.verdict);
+  return to_string(check_result.verdict);
 }
 
 /// What was computed, where no check says it: short ones whole, of long ones the range.
@@ -156,23 +156,23 @@ void print_quantities(const Run& run) {
 }
 
 void print_run(const Run& run) {
-  std::cout << run.case_id << (run.variant == base_variant ? "" : ":" + run.variant) << "  "
+  std::cout << run.case_id << (run.variant == kBaseVariant ? "" : ":" + run.variant) << "  "
             << run.status << ", " << rounded(run.wall_s, 2) << " s\n";
   if (!run.reason.empty()) std::cout << wrapped(run.reason, "  ");
   Table table(
       {"verdict", "check", "quantity", ">computed", ">expected", ">difference", ">allowed"});
   std::vector<std::string> messages;
-  for (const Told& told : by_check(run)) {
-    const Judgement& one = *told.worst;
-    std::string quantity = one.quantity;
-    if (one.index && told.entries > 1) quantity += "[" + std::to_string(*one.index) + "]";
-    if (!one.statistic.empty()) quantity.insert(0, one.statistic + " ");
-    table.add({verdict_word(one), one.name, quantity, one.computed ? rounded(*one.computed, 8) : "",
-               one.expected ? rounded(*one.expected, 8) : "",
-               one.difference ? rounded(*one.difference, digits_of(one)) : "", allowed(one)});
-    const bool said_above = one.quantity == "status" && !run.reason.empty();
-    if (breaks_gate(one.verdict) && !one.message.empty() && !said_above) {
-      messages.push_back(one.name + ": " + one.message);
+  for (const CheckSummary& told : summarise_checks(run)) {
+    const CheckResult& check_result = *told.worst;
+    std::string quantity = check_result.quantity;
+    if (check_result.index && told.entries > 1) quantity += "[" + std::to_string(*check_result.index) + "]";
+    if (!check_result.statistic.empty()) quantity.insert(0, check_result.statistic + " ");
+    table.add({verdict_text(check_result), check_result.name, quantity, check_result.computed ? rounded(*check_result.computed, 8) : "",
+               check_result.expected ? rounded(*check_result.expected, 8) : "",
+               check_result.difference ? rounded(*check_result.difference, digits_of(check_result)) : "", tolerance_text(check_result)});
+    const bool said_above = check_result.quantity == "status" && !run.reason.empty();
+    if (fails_gate(check_result.verdict) && !check_result.message.empty() && !said_above) {
+      messages.push_back(check_result.name + ": " + check_result.message);
     }
   }
   if (!table.empty()) table.print(std::cout, "  ");
@@ -184,23 +184,23 @@ void print_summary(const std::vector<Run>& runs) {
   std::map<std::string, std::size_t> verdicts;
   std::size_t checks = 0;
   for (const Run& run : runs) {
-    for (const Judgement& one : run.judgements) {
+    for (const CheckResult& check_result : run.check_results) {
       ++checks;
-      ++verdicts[verdict_word(one)];
+      ++verdicts[verdict_text(check_result)];
     }
   }
   std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks
             << (checks == 1 ? " check" : " checks");
   for (const auto& [word, count] : verdicts) std::cout << ", " << count << " " << word;
   std::cout << '\n';
-  print_bands(bands_of(runs), std::cout);
+  print_numerical_uncertainty(numerical_uncertainty_of(runs), std::cout);
   print_validation_summary(runs, std::cout);
 }
 
-void print_trouble(const std::vector<Run>& runs) {
+void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
-    if (run.trouble == Run::Trouble::none) continue;
+    if (run.error == Run::RunError::none) continue;
     // Variants of one case often have one and the same fault.
     if (std::find(told.begin(), told.end(), run.reason) != told.end()) continue;
     told.push_back(run.reason);
@@ -221,10 +221,10 @@ Selection select(const RunCommand& command) {
   for (const std::string& name : command.cases) files.push_back(find_case(name));
   Selection selection = load(files);
   if (!command.labels.empty()) {
-    for (Case& one : load_catalogue(command.labels)) {
+    for (Case& test_case : load_catalogue(command.labels)) {
       const bool there = std::any_of(selection.cases.begin(), selection.cases.end(),
-                                     [&](const Case& other) { return other.id() == one.id(); });
-      if (!there) selection.cases.push_back(std::move(one));
+                                     [&](const Case& other) { return other.id() == test_case.id(); });
+      if (!there) selection.cases.push_back(std::move(test_case));
     }
   }
   require_distinct(selection.cases);
@@ -232,11 +232,11 @@ Selection select(const RunCommand& command) {
   return selection;
 }
 
-void print_broken(const std::vector<Run>& runs) {
+void print_failed_runs(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
-    const bool broken = std::any_of(run.judgements.begin(), run.judgements.end(),
-                                    [](const Judgement& one) { return breaks_gate(one.verdict); });
-    if (broken && run.trouble == Run::Trouble::none) print_run(run);
+    const bool broken = std::any_of(run.check_results.begin(), run.check_results.end(),
+                                    [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
+    if (broken && run.error == Run::RunError::none) print_run(run);
   }
 }
 
@@ -247,17 +247,17 @@ void write_page(const Json& results, const std::vector<Run>& runs, const std::st
   const auto page = renderers.report ? renderers.report(file, out) : file;
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
-  print_trouble(runs);
+  print_run_errors(runs);
 }
 
 /// The page of some cases: without the cost studies and the claims, which rest on the catalogue.
-int report_some(const RunCommand& command, const Renderers& renderers) {
+int report_cases(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
   require_writable(command.out);
   const References references;
   const std::vector<Run> runs =
-      compute(selection, references, {command.variant, command.jobs, Follow::named, {}});
-  print_broken(runs);
+      compute(selection, references, {command.variant, command.jobs, TrackedQuantities::named, {}});
+  print_failed_runs(runs);
   write_page(results_of(runs, selection.cases, references), runs, command.out, renderers);
   return exit_status(runs);
 }
@@ -269,9 +269,9 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   require_writable(command.out);
   const References references;
   const std::vector<Run> runs =
-      compute(selection, references, {command.variant, command.jobs, Follow::named, {}});
+      compute(selection, references, {command.variant, command.jobs, TrackedQuantities::named, {}});
   for (const Run& run : runs) {
-    if (run.trouble != Run::Trouble::none) continue;
+    if (run.error != Run::RunError::none) continue;
     print_run(run);
     if (runs.size() == 1) print_validation(run, std::cout);
   }
@@ -279,32 +279,32 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
       write_all(results_of(runs, selection.cases, references), command.out, renderers);
   print_summary(runs);
   std::cout << "results in " << results.string() << std::endl;
-  print_trouble(runs);
+  print_run_errors(runs);
   return exit_status(runs);
 }
 
 int report_command(const RunCommand& command, const Renderers& renderers) {
-  if (!command.cases.empty() || !command.labels.empty()) return report_some(command, renderers);
+  if (!command.cases.empty() || !command.labels.empty()) return report_cases(command, renderers);
   require_writable(command.out);
   const Selection selection = load(catalogue_files());
   const References references;
   const std::vector<Run> runs =
-      compute(selection, references, {"", command.jobs, Follow::named, {}});
-  print_broken(runs);
-  std::vector<std::string> troubles;
-  const Json cost = quick_cost(references, troubles);
+      compute(selection, references, {"", command.jobs, TrackedQuantities::named, {}});
+  print_failed_runs(runs);
+  std::vector<std::string> error_messages;
+  const Json cost = quick_cost(references, error_messages);
   Json json = results_of(runs, selection.cases, references);
   json["cost"] = cost;
-  const Ledger ledger = judge_ledger(load_ledger(), runs);
-  json["ledger"] = to_json(ledger);
+  const ClaimSet claim_set = evaluate_claims(load_claims(), runs);
+  json["ledger"] = to_json(claim_set);
   write_page(json, runs, command.out, renderers);
-  for (const std::string& trouble : troubles) std::cerr << trouble << '\n';
-  for (const LedgerClaim& claim : ledger.claims) {
-    if (claim.follows()) continue;
+  for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
+  for (const Claim& claim : claim_set.claims) {
+    if (claim.as_expected()) continue;
     std::cerr << "claim " << claim.id << ": expected the recorded verdict, "
-              << in_words(claim.expected) << " (got " << in_words(claim.verdict) << ")\n";
+              << to_text(claim.expected) << " (got " << to_text(claim.verdict) << ")\n";
   }
-  return std::max({exit_status(runs), troubles.empty() ? 0 : 2, ledger.follows() ? 0 : 1});
+  return std::max({exit_status(runs), error_messages.empty() ? 0 : 2, claim_set.as_expected() ? 0 : 1});
 }
 
 }  // namespace trammel

@@ -46,7 +46,7 @@ int run_command(const RunCommand& command, const Renderers& renderers);
 int compare_command(const std::string& a, const std::string& b);
 int converge_command(const std::string& name, const std::string& variant, unsigned jobs);
 int cost_command(const CostCommand& command, const Renderers& renderers);
-int ledger_command(unsigned jobs, bool json);
+int claims_command(unsigned jobs, bool json);
 int effects_command(const EffectsCommand& command);
 /// Hit rate of automatic effects: 1 below 99 % within tolerance or 90 % minimal.
 int random_effects_command(const EffectsCommand& command);
@@ -56,7 +56,7 @@ int labelled_effects_command(const EffectsCommand& command);
 int report_command(const RunCommand& command, const Renderers& renderers);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.
-/// @param troubles  gets a line for each study that could not be measured
-[[nodiscard]] Json quick_cost(const References& references, std::vector<std::string>& troubles);
+/// @param error_messages  gets a line for each study that could not be measured
+[[nodiscard]] Json quick_cost(const References& references, std::vector<std::string>& error_messages);
 
 }  // namespace trammel

@@ -3,6 +3,6 @@
 #include "reports/page/report.h"
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  return trammel::run_command_line(words, {trammel::write_report, trammel::write_junit});
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  return trammel::run_command_line(arguments, {trammel::write_report, trammel::write_junit});
 }

@@ -15,10 +15,10 @@ std::string effect_names(Effects effects) {
 
 namespace {
 
-std::string names_where(const EffectChoice& choice, bool on, bool admitted) {
+std::string names_where(const EffectChoice& choice, bool active, bool applicable) {
   std::vector<std::string> names;
-  for (const EffectReason& one : choice.reasons) {
-    if (one.on == on && (on || one.admitted == admitted)) names.emplace_back(name_of(one.effect));
+  for (const EffectReason& reason : choice.reasons) {
+    if (reason.active == active && (active || reason.applicable == applicable)) names.emplace_back(name_of(reason.effect));
   }
   return names.empty() ? "none" : join(names, "and");
 }
@@ -37,23 +37,23 @@ void print_effects(const EffectChoice& choice, const std::string& analysis) {
   if (!choice.tolerance) return print_stated(choice);
   std::cout << "\nEffects, those that a tolerance of " << *choice.tolerance << " calls for\n";
   Table table({"effect", "", ">number", "which is", ">change without [%]"});
-  for (const EffectReason& one : choice.reasons) {
-    table.add({std::string(name_of(one.effect)),
-               one.on         ? "on"
-               : one.admitted ? "off"
+  for (const EffectReason& reason : choice.reasons) {
+    table.add({std::string(name_of(reason.effect)),
+               reason.active         ? "on"
+               : reason.applicable ? "off"
                               : "-",
-               one.number ? rounded(*one.number, 3) : "",
-               one.number ? number_words(one.effect, analysis) : "",
-               one.change ? rounded(100 * *one.change, 3) : ""});
+               reason.number ? rounded(*reason.number, 3) : "",
+               reason.number ? describe_effect_number(reason.effect, analysis) : "",
+               reason.change ? rounded(100 * *reason.change, 3) : ""});
   }
   table.print(std::cout, "  ");
-  for (const EffectReason& one : choice.reasons) {
-    const std::string name(name_of(one.effect));
+  for (const EffectReason& reason : choice.reasons) {
+    const std::string name(name_of(reason.effect));
     std::cout << wrapped(name + ": " +
-                             (one.on         ? "on, "
-                              : one.admitted ? "off, "
+                             (reason.active         ? "on, "
+                              : reason.applicable ? "off, "
                                              : "not there, ") +
-                             one.why,
+                             reason.why,
                          "      ");
   }
 }

@@ -33,8 +33,8 @@ void print_validation(const Run& run, std::ostream& out) {
   table.print(out, "    ");
   for (const ComparedEntry& entry : found.entries) {
     out << wrapped(entry.reference + "[" + std::to_string(entry.index) +
-                       "]: " + entry.validation.words +
-                       "; with nominal lengths taken literally: " + entry.literal.words,
+                       "]: " + entry.validation.text +
+                       "; with nominal lengths taken literally: " + entry.literal.text,
                    "    ");
   }
 }
@@ -54,14 +54,14 @@ void print_validation_summary(const std::vector<Run>& runs, std::ostream& out) {
   out << '\n';
 }
 
-void print_bands(const BandSummary& bands, std::ostream& out) {
-  if (bands.levels == 0) return;
-  out << "bands of numerical uncertainty hold the exact value on " << bands.hits << " of "
-      << bands.levels << " levels (" << percent(bands.hit_rate()) << "), median band over error "
-      << rounded(bands.median_ratio, 3);
-  if (bands.fails()) {
-    out << ": FAIL, expected at least " << percent(least_hit_rate) << " and at most "
-        << rounded(largest_median_ratio);
+void print_numerical_uncertainty(const NumericalUncertaintySummary& summary, std::ostream& out) {
+  if (summary.levels == 0) return;
+  out << "bands of numerical uncertainty hold the exact value on " << summary.hits << " of "
+      << summary.levels << " levels (" << percent(summary.hit_rate()) << "), median band over error "
+      << rounded(summary.median_ratio, 3);
+  if (summary.fails()) {
+    out << ": FAIL, expected at least " << percent(kMinHitRate) << " and at most "
+        << rounded(kMaxMedianRatio);
   }
   out << '\n';
 }

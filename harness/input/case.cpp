@@ -15,22 +15,22 @@ namespace fs = std::filesystem;
 
 /// What one case takes from another: how things are computed, not what is judged.
 Json inherited(const Json& base) {
-  Json kept = Json::object();
+  Json inherited_keys = Json::object();
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {
-    if (base.contains(key)) kept[key] = base.at(key);
+    if (base.contains(key)) inherited_keys[key] = base.at(key);
   }
-  if (!kept.contains("variants") || !kept["variants"].is_object()) return kept;
-  for (auto& variant : kept["variants"]) {
+  if (!inherited_keys.contains("variants") || !inherited_keys["variants"].is_object()) return inherited_keys;
+  for (auto& variant : inherited_keys["variants"]) {
     if (!variant.is_object()) continue;
     variant.erase("checks");
     variant.erase("sweeps");
     variant.erase("expect_status");
   }
-  return kept;
+  return inherited_keys;
 }
 
 /// Lays the file over all that it extends, outermost first.
-void lay_with_bases(Document& document, const fs::path& file, std::vector<fs::path> seen) {
+void apply_with_bases(Document& document, const fs::path& file, std::vector<fs::path> seen) {
   const Json json = read_json(file);
   if (!json.is_object()) throw InputError(file.string(), "", "expected an object");
   seen.push_back(fs::weakly_canonical(file));
@@ -38,18 +38,18 @@ void lay_with_bases(Document& document, const fs::path& file, std::vector<fs::pa
     if (!extends->is_string()) {
       throw InputError(file.string(), "/extends", "expected the name or the file of a case");
     }
-    const fs::path base = find_extended(extends->get<std::string>(), file);
+    const fs::path base = find_base_case(extends->get<std::string>(), file);
     if (std::find(seen.begin(), seen.end(), fs::weakly_canonical(base)) != seen.end()) {
       throw InputError(file.string(), "/extends", "expected a case that does not extend this one");
     }
-    lay_with_bases(document, base, seen);
+    apply_with_bases(document, base, seen);
   }
   const bool outermost = seen.size() == 1;
-  document.lay(file.string(), "", outermost ? json : inherited(json));
+  document.apply_patch(file.string(), "", outermost ? json : inherited(json));
 }
 
 void check_names(const Case& given) {
-  const Cursor root(given.document);
+  const JsonView root(given.document);
   const std::string stem = given.file.stem().string();
   if (given.id() != stem) {
     throw root["id"].error("expected the file's name, '" + printable(stem) + "' (got '" +
@@ -57,7 +57,7 @@ void check_names(const Case& given) {
   }
   if (!root.has("variants")) return;
   for (const auto& [name, variant] : root["variants"].entries()) {
-    if (name == base_variant) {
+    if (name == kBaseVariant) {
       throw variant.error("expected another name: 'base' is the case itself");
     }
   }
@@ -65,7 +65,7 @@ void check_names(const Case& given) {
 
 /// Indicators of the battery are checks of the case.
 void check_indicators(const Case& given) {
-  const Cursor root(given.document);
+  const JsonView root(given.document);
   if (!root.has("battery")) return;
   std::vector<std::string> names;
   if (const auto checks = root.find("checks")) {
@@ -79,40 +79,40 @@ void check_indicators(const Case& given) {
   }
 }
 
-InputError no_such_place(const Cursor& pointer, const std::string& guess) {
+InputError no_such_place(const JsonView& pointer, const std::string& guess) {
   return pointer.error("expected a pointer to a value of the case, as /model/elements (got '" +
                        printable(pointer.get<std::string>()) + "')" + guess);
 }
 
 /// What the schema has against a key that a pointer names and the document does not have: nothing
 /// where the key is one that stands for a default, as /model/elements.
-std::optional<Fault> fault_of_new_key(const Json& document, const JsonPointer& pointer,
+std::optional<SchemaError> schema_error_of_new_key(const Json& document, const JsonPointer& pointer,
                                       const Json& value) {
-  const Fault nowhere{pointer.to_string(), ""};
+  const SchemaError nowhere{pointer.to_string(), ""};
   if (pointer.empty() || !document.contains(pointer.parent_pointer())) return nowhere;
   if (!document.at(pointer.parent_pointer()).is_object()) return nowhere;
   Json probe = document;
   probe[pointer] = value;
-  const auto fault = find_fault(probe, "case");
-  return fault && fault->pointer == pointer.to_string() ? fault : std::nullopt;
+  const auto schema_error = find_schema_error(probe, "case");
+  return schema_error && schema_error->pointer == pointer.to_string() ? schema_error : std::nullopt;
 }
 
 /// @throws InputError where the pointer names neither a value nor a key that may be added
-void require_place(const Document& document, const Cursor& pointer, const Json& value) {
+void require_place(const Document& document, const JsonView& pointer, const Json& value) {
   const auto text = pointer.get<std::string>();
   try {
     const JsonPointer place(text);
     if (!place.empty() && document.value().contains(place)) return;
-    const auto fault = fault_of_new_key(document.value(), place, value);
-    if (!fault) return;
-    const auto guess = fault->message.find("; did you mean");
-    throw no_such_place(pointer, guess == std::string::npos ? "" : fault->message.substr(guess));
+    const auto schema_error = schema_error_of_new_key(document.value(), place, value);
+    if (!schema_error) return;
+    const auto guess = schema_error->message.find("; did you mean");
+    throw no_such_place(pointer, guess == std::string::npos ? "" : schema_error->message.substr(guess));
   } catch (const Json::exception&) {
     throw no_such_place(pointer, "");
   }
 }
 
-Json patch_of_pointers(const Cursor& sweep, const Json& document, const Json& value) {
+Json patch_of_pointers(const JsonView& sweep, const Json& document, const Json& value) {
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
     require_place(sweep.document(), at, value);
@@ -128,7 +128,7 @@ std::vector<std::string> Case::labels() const {
 }
 
 std::vector<std::string> Case::variants() const {
-  std::vector<std::string> names = {base_variant};
+  std::vector<std::string> names = {kBaseVariant};
   if (document.value().contains("variants")) {
     for (const auto& item : document.value().at("variants").items()) names.push_back(item.key());
   }
@@ -136,15 +136,15 @@ std::vector<std::string> Case::variants() const {
 }
 
 std::string Case::variant_title(const std::string& variant) const {
-  if (variant == base_variant) return "As the case has it";
+  if (variant == kBaseVariant) return "As the case has it";
   return document.value().at("variants").at(variant).value("title", variant);
 }
 
 Case load_case(const fs::path& file) {
   Case loaded;
   loaded.file = file;
-  lay_with_bases(loaded.document, file, {});
-  loaded.document.check("case");
+  apply_with_bases(loaded.document, file, {});
+  loaded.document.validate("case");
   check_names(loaded);
   check_indicators(loaded);
   return loaded;
@@ -153,7 +153,7 @@ Case load_case(const fs::path& file) {
 Document patched(const Case& given, const std::string& variant) {
   Document document = given.document;
   const std::string file = given.file.string();
-  if (variant != base_variant) {
+  if (variant != kBaseVariant) {
     const std::vector<std::string> names = given.variants();
     if (std::find(names.begin(), names.end(), variant) == names.end()) {
       throw InputError(file, "/variants",
@@ -164,14 +164,14 @@ Document patched(const Case& given, const std::string& variant) {
     patch.erase("title");
     patch.erase("description");
     const Origin written = given.document.origin((JsonPointer("/variants") / variant).to_string());
-    document.lay(written.file, written.pointer, patch);
+    document.apply_patch(written.file, written.pointer, patch);
   }
-  document.lay(file, "", Json{{"variants", nullptr}});
-  document.check("case");
+  document.apply_patch(file, "", Json{{"variants", nullptr}});
+  document.validate("case");
   return document;
 }
 
-void require_pointer(const Document& document, const Cursor& pointer) {
+void require_pointer(const Document& document, const JsonView& pointer) {
   const auto text = pointer.get<std::string>();
   bool found = false;
   try {
@@ -199,11 +199,11 @@ Json patch_at(const Json& document, const std::string& pointer, const Json& valu
 }
 
 std::vector<Level> levels(const Document& variant, const std::string& sweep_name) {
-  return levels(variant, Cursor(variant)["sweeps"][sweep_name]);
+  return levels(variant, JsonView(variant)["sweeps"][sweep_name]);
 }
 
-std::vector<Level> levels(const Document& variant, const Cursor& sweep) {
-  const Cursor values = sweep["values"];
+std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
+  const JsonView values = sweep["values"];
   const bool by_patches = sweep.has("patches");
   if (by_patches == sweep.has("pointers")) {
     throw sweep.error("expected either 'pointers' or 'patches'");
@@ -218,14 +218,14 @@ std::vector<Level> levels(const Document& variant, const Cursor& sweep) {
     Level level{values[i].get<double>(), variant};
     const Json patch = by_patches ? sweep["patches"][i].json()
                                   : patch_of_pointers(sweep, variant.value(), values[i].json());
-    const Cursor place = by_patches ? sweep["patches"][i] : values[i];
+    const JsonView place = by_patches ? sweep["patches"][i] : values[i];
     const Origin written = variant.origin(place.pointer());
     if (by_patches) {
-      level.document.lay(written.file, written.pointer, patch);
+      level.document.apply_patch(written.file, written.pointer, patch);
     } else {
-      level.document.lay_value(written.file, written.pointer, patch);
+      level.document.apply_value_patch(written.file, written.pointer, patch);
     }
-    level.document.check("case");
+    level.document.validate("case");
     found.push_back(std::move(level));
   }
   return found;

@@ -24,7 +24,7 @@ struct Case {
   [[nodiscard]] std::string variant_title(const std::string& variant) const;
 };
 
-inline constexpr const char* base_variant = "base";
+inline constexpr const char* kBaseVariant = "base";
 
 /// @throws InputError  where the file, or one that it extends, cannot be read or breaks the schema.
 [[nodiscard]] Case load_case(const std::filesystem::path& file);
@@ -35,7 +35,7 @@ inline constexpr const char* base_variant = "base";
 
 /// @param pointer  a place that holds a JSON pointer
 /// @throws InputError  where the pointer leads to nothing in the document.
-void require_pointer(const Document& document, const Cursor& pointer);
+void require_pointer(const Document& document, const JsonView& pointer);
 
 /// The merge patch that puts the value at the pointer, which leads to something in the document.
 [[nodiscard]] Json patch_at(const Json& document, const std::string& pointer, const Json& value);
@@ -50,6 +50,6 @@ struct Level {
 /// @throws InputError  where a pointer leads nowhere or a patched level breaks the schema.
 [[nodiscard]] std::vector<Level> levels(const Document& variant, const std::string& sweep);
 /// The same of any place with values, and pointers or patches.
-[[nodiscard]] std::vector<Level> levels(const Document& variant, const Cursor& sweep);
+[[nodiscard]] std::vector<Level> levels(const Document& variant, const JsonView& sweep);
 
 }  // namespace trammel

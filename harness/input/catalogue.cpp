@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path catalogue() {
-  return home() / "cases";
+  return data_root() / "cases";
 }
 
 /// Rooms that hold something else than cases.
@@ -46,7 +46,7 @@ bool has_analysis(const fs::path& file, int depth = 0) {
   if (!json.is_object()) return true;  // broken: for load_case to say
   if (json.contains("analysis")) return true;
   if (!json.contains("extends") || !json["extends"].is_string() || depth > 20) return false;
-  return has_analysis(find_extended(json["extends"].get<std::string>(), file), depth + 1);
+  return has_analysis(find_base_case(json["extends"].get<std::string>(), file), depth + 1);
 }
 
 /// Nothing a user types as a name may leave the catalogue's folder.
@@ -85,7 +85,7 @@ fs::path find_case(const std::string& name_or_file) {
                    "')" + did_you_mean(name_or_file, all_names()));
 }
 
-fs::path find_extended(const std::string& name_or_file, const fs::path& from) {
+fs::path find_base_case(const std::string& name_or_file, const fs::path& from) {
   std::error_code error;
   fs::path beside = from.parent_path() / name_or_file;
   if (fs::is_regular_file(beside, error)) return beside;
@@ -103,11 +103,11 @@ std::vector<Case> load_catalogue(const std::vector<std::string>& labels) {
   std::set<std::string> known;
   for (const fs::path& file : catalogue_files()) {
     Case loaded = load_case(file);
-    const std::vector<std::string> its = loaded.labels();
-    known.insert(its.begin(), its.end());
+    const std::vector<std::string> case_labels = loaded.labels();
+    known.insert(case_labels.begin(), case_labels.end());
     const bool wanted =
         labels.empty() || std::any_of(labels.begin(), labels.end(), [&](const std::string& label) {
-          return std::find(its.begin(), its.end(), label) != its.end();
+          return std::find(case_labels.begin(), case_labels.end(), label) != case_labels.end();
         });
     if (wanted) chosen.push_back(std::move(loaded));
   }

@@ -19,7 +19,7 @@ namespace trammel {
 
 /// The file meant by "extends" in `from`: relative to that file, or a name of the catalogue.
 /// @throws InputError  where there is none.
-[[nodiscard]] std::filesystem::path find_extended(const std::string& name_or_file,
+[[nodiscard]] std::filesystem::path find_base_case(const std::string& name_or_file,
                                                   const std::filesystem::path& from);
 
 /// All cases of the catalogue that carry one of the labels; all cases when no label is given.

@@ -8,16 +8,16 @@
 namespace trammel {
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-std::vector<std::size_t> read_indices(const Cursor& place, const char* key) {
+std::vector<std::size_t> read_indices(const JsonView& place, const char* key) {
   const auto stated = place.find(key);
   if (!stated) return {};
   if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
   return {stated->get<std::size_t>()};
 }
 
-void require_variant(const Cursor& place, const std::vector<std::string>& variants) {
+void require_variant(const JsonView& place, const std::vector<std::string>& variants) {
   const auto name = place.get<std::string>();
   if (std::find(variants.begin(), variants.end(), name) != variants.end()) return;
   throw place.error("expected a variant of the case (got '" + printable(name) + "')" +
@@ -25,7 +25,7 @@ void require_variant(const Cursor& place, const std::vector<std::string>& varian
 }
 
 /// The one key of those that is there.
-std::string exactly_one(const Cursor& place, const std::vector<std::string>& keys) {
+std::string exactly_one(const JsonView& place, const std::vector<std::string>& keys) {
   std::string found;
   int count = 0;
   for (const std::string& key : keys) {
@@ -40,7 +40,7 @@ std::string exactly_one(const Cursor& place, const std::vector<std::string>& key
                     std::to_string(count) + ")");
 }
 
-void read_tolerance(const Cursor& place, Check& check) {
+void read_tolerance(const JsonView& place, Check& check) {
   const std::string key = exactly_one(place, {"relative", "absolute"});
   const double limit = place.number(key);
   check.measure = key == "relative" ? Measure::relative : Measure::absolute;
@@ -49,12 +49,12 @@ void read_tolerance(const Cursor& place, Check& check) {
   check.why = place.text("why");
 }
 
-void read_bound(const Cursor& place, Check& check) {
+void read_bound(const JsonView& place, Check& check) {
   if (!place.has("at_most") && !place.has("at_least")) {
     throw place.error("expected 'at_most', 'at_least' or both");
   }
   check.measure = Measure::value;
-  check.windows = {{place.get("at_least", -unlimited), place.get("at_most", unlimited)}};
+  check.windows = {{place.get("at_least", -kUnlimited), place.get("at_most", kUnlimited)}};
   if (check.windows[0].low > check.windows[0].high) {
     throw place.error("expected 'at_least' not above 'at_most'");
   }
@@ -66,8 +66,8 @@ Json followed(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }
 
-OrderDemand read_order(const Cursor& place, const std::string& quantity, const Json& document) {
-  OrderDemand order;
+OrderCriterion read_order(const JsonView& place, const std::string& quantity, const Json& document) {
+  OrderCriterion order;
   order.sweep = place.text("sweep");
   const Json sweeps = document.value("sweeps", Json::object());
   if (!sweeps.contains(order.sweep)) {
@@ -104,11 +104,11 @@ OrderDemand read_order(const Cursor& place, const std::string& quantity, const J
   return order;
 }
 
-Window read_window(const Cursor& place) {
+Window read_window(const JsonView& place) {
   const auto limit = [&](std::size_t side, double open) {
     return place[side].json().is_null() ? open : place[side].get<double>();
   };
-  const Window window{limit(0, -unlimited), limit(1, unlimited)};
+  const Window window{limit(0, -kUnlimited), limit(1, kUnlimited)};
   if (window.low > window.high) {
     throw place.error("expected the lower limit first (got " + shortest(window.low) + ", " +
                       shortest(window.high) + ")");
@@ -117,7 +117,7 @@ Window read_window(const Cursor& place) {
 }
 
 /// A discrepancy that is allowed to be zero could never stop being true.
-void require_discrepancy(const Cursor& place, const Check& check) {
+void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
       check.measure == Measure::relative || check.measure == Measure::absolute;
   if (!is_difference || check.expectation != Expectation::known_discrepancy) return;
@@ -130,7 +130,7 @@ void require_discrepancy(const Cursor& place, const Check& check) {
   }
 }
 
-void read_expectation(const Cursor& place, Check& check) {
+void read_expectation(const JsonView& place, Check& check) {
   const std::string kind = exactly_one(place, {"agrees", "known_discrepancy"});
   check.expectation = kind == "agrees" ? Expectation::agrees : Expectation::known_discrepancy;
   check.why = place.text(kind);
@@ -140,7 +140,7 @@ void read_expectation(const Cursor& place, Check& check) {
                   : key == "absolute_between" ? Measure::absolute
                   : key == "ratio_between"    ? Measure::ratio
                                               : Measure::value;
-  const Cursor windows = place[key];
+  const JsonView windows = place[key];
   if (windows[0].json().is_array()) {
     for (const auto& entry : windows.entries()) check.windows.push_back(read_window(entry.second));
   } else {
@@ -149,7 +149,7 @@ void read_expectation(const Cursor& place, Check& check) {
   require_discrepancy(windows, check);
 }
 
-void require_target(const Cursor& place, const Check& check) {
+void require_target(const JsonView& place, const Check& check) {
   const int targets = (check.reference.empty() ? 0 : 1) +
                       (check.against_variant.empty() && check.against_quantity.empty() ? 0 : 1);
   if (targets > 1) {
@@ -175,7 +175,7 @@ void require_target(const Cursor& place, const Check& check) {
 }
 
 /// How the role lets the check be judged.
-void read_criterion(const Cursor& place, const Document& document, Check& check) {
+void read_criterion(const JsonView& place, const Document& document, Check& check) {
   if (check.role == Role::validation) {
     for (const char* key : {"tolerance", "bound", "order"}) {
       if (place.has(key)) {
@@ -203,7 +203,7 @@ Role read_role(const std::string& word) {
   return word == "regression" ? Role::regression : Role::verification;
 }
 
-Check read_check(const std::string& name, const Cursor& place, const Document& document) {
+Check read_check(const std::string& name, const JsonView& place, const Document& document) {
   Check check;
   check.name = name;
   check.pointer = place.pointer();
@@ -221,7 +221,7 @@ Check read_check(const std::string& name, const Cursor& place, const Document& d
   return check;
 }
 
-bool applies(const Cursor& place, const std::string& variant,
+bool applies(const JsonView& place, const std::string& variant,
              const std::vector<std::string>& variants) {
   if (place.has("against_variant")) {
     require_variant(place["against_variant"], variants);
@@ -242,7 +242,7 @@ bool applies(const Cursor& place, const std::string& variant,
 std::vector<Check> read_checks(const Document& document, const std::string& variant,
                                const std::vector<std::string>& variants) {
   std::vector<Check> checks;
-  const auto places = Cursor(document).find("checks");
+  const auto places = JsonView(document).find("checks");
   if (!places) return checks;
   for (const auto& [name, place] : places->entries()) {
     if (applies(place, variant, variants)) checks.push_back(read_check(name, place, document));

@@ -24,7 +24,7 @@ struct Window {
 };
 
 /// Demands on the observed order of convergence.
-struct OrderDemand {
+struct OrderCriterion {
   struct WaveNumber {
     std::string reference;
     std::vector<std::size_t> index;
@@ -55,7 +55,7 @@ struct Check {
   bool symmetric = false;       ///< a tolerance: the window is -t, t
   Expectation expectation = Expectation::agrees;
   std::string why;
-  std::optional<OrderDemand> order;
+  std::optional<OrderCriterion> order;
   std::string pointer;  ///< where it stands in the case
 
   [[nodiscard]] bool has_target() const {

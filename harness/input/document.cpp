@@ -20,14 +20,14 @@ void compose(Json& patch, const Json& later) {
 
 }  // namespace
 
-Document Document::as_it_stands(const std::string& file, const Json& json) {
+Document Document::from_json(const std::string& file, const Json& json) {
   Document document;
   document.value_ = json;
   document.layers_.push_back({file, "", json, false});
   return document;
 }
 
-void Document::lay(const std::string& file, const std::string& origin, const Json& patch) {
+void Document::apply_patch(const std::string& file, const std::string& origin, const Json& patch) {
   // Variants are patches themselves, whose nulls mean something later.
   Json variants = value_.value("variants", Json());
   value_.merge_patch(patch);
@@ -38,8 +38,8 @@ void Document::lay(const std::string& file, const std::string& origin, const Jso
   layers_.push_back({file, origin, patch, false});
 }
 
-void Document::lay_value(const std::string& file, const std::string& origin, const Json& patch) {
-  lay(file, origin, patch);
+void Document::apply_value_patch(const std::string& file, const std::string& origin, const Json& patch) {
+  apply_patch(file, origin, patch);
   layers_.back().is_value = true;
 }
 
@@ -61,8 +61,8 @@ InputError Document::error(const std::string& pointer, const std::string& messag
   return {written.file, written.pointer, written.is_value ? message + ", at " + pointer : message};
 }
 
-void Document::check(const std::string& schema) const {
-  if (const auto fault = find_fault(value_, schema)) throw error(fault->pointer, fault->message);
+void Document::validate(const std::string& schema) const {
+  if (const auto schema_error = find_schema_error(value_, schema)) throw error(schema_error->pointer, schema_error->message);
 }
 
 }  // namespace trammel

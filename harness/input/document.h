@@ -19,13 +19,13 @@ struct Origin {
 class Document {
  public:
   /// A document that nothing is laid over: its nulls are kept.
-  [[nodiscard]] static Document as_it_stands(const std::string& file, const Json& json);
+  [[nodiscard]] static Document from_json(const std::string& file, const Json& json);
 
   /// A null removes a key, except inside "variants", which are patches for later.
   /// @param origin  pointer in `file` where the patch stands; empty: the whole file
-  void lay(const std::string& file, const std::string& origin, const Json& patch);
+  void apply_patch(const std::string& file, const std::string& origin, const Json& patch);
   /// A patch that stands in the file as one number of a sweep: errors point to that number.
-  void lay_value(const std::string& file, const std::string& origin, const Json& patch);
+  void apply_value_patch(const std::string& file, const std::string& origin, const Json& patch);
 
   [[nodiscard]] const Json& value() const { return value_; }
 
@@ -36,7 +36,7 @@ class Document {
   [[nodiscard]] InputError error(const std::string& pointer, const std::string& message) const;
 
   /// @throws InputError  where the document does not obey the schema of that name.
-  void check(const std::string& schema) const;
+  void validate(const std::string& schema) const;
 
  private:
   struct Layer {

@@ -2,25 +2,25 @@
 
 namespace trammel {
 
-bool Cursor::has(const std::string& key) const {
+bool JsonView::has(const std::string& key) const {
   return json_->is_object() && json_->contains(key);
 }
 
-Cursor Cursor::operator[](const std::string& key) const {
+JsonView JsonView::operator[](const std::string& key) const {
   return {*document_, json_->at(key), (JsonPointer(pointer_) / key).to_string()};
 }
 
-Cursor Cursor::operator[](std::size_t index) const {
+JsonView JsonView::operator[](std::size_t index) const {
   return {*document_, json_->at(index), pointer_ + "/" + std::to_string(index)};
 }
 
-std::optional<Cursor> Cursor::find(const std::string& key) const {
+std::optional<JsonView> JsonView::find(const std::string& key) const {
   if (!has(key)) return std::nullopt;
   return (*this)[key];
 }
 
-std::vector<std::pair<std::string, Cursor>> Cursor::entries() const {
-  std::vector<std::pair<std::string, Cursor>> found;
+std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
+  std::vector<std::pair<std::string, JsonView>> found;
   found.reserve(json_->size());
   if (json_->is_array()) {
     for (std::size_t i = 0; i < json_->size(); ++i) {
@@ -29,7 +29,7 @@ std::vector<std::pair<std::string, Cursor>> Cursor::entries() const {
     return found;
   }
   for (const auto& item : json_->items()) {
-    found.emplace_back(item.key(), Cursor(*document_, item.value(),
+    found.emplace_back(item.key(), JsonView(*document_, item.value(),
                                           (JsonPointer(pointer_) / item.key()).to_string()));
   }
   return found;

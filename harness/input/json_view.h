@@ -10,17 +10,17 @@ namespace trammel {
 
 /// A place in a document that has passed its schema: reads values, and complains about them by
 /// their file and pointer.
-class Cursor {
+class JsonView {
  public:
-  explicit Cursor(const Document& document) : document_(&document), json_(&document.value()) {}
+  explicit JsonView(const Document& document) : document_(&document), json_(&document.value()) {}
 
   [[nodiscard]] bool has(const std::string& key) const;
-  [[nodiscard]] Cursor operator[](const std::string& key) const;
-  [[nodiscard]] Cursor operator[](std::size_t index) const;
+  [[nodiscard]] JsonView operator[](const std::string& key) const;
+  [[nodiscard]] JsonView operator[](std::size_t index) const;
   /// The value of that key, if there is one.
-  [[nodiscard]] std::optional<Cursor> find(const std::string& key) const;
+  [[nodiscard]] std::optional<JsonView> find(const std::string& key) const;
   /// Entries of an object, with their names; of an array, named by their numbers.
-  [[nodiscard]] std::vector<std::pair<std::string, Cursor>> entries() const;
+  [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries() const;
   [[nodiscard]] std::size_t size() const { return json_->size(); }
 
   template <class T>
@@ -44,7 +44,7 @@ class Cursor {
   }
 
  private:
-  Cursor(const Document& document, const Json& json, std::string pointer)
+  JsonView(const Document& document, const Json& json, std::string pointer)
       : document_(&document), json_(&json), pointer_(std::move(pointer)) {}
 
   const Document* document_;

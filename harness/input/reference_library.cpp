@@ -13,11 +13,11 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path stored() {
-  return home() / "references" / "values";
+  return data_root() / "references" / "values";
 }
 
 bool is_in_catalogue(const fs::path& folder) {
-  const fs::path inside = fs::relative(folder, home() / "cases");
+  const fs::path inside = fs::relative(folder, data_root() / "cases");
   return !inside.empty() && *inside.begin() != "..";
 }
 
@@ -31,8 +31,8 @@ std::vector<fs::path> places_beside(const std::string& id, const fs::path& case_
 
 CitedReference read(const fs::path& file) {
   const Json json = read_json(file);
-  if (const auto fault = find_fault(json, "reference")) {
-    throw InputError(file.string(), fault->pointer, fault->message);
+  if (const auto schema_error = find_schema_error(json, "reference")) {
+    throw InputError(file.string(), schema_error->pointer, schema_error->message);
   }
   try {
     CitedReference cited{read_reference(nlohmann::json(json), file.string()), {}};
@@ -56,7 +56,7 @@ CitedReference read(const fs::path& file) {
 
 }  // namespace
 
-const Reference& References::get(const Cursor& id) const {
+const Reference& References::get(const JsonView& id) const {
   const auto name = id.get<std::string>();
   const std::lock_guard<std::mutex> guard(lock_);
   if (stored_.empty()) stored_ = reference_files(stored());

@@ -24,7 +24,7 @@ class References {
  public:
   /// @param id      a place that holds the name
   /// @throws InputError  where there is no such reference or its file is broken.
-  [[nodiscard]] const Reference& get(const Cursor& id) const;
+  [[nodiscard]] const Reference& get(const JsonView& id) const;
 
   /// All that were asked for so far, by name.
   [[nodiscard]] std::map<std::string, CitedReference> used() const;

@@ -27,7 +27,7 @@ const LoadedSchema& load_schema(const std::string& name) {
   const std::lock_guard<std::mutex> guard(lock);
   const auto [entry, fresh] = loaded.try_emplace(name);
   if (fresh) {
-    const auto file = home() / "cases" / "schema" / (name + ".schema.json");
+    const auto file = data_root() / "cases" / "schema" / (name + ".schema.json");
     entry->second.text = nlohmann::json(read_json(file));
     valijson::SchemaParser().populateSchema(NlohmannJsonAdapter(entry->second.text),
                                             entry->second.rules);
@@ -46,7 +46,7 @@ std::vector<std::string> path_of(const std::vector<std::string>& context) {
 
 }  // namespace
 
-std::optional<Fault> find_fault(const Json& document, const std::string& schema) {
+std::optional<SchemaError> find_schema_error(const Json& document, const std::string& schema) {
   const LoadedSchema& loaded = load_schema(schema);
   const nlohmann::json plain(document);
   valijson::ValidationResults results;

@@ -9,13 +9,13 @@
 namespace trammel {
 
 /// What is wrong, and where.
-struct Fault {
+struct SchemaError {
   std::string pointer;  ///< JSON pointer into the document; empty: the document itself
   std::string message;  ///< "expected ... (got ...)"
 };
 
 /// The deepest fault of a document, empty when it obeys the schema.
 /// @param schema  "case", "cost", "reference" or "results"
-[[nodiscard]] std::optional<Fault> find_fault(const Json& document, const std::string& schema);
+[[nodiscard]] std::optional<SchemaError> find_schema_error(const Json& document, const std::string& schema);
 
 }  // namespace trammel

@@ -59,28 +59,28 @@ std::string limits(const Plain& rule) {
   return parts.empty() ? std::string() : std::string(" ").append(join(parts, "and"));
 }
 
-std::string words(const Plain& root, const Plain& rule);
+std::string describe_rule(const Plain& root, const Plain& rule);
 
-std::string array_words(const Plain& root, const Plain& rule) {
+std::string describe_array(const Plain& root, const Plain& rule) {
   std::string text = "an array";
-  const std::size_t least = rule.value("minItems", std::size_t{0});
-  const std::size_t most = rule.value("maxItems", std::size_t{0});
-  if (least > 0 && least == most) {
-    text += " of " + std::to_string(least);
-  } else if (most > 0) {
-    text += " of " + std::to_string(least) + " to " + std::to_string(most);
-  } else if (least > 0) {
-    text += " of at least " + std::to_string(least);
+  const std::size_t min_count = rule.value("minItems", std::size_t{0});
+  const std::size_t max_count = rule.value("maxItems", std::size_t{0});
+  if (min_count > 0 && min_count == max_count) {
+    text += " of " + std::to_string(min_count);
+  } else if (max_count > 0) {
+    text += " of " + std::to_string(min_count) + " to " + std::to_string(max_count);
+  } else if (min_count > 0) {
+    text += " of at least " + std::to_string(min_count);
   }
   if (!rule.contains("items")) return text;
   Rules items;
   open(root, rule.at("items"), items);
   std::vector<std::string> each;
-  for (const Plain* item : items) each.push_back(words(root, *item));
+  for (const Plain* item : items) each.push_back(describe_rule(root, *item));
   return text + " (each " + join(each, "or") + ")";
 }
 
-std::string words(const Plain& root, const Plain& rule) {
+std::string describe_rule(const Plain& root, const Plain& rule) {
   if (rule.contains("enum")) {
     std::vector<std::string> values;
     for (const Plain& value : rule.at("enum")) {
@@ -92,7 +92,7 @@ std::string words(const Plain& root, const Plain& rule) {
   if (wants(rule, "number")) {
     return "a number" + limits(rule) + (wants(rule, "null") ? " or null" : "");
   }
-  if (wants(rule, "array")) return array_words(root, rule);
+  if (wants(rule, "array")) return describe_array(root, rule);
   if (wants(rule, "boolean")) return "true or false";
   if (wants(rule, "object")) return wants(rule, "null") ? "an object or null" : "an object";
   if (wants(rule, "string")) {
@@ -145,7 +145,7 @@ std::string got_keys(const Plain& object) {
   return " (got " + (object.empty() ? "none" : all_quoted(keys_of(object), "and")) + ")";
 }
 
-Fault unknown_key(const Plain::json_pointer& pointer, const std::string& key,
+SchemaError unknown_key(const Plain::json_pointer& pointer, const std::string& key,
                   const std::vector<std::string>& allowed) {
   std::string message = "expected no key of that name";
   const std::string guess = did_you_mean(key, allowed);
@@ -153,7 +153,7 @@ Fault unknown_key(const Plain::json_pointer& pointer, const std::string& key,
   return {(pointer / key).to_string(), message};
 }
 
-Fault explain_object(const Plain::json_pointer& pointer, const Plain& object, const Rules& rules) {
+SchemaError explain_object(const Plain::json_pointer& pointer, const Plain& object, const Rules& rules) {
   const std::vector<std::string> allowed = allowed_keys(rules);
   for (const auto& item : object.items()) {
     const bool known = std::find(allowed.begin(), allowed.end(), item.key()) != allowed.end();
@@ -168,10 +168,10 @@ Fault explain_object(const Plain::json_pointer& pointer, const Plain& object, co
     }
   }
   for (const Plain* rule : rules) {
-    const std::size_t least = rule->value("minProperties", std::size_t{0});
-    const std::size_t most = rule->value("maxProperties", std::size_t{1000000});
-    if (object.size() < least || object.size() > most) {
-      const std::string count = most == 1 ? "exactly one of " : "at least one of ";
+    const std::size_t min_count = rule->value("minProperties", std::size_t{0});
+    const std::size_t max_count = rule->value("maxProperties", std::size_t{1000000});
+    if (object.size() < min_count || object.size() > max_count) {
+      const std::string count = max_count == 1 ? "exactly one of " : "at least one of ";
       return {pointer.to_string(),
               "expected " +
                   (allowed.empty() ? "at least one key" : count + all_quoted(allowed, "or")) +
@@ -183,7 +183,7 @@ Fault explain_object(const Plain::json_pointer& pointer, const Plain& object, co
 
 }  // namespace
 
-Fault explain(const Plain& schema, const Plain& document, const std::vector<std::string>& path) {
+SchemaError explain(const Plain& schema, const Plain& document, const std::vector<std::string>& path) {
   Rules rules;
   open(schema, schema, rules);
   const Plain* value = &document;
@@ -201,7 +201,7 @@ Fault explain(const Plain& schema, const Plain& document, const std::vector<std:
   }
   std::vector<std::string> wanted, choices;
   for (const Plain* rule : rules) {
-    const std::string text = words(schema, *rule);
+    const std::string text = describe_rule(schema, *rule);
     if (std::find(wanted.begin(), wanted.end(), text) == wanted.end()) wanted.push_back(text);
     for (const Plain& choice : rule->value("enum", Plain::array())) {
       if (choice.is_string()) choices.push_back(choice.get<std::string>());

@@ -12,7 +12,7 @@ namespace trammel {
 
 /// Explains the value at `path`, which the validator refused.
 /// @param schema  root of the schema document
-[[nodiscard]] Fault explain(const nlohmann::json& schema, const nlohmann::json& document,
+[[nodiscard]] SchemaError explain(const nlohmann::json& schema, const nlohmann::json& document,
                             const std::vector<std::string>& path);
 
 }  // namespace trammel

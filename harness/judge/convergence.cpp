@@ -7,16 +7,16 @@
 namespace trammel {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// A tenth: of the order, for neighbours to agree and for theory to be met.
-constexpr double near = 0.1;
+constexpr double kOrderTolerance = 0.1;
 
-bool is_near(double order, double other) {
-  return std::abs(order - other) <= near * std::max(std::abs(other), 1.0);
+bool orders_agree(double order, double other) {
+  return std::abs(order - other) <= kOrderTolerance * std::max(std::abs(other), 1.0);
 }
 
-double relative(double value, double truth) {
-  return std::abs(value - truth) / std::abs(truth);
+double relative(double value, double reference) {
+  return std::abs(value - reference) / std::abs(reference);
 }
 
 /// The order p that three values obey with error proportional to h^p:
@@ -24,7 +24,7 @@ double relative(double value, double truth) {
 /// NaN where they do not approach a limit from one side, or p is not in (0, 20).
 double order_of_three(const std::vector<double>& v, const std::vector<double>& h, std::size_t k) {
   const double ratio = (v[k - 2] - v[k - 1]) / (v[k - 1] - v[k]);
-  if (!std::isfinite(ratio) || ratio <= 0) return nothing;
+  if (!std::isfinite(ratio) || ratio <= 0) return kNaN;
   // Scaled by h1 so that large p do not overflow.
   const double coarse = h[k - 2] / h[k - 1];
   const double fine = h[k] / h[k - 1];
@@ -32,7 +32,7 @@ double order_of_three(const std::vector<double>& v, const std::vector<double>& h
     return (std::pow(coarse, p) - 1) / (1 - std::pow(fine, p)) - ratio;
   };
   double low = 1e-3, high = 20;
-  if (excess(low) > 0 || excess(high) < 0) return nothing;
+  if (excess(low) > 0 || excess(high) < 0) return kNaN;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
     (excess(middle) < 0 ? low : high) = middle;
@@ -70,7 +70,7 @@ class Study {
     result_.series = series_;
     spread(result_.error, error_);
     spread(result_.order, order_);
-    spread(result_.band, band_);
+    spread(result_.gci, gci_);
     spread(result_.factor, factor_);
     spread(result_.in_asymptotic_range, in_range_);
     spread(result_.at_roundoff_floor, at_floor_);
@@ -86,13 +86,13 @@ class Study {
 
   /// Orders from the values alone, and which of them to extrapolate with.
   void observe() {
-    observed_.assign(count(), nothing);
+    observed_.assign(count(), kNaN);
     for (std::size_t k = 2; k < count(); ++k) observed_[k] = order_of_three(v_, h_, k);
   }
 
   /// A converged value expected from a level and those before it, and how far to trust it.
   struct Expected {
-    double value = nothing;
+    double value = kNaN;
     double factor = 3;
   };
 
@@ -102,11 +102,11 @@ class Study {
   }
 
   /// Whether an order is one that theory promises of this level.
-  [[nodiscard]] bool is_promised(double order) const {
+  [[nodiscard]] bool is_theoretical_order(double order) const {
     if (!series_.theory || std::isnan(order)) return false;
-    if (!series_.lower) return is_near(order, *series_.theory);
+    if (!series_.lower) return orders_agree(order, *series_.theory);
     const bool inside = order > *series_.lower && order < *series_.theory;
-    return inside || is_near(order, *series_.theory) || is_near(order, *series_.lower);
+    return inside || orders_agree(order, *series_.theory) || orders_agree(order, *series_.lower);
   }
 
   [[nodiscard]] Expected expected(std::size_t k) const {
@@ -117,41 +117,41 @@ class Study {
     if (k == 1) return {extrapolated(k, lowest), 3};
     // Values that go to and fro, or away from each other.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
-    if (is_promised(seen) && series_.lower) {
+    if (is_theoretical_order(seen) && series_.lower) {
       const double value =
           extrapolate_two_terms({h_[k - 2], h_[k - 1], h_[k]}, {v_[k - 2], v_[k - 1], v_[k]},
                                 {*series_.theory, *series_.lower});
       if (std::isfinite(value)) return {value, 1.25};
     }
-    if (is_promised(seen)) return {extrapolated(k, *series_.theory), 1.25};
+    if (is_theoretical_order(seen)) return {extrapolated(k, *series_.theory), 1.25};
     // A higher order than theory's is no merit: it does not last.
     return {extrapolated(k, std::clamp(seen, std::min(0.5, lowest), lowest)), 3};
   }
 
   void extrapolate() {
-    band_.assign(count(), nothing);
-    factor_.assign(count(), nothing);
-    double before = nothing, least = std::numeric_limits<double>::infinity();
+    gci_.assign(count(), kNaN);
+    factor_.assign(count(), kNaN);
+    double before = kNaN, min_change = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k < count(); ++k) {
       const auto [value, factor] = expected(k);
-      band_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
+      gci_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
       // The extrapolated value of the level where it changes least, round-off counted in.
       const double change = std::abs(value - before) + roundoff_[k] * std::abs(value);
       before = value;
-      if (k < 2 || !(change < least)) continue;
-      least = change;
+      if (k < 2 || !(change < min_change)) continue;
+      min_change = change;
       result_.richardson = value;
     }
   }
 
   void measure_errors() {
-    error_.assign(count(), nothing);
-    order_.assign(count(), nothing);
-    const std::optional<double> truth = series_.exact ? series_.exact : result_.richardson;
-    for (std::size_t k = 0; truth && k < count(); ++k) {
+    error_.assign(count(), kNaN);
+    order_.assign(count(), kNaN);
+    const std::optional<double> reference = series_.exact ? series_.exact : result_.richardson;
+    for (std::size_t k = 0; reference && k < count(); ++k) {
       if (series_.is_error) error_[k] = std::abs(v_[k]);
-      if (!series_.is_error && *truth != 0) error_[k] = relative(v_[k], *truth);
+      if (!series_.is_error && *reference != 0) error_[k] = relative(v_[k], *reference);
     }
     for (std::size_t k = 1; k < count(); ++k) {
       order_[k] = series_.exact ? order_of_errors(error_[k - 1], error_[k], h_[k - 1], h_[k])
@@ -162,17 +162,17 @@ class Study {
   /// The two-term law of the errors, where two orders mix; @returns whether they do.
   bool fit_two_orders() {
     if (!series_.theory || !series_.lower) return false;
-    const std::optional<double> truth = series_.exact ? series_.exact : result_.richardson;
-    if (!truth || *truth == 0) return false;
+    const std::optional<double> reference = series_.exact ? series_.exact : result_.richardson;
+    if (!reference || *reference == 0) return false;
     std::vector<double> signed_error;
     std::vector<bool> usable;
     for (std::size_t k = 0; k < count(); ++k) {
-      signed_error.push_back((v_[k] - *truth) / std::abs(*truth));
+      signed_error.push_back((v_[k] - *reference) / std::abs(*reference));
       usable.push_back(!at_floor_[k]);
     }
     result_.two_term =
-        fit_two_terms(h_, signed_error, usable, {*series_.theory, *series_.lower}, two_term_within);
-    if (result_.two_term && result_.two_term->worst <= two_term_within) {
+        fit_two_terms(h_, signed_error, usable, {*series_.theory, *series_.lower}, kTwoTermTolerance);
+    if (result_.two_term && result_.two_term->worst <= kTwoTermTolerance) {
       in_range_ = result_.two_term->used;
     }
     return true;
@@ -183,13 +183,13 @@ class Study {
     at_floor_.assign(count(), false);
     for (std::size_t k = 0; k < count(); ++k) {
       const double clear = series_.is_error ? 1.0 : error_[k];  // roundoff_ is relative to v_
-      at_floor_[k] = !(clear > clear_of_roundoff * roundoff_[k]);
+      at_floor_[k] = !(clear > kRoundoffMargin * roundoff_[k]);
     }
     if (fit_two_orders()) return;
     for (std::size_t k = 1; k < count(); ++k) {
-      const bool like_before = k > 1 && is_near(order_[k], order_[k - 1]);
+      const bool like_before = k > 1 && orders_agree(order_[k], order_[k - 1]);
       const bool like_after =
-          k + 1 < count() && !at_floor_[k + 1] && is_near(order_[k], order_[k + 1]);
+          k + 1 < count() && !at_floor_[k + 1] && orders_agree(order_[k], order_[k + 1]);
       in_range_[k] = !at_floor_[k] && (like_before || like_after);
     }
   }
@@ -197,14 +197,14 @@ class Study {
   template <class Values>
   void spread(Values& all, const Values& found) const {
     all.assign(series_.values.size(), typename Values::value_type{});
-    if constexpr (std::is_same_v<Values, std::vector<double>>) all.assign(all.size(), nothing);
+    if constexpr (std::is_same_v<Values, std::vector<double>>) all.assign(all.size(), kNaN);
     for (std::size_t k = 0; k < found.size(); ++k) all[level_[k]] = found[k];
   }
 
   const Series& series_;
   Convergence result_;
   std::vector<std::size_t> level_;
-  std::vector<double> v_, h_, roundoff_, observed_, error_, order_, band_, factor_;
+  std::vector<double> v_, h_, roundoff_, observed_, error_, order_, gci_, factor_;
   std::vector<bool> in_range_, at_floor_;
 };
 
@@ -223,7 +223,7 @@ std::optional<double> slope(const std::vector<double>& size, const std::vector<d
   return (n * sxy - sx * sy) / spread_of_x;
 }
 
-Convergence study(const Series& series) {
+Convergence analyse_convergence(const Series& series) {
   return Study(series).run();
 }
 

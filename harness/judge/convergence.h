@@ -38,17 +38,17 @@ struct Convergence {
   std::optional<TwoTermFit> two_term;   ///< of the relative error; where two orders mix
   /// Grid convergence index: relative half width of where the converged value is expected, from
   /// the values alone (never from the exact one), round-off included.
-  std::vector<double> band;
+  std::vector<double> gci;
   /// Roache's factor in the band: 1.25 where the observed order is within a tenth of theory (with
   /// two orders: within a tenth of the range between them), else 3.
   std::vector<double> factor;
   bool broken = false;  ///< a level after the first finite one has no finite value
 };
 
-/// Observed orders, asymptotic range, Richardson extrapolation (L. F. Richardson 1911) and the grid
+/// ObservedQuantity orders, asymptotic range, Richardson extrapolation (L. F. Richardson 1911) and the grid
 /// convergence index (P. J. Roache, J. Fluids Eng. 116, 1994; I. B. Celik et al., J. Fluids Eng.
 /// 130, 078001, 2008).
-[[nodiscard]] Convergence study(const Series& series);
+[[nodiscard]] Convergence analyse_convergence(const Series& series);
 
 /// Slope of log error over log size on the chosen levels (least squares); nothing below two levels.
 [[nodiscard]] std::optional<double> slope(const std::vector<double>& size,
@@ -56,9 +56,9 @@ struct Convergence {
                                           const std::vector<bool>& chosen);
 
 /// How well the two-term law must meet the errors of the levels that it is fitted to.
-inline constexpr double two_term_within = 0.05;
+inline constexpr double kTwoTermTolerance = 0.05;
 
 /// How many times the round-off error an error must be to say anything about the discretisation.
-inline constexpr double clear_of_roundoff = 100;
+inline constexpr double kRoundoffMargin = 100;
 
 }  // namespace trammel

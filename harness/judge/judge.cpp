@@ -12,10 +12,10 @@ namespace trammel {
 namespace {
 
 /// Above so many entries only the worst one is told.
-constexpr std::size_t most_entries = 16;
+constexpr std::size_t kMaxEntries = 16;
 
 /// Why a check cannot be judged.
-struct Unjudgeable {
+struct NotComparable {
   std::string message;
 };
 
@@ -46,17 +46,17 @@ const std::vector<double>& find_quantity(const Quantities& quantities, const std
   const auto found = quantities.find(name);
   if (found != quantities.end()) return found->second.values;
   const std::string guess = did_you_mean(name, names_of(quantities));
-  throw Unjudgeable{"no quantity '" + name + "'" + where +
+  throw NotComparable{"no quantity '" + name + "'" + where +
                     (guess.empty() ? known_kinds(quantities) : guess)};
 }
 
 std::vector<double> pick(const std::vector<double>& values, const std::vector<std::size_t>& index,
-                         const std::string& of) {
+                         const std::string& source) {
   if (index.empty()) return values;
   std::vector<double> picked;
   for (const std::size_t i : index) {
     if (i >= values.size()) {
-      throw Unjudgeable{"index " + std::to_string(i) + " is outside of " + of + ", which has " +
+      throw NotComparable{"index " + std::to_string(i) + " is outside of " + source + ", which has " +
                         std::to_string(values.size()) + " entries"};
     }
     picked.push_back(values[i]);
@@ -65,35 +65,35 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
 }
 
 /// The numbers to compare, entry by entry.
-struct Pairs {
+struct ComparedValues {
   std::vector<double> computed;
   std::vector<double> expected;     ///< empty: no target
   std::vector<double> uncertainty;  ///< of the expected, absolute; empty where it has none
 };
 
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {
-  const std::string its = unit_of(quantity);
-  if (its != unit) {
-    throw Unjudgeable{"the unit of " + quantity + " is " + its + ", that of " + whose + " is " +
+  const std::string unit_found = unit_of(quantity);
+  if (unit_found != unit) {
+    throw NotComparable{"the unit of " + quantity + " is " + unit_found + ", that of " + whose + " is " +
                       unit};
   }
 }
 
-void pair_with_reference(const Check& check, const Evidence& evidence, Pairs& pairs) {
-  const Reference& reference = find_reference(evidence, check.pointer + "/reference");
+void pair_with_reference(const Check& check, const CheckContext& context, ComparedValues& pairs) {
+  const Reference& reference = find_reference(context, check.pointer + "/reference");
   require_unit(check.quantity, reference.unit, "reference " + reference.id);
   pairs.expected = pick(reference.values, check.reference_index, "reference " + reference.id);
   pairs.uncertainty =
       pick(reference.uncertainty, check.reference_index, "reference " + reference.id);
 }
 
-void pair_with_run(const Check& check, const Evidence& evidence, Pairs& pairs) {
-  const Quantities* other = &evidence.quantities;
+void pair_with_run(const Check& check, const CheckContext& context, ComparedValues& pairs) {
+  const Quantities* other = &context.quantities;
   std::string where;
   if (!check.against_variant.empty()) {
-    other = evidence.variant(check.against_variant);
+    other = context.variant(check.against_variant);
     where = " in variant '" + check.against_variant + "'";
-    if (other == nullptr) throw Unjudgeable{"no solution" + where + " to compare with"};
+    if (other == nullptr) throw NotComparable{"no solution" + where + " to compare with"};
   }
   const std::string name = check.against_quantity.empty() ? check.quantity : check.against_quantity;
   require_unit(check.quantity, unit_of(name), name);
@@ -103,22 +103,22 @@ void pair_with_run(const Check& check, const Evidence& evidence, Pairs& pairs) {
   }
 }
 
-Pairs collect(const Check& check, const Evidence& evidence) {
-  Pairs pairs;
+ComparedValues collect(const Check& check, const CheckContext& context) {
+  ComparedValues pairs;
   pairs.computed =
-      pick(find_quantity(evidence.quantities, check.quantity, ""), check.index, check.quantity);
-  if (pairs.computed.empty()) throw Unjudgeable{check.quantity + " has no entries"};
+      pick(find_quantity(context.quantities, check.quantity, ""), check.index, check.quantity);
+  if (pairs.computed.empty()) throw NotComparable{check.quantity + " has no entries"};
   if (!check.statistic.empty()) pairs.computed = {statistic_of(check.statistic, pairs.computed)};
-  if (!check.reference.empty()) pair_with_reference(check, evidence, pairs);
+  if (!check.reference.empty()) pair_with_reference(check, context, pairs);
   if (!check.against_variant.empty() || !check.against_quantity.empty()) {
-    pair_with_run(check, evidence, pairs);
+    pair_with_run(check, context, pairs);
   }
   if (check.has_target() && pairs.expected.size() != pairs.computed.size()) {
-    throw Unjudgeable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
+    throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
                       " computed, " + std::to_string(pairs.expected.size()) + " expected"};
   }
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size()) {
-    throw Unjudgeable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
+    throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
                       " computed, " + std::to_string(check.windows.size()) + " windows"};
   }
   return pairs;
@@ -149,7 +149,7 @@ std::string outside(const Check& check, double value, const Window& window) {
 }
 
 /// Judges one entry into `entry`, whose computed and expected values are set.
-void judge_entry(const Check& check, const Window* window, double uncertainty, Judgement& entry) {
+void evaluate_entry(const Check& check, const Window* window, double uncertainty, CheckResult& entry) {
   const double expected = entry.expected.value_or(0);
   if (!std::isfinite(*entry.computed)) {
     entry.message = "the computed value is " + shortest(*entry.computed);
@@ -188,7 +188,7 @@ void judge_entry(const Check& check, const Window* window, double uncertainty, J
 }
 
 /// How far out an entry lies: errors first, then by the share of the window that is used.
-double badness(const Judgement& entry) {
+double severity(const CheckResult& entry) {
   if (entry.verdict == Verdict::error) return std::numeric_limits<double>::infinity();
   const double value = entry.difference ? *entry.difference : *entry.computed;
   if (!entry.window) return std::abs(value);
@@ -200,35 +200,35 @@ double badness(const Judgement& entry) {
   return (std::abs(value - (window.low + half)) - half) / (half > 0 ? half : 1);
 }
 
-std::vector<Judgement> worst_of(std::vector<Judgement> entries) {
+std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
   const auto worst = std::max_element(
       entries.begin(), entries.end(),
-      [](const Judgement& a, const Judgement& b) { return badness(a) < badness(b); });
-  Judgement told = *worst;
-  told.message = "worst of " + std::to_string(entries.size()) +
-                 (told.message.empty() ? "" : ": " + told.message);
-  return {told};
+      [](const CheckResult& a, const CheckResult& b) { return severity(a) < severity(b); });
+  CheckResult worst_result = *worst;
+  worst_result.message = "worst of " + std::to_string(entries.size()) +
+                 (worst_result.message.empty() ? "" : ": " + worst_result.message);
+  return {worst_result};
 }
 
-std::vector<Judgement> judge_entries(const Check& check, const Pairs& pairs) {
-  std::vector<Judgement> entries;
+std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValues& pairs) {
+  std::vector<CheckResult> entries;
   for (std::size_t i = 0; i < pairs.computed.size(); ++i) {
-    Judgement entry = start_judgement(check);
+    CheckResult entry = start_check_result(check);
     if (check.statistic.empty()) entry.index = check.index.empty() ? i : check.index[i];
     entry.computed = pairs.computed[i];
     if (!pairs.expected.empty()) entry.expected = pairs.expected[i];
     const Window* window =
         check.windows.empty() ? nullptr : &check.windows[check.windows.size() == 1 ? 0 : i];
-    judge_entry(check, window, pairs.uncertainty.empty() ? 0 : pairs.uncertainty[i], entry);
+    evaluate_entry(check, window, pairs.uncertainty.empty() ? 0 : pairs.uncertainty[i], entry);
     entries.push_back(std::move(entry));
   }
-  return entries.size() > most_entries ? worst_of(std::move(entries)) : entries;
+  return entries.size() > kMaxEntries ? worst_of(std::move(entries)) : entries;
 }
 
 }  // namespace
 
-Judgement start_judgement(const Check& check) {
-  Judgement entry;
+CheckResult start_check_result(const Check& check) {
+  CheckResult entry;
   entry.name = check.name;
   entry.title = check.title;
   entry.quantity = check.quantity;
@@ -245,27 +245,27 @@ Judgement start_judgement(const Check& check) {
   return entry;
 }
 
-Judgement failed_judgement(const Check& check, const std::string& message) {
-  Judgement entry = start_judgement(check);
+CheckResult failed_check_result(const Check& check, const std::string& message) {
+  CheckResult entry = start_check_result(check);
   entry.message = message;
   return entry;
 }
 
-const Reference& find_reference(const Evidence& evidence, const std::string& pointer) {
+const Reference& find_reference(const CheckContext& context, const std::string& pointer) {
   std::vector<std::string> tokens;
   for (JsonPointer left(pointer); !left.empty(); left.pop_back()) tokens.push_back(left.back());
-  Cursor place(evidence.document);
+  JsonView place(context.document);
   std::for_each(tokens.rbegin(), tokens.rend(),
                 [&](const std::string& token) { place = place[token]; });
-  return evidence.references.get(place);
+  return context.references.get(place);
 }
 
-std::vector<Judgement> judge(const Check& check, const Evidence& evidence) {
+std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
   try {
-    if (check.order) return judge_order(check, evidence);
-    return judge_entries(check, collect(check, evidence));
-  } catch (const Unjudgeable& reason) {
-    return {failed_judgement(check, reason.message)};
+    if (check.order) return evaluate_order_check(check, context);
+    return evaluate_entries(check, collect(check, context));
+  } catch (const NotComparable& reason) {
+    return {failed_check_result(check, reason.message)};
   }
 }
 
@@ -285,7 +285,7 @@ const char* to_string(Verdict verdict) {
   return "";
 }
 
-bool breaks_gate(Verdict verdict) {
+bool fails_gate(Verdict verdict) {
   return verdict != Verdict::pass && verdict != Verdict::recorded;
 }
 

@@ -16,7 +16,7 @@ namespace trammel {
 enum class Verdict { pass, fail, error, not_run, recorded };
 
 /// The judgement of one entry of a check, or of the check as a whole where it has no single one.
-struct Judgement {
+struct CheckResult {
   std::string name, title, quantity, unit, statistic, reference, against_variant, against_quantity;
   std::optional<std::size_t> index;
   std::optional<double> computed, expected, difference;
@@ -31,7 +31,7 @@ struct Judgement {
 };
 
 /// What a run's checks are judged with.
-struct Evidence {
+struct CheckContext {
   const Document& document;
   const Quantities& quantities;
   const std::vector<Convergence>& convergence;
@@ -41,21 +41,21 @@ struct Evidence {
 };
 
 /// One judgement an entry; of a long array the worst alone, which says so.
-[[nodiscard]] std::vector<Judgement> judge(const Check& check, const Evidence& evidence);
+[[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context);
 
-/// The judgements of an "order" check; `judge` calls it.
-[[nodiscard]] std::vector<Judgement> judge_order(const Check& check, const Evidence& evidence);
+/// The judgements of an "order" check; `evaluate_check` calls it.
+[[nodiscard]] std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckContext& context);
 
 /// A judgement that carries the check's name, role and reasons; an error until it is filled in.
-[[nodiscard]] Judgement start_judgement(const Check& check);
-[[nodiscard]] Judgement failed_judgement(const Check& check, const std::string& message);
+[[nodiscard]] CheckResult start_check_result(const Check& check);
+[[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
 
 /// A place in the document that holds the name of a reference: the check's own, or one inside it.
-[[nodiscard]] const Reference& find_reference(const Evidence& evidence, const std::string& pointer);
+[[nodiscard]] const Reference& find_reference(const CheckContext& context, const std::string& pointer);
 
 [[nodiscard]] const char* to_string(Verdict verdict);
 
 /// A gate that does not hold: everything but a pass and what is only recorded.
-[[nodiscard]] bool breaks_gate(Verdict verdict);
+[[nodiscard]] bool fails_gate(Verdict verdict);
 
 }  // namespace trammel

@@ -8,164 +8,164 @@
 namespace trammel {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One entry of the quantity, with what theory says of it.
 struct Entry {
   const Convergence& found;
-  double wave_number = nothing;  ///< times the length of the swept member
+  double wave_number = kNaN;  ///< times the length of the swept member
   double share = 1;
 };
 
 double entry_of(const Reference& reference, const std::vector<std::size_t>& index,
                 std::size_t position) {
   const std::size_t at = index.empty() ? position : index.at(position);
-  return at < reference.values.size() ? reference.values[at] : nothing;
+  return at < reference.values.size() ? reference.values[at] : kNaN;
 }
 
-class OrderJudge {
+class OrderCheckEvaluator {
  public:
-  OrderJudge(const Check& check, const Entry& entry)
-      : check_(check), demand_(*check.order), entry_(entry), found_(entry.found) {
+  OrderCheckEvaluator(const Check& check, const Entry& entry)
+      : check_(check), criterion_(*check.order), entry_(entry), found_(entry.found) {
     for (std::size_t k = 0; k < found_.error.size(); ++k) qualifies_.push_back(qualifies(k));
     meshes_ = static_cast<std::size_t>(std::count(qualifies_.begin(), qualifies_.end(), true));
   }
 
-  [[nodiscard]] std::vector<Judgement> run() const {
-    std::vector<Judgement> all = {demand_.two_term_within ? two_term() : order()};
-    if (demand_.leading_term) all.push_back(leading_term());
-    if (demand_.richardson_within) all.push_back(richardson());
-    for (Judgement& one : all) one.index = found_.series.index;
+  [[nodiscard]] std::vector<CheckResult> run() const {
+    std::vector<CheckResult> all = {criterion_.two_term_within ? two_term() : order()};
+    if (criterion_.leading_term) all.push_back(leading_term());
+    if (criterion_.richardson_within) all.push_back(richardson());
+    for (CheckResult& check_result : all) check_result.index = found_.series.index;
     return all;
   }
 
  private:
   [[nodiscard]] bool qualifies(std::size_t k) const {
-    if (!demand_.wave_number) return found_.in_asymptotic_range[k];
-    const bool fine = entry_.wave_number * found_.series.size[k] <= demand_.wave_number->at_most;
+    if (!criterion_.wave_number) return found_.in_asymptotic_range[k];
+    const bool fine = entry_.wave_number * found_.series.size[k] <= criterion_.wave_number->at_most;
     return fine && std::isfinite(found_.error[k]) && !found_.at_roundoff_floor[k];
   }
 
   /// Whether anything can be said at all.
-  bool lacks_evidence(Judgement& one) const {
+  bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
-      one.message = "a refined level has no finite value";
+      check_result.message = "a refined level has no finite value";
     } else if (!found_.series.exact) {
-      one.message = "there is no exact value to measure errors by";
-    } else if (meshes_ < demand_.meshes) {
-      one.message = "only " + std::to_string(meshes_) + " meshes qualify, " +
-                    std::to_string(demand_.meshes) + " are needed";
+      check_result.message = "there is no exact value to measure errors by";
+    } else if (meshes_ < criterion_.meshes) {
+      check_result.message = "only " + std::to_string(meshes_) + " meshes qualify, " +
+                    std::to_string(criterion_.meshes) + " are needed";
     } else {
       return false;
     }
     return true;
   }
 
-  void conclude(Judgement& one, double value, double limit) const {
-    one.difference = value;
-    one.window = Window{-limit, limit};
-    one.symmetric = true;
-    one.verdict = std::abs(value) <= limit ? Verdict::pass : Verdict::fail;
-    if (one.message.empty()) one.message = std::to_string(meshes_) + " meshes qualify";
+  void conclude(CheckResult& check_result, double value, double limit) const {
+    check_result.difference = value;
+    check_result.window = Window{-limit, limit};
+    check_result.symmetric = true;
+    check_result.verdict = std::abs(value) <= limit ? Verdict::pass : Verdict::fail;
+    if (check_result.message.empty()) check_result.message = std::to_string(meshes_) + " meshes qualify";
   }
 
-  [[nodiscard]] Judgement start(const std::string& suffix, std::string measure,
+  [[nodiscard]] CheckResult start(const std::string& suffix, std::string measure,
                                 std::string unit) const {
-    Judgement one = start_judgement(check_);
-    one.name += suffix;
-    one.measure = std::move(measure);
-    one.unit = std::move(unit);
-    return one;
+    CheckResult check_result = start_check_result(check_);
+    check_result.name += suffix;
+    check_result.measure = std::move(measure);
+    check_result.unit = std::move(unit);
+    return check_result;
   }
 
   /// The number of a qualifying level that is farthest from `target`.
   template <class Value>
-  double worst(double target, const Value& value, Judgement& one) const {
-    double farthest = nothing;
+  double worst(double target, const Value& value, CheckResult& check_result) const {
+    double farthest = kNaN;
     for (std::size_t k = 0; k < qualifies_.size(); ++k) {
       if (!qualifies_[k]) continue;
       const double here = value(k);
       if (std::isnan(here)) continue;
       if (std::isnan(farthest) || std::abs(here - target) > std::abs(farthest - target)) {
         farthest = here;
-        one.message = std::to_string(meshes_) + " meshes qualify, the worst is " +
+        check_result.message = std::to_string(meshes_) + " meshes qualify, the worst is " +
                       shortest(found_.series.parameter[k]);
       }
     }
     return farthest;
   }
 
-  [[nodiscard]] Judgement order() const {
-    Judgement one = start("", "order", "1");
-    one.expected = found_.series.theory;
-    if (lacks_evidence(one)) return one;
+  [[nodiscard]] CheckResult order() const {
+    CheckResult check_result = start("", "order", "1");
+    check_result.expected = found_.series.theory;
+    if (lacks_asymptotic_range(check_result)) return check_result;
     const double theory = *found_.series.theory;
     const std::optional<double> fitted = slope(found_.series.size, found_.error, qualifies_);
     if (!fitted) {
-      one.message = "fewer than two meshes qualify";
-      return one;
+      check_result.message = "fewer than two meshes qualify";
+      return check_result;
     }
-    one.computed = *fitted;
+    check_result.computed = *fitted;
     const double farthest = worst(
         theory,
-        [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? found_.order[k] : nothing; }, one);
-    one.message = std::to_string(meshes_) + " meshes qualify; between two of them at worst " +
+        [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? found_.order[k] : kNaN; }, check_result);
+    check_result.message = std::to_string(meshes_) + " meshes qualify; between two of them at worst " +
                   shortest(farthest);
-    conclude(one, *one.computed - theory, demand_.within);
-    return one;
+    conclude(check_result, *check_result.computed - theory, criterion_.within);
+    return check_result;
   }
 
   /// The largest relative distance of the law from an error, over the meshes that it is fitted to.
-  [[nodiscard]] Judgement two_term() const {
-    Judgement one = start("", "two-term", "1");
-    one.expected = 0;
-    if (lacks_evidence(one)) return one;
+  [[nodiscard]] CheckResult two_term() const {
+    CheckResult check_result = start("", "two-term", "1");
+    check_result.expected = 0;
+    if (lacks_asymptotic_range(check_result)) return check_result;
     if (!found_.two_term) {
-      one.message = "no two-term law could be fitted";
-      return one;
+      check_result.message = "no two-term law could be fitted";
+      return check_result;
     }
     const auto& [a, b] = found_.two_term->coefficient;
-    one.computed = found_.two_term->worst;
-    one.message = std::to_string(meshes_) + " meshes qualify; relative error = " + shortest(a) +
+    check_result.computed = found_.two_term->worst;
+    check_result.message = std::to_string(meshes_) + " meshes qualify; relative error = " + shortest(a) +
                   " h^" + shortest(*found_.series.theory) + " + " + shortest(b) + " h^" +
                   shortest(*found_.series.lower);
-    conclude(one, *one.computed, *demand_.two_term_within);
-    return one;
+    conclude(check_result, *check_result.computed, *criterion_.two_term_within);
+    return check_result;
   }
 
-  [[nodiscard]] Judgement leading_term() const {
-    Judgement one = start(".leading-term", "leading-term", "1");
-    one.expected = 1;
-    if (lacks_evidence(one)) return one;
+  [[nodiscard]] CheckResult leading_term() const {
+    CheckResult check_result = start(".leading-term", "leading-term", "1");
+    check_result.expected = 1;
+    if (lacks_asymptotic_range(check_result)) return check_result;
     const double exact = *found_.series.exact;
     const auto ratio = [&](std::size_t k) {
       const double error = (found_.series.values[k] - exact) / std::abs(exact);
       const double step = entry_.wave_number * found_.series.size[k];
-      return error / (demand_.leading_term->coefficient * entry_.share *
+      return error / (criterion_.leading_term->coefficient * entry_.share *
                       std::pow(step, *found_.series.theory));
     };
-    one.computed = worst(1, ratio, one);
-    if (!std::isfinite(*one.computed)) return one;
-    conclude(one, *one.computed - 1, demand_.leading_term->within);
-    return one;
+    check_result.computed = worst(1, ratio, check_result);
+    if (!std::isfinite(*check_result.computed)) return check_result;
+    conclude(check_result, *check_result.computed - 1, criterion_.leading_term->within);
+    return check_result;
   }
 
-  [[nodiscard]] Judgement richardson() const {
-    Judgement one = start(".richardson", "relative", unit_of(check_.quantity));
-    one.expected = found_.series.exact;
-    if (lacks_evidence(one)) return one;
+  [[nodiscard]] CheckResult richardson() const {
+    CheckResult check_result = start(".richardson", "relative", unit_of(check_.quantity));
+    check_result.expected = found_.series.exact;
+    if (lacks_asymptotic_range(check_result)) return check_result;
     if (!found_.richardson) {
-      one.message = "there is no extrapolated value";
-      return one;
+      check_result.message = "there is no extrapolated value";
+      return check_result;
     }
-    one.computed = *found_.richardson;
+    check_result.computed = *found_.richardson;
     const double exact = *found_.series.exact;
-    conclude(one, (*found_.richardson - exact) / std::abs(exact), *demand_.richardson_within);
-    return one;
+    conclude(check_result, (*found_.richardson - exact) / std::abs(exact), *criterion_.richardson_within);
+    return check_result;
   }
 
   const Check& check_;
-  const OrderDemand& demand_;
+  const OrderCriterion& criterion_;
   const Entry& entry_;
   const Convergence& found_;
   std::vector<bool> qualifies_;
@@ -174,13 +174,13 @@ class OrderJudge {
 
 }  // namespace
 
-std::vector<Judgement> judge_order(const Check& check, const Evidence& evidence) {
-  const OrderDemand& demand = *check.order;
-  std::vector<Judgement> all;
+std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckContext& context) {
+  const OrderCriterion& criterion = *check.order;
+  std::vector<CheckResult> all;
   std::size_t position = 0;
-  for (const Convergence& found : evidence.convergence) {
+  for (const Convergence& found : context.convergence) {
     const Series& series = found.series;
-    if (series.sweep != demand.sweep || series.quantity != check.quantity ||
+    if (series.sweep != criterion.sweep || series.quantity != check.quantity ||
         series.statistic != check.statistic) {
       continue;
     }
@@ -188,27 +188,27 @@ std::vector<Judgement> judge_order(const Check& check, const Evidence& evidence)
                                                          series.index) != check.index.end();
     if (!chosen) continue;
     Entry entry{found};
-    if (demand.wave_number) {
-      const auto& reference = find_reference(evidence, demand.wave_number->pointer + "/reference");
-      entry.wave_number = entry_of(reference, demand.wave_number->index, position);
+    if (criterion.wave_number) {
+      const auto& reference = find_reference(context, criterion.wave_number->pointer + "/reference");
+      entry.wave_number = entry_of(reference, criterion.wave_number->index, position);
     }
-    if (demand.leading_term && !demand.leading_term->share.empty()) {
-      const auto& reference = find_reference(evidence, demand.leading_term->pointer + "/share");
+    if (criterion.leading_term && !criterion.leading_term->share.empty()) {
+      const auto& reference = find_reference(context, criterion.leading_term->pointer + "/share");
       entry.share = entry_of(reference, {}, position);
     }
-    const auto judged = OrderJudge(check, entry).run();
+    const auto judged = OrderCheckEvaluator(check, entry).run();
     all.insert(all.end(), judged.begin(), judged.end());
     ++position;
   }
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
   if (position < wanted) {
-    all.push_back(failed_judgement(check, "the sweep '" + demand.sweep + "' follows " +
+    all.push_back(failed_check_result(check, "the sweep '" + criterion.sweep + "' follows " +
                                               std::to_string(position) + " entries of " +
                                               check.quantity + ", " + std::to_string(wanted) +
                                               " are judged"));
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Judgement& a, const Judgement& b) { return a.name < b.name; });
+                   [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });
   return all;
 }
 

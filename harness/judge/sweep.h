@@ -24,13 +24,13 @@ struct Sweep {
 [[nodiscard]] std::vector<Sweep> run_sweeps(const Document& document, const References& references);
 
 /// Which quantities of a sweep are followed.
-enum class Follow {
+enum class TrackedQuantities {
   named,  ///< those that the sweep names, else those that the checks name
   all     ///< every one that changes with the level
 };
 
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,
-                                                   const References& references, Follow follow);
+                                                   const References& references, TrackedQuantities tracked);
 
 }  // namespace trammel

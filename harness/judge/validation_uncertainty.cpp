@@ -13,10 +13,10 @@
 namespace trammel {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// From a band of about 95 % to a standard uncertainty: the error lies on one side of the computed
 /// value, near the edge of the band. Source: ASME V&V 20-2009, section 2 (k = 1.1 to 1.15).
-constexpr double band_to_standard = 1.15;
+constexpr double kGciToStandard = 1.15;
 
 /// One value of the run that is compared with one of a reference.
 struct Place {
@@ -25,7 +25,7 @@ struct Place {
   const Reference* reference = nullptr;
 };
 
-std::vector<Place> compared_places(const std::vector<Check>& checks, const Cursor& root,
+std::vector<Place> compared_places(const std::vector<Check>& checks, const JsonView& root,
                                    const Quantities& quantities, const References& references) {
   std::vector<Place> places;
   for (const Check& check : checks) {
@@ -47,7 +47,7 @@ std::vector<Place> compared_places(const std::vector<Check>& checks, const Curso
 
 double value_at(const Quantities& quantities, const Place& place) {
   const auto found = quantities.find(place.check->quantity);
-  if (found == quantities.end() || place.index >= found->second.values.size()) return nothing;
+  if (found == quantities.end() || place.index >= found->second.values.size()) return kNaN;
   return found->second.values[place.index];
 }
 
@@ -58,7 +58,7 @@ Document moved(const Document& document, const std::vector<std::string>& pointer
   for (const std::string& pointer : pointers) {
     const double value = document.value().at(JsonPointer(pointer)).get<double>();
     const Origin written = document.origin(pointer);
-    copy.lay_value(written.file, written.pointer, patch_at(copy.value(), pointer, move(value)));
+    copy.apply_value_patch(written.file, written.pointer, patch_at(copy.value(), pointer, move(value)));
   }
   return copy;
 }
@@ -68,7 +68,7 @@ bool is_number(const Document& document, const std::string& pointer) {
   return document.value().contains(at) && document.value().at(at).is_number();
 }
 
-std::vector<StatedInput> read_inputs(const Cursor& place, const References& references) {
+std::vector<StatedInput> read_inputs(const JsonView& place, const References& references) {
   std::vector<StatedInput> inputs;
   const Document& document = place.document();
   for (const auto& [name, entry] : place.entries()) {
@@ -104,10 +104,10 @@ class Study {
   Study(const Document& document, const AnalysisResult& result, const std::vector<Check>& checks,
         const References& references)
       : document_(document),
-        stated_(Cursor(document)["uncertainty"]),
+        stated_(JsonView(document)["uncertainty"]),
         references_(references),
         result_(result),
-        places_(compared_places(checks, Cursor(document), result.quantities, references)) {}
+        places_(compared_places(checks, JsonView(document), result.quantities, references)) {}
 
   ValidationUncertainty run() {
     if (places_.empty()) return {};
@@ -116,7 +116,7 @@ class Study {
     refine();
     derive();
     sample();
-    judge();
+    evaluate_check();
     return std::move(study_);
   }
 
@@ -173,7 +173,7 @@ class Study {
           return number = halvings ? value + step : value * std::exp2(step);
         });
         parameter.push_back(number);
-        levels.push_back(values_of(finer).value_or(std::vector<double>(places_.size(), nothing)));
+        levels.push_back(values_of(finer).value_or(std::vector<double>(places_.size(), kNaN)));
       }
       estimate(name, place, parameter, levels, squares);
     }
@@ -182,7 +182,7 @@ class Study {
     }
   }
 
-  void estimate(const std::string& name, const Cursor& place, const std::vector<double>& parameter,
+  void estimate(const std::string& name, const JsonView& place, const std::vector<double>& parameter,
                 const std::vector<std::vector<double>>& levels, std::vector<double>& squares) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Series series;
@@ -191,7 +191,7 @@ class Study {
       series.values = {levels[0][i], levels[1][i], levels[2][i]};
       series.roundoff = {0, 0, 0};
       if (place.has("theory_order")) series.theory = place.number("theory_order");
-      const Convergence found = trammel::study(series);
+      const Convergence found = trammel::analyse_convergence(series);
       NumericalEstimate one;
       one.refinement = name;
       one.quantity = places_[i].check->quantity;
@@ -200,9 +200,9 @@ class Study {
       one.values = series.values;
       one.order = found.order[2];
       one.factor = found.factor[2];
-      one.half_width = one.factor * std::abs(series.values[0] - found.richardson.value_or(nothing));
-      if (found.broken) one.half_width = nothing;
-      squares[i] += std::pow(one.half_width / band_to_standard, 2);
+      one.half_width = one.factor * std::abs(series.values[0] - found.richardson.value_or(kNaN));
+      if (found.broken) one.half_width = kNaN;
+      squares[i] += std::pow(one.half_width / kGciToStandard, 2);
       const bool told = std::any_of(
           study_.numerical.begin(), study_.numerical.end(), [&](const NumericalEstimate& other) {
             return other.refinement == one.refinement && other.quantity == one.quantity &&
@@ -249,7 +249,7 @@ class Study {
       double literal = 0;
       double largest = 0;
       for (std::size_t k = 0; k < all.size(); ++k) {
-        const double part = found ? found->contribution[k][i] : nothing;
+        const double part = found ? found->contribution[k][i] : kNaN;
         const bool counts = !study_.inputs[k].nominal;
         literal += part * part;
         if (counts) square += part * part;
@@ -279,14 +279,14 @@ class Study {
     study_.literal_samples = literal.samples;
     study_.literal_failed = literal.failed;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      study_.entries[i].u_input_sampled = i < design.standard.size() ? design.standard[i] : nothing;
+      study_.entries[i].u_input_sampled = i < design.standard.size() ? design.standard[i] : kNaN;
       study_.entries[i].u_input_literal_sampled =
-          i < literal.standard.size() ? literal.standard[i] : nothing;
+          i < literal.standard.size() ? literal.standard[i] : kNaN;
     }
   }
 
   /// Each check's entries are one row of the reference.
-  void judge() {
+  void evaluate_check() {
     for (std::size_t first = 0; first < study_.entries.size();) {
       std::size_t end = first;
       std::vector<Comparison> row;
@@ -301,8 +301,8 @@ class Study {
         entry.literal_comparison.u_input = u_literal;
         literal.push_back(entry.literal_comparison);
       }
-      const auto verdicts = judge_row(row, study_.entries[first].unit);
-      const auto literal_verdicts = judge_row(literal, study_.entries[first].unit);
+      const auto verdicts = evaluate_validation_row(row, study_.entries[first].unit);
+      const auto literal_verdicts = evaluate_validation_row(literal, study_.entries[first].unit);
       for (std::size_t i = first; i < end; ++i) {
         study_.entries[i].validation = verdicts[i - first];
         study_.entries[i].literal = literal_verdicts[i - first];
@@ -312,7 +312,7 @@ class Study {
   }
 
   const Document& document_;
-  Cursor stated_;
+  JsonView stated_;
   const References& references_;
   const AnalysisResult& result_;
   std::vector<Place> places_;
@@ -322,10 +322,10 @@ class Study {
 }  // namespace
 
 std::vector<StatedInput> stated_inputs(const Document& document, const References& references) {
-  return read_inputs(Cursor(document)["uncertainty"]["inputs"], references);
+  return read_inputs(JsonView(document)["uncertainty"]["inputs"], references);
 }
 
-ValidationUncertainty study_validation(const Document& document, const AnalysisResult& result,
+ValidationUncertainty evaluate_validation_uncertainty(const Document& document, const AnalysisResult& result,
                                        const std::vector<Check>& checks,
                                        const References& references) {
   return Study(document, result, checks, references).run();

@@ -64,7 +64,7 @@ struct ValidationUncertainty {
 
 /// @param document  case or variant, solved with `result`; has "uncertainty"
 /// @throws InputError  where a pointer leads nowhere or a patched model has no meaning.
-[[nodiscard]] ValidationUncertainty study_validation(const Document& document,
+[[nodiscard]] ValidationUncertainty evaluate_validation_uncertainty(const Document& document,
                                                      const AnalysisResult& result,
                                                      const std::vector<Check>& checks,
                                                      const References& references);

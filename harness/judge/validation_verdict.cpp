@@ -20,14 +20,14 @@ Validation compare(const Comparison& c) {
   v.difference = c.simulation - c.reference;
   // Not std::hypot of three, which may lose a NaN.
   v.u_val = std::sqrt(c.u_num * c.u_num + c.u_input * c.u_input + c.u_reference * c.u_reference);
-  v.low = v.difference - coverage_factor * v.u_val;
-  v.high = v.difference + coverage_factor * v.u_val;
+  v.low = v.difference - kCoverageFactor * v.u_val;
+  v.high = v.difference + kCoverageFactor * v.u_val;
   if (!std::isfinite(v.difference) || !std::isfinite(v.u_val)) {
     v.verdict = ValidationVerdict::undecided;
     return v;
   }
   const bool within = v.low <= 0 && v.high >= 0;
-  v.verdict = within ? ValidationVerdict::within_noise : ValidationVerdict::model_off;
+  v.verdict = within ? ValidationVerdict::within_validation_uncertainty : ValidationVerdict::beyond_validation_uncertainty;
   return v;
 }
 
@@ -53,16 +53,16 @@ Spread printed(const std::vector<Comparison>& row, std::size_t first, std::size_
   const auto begin = row.begin();
   const auto [low, high] = std::minmax_element(begin + static_cast<std::ptrdiff_t>(first),
                                                begin + static_cast<std::ptrdiff_t>(end), by_value);
-  const double digits_allow = coverage_factor * std::hypot(low->u_reference, high->u_reference);
+  const double digits_allow = kCoverageFactor * std::hypot(low->u_reference, high->u_reference);
   return {low->reference, high->reference, high->reference - low->reference > digits_allow};
 }
 
-std::string words(const Validation& v, const std::string& unit) {
-  const double noise = coverage_factor * v.u_val;
+std::string describe_validation(const Validation& v, const std::string& unit) {
+  const double noise = kCoverageFactor * v.u_val;
   if (v.verdict == ValidationVerdict::undecided) {
     return "undecided: the value or one of its uncertainties could not be computed";
   }
-  if (v.verdict == ValidationVerdict::within_noise) {
+  if (v.verdict == ValidationVerdict::within_validation_uncertainty) {
     return "the difference of " + digits(v.difference) + " " + unit + " is within the noise of ±" +
            digits(noise) + " " + unit;
   }
@@ -81,21 +81,21 @@ std::string contradiction(const Spread& spread, std::size_t first, std::size_t e
 
 }  // namespace
 
-std::vector<Validation> judge_row(const std::vector<Comparison>& row, const std::string& unit) {
+std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& row, const std::string& unit) {
   std::vector<Validation> verdicts;
   for (std::size_t first = 0; first < row.size();) {
     const std::size_t end = end_of_repeated(row, first);
     const Spread spread = printed(row, first, end);
     for (std::size_t i = first; i < end; ++i) {
       Validation v = compare(row[i]);
-      const double noise = coverage_factor * v.u_val;
+      const double noise = kCoverageFactor * v.u_val;
       const bool between =
           row[i].simulation >= spread.low - noise && row[i].simulation <= spread.high + noise;
-      if (v.verdict == ValidationVerdict::model_off && spread.beyond_digits && between) {
-        v.verdict = ValidationVerdict::reference_contradicts_itself;
-        v.words = contradiction(spread, first, end, unit);
+      if (v.verdict == ValidationVerdict::beyond_validation_uncertainty && spread.beyond_digits && between) {
+        v.verdict = ValidationVerdict::reference_inconsistent;
+        v.text = contradiction(spread, first, end, unit);
       } else {
-        v.words = words(v, unit);
+        v.text = describe_validation(v, unit);
       }
       verdicts.push_back(std::move(v));
     }
@@ -106,11 +106,11 @@ std::vector<Validation> judge_row(const std::vector<Comparison>& row, const std:
 
 std::string to_string(ValidationVerdict verdict) {
   switch (verdict) {
-    case ValidationVerdict::within_noise:
+    case ValidationVerdict::within_validation_uncertainty:
       return "within-noise";
-    case ValidationVerdict::model_off:
+    case ValidationVerdict::beyond_validation_uncertainty:
       return "model-off";
-    case ValidationVerdict::reference_contradicts_itself:
+    case ValidationVerdict::reference_inconsistent:
       return "reference-contradicts-itself";
     case ValidationVerdict::undecided:
       break;

@@ -17,18 +17,18 @@ struct Comparison {
 };
 
 /// undecided: a number is missing, and nothing is claimed.
-enum class ValidationVerdict { within_noise, model_off, reference_contradicts_itself, undecided };
+enum class ValidationVerdict { within_validation_uncertainty, beyond_validation_uncertainty, reference_inconsistent, undecided };
 
 struct Validation {
   double difference = 0;  ///< E = S - D
   double u_val = 0;       ///< root of u_num^2 + u_input^2 + u_D^2
   double low = 0;         ///< the model error lies between E - 2 u_val ...
   double high = 0;        ///< ... and E + 2 u_val, at about 95 % (V&V 20 section 6)
-  ValidationVerdict verdict = ValidationVerdict::within_noise;
-  std::string words;
+  ValidationVerdict verdict = ValidationVerdict::within_validation_uncertainty;
+  std::string text;
 };
 
-inline constexpr double coverage_factor = 2;
+inline constexpr double kCoverageFactor = 2;
 
 /// Judges a row of values, such as frequencies in ascending order.
 ///
@@ -37,7 +37,7 @@ inline constexpr double coverage_factor = 2;
 /// them, then no model of this symmetry can do better: the reference contradicts itself. If the
 /// model's value lies beyond all of them, the model is off all the same.
 /// @param unit  for the words
-[[nodiscard]] std::vector<Validation> judge_row(const std::vector<Comparison>& row,
+[[nodiscard]] std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& row,
                                                 const std::string& unit);
 
 /// "within-noise", "model-off", "reference-contradicts-itself", "undecided"

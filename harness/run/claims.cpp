@@ -13,22 +13,22 @@
 namespace trammel {
 namespace {
 
-constexpr const char* ledger_file = "varalakshmi-2017.json";
+constexpr const char* kClaimsFile = "varalakshmi-2017.json";
 
 /// Which values a window holds; one side may take all that the other's window does not.
 struct Rule {
   std::optional<Window> confirms, contradicts;
-  ReadingVerdict otherwise = ReadingVerdict::undecided;
+  InterpretationVerdict otherwise = InterpretationVerdict::undecided;
   bool jointly = false;  ///< the entries of one check count as one
 
-  [[nodiscard]] ReadingVerdict of(double value) const {
-    if (confirms && confirms->contains(value)) return ReadingVerdict::confirms;
-    if (contradicts && contradicts->contains(value)) return ReadingVerdict::contradicts;
+  [[nodiscard]] InterpretationVerdict verdict_of_value(double value) const {
+    if (confirms && confirms->contains(value)) return InterpretationVerdict::confirms;
+    if (contradicts && contradicts->contains(value)) return InterpretationVerdict::contradicts;
     return otherwise;
   }
 };
 
-Window read_window(const Cursor& interval) {
+Window read_window(const JsonView& interval) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto side = [&](std::size_t i, double open) {
     return interval[i].json().is_null() ? open : interval[i].get<double>();
@@ -36,25 +36,25 @@ Window read_window(const Cursor& interval) {
   return {side(0, -infinity), side(1, infinity)};
 }
 
-Rule read_rule(const Cursor& reading) {
+Rule read_rule(const JsonView& interpretation) {
   Rule rule;
-  rule.jointly = reading.get("jointly", false);
-  const auto read = [&](const char* key, std::optional<Window>& window, ReadingVerdict verdict) {
-    if (!reading.has(key)) return;
-    if (!reading[key].json().is_string()) {
-      window = read_window(reading[key]);
+  rule.jointly = interpretation.get("jointly", false);
+  const auto read = [&](const char* key, std::optional<Window>& window, InterpretationVerdict verdict) {
+    if (!interpretation.has(key)) return;
+    if (!interpretation[key].json().is_string()) {
+      window = read_window(interpretation[key]);
     } else {
       rule.otherwise = verdict;
     }
   };
-  read("confirms", rule.confirms, ReadingVerdict::confirms);
-  read("contradicts", rule.contradicts, ReadingVerdict::contradicts);
+  read("confirms", rule.confirms, InterpretationVerdict::confirms);
+  read("contradicts", rule.contradicts, InterpretationVerdict::contradicts);
   if (!rule.confirms && !rule.contradicts) {
-    throw reading.error("expected a window in 'confirms' or 'contradicts'");
+    throw interpretation.error("expected a window in 'confirms' or 'contradicts'");
   }
   if (rule.confirms && rule.contradicts && rule.confirms->low < rule.contradicts->high &&
       rule.contradicts->low < rule.confirms->high) {
-    throw reading.error("expected windows of which no value is in both");
+    throw interpretation.error("expected windows of which no value is in both");
   }
   return rule;
 }
@@ -64,45 +64,45 @@ bool matches(const std::string& name, const std::string& pattern) {
   return name.compare(0, pattern.size() - 1, pattern, 0, pattern.size() - 1) == 0;
 }
 
-bool wants(const Cursor& reading, const Run& run) {
-  if (reading.has("case") && reading.text("case") != run.case_id) return false;
-  if (!reading.has("variants")) return true;
-  const auto variants = reading["variants"].get<std::vector<std::string>>();
+bool selects(const JsonView& interpretation, const Run& run) {
+  if (interpretation.has("case") && interpretation.text("case") != run.case_id) return false;
+  if (!interpretation.has("variants")) return true;
+  const auto variants = interpretation["variants"].get<std::vector<std::string>>();
   return std::find(variants.begin(), variants.end(), run.variant) != variants.end();
 }
 
-std::optional<double> taken(const std::string& take, const Judgement& one) {
-  if (take == "value") return one.computed;
-  if (!one.computed || !one.expected) return std::nullopt;
-  const double computed = *one.computed, expected = *one.expected;
-  if (take == "difference") return computed - expected;
+std::optional<double> metric_of(const std::string& metric, const CheckResult& check_result) {
+  if (metric == "value") return check_result.computed;
+  if (!check_result.computed || !check_result.expected) return std::nullopt;
+  const double computed = *check_result.computed, expected = *check_result.expected;
+  if (metric == "difference") return computed - expected;
   if (expected == 0) return std::nullopt;
-  return take == "ratio" ? computed / expected : (computed - expected) / std::abs(expected);
+  return metric == "ratio" ? computed / expected : (computed - expected) / std::abs(expected);
 }
 
-void add_checks(const Cursor& reading, const Run& run, LedgerReading& found) {
-  for (const Judgement& one : run.judgements) {
-    const bool named = reading.has("check") && matches(one.name, reading.text("check"));
-    const bool against = reading.has("reference") && one.reference == reading.text("reference");
+void add_checks(const JsonView& interpretation, const Run& run, Interpretation& found) {
+  for (const CheckResult& check_result : run.check_results) {
+    const bool named = interpretation.has("check") && matches(check_result.name, interpretation.text("check"));
+    const bool against = interpretation.has("reference") && check_result.reference == interpretation.text("reference");
     if (!named && !against) continue;
-    if (reading.has("index")) {
-      const auto index = reading["index"].get<std::vector<std::size_t>>();
+    if (interpretation.has("index")) {
+      const auto index = interpretation["index"].get<std::vector<std::size_t>>();
       const bool chosen =
-          one.index && std::find(index.begin(), index.end(), *one.index) != index.end();
+          check_result.index && std::find(index.begin(), index.end(), *check_result.index) != index.end();
       if (!chosen) continue;
     }
-    const auto value = taken(found.take, one);
+    const auto value = metric_of(found.metric, check_result);
     if (run.status != "solved" || !value || !std::isfinite(*value)) {
       found.incomplete = true;
       continue;
     }
-    found.unit = found.take == "ratio" || found.take == "relative" ? "1" : one.unit;
-    found.entries.push_back({run.case_id, run.variant, one.name, *value});
+    found.unit = found.metric == "ratio" || found.metric == "relative" ? "1" : check_result.unit;
+    found.entries.push_back({run.case_id, run.variant, check_result.name, *value});
   }
 }
 
-void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
-  const std::string name = reading.text("quantity");
+void add_quantity(const JsonView& interpretation, const Run& run, Interpretation& found) {
+  const std::string name = interpretation.text("quantity");
   const auto quantity = run.result.quantities.find(name);
   if (quantity == run.result.quantities.end() || quantity->second.values.empty()) {
     found.incomplete = true;
@@ -110,10 +110,10 @@ void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
   }
   std::vector<double> values;
   const std::vector<double>& all = quantity->second.values;
-  if (reading.has("index")) {
-    for (const auto i : reading["index"].get<std::vector<std::size_t>>()) {
+  if (interpretation.has("index")) {
+    for (const auto i : interpretation["index"].get<std::vector<std::size_t>>()) {
       if (i >= all.size()) {
-        throw reading["index"].error("expected entries that " + name + " has, which are " +
+        throw interpretation["index"].error("expected entries that " + name + " has, which are " +
                                      std::to_string(all.size()));
       }
       values.push_back(all[i]);
@@ -121,11 +121,11 @@ void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
   } else {
     values = all;
   }
-  if (found.take == "steps") {
+  if (found.metric == "steps") {
     std::adjacent_difference(values.begin(), values.end(), values.begin());
     values.erase(values.begin());
   }
-  if (reading.has("statistic")) values = {statistic_of(reading.text("statistic"), values)};
+  if (interpretation.has("statistic")) values = {statistic_of(interpretation.text("statistic"), values)};
   found.unit = unit_of(name);
   for (const double value : values) {
     if (std::isfinite(value)) {
@@ -138,80 +138,80 @@ void add_quantity(const Cursor& reading, const Run& run, LedgerReading& found) {
 
 /// One verdict for each entry, or for each check: it confirms where all its entries do, and
 /// contradicts where one does.
-std::vector<ReadingVerdict> verdicts_of(const Rule& rule, const std::vector<LedgerEntry>& entries) {
-  std::vector<ReadingVerdict> verdicts;
-  const LedgerEntry* before = nullptr;
-  for (const LedgerEntry& entry : entries) {
-    const ReadingVerdict verdict = rule.of(entry.value);
+std::vector<InterpretationVerdict> verdicts_of(const Rule& rule, const std::vector<InterpretationEntry>& entries) {
+  std::vector<InterpretationVerdict> verdicts;
+  const InterpretationEntry* before = nullptr;
+  for (const InterpretationEntry& entry : entries) {
+    const InterpretationVerdict verdict = rule.verdict_of_value(entry.value);
     const bool same = rule.jointly && before && before->case_id == entry.case_id &&
                       before->variant == entry.variant && before->name == entry.name;
     before = &entry;
     if (!same) {
       verdicts.push_back(verdict);
-    } else if (verdicts.back() != ReadingVerdict::contradicts &&
-               verdict != ReadingVerdict::confirms) {
+    } else if (verdicts.back() != InterpretationVerdict::contradicts &&
+               verdict != InterpretationVerdict::confirms) {
       verdicts.back() = verdict;
     }
   }
   return verdicts;
 }
 
-ReadingVerdict verdict_of(const Rule& rule, const std::vector<LedgerEntry>& entries) {
-  const std::vector<ReadingVerdict> each = verdicts_of(rule, entries);
-  const std::set<ReadingVerdict> verdicts(each.begin(), each.end());
-  if (verdicts.empty()) return ReadingVerdict::not_measured;
+InterpretationVerdict verdict_of(const Rule& rule, const std::vector<InterpretationEntry>& entries) {
+  const std::vector<InterpretationVerdict> each = verdicts_of(rule, entries);
+  const std::set<InterpretationVerdict> verdicts(each.begin(), each.end());
+  if (verdicts.empty()) return InterpretationVerdict::not_measured;
   if (verdicts.size() == 1) return *verdicts.begin();
-  if (verdicts.count(ReadingVerdict::confirms) > 0) return ReadingVerdict::in_part;
-  return ReadingVerdict::undecided;
+  if (verdicts.count(InterpretationVerdict::confirms) > 0) return InterpretationVerdict::in_part;
+  return InterpretationVerdict::undecided;
 }
 
-LedgerReading judge_reading(const std::string& name, const Cursor& reading,
+Interpretation evaluate_interpretation(const std::string& name, const JsonView& interpretation,
                             const std::vector<Run>& runs) {
-  LedgerReading found;
+  Interpretation found;
   found.name = name;
-  found.what = reading.text("what");
-  found.take = reading.text("take");
-  const bool by_check = reading.has("check") || reading.has("reference");
-  if (by_check == reading.has("quantity")) {
-    throw reading.error("expected either a 'check' or 'reference', or a 'quantity'");
+  found.what = interpretation.text("what");
+  found.metric = interpretation.text("take");
+  const bool by_check = interpretation.has("check") || interpretation.has("reference");
+  if (by_check == interpretation.has("quantity")) {
+    throw interpretation.error("expected either a 'check' or 'reference', or a 'quantity'");
   }
-  if (by_check ? found.take == "steps" || reading.has("statistic")
-               : found.take != "value" && found.take != "steps") {
-    throw reading["take"].error(
+  if (by_check ? found.metric == "steps" || interpretation.has("statistic")
+               : found.metric != "value" && found.metric != "steps") {
+    throw interpretation["take"].error(
         "expected a check's value, ratio, relative or difference, or a "
         "quantity's value or steps");
   }
-  const Rule rule = read_rule(reading);
+  const Rule rule = read_rule(interpretation);
   for (const Run& run : runs) {
-    if (!wants(reading, run)) continue;
-    by_check ? add_checks(reading, run, found) : add_quantity(reading, run, found);
+    if (!selects(interpretation, run)) continue;
+    by_check ? add_checks(interpretation, run, found) : add_quantity(interpretation, run, found);
   }
   if (!found.incomplete) found.verdict = verdict_of(rule, found.entries);
   return found;
 }
 
-ClaimVerdict verdict_of(const std::vector<LedgerReading>& readings, bool alternatives) {
-  std::set<ReadingVerdict> verdicts;
-  for (const LedgerReading& reading : readings) {
-    if (reading.incomplete) return ClaimVerdict::not_measured;
-    verdicts.insert(reading.verdict);
+ClaimVerdict verdict_of(const std::vector<Interpretation>& interpretations, bool alternatives) {
+  std::set<InterpretationVerdict> verdicts;
+  for (const Interpretation& interpretation : interpretations) {
+    if (interpretation.incomplete) return ClaimVerdict::not_measured;
+    verdicts.insert(interpretation.verdict);
   }
-  verdicts.erase(ReadingVerdict::not_measured);
+  verdicts.erase(InterpretationVerdict::not_measured);
   if (verdicts.empty()) return ClaimVerdict::not_measured;
   if (verdicts.size() == 1) {
     switch (*verdicts.begin()) {
-      case ReadingVerdict::confirms:
+      case InterpretationVerdict::confirms:
         return ClaimVerdict::confirmed;
-      case ReadingVerdict::contradicts:
+      case InterpretationVerdict::contradicts:
         return ClaimVerdict::contradicted;
-      case ReadingVerdict::in_part:
+      case InterpretationVerdict::in_part:
         return alternatives ? ClaimVerdict::cannot_be_decided : ClaimVerdict::confirmed_in_part;
       default:
         return ClaimVerdict::cannot_be_decided;
     }
   }
   const bool some =
-      verdicts.count(ReadingVerdict::confirms) + verdicts.count(ReadingVerdict::in_part) > 0;
+      verdicts.count(InterpretationVerdict::confirms) + verdicts.count(InterpretationVerdict::in_part) > 0;
   return some && !alternatives ? ClaimVerdict::confirmed_in_part : ClaimVerdict::cannot_be_decided;
 }
 
@@ -222,8 +222,8 @@ ClaimVerdict read_verdict(const std::string& word) {
   return word == "not-measured" ? ClaimVerdict::not_measured : ClaimVerdict::cannot_be_decided;
 }
 
-LedgerClaim judge_claim(const std::string& id, const Cursor& claim, const std::vector<Run>& runs) {
-  LedgerClaim found;
+Claim evaluate_claim(const std::string& id, const JsonView& claim, const std::vector<Run>& runs) {
+  Claim found;
   found.id = id;
   found.claim = claim.text("claim");
   found.place = claim.text("place");
@@ -237,22 +237,22 @@ LedgerClaim judge_claim(const std::string& id, const Cursor& claim, const std::v
     found.verdict = ClaimVerdict::cannot_be_decided;
     return found;
   }
-  for (const auto& [name, reading] : claim["readings"].entries()) {
-    found.readings.push_back(judge_reading(name, reading, runs));
+  for (const auto& [name, interpretation] : claim["readings"].entries()) {
+    found.interpretations.push_back(evaluate_interpretation(name, interpretation, runs));
   }
   found.verdict =
-      verdict_of(found.readings, claim.get<std::string>("together", "parts") == "alternatives");
+      verdict_of(found.interpretations, claim.get<std::string>("together", "parts") == "alternatives");
   return found;
 }
 
-bool rests_on(const Cursor& reading, const Case& one) {
-  if (reading.has("case")) return reading.text("case") == one.id();
-  const auto checks = Cursor(one.document).find("checks");
+bool rests_on(const JsonView& interpretation, const Case& test_case) {
+  if (interpretation.has("case")) return interpretation.text("case") == test_case.id();
+  const auto checks = JsonView(test_case.document).find("checks");
   if (!checks) return false;
   for (const auto& [name, check] : checks->entries()) {
-    if (reading.has("check") && matches(name, reading.text("check"))) return true;
-    if (reading.has("reference") &&
-        check.get<std::string>("reference", "") == reading.text("reference")) {
+    if (interpretation.has("check") && matches(name, interpretation.text("check"))) return true;
+    if (interpretation.has("reference") &&
+        check.get<std::string>("reference", "") == interpretation.text("reference")) {
       return true;
     }
   }
@@ -261,43 +261,43 @@ bool rests_on(const Cursor& reading, const Case& one) {
 
 }  // namespace
 
-bool Ledger::follows() const {
+bool ClaimSet::as_expected() const {
   return std::all_of(claims.begin(), claims.end(),
-                     [](const LedgerClaim& claim) { return claim.follows(); });
+                     [](const Claim& claim) { return claim.as_expected(); });
 }
 
-Document load_ledger() {
-  const auto file = home() / "cases" / "paper" / "claims" / ledger_file;
+Document load_claims() {
+  const auto file = data_root() / "cases" / "paper" / "claims" / kClaimsFile;
   Document document;
-  document.lay(file.string(), "", read_json(file));
-  document.check("ledger");
+  document.apply_patch(file.string(), "", read_json(file));
+  document.validate("ledger");
   return document;
 }
 
-std::vector<Case> cases_of(const Document& ledger, const std::vector<Case>& catalogue) {
-  std::vector<Cursor> readings;
-  for (const auto& [id, claim] : Cursor(ledger)["claims"].entries()) {
+std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& catalogue) {
+  std::vector<JsonView> interpretations;
+  for (const auto& [id, claim] : JsonView(claim_set)["claims"].entries()) {
     if (!claim.has("readings")) continue;
-    for (const auto& [name, reading] : claim["readings"].entries()) readings.push_back(reading);
+    for (const auto& [name, interpretation] : claim["readings"].entries()) interpretations.push_back(interpretation);
   }
   std::vector<Case> cases;
-  std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(cases), [&](const Case& one) {
-    return std::any_of(readings.begin(), readings.end(),
-                       [&](const Cursor& reading) { return rests_on(reading, one); });
+  std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(cases), [&](const Case& test_case) {
+    return std::any_of(interpretations.begin(), interpretations.end(),
+                       [&](const JsonView& interpretation) { return rests_on(interpretation, test_case); });
   });
   return cases;
 }
 
-Ledger judge_ledger(const Document& document, const std::vector<Run>& runs) {
-  const Cursor root(document);
-  Ledger ledger{root.text("title"), root.text("source"), {}};
+ClaimSet evaluate_claims(const Document& document, const std::vector<Run>& runs) {
+  const JsonView root(document);
+  ClaimSet claim_set{root.text("title"), root.text("source"), {}};
   for (const auto& [id, claim] : root["claims"].entries()) {
-    ledger.claims.push_back(judge_claim(id, claim, runs));
+    claim_set.claims.push_back(evaluate_claim(id, claim, runs));
   }
-  return ledger;
+  return claim_set;
 }
 
-std::string in_words(ClaimVerdict verdict) {
+std::string to_text(ClaimVerdict verdict) {
   switch (verdict) {
     case ClaimVerdict::confirmed:
       return "confirmed";
@@ -313,46 +313,46 @@ std::string in_words(ClaimVerdict verdict) {
   return "";
 }
 
-std::string in_words(ReadingVerdict verdict) {
+std::string to_text(InterpretationVerdict verdict) {
   switch (verdict) {
-    case ReadingVerdict::confirms:
+    case InterpretationVerdict::confirms:
       return "confirms";
-    case ReadingVerdict::contradicts:
+    case InterpretationVerdict::contradicts:
       return "contradicts";
-    case ReadingVerdict::in_part:
+    case InterpretationVerdict::in_part:
       return "confirms in part";
-    case ReadingVerdict::undecided:
+    case InterpretationVerdict::undecided:
       return "decides nothing";
-    case ReadingVerdict::not_measured:
+    case InterpretationVerdict::not_measured:
       return "not measured";
   }
   return "";
 }
 
-Json to_json(const Ledger& ledger) {
-  Json json = {{"title", ledger.title}, {"follows", ledger.follows()}, {"claims", Json::array()}};
-  for (const LedgerClaim& claim : ledger.claims) {
+Json to_json(const ClaimSet& claim_set) {
+  Json json = {{"title", claim_set.title}, {"follows", claim_set.as_expected()}, {"claims", Json::array()}};
+  for (const Claim& claim : claim_set.claims) {
     Json one = {{"id", claim.id},
                 {"claim", claim.claim},
                 {"place", claim.place},
-                {"verdict", in_words(claim.verdict)},
-                {"expected", in_words(claim.expected)},
+                {"verdict", to_text(claim.verdict)},
+                {"expected", to_text(claim.expected)},
                 {"conclusion", claim.conclusion},
                 {"undecidable", claim.undecidable},
                 {"readings", Json::array()}};
-    for (const LedgerReading& reading : claim.readings) {
-      Json its = {{"what", reading.what},
-                  {"take", reading.take},
-                  {"unit", reading.unit},
-                  {"verdict", in_words(reading.verdict)},
+    for (const Interpretation& interpretation : claim.interpretations) {
+      Json interpretation_json = {{"what", interpretation.what},
+                  {"take", interpretation.metric},
+                  {"unit", interpretation.unit},
+                  {"verdict", to_text(interpretation.verdict)},
                   {"entries", Json::array()}};
-      for (const LedgerEntry& entry : reading.entries) {
-        its["entries"].push_back({{"case", entry.case_id},
+      for (const InterpretationEntry& entry : interpretation.entries) {
+        interpretation_json["entries"].push_back({{"case", entry.case_id},
                                   {"variant", entry.variant},
                                   {"name", entry.name},
                                   {"value", entry.value}});
       }
-      one["readings"].push_back(std::move(its));
+      one["readings"].push_back(std::move(interpretation_json));
     }
     json["claims"].push_back(std::move(one));
   }

@@ -8,7 +8,7 @@
 namespace trammel {
 
 /// The "cost" of results.json, by its schema.
-[[nodiscard]] Json cost_json(const std::vector<MeasuredStudy>& studies, Sweeping sweeping,
+[[nodiscard]] Json cost_json(const std::vector<MeasuredStudy>& studies, SweepExtent extent,
                              const TimingOptions& timing);
 
 /// The points of a study of results.json that are used for its front.

@@ -31,32 +31,32 @@ Json points(const std::vector<Vector2d>& all) {
   return array;
 }
 
-Json tolerance(const Judgement& one) {
-  if (!one.window) return nullptr;
-  if (one.symmetric) return number(one.window->high);
-  return {number(one.window->low), number(one.window->high)};
+Json tolerance(const CheckResult& check_result) {
+  if (!check_result.window) return nullptr;
+  if (check_result.symmetric) return number(check_result.window->high);
+  return {number(check_result.window->low), number(check_result.window->high)};
 }
 
-Json judgement(const Judgement& one) {
-  Json json = {{"name", one.name}};
-  if (!one.title.empty()) json["title"] = one.title;
-  json["quantity"] = one.quantity;
-  json["index"] = one.index ? Json(*one.index) : Json(nullptr);
-  if (!one.statistic.empty()) json["statistic"] = one.statistic;
-  json["computed"] = number(one.computed);
-  json["expected"] = number(one.expected);
-  json["unit"] = one.unit;
-  if (!one.reference.empty()) json["reference"] = one.reference;
-  if (!one.against_variant.empty()) json["against_variant"] = one.against_variant;
-  if (!one.against_quantity.empty()) json["against_quantity"] = one.against_quantity;
-  json["role"] = to_string(one.role);
-  json["measure"] = one.measure;
-  json["difference"] = number(one.difference);
-  json["tolerance"] = tolerance(one);
-  json["why"] = one.why;
-  json["expectation"] = to_string(one.expectation);
-  json["verdict"] = to_string(one.verdict);
-  json["message"] = one.message;
+Json check_result_json(const CheckResult& check_result) {
+  Json json = {{"name", check_result.name}};
+  if (!check_result.title.empty()) json["title"] = check_result.title;
+  json["quantity"] = check_result.quantity;
+  json["index"] = check_result.index ? Json(*check_result.index) : Json(nullptr);
+  if (!check_result.statistic.empty()) json["statistic"] = check_result.statistic;
+  json["computed"] = number(check_result.computed);
+  json["expected"] = number(check_result.expected);
+  json["unit"] = check_result.unit;
+  if (!check_result.reference.empty()) json["reference"] = check_result.reference;
+  if (!check_result.against_variant.empty()) json["against_variant"] = check_result.against_variant;
+  if (!check_result.against_quantity.empty()) json["against_quantity"] = check_result.against_quantity;
+  json["role"] = to_string(check_result.role);
+  json["measure"] = check_result.measure;
+  json["difference"] = number(check_result.difference);
+  json["tolerance"] = tolerance(check_result);
+  json["why"] = check_result.why;
+  json["expectation"] = to_string(check_result.expectation);
+  json["verdict"] = to_string(check_result.verdict);
+  json["message"] = check_result.message;
   return json;
 }
 
@@ -86,7 +86,7 @@ Json convergence(const Convergence& found) {
   }
   json["fitted_order"] = number(found.fitted_order);
   json["richardson"] = number(found.richardson);
-  json["band"] = numbers(found.band);
+  json["band"] = numbers(found.gci);
   json["factor"] = numbers(found.factor);
   return json;
 }
@@ -118,13 +118,13 @@ Json comparison(const ComparedEntry& entry, const std::vector<StatedInput>& inpu
   json["u_val"] = number(entry.validation.u_val);
   json["interval"] = interval(entry.validation);
   json["verdict"] = to_string(entry.validation.verdict);
-  json["words"] = entry.validation.words;
+  json["words"] = entry.validation.text;
   json["literal"] = {{"u_input", number(entry.literal_comparison.u_input)},
                      {"u_input_sampled", number(entry.u_input_literal_sampled)},
                      {"u_val", number(entry.literal.u_val)},
                      {"interval", interval(entry.literal)},
                      {"verdict", to_string(entry.literal.verdict)},
-                     {"words", entry.literal.words}};
+                     {"words", entry.literal.text}};
   return json;
 }
 
@@ -143,15 +143,15 @@ Json uncertainty(const ValidationUncertainty& found) {
                               {"nominal", input.nominal},
                               {"why", input.why}});
   }
-  for (const NumericalEstimate& one : found.numerical) {
-    json["numerical"].push_back({{"refinement", one.refinement},
-                                 {"quantity", one.quantity},
-                                 {"index", one.index},
-                                 {"parameter", numbers(one.parameter)},
-                                 {"values", numbers(one.values)},
-                                 {"order", number(one.order)},
-                                 {"factor", number(one.factor)},
-                                 {"half_width", number(one.half_width)}});
+  for (const NumericalEstimate& estimate : found.numerical) {
+    json["numerical"].push_back({{"refinement", estimate.refinement},
+                                 {"quantity", estimate.quantity},
+                                 {"index", estimate.index},
+                                 {"parameter", numbers(estimate.parameter)},
+                                 {"values", numbers(estimate.values)},
+                                 {"order", number(estimate.order)},
+                                 {"factor", number(estimate.factor)},
+                                 {"half_width", number(estimate.half_width)}});
   }
   for (const ComparedEntry& entry : found.entries) {
     json["comparisons"].push_back(comparison(entry, found.inputs));
@@ -199,17 +199,17 @@ Json cost(const Run& run) {
 /// What the computation had, why, and how often it was evaluated.
 Json effects(const Run& run) {
   Json list = Json::array();
-  for (const EffectReason& one : run.result.effects) {
-    Json json = {{"effect", std::string(name_of(one.effect))},
-                 {"admitted", one.admitted},
-                 {"on", one.on},
-                 {"why", one.why},
-                 {"evaluations", run.result.counters.of(one.effect)}};
-    if (one.number) {
-      json["number"] = number(one.number);
-      json["number_of"] = number_words(one.effect, run.result.analysis);
+  for (const EffectReason& reason : run.result.effects) {
+    Json json = {{"effect", std::string(name_of(reason.effect))},
+                 {"admitted", reason.applicable},
+                 {"on", reason.active},
+                 {"why", reason.why},
+                 {"evaluations", run.result.counters.evaluations(reason.effect)}};
+    if (reason.number) {
+      json["number"] = number(reason.number);
+      json["number_of"] = describe_effect_number(reason.effect, run.result.analysis);
     }
-    if (one.change) json["change"] = number(one.change);
+    if (reason.change) json["change"] = number(reason.change);
     list.push_back(std::move(json));
   }
   return list;
@@ -221,7 +221,7 @@ Json run_json(const Run& run) {
   for (const auto& [name, quantity] : run.result.quantities) {
     json["quantities"][name] = numbers(quantity.values);
   }
-  for (const Judgement& one : run.judgements) json["checks"].push_back(judgement(one));
+  for (const CheckResult& check_result : run.check_results) json["checks"].push_back(check_result_json(check_result));
   json["convergence"] = Json::array();
   for (const Convergence& found : run.convergence) {
     json["convergence"].push_back(convergence(found));
@@ -273,19 +273,19 @@ Json results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
                   {"cases", Json::object()},
                   {"references", Json::object()},
                   {"runs", Json::array()}};
-  for (const Case& one : cases) results["cases"][one.id()] = case_json(one);
+  for (const Case& test_case : cases) results["cases"][test_case.id()] = case_json(test_case);
   for (const auto& [id, cited] : references.used()) {
     results["references"][id] = reference_json(cited);
   }
-  if (const BandSummary bands = bands_of(runs); bands.levels > 0) {
-    results["bands"] = {{"levels", bands.levels},
-                        {"hits", bands.hits},
-                        {"hit_rate", number(bands.hit_rate())},
-                        {"least_hit_rate", least_hit_rate},
-                        {"median_ratio", number(bands.median_ratio)},
-                        {"largest_median_ratio", largest_median_ratio},
-                        {"levels_to_judge", levels_to_judge},
-                        {"holds", !bands.fails()}};
+  if (const NumericalUncertaintySummary summary = numerical_uncertainty_of(runs); summary.levels > 0) {
+    results["bands"] = {{"levels", summary.levels},
+                        {"hits", summary.hits},
+                        {"hit_rate", number(summary.hit_rate())},
+                        {"least_hit_rate", kMinHitRate},
+                        {"median_ratio", number(summary.median_ratio)},
+                        {"largest_median_ratio", kMaxMedianRatio},
+                        {"levels_to_judge", kMinLevels},
+                        {"holds", !summary.fails()}};
   }
   for (const Run& run : runs) {
     if (!results["cases"].contains(run.case_id)) {

@@ -18,11 +18,11 @@ struct Task {
   const Case* owner = nullptr;
   Document document;
   std::vector<Check> checks;
-  bool asked = true;
+  bool requested = true;
   Run run;
 };
 
-const char* status_word(Status status) {
+const char* status_name(Status status) {
   switch (status) {
     case Status::solved:
       return "solved";
@@ -34,34 +34,34 @@ const char* status_word(Status status) {
   return "error";
 }
 
-void spoil(Run& run, const std::string& reason, Run::Trouble trouble) {
+void mark_failed(Run& run, const std::string& reason, Run::RunError error) {
   run.status = "error";
   run.reason = reason;
-  run.trouble = trouble;
+  run.error = error;
 }
 
 /// Does what may fail, and leaves the failure in the run.
 template <class Work>
-void attempt(Run& run, const Work& work) {
+void run_guarded(Run& run, const Work& work) {
   try {
     work();
   } catch (const InputError& error) {
-    spoil(run, error.what(), Run::Trouble::input);
+    mark_failed(run, error.what(), Run::RunError::input);
   } catch (const std::bad_alloc&) {
-    spoil(run, run.case_id + ": expected a model that fits into memory", Run::Trouble::input);
+    mark_failed(run, run.case_id + ": expected a model that fits into memory", Run::RunError::input);
   } catch (const std::exception& error) {
-    spoil(run, std::string("a fault of trammel itself: ") + error.what(), Run::Trouble::ours);
+    mark_failed(run, std::string("a fault of trammel itself: ") + error.what(), Run::RunError::internal);
   }
 }
 
-Task prepare(const Case& owner, const std::string& variant, bool asked) {
+Task prepare(const Case& owner, const std::string& variant, bool requested) {
   Task task;
   task.owner = &owner;
-  task.asked = asked;
+  task.requested = requested;
   task.run.case_id = owner.id();
   task.run.variant = variant;
   task.run.status = "not-run";
-  attempt(task.run, [&] {
+  run_guarded(task.run, [&] {
     task.document = patched(owner, variant);
     task.checks = read_checks(task.document, variant, owner.variants());
   });
@@ -93,11 +93,11 @@ std::vector<Task> prepare_case(const Case& owner, const std::string& chosen) {
 void compute(Task& task, const References& references) {
   if (task.run.status == "error") return;
   const Stopwatch watch;
-  attempt(task.run, [&] {
-    task.run.result = analyse(task.document, references, {task.asked});
-    task.run.status = status_word(task.run.result.outcome.status);
+  run_guarded(task.run, [&] {
+    task.run.result = analyse(task.document, references, {task.requested});
+    task.run.status = status_name(task.run.result.outcome.status);
     task.run.reason = task.run.result.outcome.reason;
-    if (task.asked) task.run.sweeps = run_sweeps(task.document, references);
+    if (task.requested) task.run.sweeps = run_sweeps(task.document, references);
   });
   task.run.wall_s = watch.wall_s();
   task.run.cpu_s = watch.cpu_s();
@@ -105,12 +105,12 @@ void compute(Task& task, const References& references) {
 
 void compare_for_validation(Task& task, const References& references) {
   const bool wanted =
-      task.asked && task.run.status == "solved" && task.document.value().contains("uncertainty");
+      task.requested && task.run.status == "solved" && task.document.value().contains("uncertainty");
   if (!wanted) return;
   const Stopwatch watch;
-  attempt(task.run, [&] {
+  run_guarded(task.run, [&] {
     task.run.uncertainty =
-        study_validation(task.document, task.run.result, task.checks, references);
+        evaluate_validation_uncertainty(task.document, task.run.result, task.checks, references);
   });
   task.run.uncertainty_wall_s = watch.wall_s();
 }
@@ -138,35 +138,35 @@ void compute_all(std::vector<Task>& tasks, const References& references,
 
 /// How the computation ended, as a check of its own where that is not plain.
 /// @returns whether it ended as the case expects.
-bool judge_status(const Task& task, Run& run) {
+bool evaluate_status_check(const Task& task, Run& run) {
   const std::string expected = task.document.value().value("expect_status", "solved");
   if (expected == "solved" && run.status == "solved") return true;
-  Judgement one;
-  one.name = "status";
-  one.quantity = "status";
-  one.unit = "1";
-  one.measure = "status";
-  one.expectation = Expectation::agrees;
-  one.why = "the case expects it to be " + expected;
-  one.verdict = run.status == expected ? Verdict::pass : Verdict::fail;
-  one.message = run.status + (run.reason.empty() ? "" : ": " + run.reason);
-  run.judgements.push_back(std::move(one));
+  CheckResult check_result;
+  check_result.name = "status";
+  check_result.quantity = "status";
+  check_result.unit = "1";
+  check_result.measure = "status";
+  check_result.expectation = Expectation::agrees;
+  check_result.why = "the case expects it to be " + expected;
+  check_result.verdict = run.status == expected ? Verdict::pass : Verdict::fail;
+  check_result.message = run.status + (run.reason.empty() ? "" : ": " + run.reason);
+  run.check_results.push_back(std::move(check_result));
   return run.status == expected;
 }
 
-void judge_task(Task& task, const std::vector<Task>& tasks, const References& references,
+void evaluate_checks(Task& task, const std::vector<Task>& tasks, const References& references,
                 const RunOptions& options) {
   Run& run = task.run;
   if (run.status == "error") {
     for (const Check& check : task.checks) {
-      run.judgements.push_back(failed_judgement(check, "not computed: " + run.reason));
+      run.check_results.push_back(failed_check_result(check, "not computed: " + run.reason));
     }
     return;
   }
   // Where no solution is what the case expects, there is nothing more to judge.
-  if (judge_status(task, run) && run.status != "solved") return;
+  if (evaluate_status_check(task, run) && run.status != "solved") return;
   for (const Sweep& sweep : run.sweeps) {
-    auto found = study_sweep(sweep, task.document, task.checks, references, options.follow);
+    auto found = study_sweep(sweep, task.document, task.checks, references, options.tracked);
     std::move(found.begin(), found.end(), std::back_inserter(run.convergence));
   }
   const auto quantities_of = [&](const std::string& variant) -> const Quantities* {
@@ -178,14 +178,14 @@ void judge_task(Task& task, const std::vector<Task>& tasks, const References& re
     }
     return nullptr;
   };
-  const Evidence evidence{task.document, run.result.quantities, run.convergence, references,
+  const CheckContext context{task.document, run.result.quantities, run.convergence, references,
                           quantities_of};
   for (const Check& check : task.checks) {
     const bool solved = run.status == "solved";
     auto judged =
-        solved ? judge(check, evidence)
-               : std::vector<Judgement>{failed_judgement(check, "no solution: " + run.status)};
-    std::move(judged.begin(), judged.end(), std::back_inserter(run.judgements));
+        solved ? evaluate_check(check, context)
+               : std::vector<CheckResult>{failed_check_result(check, "no solution: " + run.status)};
+    std::move(judged.begin(), judged.end(), std::back_inserter(run.check_results));
   }
 }
 
@@ -195,35 +195,35 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
                            const RunOptions& options) {
   std::vector<Task> tasks;
   for (const Case& owner : cases) {
-    std::vector<Task> its = prepare_case(owner, options.variant);
-    std::move(its.begin(), its.end(), std::back_inserter(tasks));
+    std::vector<Task> case_tasks = prepare_case(owner, options.variant);
+    std::move(case_tasks.begin(), case_tasks.end(), std::back_inserter(tasks));
   }
   compute_all(tasks, references, options);
   for (Task& task : tasks) {
-    if (task.asked) attempt(task.run, [&] { judge_task(task, tasks, references, options); });
+    if (task.requested) run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
   }
   std::vector<Run> runs;
   for (Task& task : tasks) {
-    if (task.asked) runs.push_back(std::move(task.run));
+    if (task.requested) runs.push_back(std::move(task.run));
   }
   return runs;
 }
 
-BandSummary bands_of(const std::vector<Run>& runs) {
+NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs) {
   std::vector<const Convergence*> studies;
   for (const Run& run : runs) {
     for (const Convergence& found : run.convergence) studies.push_back(&found);
   }
-  return summarise_bands(studies);
+  return summarise_numerical_uncertainty(studies);
 }
 
 int exit_status(const std::vector<Run>& runs) {
-  int worst = bands_of(runs).fails() ? 1 : 0;
+  int worst = numerical_uncertainty_of(runs).fails() ? 1 : 0;
   for (const Run& run : runs) {
-    if (run.trouble == Run::Trouble::ours) worst = std::max(worst, 3);
-    if (run.trouble == Run::Trouble::input) worst = std::max(worst, 2);
-    const bool broken = std::any_of(run.judgements.begin(), run.judgements.end(),
-                                    [](const Judgement& one) { return breaks_gate(one.verdict); });
+    if (run.error == Run::RunError::internal) worst = std::max(worst, 3);
+    if (run.error == Run::RunError::input) worst = std::max(worst, 2);
+    const bool broken = std::any_of(run.check_results.begin(), run.check_results.end(),
+                                    [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
     if (broken) worst = std::max(worst, 1);
   }
   return worst;

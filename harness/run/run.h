@@ -16,7 +16,7 @@ namespace trammel {
 struct RunOptions {
   std::string variant;  ///< empty: all
   unsigned jobs = 1;
-  Follow follow = Follow::named;
+  TrackedQuantities tracked = TrackedQuantities::named;
   /// Called after each computation with how many of how many are done; from any thread, one at a
   /// time.
   std::function<void(std::size_t done, std::size_t all)> progress;
@@ -27,11 +27,11 @@ struct Run {
   std::string case_id, variant;
   std::string status;  ///< solved, singular, not-converged, error or not-run
   std::string reason;
-  enum class Trouble { none, input, ours };
-  Trouble trouble = Trouble::none;  ///< of a run with status "error"
+  enum class RunError { none, input, internal };
+  RunError error = RunError::none;  ///< of a run with status "error"
   AnalysisResult result;
   std::vector<Sweep> sweeps;
-  std::vector<Judgement> judgements;
+  std::vector<CheckResult> check_results;
   std::vector<Convergence> convergence;
   ValidationUncertainty uncertainty;  ///< empty where the case does not ask for it
   double wall_s = 0, cpu_s = 0;       ///< of the computation and its sweeps
@@ -44,7 +44,7 @@ struct Run {
                                          const References& references, const RunOptions& options);
 
 /// The bands of all refinements of the runs against the exact values, where there are any.
-[[nodiscard]] BandSummary bands_of(const std::vector<Run>& runs);
+[[nodiscard]] NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs);
 
 /// 0: every gate holds, 1: a check failed, or the bands do not hold, 2: bad input, 3: our own
 /// fault.

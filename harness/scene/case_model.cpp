@@ -4,8 +4,8 @@
 #include "harness/scene/manipulator_reader.h"
 #include "harness/scene/joint_reader.h"
 #include "solver/large_motion/system/linear_joints.h"
-#include "solver/assembly/reduced_model.h"
-#include "solver/manipulator/reduced_design.h"
+#include "solver/assembly/restrict_model_effects.h"
+#include "solver/manipulator/restrict_design_effects.h"
 
 namespace trammel {
 namespace {
@@ -17,13 +17,13 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 
 }  // namespace
 
-Scene read_scene(const Document& document) {
-  const Cursor root(document);
+CaseModel read_case_model(const Document& document) {
+  const JsonView root(document);
   if (!root.has("model")) throw root.error("expected the key 'model' for this analysis");
-  const Cursor model = root["model"];
-  Scene scene;
+  const JsonView model = root["model"];
+  CaseModel case_model;
   if (model.has("manipulator")) {
-    read_manipulator(model, scene);
+    read_manipulator(model, case_model);
   } else {
     for (const char* key : {"pose", "trajectory"}) {
       if (model.has(key)) throw model[key].error("expected a manipulator beside it");
@@ -33,57 +33,57 @@ Scene read_scene(const Document& document) {
     }
   }
   try {
-    const Model bare = scene.manipulator
-                           ? build_manipulator(*scene.manipulator, scene.motion.front().pose)
+    const Model bare = case_model.manipulator
+                           ? build_manipulator(*case_model.manipulator, case_model.motion.front().pose)
                            : Model();
-    scene.parts = read_parts(model, bare.nodes);
-    scene.mechanism = read_mechanism(model, build_bare_model(scene, 0));
+    case_model.structure = read_structure(model, bare.nodes);
+    case_model.joint_elements = read_joint_elements(model, build_bare_model(case_model, 0));
   } catch (const ModelError& error) {
     throw model_error(document, error);
   }
-  return scene;
+  return case_model;
 }
 
-Model build_model(const Scene& scene, std::size_t step) {
-  Model model = build_bare_model(scene, step);
-  for (const large::Slider& slider : scene.mechanism.sliders) add_linear_slider(model, slider);
+Model build_model(const CaseModel& case_model, std::size_t step) {
+  Model model = build_bare_model(case_model, step);
+  for (const large::Slider& slider : case_model.joint_elements.sliders) add_linear_slider(model, slider);
   const bool only_large =
-      !scene.mechanism.line_springs.empty() || !scene.mechanism.follower_loads.empty();
+      !case_model.joint_elements.line_springs.empty() || !case_model.joint_elements.follower_loads.empty();
   if (only_large) {
     throw ModelError("line springs and follower loads need large-statics or large-motion");
   }
   return model;
 }
 
-Model build_bare_model(const Scene& scene, std::size_t step) {
-  if (!scene.manipulator) return reduced(scene.parts, scene.effects);
+Model build_bare_model(const CaseModel& case_model, std::size_t step) {
+  if (!case_model.manipulator) return restrict_effects(case_model.structure, case_model.effects);
   Model model =
-      build_manipulator(reduced(*scene.manipulator, scene.effects), scene.motion.at(step).pose);
+      build_manipulator(restrict_effects(*case_model.manipulator, case_model.effects), case_model.motion.at(step).pose);
   const auto plates = static_cast<Index>(model.plates.size());
-  for (Triangle triangle : scene.parts.triangles) {
+  for (Triangle triangle : case_model.structure.triangles) {
     triangle.plate += plates;
     model.triangles.push_back(triangle);
   }
-  append(model.nodes, scene.parts.nodes);
-  append(model.members, scene.parts.members);
-  append(model.plates, scene.parts.plates);
-  append(model.rigid_bodies, scene.parts.rigid_bodies);
-  append(model.masses, scene.parts.masses);
-  append(model.springs, scene.parts.springs);
-  append(model.supports, scene.parts.supports);
-  append(model.constraints, scene.parts.constraints);
-  append(model.loads, scene.parts.loads);
-  for (EdgeLoad load : scene.parts.edge_loads) {
+  append(model.nodes, case_model.structure.nodes);
+  append(model.members, case_model.structure.members);
+  append(model.plates, case_model.structure.plates);
+  append(model.rigid_bodies, case_model.structure.rigid_bodies);
+  append(model.masses, case_model.structure.masses);
+  append(model.springs, case_model.structure.springs);
+  append(model.supports, case_model.structure.supports);
+  append(model.constraints, case_model.structure.constraints);
+  append(model.loads, case_model.structure.loads);
+  for (EdgeLoad load : case_model.structure.edge_loads) {
     load.plate += plates;
     model.edge_loads.push_back(load);
   }
-  model.gravity = scene.parts.gravity;
-  return reduced(std::move(model), scene.effects);
+  model.gravity = case_model.structure.gravity;
+  return restrict_effects(std::move(model), case_model.effects);
 }
 
 InputError model_error(const Document& document, const ModelError& error) {
   const std::string text = error.what();
-  const Cursor model = Cursor(document)["model"];
+  const JsonView model = JsonView(document)["model"];
   for (const char* kind :
        {"members", "rigid_bodies", "supports", "plates", "springs", "nodes", "edges"}) {
     const auto parts = model.find(kind);
@@ -96,7 +96,7 @@ InputError model_error(const Document& document, const ModelError& error) {
       }
     }
   }
-  const Cursor place = model.has("manipulator") ? model["manipulator"] : model;
+  const JsonView place = model.has("manipulator") ? model["manipulator"] : model;
   return place.error("expected a model that has a meaning: " + text);
 }
 

@@ -13,15 +13,15 @@
 namespace trammel {
 
 /// What the "model" of a case describes, ready to be built at each of its poses.
-struct Scene {
+struct CaseModel {
   std::optional<ManipulatorDesign> manipulator;
   /// Of the platform: one pose at rest, or the points of the path.
   std::vector<TrajectoryPoint> motion;
   std::optional<Path> path;  ///< where there is one, every quantity has one number a point
   /// Everything else. Its indices count the manipulator's nodes first, then its own.
-  Model parts;
+  Model structure;
   /// Sliders, line springs and follower loads, which the linear tiers know only in part.
-  large::Scenario mechanism;
+  large::LargeMotionModel joint_elements;
   Effects effects = Effects::all();  ///< what `build_model` keeps
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
@@ -30,15 +30,15 @@ struct Scene {
 /// @param document  a case with its patches, which has passed the schema
 /// @throws InputError  where names lead nowhere, geometry is impossible, a pose is out of reach or
 ///                     a combination has no meaning.
-[[nodiscard]] Scene read_scene(const Document& document);
+[[nodiscard]] CaseModel read_case_model(const Document& document);
 
 /// The planar model at a pose of the path (0 where there is none), with the scene's effects, for
 /// the linear tiers: sliders are linear constraints.
 /// @throws ModelError  where the scene has line springs or follower loads.
-[[nodiscard]] Model build_model(const Scene& scene, std::size_t step);
+[[nodiscard]] Model build_model(const CaseModel& case_model, std::size_t step);
 
 /// The same for large motion, which takes the mechanism by itself.
-[[nodiscard]] Model build_bare_model(const Scene& scene, std::size_t step);
+[[nodiscard]] Model build_bare_model(const CaseModel& case_model, std::size_t step);
 
 /// The error of a model that the solver refused, at the part that its message names.
 [[nodiscard]] InputError model_error(const Document& document, const ModelError& error);

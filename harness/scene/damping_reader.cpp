@@ -6,9 +6,9 @@ namespace trammel {
 
 namespace {
 
-std::size_t count_of(const Cursor& modal, std::optional<Index> known) {
+std::size_t count_of(const JsonView& modal, std::optional<Index> known) {
   if (!modal.has("modes")) throw modal.error("expected the key 'modes': how many have the ratio");
-  const Cursor stated = modal["modes"];
+  const JsonView stated = modal["modes"];
   if (!stated.json().is_string()) return stated.get<std::size_t>();
   if (known) return static_cast<std::size_t>(*known);
   throw stated.error("expected a number: all modes are known with 'modal-superposition' only");
@@ -16,7 +16,7 @@ std::size_t count_of(const Cursor& modal, std::optional<Index> known) {
 
 }  // namespace
 
-HarmonicDamping read_damping(const Cursor& analysis, std::optional<Index> modes) {
+HarmonicDamping read_damping(const JsonView& analysis, std::optional<Index> modes) {
   HarmonicDamping read;
   const auto damping = analysis.find("damping");
   if (!damping) return read;
@@ -25,7 +25,7 @@ HarmonicDamping read_damping(const Cursor& analysis, std::optional<Index> modes)
   }
   const auto modal = damping->find("modal");
   if (!modal) return read;
-  const Cursor ratio = (*modal)["ratio"];
+  const JsonView ratio = (*modal)["ratio"];
   if (!ratio.json().is_array()) {
     read.modal_ratio.assign(count_of(*modal, modes), ratio.get<double>());
   } else if (modal->has("modes")) {

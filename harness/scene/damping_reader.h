@@ -9,7 +9,7 @@ namespace trammel {
 /// @param modes  how many "all" are, where they are known
 /// @throws InputError  for "all" where they are not, more ratios than modes, or numbers without
 ///                     meaning.
-[[nodiscard]] HarmonicDamping read_damping(const Cursor& analysis,
+[[nodiscard]] HarmonicDamping read_damping(const JsonView& analysis,
                                            std::optional<Index> modes = std::nullopt);
 
 }  // namespace trammel

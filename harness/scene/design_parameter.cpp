@@ -15,13 +15,13 @@ void choose(const std::string& link, DesignParameter& parameter) {
 
 }  // namespace
 
-DesignParameter read_design_parameter(const Cursor& parameter) {
-  static const std::map<std::string, Quantity> words = {{"length", Quantity::length},
+DesignParameter read_design_parameter(const JsonView& parameter) {
+  static const std::map<std::string, Quantity> quantities = {{"length", Quantity::length},
                                                         {"thickness", Quantity::thickness},
                                                         {"width", Quantity::width},
                                                         {"E", Quantity::E},
                                                         {"density", Quantity::density}};
-  DesignParameter read{.quantity = words.at(parameter.text("of"))};
+  DesignParameter read{.quantity = quantities.at(parameter.text("of"))};
   read.platform = parameter.get("platform", false);
   if (const auto links = parameter.find("links")) {
     read.proximal.fill(false);
@@ -32,8 +32,8 @@ DesignParameter read_design_parameter(const Cursor& parameter) {
   if (read.platform && !platform_has) {
     throw parameter["platform"].error("expected the thickness, E or density of the platform");
   }
-  const auto any = [](const std::array<bool, 3>& of) {
-    return std::count(of.begin(), of.end(), true) > 0;
+  const auto any = [](const std::array<bool, 3>& selected) {
+    return std::count(selected.begin(), selected.end(), true) > 0;
   };
   if (!any(read.proximal) && !any(read.distal) && !read.platform) {
     throw parameter.error("expected a link, or the platform");

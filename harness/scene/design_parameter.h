@@ -10,7 +10,7 @@ namespace trammel {
 
 /// {"of": "length", "links": ["A1-B1", ...], "platform": false}
 /// @throws InputError  where it names no number: the length or width of a platform alone.
-[[nodiscard]] DesignParameter read_design_parameter(const Cursor& parameter);
+[[nodiscard]] DesignParameter read_design_parameter(const JsonView& parameter);
 
 /// "sensitivity_Hz_per_m", by the parameter's unit.
 [[nodiscard]] std::string sensitivity_name(DesignParameter::Quantity quantity);

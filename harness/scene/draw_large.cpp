@@ -6,7 +6,7 @@ namespace trammel {
 namespace {
 
 /// The model's nodes, then the members' inner points, first to second node.
-std::vector<Vector2d> places(const large::LargeSystem& system, const Eigen::VectorXd& q) {
+std::vector<Vector2d> places(const large::GeometricallyExactSystem& system, const Eigen::VectorXd& q) {
   const Model& model = system.model();
   const Eigen::MatrixX3d motion = node_motion(system, q);
   std::vector<Vector2d> nodes;
@@ -15,7 +15,7 @@ std::vector<Vector2d> places(const large::LargeSystem& system, const Eigen::Vect
                        motion.row(static_cast<Index>(i)).head<2>().transpose());
   }
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const Eigen::MatrixX2d line = member_line(system, q, static_cast<Index>(m));
+    const Eigen::MatrixX2d line = member_node_positions(system, q, static_cast<Index>(m));
     for (Index i = 1; i + 1 < line.rows(); ++i) nodes.emplace_back(line.row(i).transpose());
   }
   return nodes;
@@ -23,15 +23,15 @@ std::vector<Vector2d> places(const large::LargeSystem& system, const Eigen::Vect
 
 }  // namespace
 
-std::optional<Drawing> draw_large_model(const large::LargeSystem& system, bool is_manipulator) {
+std::optional<Drawing> draw_large_model(const large::GeometricallyExactSystem& system, bool is_manipulator) {
   const Model& model = system.model();
-  const Eigen::VectorXd rest = system.rest().q;
+  const Eigen::VectorXd reference = system.reference_state().q;
   Drawing drawing;
-  drawing.nodes = places(system, rest);
-  if (drawing.nodes.size() > most_drawn_nodes) return std::nullopt;
+  drawing.nodes = places(system, reference);
+  if (drawing.nodes.size() > kMaxDrawnNodes) return std::nullopt;
   std::size_t inner = model.nodes.size();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const Index points = member_line(system, rest, static_cast<Index>(m)).rows();
+    const Index points = member_node_positions(system, reference, static_cast<Index>(m)).rows();
     auto before = static_cast<std::size_t>(model.members[m].nodes[0]);
     for (Index i = 1; i + 1 < points; ++i, ++inner) {
       drawing.members.push_back({before, inner});
@@ -43,7 +43,7 @@ std::optional<Drawing> draw_large_model(const large::LargeSystem& system, bool i
   return drawing;
 }
 
-Drawing::Pose draw_large_pose(const large::LargeSystem& system, const Eigen::VectorXd& q,
+Drawing::Pose draw_large_pose(const large::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
                               const std::string& label) {
   return {label, places(system, q)};
 }

@@ -9,11 +9,11 @@
 namespace trammel {
 
 /// The model in its own pose; nothing where there are more nodes than a picture can show.
-[[nodiscard]] std::optional<Drawing> draw_large_model(const large::LargeSystem& system,
+[[nodiscard]] std::optional<Drawing> draw_large_model(const large::GeometricallyExactSystem& system,
                                                       bool is_manipulator);
 
 /// Where the drawing's nodes are at coordinates q.
-[[nodiscard]] Drawing::Pose draw_large_pose(const large::LargeSystem& system,
+[[nodiscard]] Drawing::Pose draw_large_pose(const large::GeometricallyExactSystem& system,
                                             const Eigen::VectorXd& q, const std::string& label);
 
 }  // namespace trammel

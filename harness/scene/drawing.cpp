@@ -7,14 +7,14 @@
 namespace trammel {
 namespace {
 
-constexpr std::size_t most_nodes_with_middles = 1500;
-constexpr std::size_t points_a_member = 12;
+constexpr std::size_t kMaxNodesWithMidpoints = 1500;
+constexpr std::size_t kPointsPerMember = 12;
 
 /// Pieces that an element is drawn in.
 std::size_t pieces(const System& system, const FrameElement& element) {
   const auto elements = to_size(system.model.members[to_size(element.member)].elements);
   if (element.is_bar()) return 1;
-  return std::max<std::size_t>(1, (points_a_member + elements - 1) / elements);
+  return std::max<std::size_t>(1, (kPointsPerMember + elements - 1) / elements);
 }
 
 /// Nodes of the mesh in the order in which they are drawn, and back (-1: not drawn).
@@ -22,13 +22,13 @@ struct DrawnNodes {
   std::vector<std::size_t> mesh;
   std::vector<Index> number;
 
-  [[nodiscard]] std::size_t of(Index node) const { return to_size(number[to_size(node)]); }
+  [[nodiscard]] std::size_t index_of(Index node) const { return to_size(number[to_size(node)]); }
 };
 
 DrawnNodes drawn_nodes(const System& system) {
   DrawnNodes drawn;
   drawn.number.assign(system.mesh.positions.size(), 0);
-  if (drawn.number.size() > most_nodes_with_middles) {
+  if (drawn.number.size() > kMaxNodesWithMidpoints) {
     for (const Triangle& triangle : system.model.triangles) {
       for (std::size_t k = 3; triangle.quadratic() && k < 6; ++k) {
         const Index middle = triangle.nodes[k];
@@ -49,14 +49,14 @@ void draw_members(const System& system, const DrawnNodes& drawn, Drawing& drawin
     const std::size_t count = pieces(system, element);
     const Vector2d start = system.mesh.positions[to_size(element.nodes[0])];
     const Vector2d span = system.mesh.positions[to_size(element.nodes[1])] - start;
-    std::size_t before = drawn.of(element.nodes[0]);
+    std::size_t before = drawn.index_of(element.nodes[0]);
     for (std::size_t k = 1; k < count; ++k) {
       drawing.nodes.emplace_back(start +
                                  span * static_cast<double>(k) / static_cast<double>(count));
       drawing.members.push_back({before, drawing.nodes.size() - 1});
       before = drawing.nodes.size() - 1;
     }
-    drawing.members.push_back({before, drawn.of(element.nodes[1])});
+    drawing.members.push_back({before, drawn.index_of(element.nodes[1])});
   }
 }
 
@@ -64,9 +64,9 @@ void draw_triangles(const Model& model, const DrawnNodes& drawn, Drawing& drawin
   for (const Triangle& triangle : model.triangles) {
     std::vector<std::size_t>& around = drawing.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      around.push_back(drawn.of(triangle.nodes[k]));
+      around.push_back(drawn.index_of(triangle.nodes[k]));
       const Index middle = triangle.nodes[3 + k];
-      if (middle >= 0 && drawn.number[to_size(middle)] >= 0) around.push_back(drawn.of(middle));
+      if (middle >= 0 && drawn.number[to_size(middle)] >= 0) around.push_back(drawn.index_of(middle));
     }
   }
 }
@@ -74,12 +74,12 @@ void draw_triangles(const Model& model, const DrawnNodes& drawn, Drawing& drawin
 /// A rigid body is a bar to its one node, or a fan of triangles about its reference.
 void draw_rigid_bodies(const Model& model, const DrawnNodes& drawn, Drawing& drawing) {
   for (const RigidBody& body : model.rigid_bodies) {
-    const std::size_t reference = drawn.of(body.reference);
+    const std::size_t reference = drawn.index_of(body.reference);
     const std::size_t count = body.attached.size();
-    if (count == 1) drawing.members.push_back({reference, drawn.of(body.attached.front())});
+    if (count == 1) drawing.members.push_back({reference, drawn.index_of(body.attached.front())});
     for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k) {
       drawing.triangles.push_back(
-          {reference, drawn.of(body.attached[k]), drawn.of(body.attached[(k + 1) % count])});
+          {reference, drawn.index_of(body.attached[k]), drawn.index_of(body.attached[(k + 1) % count])});
     }
   }
 }
@@ -113,7 +113,7 @@ void draw_joints(const Model& model, bool is_manipulator, const DrawnNodes& draw
   }
   for (std::size_t i = 0; i < kind.size(); ++i) {
     if (kind[i].empty()) continue;
-    drawing.joints.push_back({drawn.of(static_cast<Index>(i)), kind[i], model.nodes[i].name});
+    drawing.joints.push_back({drawn.index_of(static_cast<Index>(i)), kind[i], model.nodes[i].name});
   }
 }
 
@@ -154,11 +154,11 @@ Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& 
 std::optional<Drawing> draw_model(const System& system, bool is_manipulator) {
   Drawing drawing;
   const DrawnNodes drawn = drawn_nodes(system);
-  if (drawn.mesh.size() > most_drawn_nodes) return std::nullopt;
+  if (drawn.mesh.size() > kMaxDrawnNodes) return std::nullopt;
   for (const std::size_t node : drawn.mesh) drawing.nodes.push_back(system.mesh.positions[node]);
   draw_members(system, drawn, drawing);
   draw_parts(system.model, is_manipulator, drawn, drawing);
-  if (drawing.nodes.size() > most_drawn_nodes) return std::nullopt;
+  if (drawing.nodes.size() > kMaxDrawnNodes) return std::nullopt;
   return drawing;
 }
 

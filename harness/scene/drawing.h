@@ -35,7 +35,7 @@ struct Drawing {
 };
 
 /// What a picture can show.
-inline constexpr std::size_t most_drawn_nodes = 4000;
+inline constexpr std::size_t kMaxDrawnNodes = 4000;
 
 /// Adds triangles, rigid bodies and joints of a drawing that begins with all nodes of the model.
 void draw_parts(const Model& model, bool is_manipulator, Drawing& drawing);

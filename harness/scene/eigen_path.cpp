@@ -2,10 +2,10 @@
 
 namespace trammel {
 
-EigenPath read_eigen_path(const Cursor& analysis) {
+EigenMethod read_eigen_path(const JsonView& analysis) {
   const std::string path = analysis.get<std::string>("path", "automatic");
-  if (path == "dense") return EigenPath::dense;
-  return path == "sparse" ? EigenPath::sparse : EigenPath::automatic;
+  if (path == "dense") return EigenMethod::dense;
+  return path == "sparse" ? EigenMethod::sparse : EigenMethod::automatic;
 }
 
 }  // namespace trammel

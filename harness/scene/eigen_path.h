@@ -6,6 +6,6 @@
 namespace trammel {
 
 /// Key "path" of an analysis: automatic, dense or sparse.
-[[nodiscard]] EigenPath read_eigen_path(const Cursor& analysis);
+[[nodiscard]] EigenMethod read_eigen_path(const JsonView& analysis);
 
 }  // namespace trammel

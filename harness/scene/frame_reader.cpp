@@ -19,7 +19,7 @@ struct Shape {
   double area = 0, second_moment = 0, half_depth = 0;
 };
 
-Shape read_shape(const Cursor& section) {
+Shape read_shape(const JsonView& section) {
   const bool plain = section.has("area_m2") || section.has("second_moment_m4");
   const int ways =
       (section.has("rectangle") ? 1 : 0) + (section.has("circle") ? 1 : 0) + (plain ? 1 : 0);
@@ -46,8 +46,8 @@ Shape read_shape(const Cursor& section) {
   return {section.number("area_m2"), second_moment, section.get("half_depth_m", unknown)};
 }
 
-Section read_section(const Cursor& section, const Names& names) {
-  const Material material = look_up(names.material, section["material"], "a material");
+Section read_section(const JsonView& section, const SymbolTable& symbols) {
+  const Material material = look_up(symbols.material, section["material"], "a material");
   const Shape shape = read_shape(section);
   const double shear_modulus = material.E / (2 * (1 + material.nu));
   Section read;
@@ -62,26 +62,26 @@ Section read_section(const Cursor& section, const Names& names) {
   return read;
 }
 
-MemberEnd read_end(const Cursor& end) {
+MemberEnd read_end(const JsonView& end) {
   if (end.json().is_object()) {
     return {EndFixity::sprung, end.number("spring_N_m_per_rad"), 0};
   }
   return {end.get<std::string>() == "hinged" ? EndFixity::hinged : EndFixity::welded, 0, 0};
 }
 
-Member read_member(const std::string& name, const Cursor& place, const Names& names,
+Member read_member(const std::string& name, const JsonView& place, const SymbolTable& symbols,
                    const std::vector<Node>& nodes, Index elements) {
   Member member;
   member.name = name;
-  member.nodes = {names.find_node(place["nodes"][0]), names.find_node(place["nodes"][1])};
+  member.nodes = {symbols.find_node(place["nodes"][0]), symbols.find_node(place["nodes"][1])};
   const Vector2d span = nodes[static_cast<std::size_t>(member.nodes[1])].position -
                         nodes[static_cast<std::size_t>(member.nodes[0])].position;
   if (!(span.norm() > 0)) {
     throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
   }
-  member.section = look_up(names.section, place["section"], "a section");
+  member.section = look_up(symbols.section, place["section"], "a section");
   member.end_section = place.has("end_section")
-                           ? look_up(names.section, place["end_section"], "a section")
+                           ? look_up(symbols.section, place["end_section"], "a section")
                            : member.section;
   member.theory = read_beam_theory(place);
   member.mass = read_mass_matrix(place);
@@ -92,7 +92,7 @@ Member read_member(const std::string& name, const Cursor& place, const Names& na
   return member;
 }
 
-std::array<bool, 3> read_motions(const Cursor& place) {
+std::array<bool, 3> read_motions(const JsonView& place) {
   std::array<bool, 3> fixed{};
   for (const auto& entry : place.entries()) {
     const auto motion = entry.second.get<std::string>();
@@ -101,13 +101,13 @@ std::array<bool, 3> read_motions(const Cursor& place) {
   return fixed;
 }
 
-bool tapers(const Cursor& place) {
+bool tapers(const JsonView& place) {
   if (!place.has("taper")) return false;
   if (!place.has("end_section")) throw place["taper"].error("expected an 'end_section' beside it");
   return place.text("taper") == "exponential";
 }
 
-MemberChain read_chain(const Cursor& place) {
+MemberChain read_chain(const JsonView& place) {
   MemberChain chain;
   if (const auto center = place.find("arc_center_m")) chain.arc_center = read_point(*center);
   if (const auto held = place.find("held")) chain.held = read_motions(*held);
@@ -115,29 +115,29 @@ MemberChain read_chain(const Cursor& place) {
   return chain;
 }
 
-void read_members(const Cursor& members, const Names& names, Index elements, Model& parts) {
+void read_members(const JsonView& members, const SymbolTable& symbols, Index elements, Model& structure) {
   for (const auto& [name, place] : members.entries()) {
-    const Member member = read_member(name, place, names, parts.nodes, elements);
+    const Member member = read_member(name, place, symbols, structure.nodes, elements);
     const MemberChain chain = read_chain(place);
     if (!chain.needed()) {
-      parts.members.push_back(member);
+      structure.members.push_back(member);
       continue;
     }
     const auto at = [&](std::size_t end) -> Vector2d {
-      return parts.nodes[static_cast<std::size_t>(member.nodes[end])].position;
+      return structure.nodes[static_cast<std::size_t>(member.nodes[end])].position;
     };
     try {
-      add_chain(member, chain, at(0), at(1), std::ssize(parts.nodes), parts);
+      add_chain(member, chain, at(0), at(1), std::ssize(structure.nodes), structure);
     } catch (const ModelError& error) {
       throw place["arc_center_m"].error(error.what());
     }
   }
 }
 
-RigidBody read_rigid_body(const std::string& name, const Cursor& place, const Names& names) {
-  RigidBody body{name, names.find_node(place["reference"]), {}};
+RigidBody read_rigid_body(const std::string& name, const JsonView& place, const SymbolTable& symbols) {
+  RigidBody body{name, symbols.find_node(place["reference"]), {}};
   for (const auto& entry : place["nodes"].entries()) {
-    body.attached.push_back(names.find_node(entry.second));
+    body.attached.push_back(symbols.find_node(entry.second));
     if (body.attached.back() == body.reference) {
       throw entry.second.error("expected a node other than the reference");
     }
@@ -145,20 +145,20 @@ RigidBody read_rigid_body(const std::string& name, const Cursor& place, const Na
   return body;
 }
 
-PointMass read_point_mass(const Cursor& place, const Names& names) {
+PointMass read_point_mass(const JsonView& place, const SymbolTable& symbols) {
   PointMass mass;
-  mass.node = names.find_node(place["node"]);
+  mass.node = symbols.find_node(place["node"]);
   mass.mass = place.number("mass_kg");
   mass.inertia = place.get("inertia_kg_m2", 0.0);
   if (place.has("offset_m")) mass.offset = read_point(place["offset_m"]);
   return mass;
 }
 
-Spring read_spring(const std::string& name, const Cursor& place, const Names& names) {
+Spring read_spring(const std::string& name, const JsonView& place, const SymbolTable& symbols) {
   Spring spring;
   spring.name = name;
   for (std::size_t i = 0; i < place["nodes"].size(); ++i) {
-    spring.nodes[i] = names.find_node(place["nodes"][i]);
+    spring.nodes[i] = symbols.find_node(place["nodes"][i]);
   }
   if (const auto along = place.find("stiffness_N_per_m")) {
     spring.stiffness.head<2>() = read_point(*along);
@@ -167,9 +167,9 @@ Spring read_spring(const std::string& name, const Cursor& place, const Names& na
   return spring;
 }
 
-void read_pin(const std::string& name, const Cursor& place, const Names& names, Model& model) {
+void read_pin(const std::string& name, const JsonView& place, const SymbolTable& symbols, Model& model) {
   std::array<Index, 2> nodes{};
-  for (std::size_t i = 0; i < 2; ++i) nodes[i] = names.find_node(place["nodes"][i]);
+  for (std::size_t i = 0; i < 2; ++i) nodes[i] = symbols.find_node(place["nodes"][i]);
   const double apart = (model.nodes[static_cast<std::size_t>(nodes[0])].position -
                         model.nodes[static_cast<std::size_t>(nodes[1])].position)
                            .norm();
@@ -182,14 +182,14 @@ void read_pin(const std::string& name, const Cursor& place, const Names& names, 
 
 /// Calls `read(name, place)` for every entry of an object that may be missing.
 template <class Read>
-void each(const Cursor& model, const char* key, const Read& read) {
+void each(const JsonView& model, const char* key, const Read& read) {
   const auto places = model.find(key);
   if (!places) return;
   for (const auto& [name, place] : places->entries()) read(name, place);
 }
 
 /// Every node on an edge; motions that are already taken away are left out.
-void support_edge(const std::string& name, const Cursor& place, const Edge& edge, Model& model) {
+void support_edge(const std::string& name, const JsonView& place, const Edge& edge, Model& model) {
   const std::array<bool, 3> fixed = read_motions(place);
   if (fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
   for (const Index node : nodes_of(edge)) {
@@ -203,19 +203,19 @@ void support_edge(const std::string& name, const Cursor& place, const Edge& edge
 }
 
 /// Those of nodes first: they keep their reactions where an edge is supported as well.
-void read_supports(const Cursor& model, const Names& names, Model& parts) {
-  each(model, "supports", [&](const std::string& name, const Cursor& place) {
-    if (names.edge.count(name) > 0) return;
-    const char* what = names.edge.empty() ? "a node" : "a node or edge";
-    parts.supports.push_back({name, look_up(names.node, name, place, what), read_motions(place)});
+void read_supports(const JsonView& model, const SymbolTable& symbols, Model& structure) {
+  each(model, "supports", [&](const std::string& name, const JsonView& place) {
+    if (symbols.edge.count(name) > 0) return;
+    const char* what = symbols.edge.empty() ? "a node" : "a node or edge";
+    structure.supports.push_back({name, look_up(symbols.node, name, place, what), read_motions(place)});
   });
-  each(model, "supports", [&](const std::string& name, const Cursor& place) {
-    const auto edge = names.edge.find(name);
-    if (edge != names.edge.end()) support_edge(name, place, edge->second, parts);
+  each(model, "supports", [&](const std::string& name, const JsonView& place) {
+    const auto edge = symbols.edge.find(name);
+    if (edge != symbols.edge.end()) support_edge(name, place, edge->second, structure);
   });
 }
 
-void read_load(const Cursor& place, const Names& names, Model& model) {
+void read_load(const JsonView& place, const SymbolTable& symbols, Model& model) {
   if (place.has("node") == place.has("edge")) {
     throw place.error("expected exactly one of 'node' and 'edge'");
   }
@@ -226,61 +226,61 @@ void read_load(const Cursor& place, const Names& names, Model& model) {
     throw place[key].error(std::string("expected it beside '") + (of_edge ? "edge" : "node") +
                            "' only");
   }
-  if (on_edge) return read_edge_load(place, names, model);
-  NodalLoad load{names.find_node(place["node"]), Vector3d::Zero()};
+  if (on_edge) return read_edge_load(place, symbols, model);
+  NodalLoad load{symbols.find_node(place["node"]), Vector3d::Zero()};
   if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
   load.force.z() = place.get("moment_N_m", 0.0);
   model.loads.push_back(load);
 }
 
-Names read_names(const Cursor& model, Model& parts) {
-  Names names;
+SymbolTable read_symbols(const JsonView& model, Model& structure) {
+  SymbolTable symbols;
   const auto add = [&](std::size_t node) {
-    return names.node.emplace(parts.nodes[node].name, static_cast<Index>(node)).second;
+    return symbols.node.emplace(structure.nodes[node].name, static_cast<Index>(node)).second;
   };
-  for (std::size_t i = 0; i < parts.nodes.size(); ++i) add(i);
-  each(model, "nodes", [&](const std::string& name, const Cursor& place) {
-    parts.nodes.push_back({name, read_point(place)});
-    if (!add(parts.nodes.size() - 1)) {
+  for (std::size_t i = 0; i < structure.nodes.size(); ++i) add(i);
+  each(model, "nodes", [&](const std::string& name, const JsonView& place) {
+    structure.nodes.push_back({name, read_point(place)});
+    if (!add(structure.nodes.size() - 1)) {
       throw place.error("expected another name: the manipulator has a node of that name");
     }
   });
-  each(model, "materials", [&](const std::string& name, const Cursor& place) {
-    names.material.emplace(name, read_material(place));
+  each(model, "materials", [&](const std::string& name, const JsonView& place) {
+    symbols.material.emplace(name, read_material(place));
   });
-  each(model, "sections", [&](const std::string& name, const Cursor& place) {
-    names.section.emplace(name, read_section(place, names));
+  each(model, "sections", [&](const std::string& name, const JsonView& place) {
+    symbols.section.emplace(name, read_section(place, symbols));
   });
-  return names;
+  return symbols;
 }
 
 }  // namespace
 
-Model read_parts(const Cursor& model, const std::vector<Node>& before) {
-  Model parts;
-  parts.nodes = before;
-  Names names = read_names(model, parts);
+Model read_structure(const JsonView& model, const std::vector<Node>& before) {
+  Model structure;
+  structure.nodes = before;
+  SymbolTable symbols = read_symbols(model, structure);
   const Index elements = model.get<Index>("elements", 1);
-  if (const auto members = model.find("members")) read_members(*members, names, elements, parts);
-  read_plates(model, names, parts);
-  each(model, "rigid_bodies", [&](const std::string& name, const Cursor& place) {
-    parts.rigid_bodies.push_back(read_rigid_body(name, place, names));
+  if (const auto members = model.find("members")) read_members(*members, symbols, elements, structure);
+  read_plates(model, symbols, structure);
+  each(model, "rigid_bodies", [&](const std::string& name, const JsonView& place) {
+    structure.rigid_bodies.push_back(read_rigid_body(name, place, symbols));
   });
-  each(model, "point_masses", [&](const std::string&, const Cursor& place) {
-    parts.masses.push_back(read_point_mass(place, names));
+  each(model, "point_masses", [&](const std::string&, const JsonView& place) {
+    structure.masses.push_back(read_point_mass(place, symbols));
   });
-  each(model, "springs", [&](const std::string& name, const Cursor& place) {
-    parts.springs.push_back(read_spring(name, place, names));
+  each(model, "springs", [&](const std::string& name, const JsonView& place) {
+    structure.springs.push_back(read_spring(name, place, symbols));
   });
-  read_supports(model, names, parts);
+  read_supports(model, symbols, structure);
   each(model, "pins",
-       [&](const std::string& name, const Cursor& place) { read_pin(name, place, names, parts); });
+       [&](const std::string& name, const JsonView& place) { read_pin(name, place, symbols, structure); });
   each(model, "loads",
-       [&](const std::string&, const Cursor& place) { read_load(place, names, parts); });
-  if (model.has("gravity_m_s2")) parts.gravity = read_point(model["gravity_m_s2"]);
-  check_meshed_nodes(model, before.size(), parts);
-  parts.nodes.erase(parts.nodes.begin(), parts.nodes.begin() + static_cast<Index>(before.size()));
-  return parts;
+       [&](const std::string&, const JsonView& place) { read_load(place, symbols, structure); });
+  if (model.has("gravity_m_s2")) structure.gravity = read_point(model["gravity_m_s2"]);
+  check_meshed_nodes(model, before.size(), structure);
+  structure.nodes.erase(structure.nodes.begin(), structure.nodes.begin() + static_cast<Index>(before.size()));
+  return structure;
 }
 
 }  // namespace trammel

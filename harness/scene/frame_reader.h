@@ -9,6 +9,6 @@ namespace trammel {
 /// @param model   the place /model
 /// @param before  nodes that are already there, from the manipulator
 /// @throws InputError  where a name leads nowhere or geometry is impossible.
-[[nodiscard]] Model read_parts(const Cursor& model, const std::vector<Node>& before);
+[[nodiscard]] Model read_structure(const JsonView& model, const std::vector<Node>& before);
 
 }  // namespace trammel

@@ -9,7 +9,7 @@
 namespace trammel {
 namespace {
 
-Index find_named(const std::string& word, const Cursor& place, const Model& built) {
+Index find_node_by_name(const std::string& word, const JsonView& place, const Model& built) {
   const Index found = word.empty() ? -1 : built.find_node(word);
   if (found >= 0) return found;
   std::vector<std::string> names;
@@ -20,7 +20,7 @@ Index find_named(const std::string& word, const Cursor& place, const Model& buil
                     did_you_mean(word, names));
 }
 
-large::Slider read_slider(const std::string& name, const Cursor& place, const Model& built) {
+large::Slider read_slider(const std::string& name, const JsonView& place, const Model& built) {
   large::Slider slider{name, find_node(place["node"], built), -1, place.number("direction_rad"),
                        place.get("keeps_angle", false)};
   if (place.has("rail")) {
@@ -30,7 +30,7 @@ large::Slider read_slider(const std::string& name, const Cursor& place, const Mo
   return slider;
 }
 
-large::LineSpring read_line_spring(const std::string& name, const Cursor& place,
+large::LineSpring read_line_spring(const std::string& name, const JsonView& place,
                                    const Model& built) {
   large::LineSpring spring;
   spring.name = name;
@@ -40,7 +40,7 @@ large::LineSpring read_line_spring(const std::string& name, const Cursor& place,
   return spring;
 }
 
-large::FollowerLoad read_follower(const Cursor& place, const Model& built) {
+large::FollowerLoad read_follower(const JsonView& place, const Model& built) {
   large::FollowerLoad load{find_node(place["node"], built), Vector3d::Zero()};
   if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
   load.force.z() = place.get("moment_N_m", 0.0);
@@ -72,7 +72,7 @@ large::TimeFunction rest_to_rest(double travel, double duration) {
 
 }  // namespace
 
-large::TimeFunction read_law(const Cursor& law) {
+large::TimeFunction read_law(const JsonView& law) {
   if (const auto place = law.find("constant_speed")) {
     const double speed = place->number("speed_per_s");
     return [speed](double t) { return std::array<double, 3>{speed * t, speed, 0}; };
@@ -83,7 +83,7 @@ large::TimeFunction read_law(const Cursor& law) {
   if (const auto place = law.find("rest_to_rest")) {
     return rest_to_rest(place->number("travel"), place->number("duration_s"));
   }
-  const Cursor place = law["harmonic"];
+  const JsonView place = law["harmonic"];
   const double a = place.number("amplitude"), w = place.number("angular_speed_rad_s");
   return [a, w](double t) {
     return std::array<double, 3>{a * std::sin(w * t), a * w * std::cos(w * t),
@@ -91,55 +91,55 @@ large::TimeFunction read_law(const Cursor& law) {
   };
 }
 
-Index find_node(const Cursor& name, const Model& built) {
-  return find_named(name.get<std::string>(), name, built);
+Index find_node(const JsonView& name, const Model& built) {
+  return find_node_by_name(name.get<std::string>(), name, built);
 }
 
-large::Scenario read_mechanism(const Cursor& model, const Model& built) {
-  large::Scenario scenario;
+large::LargeMotionModel read_joint_elements(const JsonView& model, const Model& built) {
+  large::LargeMotionModel large_motion;
   if (const auto sliders = model.find("sliders")) {
     for (const auto& [name, place] : sliders->entries()) {
-      scenario.sliders.push_back(read_slider(name, place, built));
+      large_motion.sliders.push_back(read_slider(name, place, built));
     }
   }
   if (const auto springs = model.find("line_springs")) {
     for (const auto& [name, place] : springs->entries()) {
-      scenario.line_springs.push_back(read_line_spring(name, place, built));
+      large_motion.line_springs.push_back(read_line_spring(name, place, built));
     }
   }
   if (const auto loads = model.find("follower_loads")) {
     for (const auto& entry : loads->entries()) {
-      scenario.follower_loads.push_back(read_follower(entry.second, built));
+      large_motion.follower_loads.push_back(read_follower(entry.second, built));
     }
   }
-  return scenario;
+  return large_motion;
 }
 
-void read_drives(const Cursor& analysis, const Model& built, large::Scenario& scenario) {
+void read_drives(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion) {
   const auto drives = analysis.find("drives");
   if (!drives) return;
   for (const auto& [name, place] : drives->entries()) {
     const std::string motion = place.text("motion");
     const int direction = motion == "x" ? 0 : motion == "y" ? 1 : 2;
-    scenario.drives.push_back(
+    large_motion.drives.push_back(
         {name, find_node(place["node"], built), direction, read_law(place["law"])});
   }
 }
 
-void read_history(const Cursor& analysis, const Model& built, large::Scenario& scenario) {
-  scenario.mass_damping = analysis.get("mass_damping_per_s", 0.0);
-  scenario.strain_rate_damping = analysis.get("strain_rate_damping_s", 0.0);
+void read_history(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion) {
+  large_motion.mass_damping = analysis.get("mass_damping_per_s", 0.0);
+  large_motion.strain_rate_damping = analysis.get("strain_rate_damping_s", 0.0);
   if (const auto ramp = analysis.find("load_ramp_s")) {
     const large::TimeFunction law = rest_to_rest(1, ramp->get<double>());
-    scenario.load_history = [law](double t) { return law(t)[0]; };
+    large_motion.load_history = [law](double t) { return law(t)[0]; };
   }
   const auto starts = analysis.find("start_velocities");
   if (!starts) return;
   for (const auto& [name, place] : starts->entries()) {
-    const Index node = find_named(name, place, built);
+    const Index node = find_node_by_name(name, place, built);
     int direction = 0;
     for (const char* key : {"x_m_per_s", "y_m_per_s", "rotation_rad_per_s"}) {
-      if (place.has(key)) scenario.start.push_back({node, direction, place.number(key)});
+      if (place.has(key)) large_motion.initial_velocities.push_back({node, direction, place.number(key)});
       ++direction;
     }
   }

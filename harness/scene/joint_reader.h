@@ -10,18 +10,18 @@ namespace trammel {
 /// @param model  the place /model
 /// @param built  what the names of nodes are looked up in
 /// @throws InputError  where a name leads nowhere.
-[[nodiscard]] large::Scenario read_mechanism(const Cursor& model, const Model& built);
+[[nodiscard]] large::LargeMotionModel read_joint_elements(const JsonView& model, const Model& built);
 
 /// Adds the drives of a large-statics or large-motion analysis, and of the second its damping, its
 /// history of the loads and its start.
 /// @throws InputError  where a name leads nowhere.
-void read_drives(const Cursor& analysis, const Model& built, large::Scenario& scenario);
-void read_history(const Cursor& analysis, const Model& built, large::Scenario& scenario);
+void read_drives(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion);
+void read_history(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion);
 
 /// A motion over time: place, speed and acceleration.
-[[nodiscard]] large::TimeFunction read_law(const Cursor& law);
+[[nodiscard]] large::TimeFunction read_law(const JsonView& law);
 
 /// The node of that name. @throws InputError  where there is none.
-[[nodiscard]] Index find_node(const Cursor& name, const Model& built);
+[[nodiscard]] Index find_node(const JsonView& name, const Model& built);
 
 }  // namespace trammel

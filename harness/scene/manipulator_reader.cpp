@@ -9,11 +9,11 @@
 namespace trammel {
 namespace {
 
-std::array<Vector2d, 3> read_vertices(const Cursor& vertices) {
+std::array<Vector2d, 3> read_vertices(const JsonView& vertices) {
   return {read_point(vertices[0]), read_point(vertices[1]), read_point(vertices[2])};
 }
 
-std::array<double, 3> read_lengths(const Cursor& lengths) {
+std::array<double, 3> read_lengths(const JsonView& lengths) {
   if (lengths.json().is_number()) {
     const double length = lengths.get<double>();
     return {length, length, length};
@@ -22,7 +22,7 @@ std::array<double, 3> read_lengths(const Cursor& lengths) {
 }
 
 /// Exactly one of two keys that say the same in two ways.
-bool has_first(const Cursor& place, const char* first, const char* second) {
+bool has_first(const JsonView& place, const char* first, const char* second) {
   if (place.has(first) == place.has(second)) {
     throw place.error(std::string("expected either '") + first + "' or '" + second + "' (got " +
                       (place.has(first) ? "both; null removes one)" : "none)"));
@@ -30,9 +30,9 @@ bool has_first(const Cursor& place, const char* first, const char* second) {
   return place.has(first);
 }
 
-ManipulatorGeometry read_geometry(const Cursor& manipulator) {
-  const Cursor links = manipulator["links"];
-  const Cursor platform = manipulator["platform"];
+ManipulatorGeometry read_geometry(const JsonView& manipulator) {
+  const JsonView links = manipulator["links"];
+  const JsonView platform = manipulator["platform"];
   ManipulatorGeometry geometry;
   geometry.base = has_first(manipulator, "base_side_m", "base_m")
                       ? equilateral_base(manipulator.number("base_side_m"))
@@ -47,15 +47,15 @@ ManipulatorGeometry read_geometry(const Cursor& manipulator) {
 }
 
 /// A number, or a word that stands for "as computed".
-std::optional<double> read_printed(const Cursor& part, const char* key) {
+std::optional<double> read_printed(const JsonView& part, const char* key) {
   const auto value = part.find(key);
   if (!value || value->json().is_string()) return std::nullopt;
   return value->get<double>();
 }
 
-LinkDesign read_link(const Cursor& links, const char* which, const Material& material) {
+LinkDesign read_link(const JsonView& links, const char* which, const Material& material) {
   const auto difference = links.find(which);
-  const auto at = [&](const char* key) -> const Cursor& {
+  const auto at = [&](const char* key) -> const JsonView& {
     return difference && difference->has(key) ? *difference : links;
   };
   LinkDesign link;
@@ -72,8 +72,8 @@ LinkDesign read_link(const Cursor& links, const char* which, const Material& mat
   return link;
 }
 
-PlatformDesign read_platform(const Cursor& manipulator) {
-  const Cursor platform = manipulator["platform"];
+PlatformDesign read_platform(const JsonView& manipulator) {
+  const JsonView platform = manipulator["platform"];
   PlatformDesign design;
   design.kind = platform.text("kind") == "rigid" ? PlatformDesign::Kind::rigid
                                                  : PlatformDesign::Kind::triangles;
@@ -88,33 +88,33 @@ PlatformDesign read_platform(const Cursor& manipulator) {
 }
 
 template <class Kind>
-std::array<Joint<Kind>, 3> read_joints(const Cursor& joints, const char* key,
-                                       const std::map<std::string, Kind>& words) {
-  const Cursor choice = joints[key];
+std::array<Joint<Kind>, 3> read_joints(const JsonView& joints, const char* key,
+                                       const std::map<std::string, Kind>& kinds) {
+  const JsonView choice = joints[key];
   std::array<Joint<Kind>, 3> read;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Cursor one = choice.json().is_array() ? choice[i] : choice;
-    if (one.json().is_object()) {
-      read[i] = {Kind::sprung, one.number("spring_N_m_per_rad")};
+    const JsonView item = choice.json().is_array() ? choice[i] : choice;
+    if (item.json().is_object()) {
+      read[i] = {Kind::sprung, item.number("spring_N_m_per_rad")};
     } else {
-      read[i] = {words.at(one.get<std::string>()), 0};
+      read[i] = {kinds.at(item.get<std::string>()), 0};
     }
   }
   return read;
 }
 
-void read_motion(const Cursor& model, Scene& scene) {
+void read_motion(const JsonView& model, CaseModel& case_model) {
   const bool single = has_first(model, "pose", "trajectory");
   if (single) {
-    const Cursor pose = model["pose"];
-    scene.motion = {{0, {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}}};
+    const JsonView pose = model["pose"];
+    case_model.motion = {{0, {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}}};
   } else {
     Trajectory trajectory = read_trajectory(model["trajectory"]);
-    scene.path = std::move(trajectory.path);
-    scene.motion = std::move(trajectory.motion);
+    case_model.path = std::move(trajectory.path);
+    case_model.motion = std::move(trajectory.motion);
   }
-  for (std::size_t i = 0; i < scene.motion.size(); ++i) {
-    const Posture posture = inverse_kinematics(scene.manipulator->geometry, scene.motion[i].pose);
+  for (std::size_t i = 0; i < case_model.motion.size(); ++i) {
+    const Posture posture = inverse_kinematics(case_model.manipulator->geometry, case_model.motion[i].pose);
     if (posture.outcome.solved()) continue;
     const std::string point = single ? "" : " at point " + std::to_string(i);
     throw model[single ? "pose" : "trajectory"].error("expected a pose within reach" + point +
@@ -124,8 +124,8 @@ void read_motion(const Cursor& model, Scene& scene) {
 
 }  // namespace
 
-void read_manipulator(const Cursor& model, Scene& scene) {
-  const Cursor manipulator = model["manipulator"];
+void read_manipulator(const JsonView& model, CaseModel& case_model) {
+  const JsonView manipulator = model["manipulator"];
   ManipulatorDesign design;
   design.geometry = read_geometry(manipulator);
   try {
@@ -137,7 +137,7 @@ void read_manipulator(const Cursor& model, Scene& scene) {
   design.proximal.fill(read_link(manipulator["links"], "proximal", material));
   design.distal.fill(read_link(manipulator["links"], "distal", material));
   design.platform = read_platform(manipulator);
-  const Cursor joints = manipulator["joints"];
+  const JsonView joints = manipulator["joints"];
   design.active = read_joints<ActiveKind>(
       joints, "active", {{"locked", ActiveKind::locked}, {"free", ActiveKind::free}});
   design.elbow = read_joints<ElbowKind>(
@@ -148,8 +148,8 @@ void read_manipulator(const Cursor& model, Scene& scene) {
                                       {"welded", PlatformJointKind::welded},
                                       {"eq25-mean", PlatformJointKind::eq25_mean},
                                       {"eq25-sum", PlatformJointKind::eq25_sum}});
-  scene.manipulator = design;
-  read_motion(model, scene);
+  case_model.manipulator = design;
+  read_motion(model, case_model);
 }
 
 }  // namespace trammel

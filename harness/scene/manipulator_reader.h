@@ -6,6 +6,6 @@ namespace trammel {
 
 /// Reads /model/manipulator with its pose or trajectory into the scene.
 /// @throws InputError
-void read_manipulator(const Cursor& model, Scene& scene);
+void read_manipulator(const JsonView& model, CaseModel& case_model);
 
 }  // namespace trammel

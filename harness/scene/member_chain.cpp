@@ -42,7 +42,7 @@ class Path {
 }  // namespace
 
 void add_chain(const Member& member, const MemberChain& chain, const Vector2d& start,
-               const Vector2d& end, Index first_node, Model& parts) {
+               const Vector2d& end, Index first_node, Model& structure) {
   const Path path(chain, start, end);
   const auto section = [&](double s) {
     return chain.exponential ? interpolate_geometric(member.section, member.end_section, s)
@@ -63,10 +63,10 @@ void add_chain(const Member& member, const MemberChain& chain, const Vector2d& s
     link.section = section(static_cast<double>(i) / count);
     link.end_section = section(static_cast<double>(i + 1) / count);
     link.ends = {i == 0 ? member.ends[0] : inner, last ? member.ends[1] : inner};
-    parts.members.push_back(link);
+    structure.members.push_back(link);
     if (last) break;
-    parts.nodes.push_back({"", path.at(static_cast<double>(i + 1) / count)});
-    if (holds) parts.supports.push_back({"", link.nodes[1], chain.held});
+    structure.nodes.push_back({"", path.at(static_cast<double>(i + 1) / count)});
+    if (holds) structure.supports.push_back({"", link.nodes[1], chain.held});
   }
 }
 

@@ -21,9 +21,9 @@ struct MemberChain {
 /// Adds the chain of `member.elements` members that stands for `member`, the nodes between them
 /// (without names) and what holds those.
 /// @param start, end  positions of the member's nodes [m]
-/// @param first_node  the index that the next of `parts.nodes` has in the model
+/// @param first_node  the index that the next of `structure.nodes` has in the model
 /// @throws ModelError  where the two ends are not as far from the centre of an arc.
 void add_chain(const Member& member, const MemberChain& chain, const Vector2d& start,
-               const Vector2d& end, Index first_node, Model& parts);
+               const Vector2d& end, Index first_node, Model& structure);
 
 }  // namespace trammel

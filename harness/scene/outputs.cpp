@@ -8,13 +8,13 @@
 namespace trammel {
 namespace {
 
-struct Word {
+struct OutputKeyword {
   const char* name;
   Output::Kind kind;
   Index component;
 };
 
-constexpr std::array<Word, 13> words = {{
+constexpr std::array<OutputKeyword, 13> kOutputKeywords = {{
     {"displacement_x_m", Output::Kind::displacement, 0},
     {"displacement_y_m", Output::Kind::displacement, 1},
     {"rotation_rad", Output::Kind::displacement, 2},
@@ -30,11 +30,11 @@ constexpr std::array<Word, 13> words = {{
     {"stress_Pa", Output::Kind::stress, 0},
 }};
 
-Word find_word(const Cursor& place, const std::string& head) {
+OutputKeyword find_keyword(const JsonView& place, const std::string& head) {
   std::vector<std::string> all;
-  for (const Word& word : words) {
-    if (head == word.name) return word;
-    all.emplace_back(word.name);
+  for (const OutputKeyword& keyword : kOutputKeywords) {
+    if (head == keyword.name) return keyword;
+    all.emplace_back(keyword.name);
   }
   throw place.error(
       "expected a quantity with the part that it is of, as displacement_y_m:A (got '" +
@@ -42,7 +42,7 @@ Word find_word(const Cursor& place, const std::string& head) {
 }
 
 template <class Parts>
-Index find_part(const Cursor& place, const Parts& parts, const std::string& name,
+Index find_part(const JsonView& place, const Parts& parts, const std::string& name,
                 const char* what) {
   std::vector<std::string> all;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -53,13 +53,13 @@ Index find_part(const Cursor& place, const Parts& parts, const std::string& name
                     printable(name) + "')" + did_you_mean(name, all));
 }
 
-Output read_output(const Cursor& place, const Model& model) {
+Output read_output(const JsonView& place, const Model& model) {
   Output output;
   output.name = place.get<std::string>();
   const std::size_t colon = output.name.find(':');
-  const Word word = find_word(place, output.name.substr(0, colon));
-  output.kind = word.kind;
-  output.component = word.component;
+  const OutputKeyword keyword = find_keyword(place, output.name.substr(0, colon));
+  output.kind = keyword.kind;
+  output.component = keyword.component;
   std::string part = colon == std::string::npos ? "" : output.name.substr(colon + 1);
   if (!output.needs_forces()) {
     output.item = find_part(place, model.nodes, part, "node");
@@ -89,7 +89,7 @@ double end_force(const Output& output, const Model& model, const Eigen::MatrixX3
 
 }  // namespace
 
-std::vector<Output> read_outputs(const Cursor& outputs, const Model& model) {
+std::vector<Output> read_outputs(const JsonView& outputs, const Model& model) {
   std::vector<Output> read;
   for (const auto& entry : outputs.entries()) read.push_back(read_output(entry.second, model));
   return read;

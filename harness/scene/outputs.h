@@ -19,11 +19,11 @@ struct Output {
   Index end = 0;        ///< of the member
   [[nodiscard]] bool needs_forces() const { return kind >= Kind::resultant; }
   /// The name with a word in front: peak_displacement_y_m:M.
-  [[nodiscard]] std::string of(const std::string& what) const { return what + name; }
+  [[nodiscard]] std::string prefixed(const std::string& prefix) const { return prefix + name; }
 };
 
 /// @throws InputError  where a name is none, or names a part that the model does not have.
-[[nodiscard]] std::vector<Output> read_outputs(const Cursor& outputs, const Model& model);
+[[nodiscard]] std::vector<Output> read_outputs(const JsonView& outputs, const Model& model);
 
 /// A state of motion; `forces` is read by the outputs that need forces only.
 struct MovingState {

@@ -19,28 +19,28 @@ Ends ends_of(Index a, Index b) {
   return std::minmax(a, b);
 }
 
-const Vector2d& position(const Model& parts, Index node) {
-  return parts.nodes[static_cast<std::size_t>(node)].position;
+const Vector2d& position(const Model& structure, Index node) {
+  return structure.nodes[static_cast<std::size_t>(node)].position;
 }
 
-std::string point_words(const Vector2d& point) {
+std::string describe_point(const Vector2d& point) {
   return "(" + shortest(point.x()) + ", " + shortest(point.y()) + ") m";
 }
 
-double twice_area(const Model& parts, const Triangle& triangle) {
-  const Vector2d& corner = position(parts, triangle.nodes[0]);
-  return cross(position(parts, triangle.nodes[1]) - corner,
-               position(parts, triangle.nodes[2]) - corner);
+double twice_area(const Model& structure, const Triangle& triangle) {
+  const Vector2d& corner = position(structure, triangle.nodes[0]);
+  return cross(position(structure, triangle.nodes[1]) - corner,
+               position(structure, triangle.nodes[2]) - corner);
 }
 
-Triangle read_triangle(const Cursor& place, const Names& names, const Model& parts, Index plate) {
+Triangle read_triangle(const JsonView& place, const SymbolTable& symbols, const Model& structure, Index plate) {
   if (place.size() != 3 && place.size() != 6) {
     throw place.error("expected 3 or 6 names (got " + std::to_string(place.size()) + ")");
   }
   Triangle triangle;
   triangle.plate = plate;
-  for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = names.find_node(place[i]);
-  const double area = twice_area(parts, triangle);
+  for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
+  const double area = twice_area(structure, triangle);
   if (area == 0) throw place.error("expected a triangle with an area (got three points in line)");
   if (area < 0) {  // clockwise: swap two corners, and the sides with them
     std::swap(triangle.nodes[1], triangle.nodes[2]);
@@ -50,7 +50,7 @@ Triangle read_triangle(const Cursor& place, const Names& names, const Model& par
 }
 
 /// The curve of an edge; nothing for a straight one.
-std::optional<Ellipse> read_curve(const Cursor& edge) {
+std::optional<Ellipse> read_curve(const JsonView& edge) {
   if (edge.has("ellipse") && edge.has("circle")) {
     throw edge.error("expected at most one of 'ellipse' and 'circle'");
   }
@@ -66,18 +66,18 @@ std::optional<Ellipse> read_curve(const Cursor& edge) {
 /// The edges as they are written: corners, and a curve for each pair of neighbours.
 class Outline {
  public:
-  Outline(const Cursor& model, const Names& names, const Model& parts) {
+  Outline(const JsonView& model, const SymbolTable& symbols, const Model& structure) {
     const auto edges = model.find("edges");
     if (!edges) return;
     for (const auto& [name, place] : edges->entries()) {
-      if (names.node.count(name) > 0) {
+      if (symbols.node.count(name) > 0) {
         throw place.error("expected another name: there is a node of that name");
       }
       std::vector<Index>& corners = corners_[name];
       const std::optional<Ellipse> curve = read_curve(place);
       for (const auto& entry : place["nodes"].entries()) {
-        corners.push_back(names.find_node(entry.second));
-        if (curve) check_on_curve(entry.second, *curve, position(parts, corners.back()));
+        corners.push_back(symbols.find_node(entry.second));
+        if (curve) check_on_curve(entry.second, *curve, position(structure, corners.back()));
         if (corners.size() < 2) continue;
         const Ends ends = ends_of(corners.end()[-2], corners.back());
         if (ends.first == ends.second) {
@@ -99,10 +99,10 @@ class Outline {
   }
 
  private:
-  static void check_on_curve(const Cursor& place, const Ellipse& curve, const Vector2d& point) {
+  static void check_on_curve(const JsonView& place, const Ellipse& curve, const Vector2d& point) {
     const double radius = (point - curve.centre).cwiseQuotient(curve.semi_axes).norm();
     if (std::abs(radius - 1) < 1e-6) return;
-    throw place.error("expected a node on the edge's curve (got " + point_words(point) + ", " +
+    throw place.error("expected a node on the edge's curve (got " + describe_point(point) + ", " +
                       shortest(radius) + " times as far from its centre)");
   }
 
@@ -114,7 +114,7 @@ class Outline {
 class Sides {
  public:
   /// @param nodes  with the plate to the left of the way
-  void add(const Cursor& block, Edge::Piece piece) {
+  void add(const JsonView& block, Edge::Piece piece) {
     const Ends ends = ends_of(piece.nodes.front(), piece.nodes.back());
     std::vector<Edge::Piece>& there = sides_[ends];
     if (!there.empty()) {
@@ -137,13 +137,13 @@ class Sides {
   std::map<Ends, std::vector<Edge::Piece>> sides_;
 };
 
-Block read_block(const Cursor& place, const Names& names, const Outline& outline,
-                 const Model& parts, Index divisions) {
+Block read_block(const JsonView& place, const SymbolTable& symbols, const Outline& outline,
+                 const Model& structure, Index divisions) {
   Block block;
   std::array<Index, 4> corners{};
   for (std::size_t i = 0; i < 4; ++i) {
-    corners[i] = names.find_node(place["corners"][i]);
-    block.corners[i] = position(parts, corners[i]);
+    corners[i] = symbols.find_node(place["corners"][i]);
+    block.corners[i] = position(structure, corners[i]);
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector2d& here = block.corners[i];
@@ -159,18 +159,18 @@ Block read_block(const Cursor& place, const Names& names, const Outline& outline
   return block;
 }
 
-void mesh_plate(const Cursor& place, const Names& names, const Outline& outline, Index plate,
-                Model& parts, Sides& sides) {
+void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline& outline, Index plate,
+                Model& structure, Sides& sides) {
   const bool six_nodes = place.get<std::string>("element", "three-node") == "six-node";
   const auto divisions = place.get<Index>("divisions", 1);
   std::vector<Block> blocks;
-  std::vector<Cursor> places;
+  std::vector<JsonView> places;
   for (const auto& entry : place["blocks"].entries()) {
     places.push_back(entry.second);
-    blocks.push_back(read_block(entry.second, names, outline, parts, divisions));
+    blocks.push_back(read_block(entry.second, symbols, outline, structure, divisions));
   }
   const BlockMesh mesh = mesh_blocks(blocks, six_nodes);
-  const std::vector<Index> nodes = append(parts, plate, mesh);
+  const std::vector<Index> nodes = append(structure, plate, mesh);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const std::vector<Index>& of_mesh : mesh.sides[b]) {
       Edge::Piece piece{plate, {}, six_nodes};
@@ -180,24 +180,24 @@ void mesh_plate(const Cursor& place, const Names& names, const Outline& outline,
   }
 }
 
-void read_plate(const std::string& name, const Cursor& place, const Names& names,
-                const Outline& outline, Model& parts, Sides& sides) {
+void read_plate(const std::string& name, const JsonView& place, const SymbolTable& symbols,
+                const Outline& outline, Model& structure, Sides& sides) {
   if (place.has("triangles") == place.has("blocks")) {
     throw place.error("expected exactly one of 'triangles' and 'blocks'");
   }
-  const auto plate = static_cast<Index>(parts.plates.size());
-  parts.plates.push_back({name, look_up(names.material, place["material"], "a material"),
+  const auto plate = static_cast<Index>(structure.plates.size());
+  structure.plates.push_back({name, look_up(symbols.material, place["material"], "a material"),
                           place.number("thickness_m")});
-  if (place.has("blocks")) return mesh_plate(place, names, outline, plate, parts, sides);
+  if (place.has("blocks")) return mesh_plate(place, symbols, outline, plate, structure, sides);
   for (const char* key : {"element", "divisions"}) {
     if (place.has(key)) throw place[key].error("expected it beside 'blocks' only");
   }
   for (const auto& entry : place["triangles"].entries()) {
-    parts.triangles.push_back(read_triangle(entry.second, names, parts, plate));
+    structure.triangles.push_back(read_triangle(entry.second, symbols, structure, plate));
   }
 }
 
-Edge find_edge(const Cursor& place, const std::vector<Index>& corners, const Sides& sides) {
+Edge find_edge(const JsonView& place, const std::vector<Index>& corners, const Sides& sides) {
   Edge edge;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const std::vector<Edge::Piece>* found = sides.find(corners[i], corners[i + 1]);
@@ -212,16 +212,16 @@ Edge find_edge(const Cursor& place, const std::vector<Index>& corners, const Sid
 
 }  // namespace
 
-void read_plates(const Cursor& model, Names& names, Model& parts) {
-  const Outline outline(model, names, parts);
+void read_plates(const JsonView& model, SymbolTable& symbols, Model& structure) {
+  const Outline outline(model, symbols, structure);
   Sides sides;
   if (const auto plates = model.find("plates")) {
     for (const auto& [name, place] : plates->entries()) {
-      read_plate(name, place, names, outline, parts, sides);
+      read_plate(name, place, symbols, outline, structure, sides);
     }
   }
   for (const auto& [name, corners] : outline.corners()) {
-    names.edge.emplace(name, find_edge(model["edges"][name], corners, sides));
+    symbols.edge.emplace(name, find_edge(model["edges"][name], corners, sides));
   }
 }
 
@@ -236,8 +236,8 @@ std::vector<Index> nodes_of(const Edge& edge) {
   return nodes;
 }
 
-void read_edge_load(const Cursor& place, const Names& names, Model& parts) {
-  const Edge& edge = look_up(names.edge, place["edge"], "an edge");
+void read_edge_load(const JsonView& place, const SymbolTable& symbols, Model& structure) {
+  const Edge& edge = look_up(symbols.edge, place["edge"], "an edge");
   EdgeLoad load;
   if (const auto traction = place.find("traction_Pa")) load.traction = read_point(*traction);
   load.normal = place.get("normal_Pa", 0.0);
@@ -250,40 +250,40 @@ void read_edge_load(const Cursor& place, const Names& names, Model& parts) {
     for (std::size_t i = 0; i + step < piece.nodes.size(); i += step) {
       load.nodes = {piece.nodes[i], piece.nodes[i + step],
                     piece.six_nodes ? piece.nodes[i + 1] : -1};
-      parts.edge_loads.push_back(load);
+      structure.edge_loads.push_back(load);
     }
   }
 }
 
-void check_meshed_nodes(const Cursor& model, std::size_t first, const Model& parts) {
-  std::vector<bool> held(parts.nodes.size(), false);
+void check_meshed_nodes(const JsonView& model, std::size_t first, const Model& structure) {
+  std::vector<bool> held(structure.nodes.size(), false);
   const auto hold = [&](Index node) {
     if (node >= 0) held[static_cast<std::size_t>(node)] = true;
   };
   const auto hold_all = [&](const auto& nodes) { std::for_each(nodes.begin(), nodes.end(), hold); };
-  for (const Member& member : parts.members) hold_all(member.nodes);
-  for (const Triangle& triangle : parts.triangles) hold_all(triangle.nodes);
-  for (const Spring& spring : parts.springs) hold_all(spring.nodes);
-  for (const RigidBody& body : parts.rigid_bodies) {
+  for (const Member& member : structure.members) hold_all(member.nodes);
+  for (const Triangle& triangle : structure.triangles) hold_all(triangle.nodes);
+  for (const Spring& spring : structure.springs) hold_all(spring.nodes);
+  for (const RigidBody& body : structure.rigid_bodies) {
     hold(body.reference);
     hold_all(body.attached);
   }
   const auto unnamed = [&](Index node) {
-    return node >= 0 && parts.nodes[static_cast<std::size_t>(node)].name.empty();
+    return node >= 0 && structure.nodes[static_cast<std::size_t>(node)].name.empty();
   };
   const bool meshed =
-      std::any_of(parts.triangles.begin(), parts.triangles.end(), [&](const Triangle& triangle) {
+      std::any_of(structure.triangles.begin(), structure.triangles.end(), [&](const Triangle& triangle) {
         return std::any_of(triangle.nodes.begin(), triangle.nodes.end(), unnamed);
       });
-  for (std::size_t i = first; meshed && i < parts.nodes.size(); ++i) {
+  for (std::size_t i = first; meshed && i < structure.nodes.size(); ++i) {
     if (held[i]) continue;
-    const Vector2d& here = parts.nodes[i].position;
+    const Vector2d& here = structure.nodes[i].position;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = first; k < parts.nodes.size(); ++k) {
-      if (held[k]) nearest = std::min(nearest, (parts.nodes[k].position - here).norm());
+    for (std::size_t k = first; k < structure.nodes.size(); ++k) {
+      if (held[k]) nearest = std::min(nearest, (structure.nodes[k].position - here).norm());
     }
-    throw model["nodes"][parts.nodes[i].name].error(
-        "expected a place where the mesh has a node (got " + point_words(here) +
+    throw model["nodes"][structure.nodes[i].name].error(
+        "expected a place where the mesh has a node (got " + describe_point(here) +
         ", the nearest is " + shortest(nearest) + " m away)");
   }
 }

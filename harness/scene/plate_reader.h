@@ -8,20 +8,20 @@
 /// so that blocks, plates and frames that touch are joined.
 namespace trammel {
 
-/// Adds plates, triangles and the nodes of meshes to `parts`, and the edges to `names`.
+/// Adds plates, triangles and the nodes of meshes to `structure`, and the edges to `symbols`.
 /// @param model  the place /model
 /// @throws InputError  where names lead nowhere or geometry is impossible.
-void read_plates(const Cursor& model, Names& names, Model& parts);
+void read_plates(const JsonView& model, SymbolTable& symbols, Model& structure);
 
 /// Nodes on an edge, each once.
 [[nodiscard]] std::vector<Index> nodes_of(const Edge& edge);
 
 /// A traction on an edge.
-void read_edge_load(const Cursor& place, const Names& names, Model& parts);
+void read_edge_load(const JsonView& place, const SymbolTable& symbols, Model& structure);
 
-/// @param first  nodes of `parts` before this one are the manipulator's
+/// @param first  nodes of `structure` before this one are the manipulator's
 /// @throws InputError  at a named node that nothing holds on to, where there is a mesh that was
 /// meant to.
-void check_meshed_nodes(const Cursor& model, std::size_t first, const Model& parts);
+void check_meshed_nodes(const JsonView& model, std::size_t first, const Model& structure);
 
 }  // namespace trammel

@@ -11,9 +11,9 @@ constexpr Index first_C = 6, P = 9;  // nodes A1..A3, B1..B3, C1..C3, P of the b
 
 }  // namespace
 
-RigidManipulator read_rigid_manipulator(const Cursor& analysis, const Scene& scene) {
-  if (!scene.manipulator) throw analysis.error("expected a model with a manipulator");
-  const Cursor model = Cursor(analysis.document())["model"];
+RigidManipulator read_rigid_manipulator(const JsonView& analysis, const CaseModel& case_model) {
+  if (!case_model.manipulator) throw analysis.error("expected a model with a manipulator");
+  const JsonView model = JsonView(analysis.document())["model"];
   for (const char* kind :
        {"members", "plates", "rigid_bodies", "point_masses", "springs", "supports"}) {
     const auto parts = model.find(kind);
@@ -25,31 +25,31 @@ RigidManipulator read_rigid_manipulator(const Cursor& analysis, const Scene& sce
   if (const auto loads = model.find("loads")) {
     const auto names = loads->entries();
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const Index node = scene.parts.loads[i].node;
+      const Index node = case_model.structure.loads[i].node;
       if (node >= first_C && node <= P) continue;
       throw names[i].second["node"].error("expected a load on the platform: P, C1, C2 or C3");
     }
   }
-  RigidManipulator manipulator = rigid_manipulator(*scene.manipulator);
-  manipulator.gravity = scene.parts.gravity;
+  RigidManipulator manipulator = rigid_manipulator(*case_model.manipulator);
+  manipulator.gravity = case_model.structure.gravity;
   return manipulator;
 }
 
-Vector3d wrench_on_platform(const Scene& scene, const Pose& pose) {
+Vector3d wrench_on_platform(const CaseModel& case_model, const Pose& pose) {
   Vector3d wrench = Vector3d::Zero();
-  for (const NodalLoad& load : scene.parts.loads) {
+  for (const NodalLoad& load : case_model.structure.loads) {
     if (load.node < first_C || load.node > P) continue;
     wrench += load.force;
     if (load.node == P) continue;
     const auto corner = static_cast<std::size_t>(load.node - first_C);
     wrench.z() +=
-        cross(turned(scene.manipulator->geometry.platform[corner], pose.phi), load.force.head<2>());
+        cross(rotated(case_model.manipulator->geometry.platform[corner], pose.phi), load.force.head<2>());
   }
   return wrench;
 }
 
-bool loads_at_P_only(const Scene& scene) {
-  return std::all_of(scene.parts.loads.begin(), scene.parts.loads.end(),
+bool loads_at_P_only(const CaseModel& case_model) {
+  return std::all_of(case_model.structure.loads.begin(), case_model.structure.loads.end(),
                      [](const NodalLoad& load) { return load.node == P; });
 }
 

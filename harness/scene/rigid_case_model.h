@@ -10,13 +10,13 @@ namespace trammel {
 /// @throws InputError  where there is no manipulator, or something stands beside it that rigid
 ///                     dynamics would leave out: members, plates, bodies, masses, springs, supports
 ///                     or loads that are not on the platform.
-[[nodiscard]] RigidManipulator read_rigid_manipulator(const Cursor& analysis, const Scene& scene);
+[[nodiscard]] RigidManipulator read_rigid_manipulator(const JsonView& analysis, const CaseModel& case_model);
 
 /// Loads on P and C1, C2, C3 as one wrench at P in world axes (Fx, Fy [N], moment [N m]); loads on
 /// links do not count.
-[[nodiscard]] Vector3d wrench_on_platform(const Scene& scene, const Pose& pose);
+[[nodiscard]] Vector3d wrench_on_platform(const CaseModel& case_model, const Pose& pose);
 
 /// Whether every load acts at P itself, so that the wrench is the same in every pose.
-[[nodiscard]] bool loads_at_P_only(const Scene& scene);
+[[nodiscard]] bool loads_at_P_only(const CaseModel& case_model);
 
 }  // namespace trammel

@@ -23,7 +23,7 @@ template <class T>
 /// @throws InputError  at `place`, with the nearest name.
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const std::string& name,
-                               const Cursor& place, const std::string& what) {
+                               const JsonView& place, const std::string& what) {
   const auto found = named.find(name);
   if (found != named.end()) return found->second;
   throw place.error("expected the name of " + what + " (got '" + printable(name) + "')" +
@@ -32,7 +32,7 @@ template <class T>
 
 /// The same for a name that stands in the document.
 template <class T>
-[[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const Cursor& name,
+[[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const JsonView& name,
                                const std::string& what) {
   return look_up(named, name.get<std::string>(), name, what);
 }
@@ -47,13 +47,13 @@ struct Edge {
   std::vector<Piece> pieces;
 };
 
-struct Names {
+struct SymbolTable {
   std::map<std::string, Index> node;
   std::map<std::string, Material> material;
   std::map<std::string, Section> section;
   std::map<std::string, Edge> edge;
 
-  [[nodiscard]] Index find_node(const Cursor& name) const { return look_up(node, name, "a node"); }
+  [[nodiscard]] Index find_node(const JsonView& name) const { return look_up(node, name, "a node"); }
 };
 
 }  // namespace trammel

@@ -3,7 +3,7 @@
 namespace trammel {
 namespace {
 
-TimeScheme scheme_of(const std::string& name, const Cursor& numbers) {
+TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
   if (name == "hht") return hht_alpha(numbers.number("alpha"));
   if (name == "generalized-alpha") return generalized_alpha(numbers.number("spectral_radius"));
   return newmark(numbers.number("beta"), numbers.number("gamma"));
@@ -11,7 +11,7 @@ TimeScheme scheme_of(const std::string& name, const Cursor& numbers) {
 
 }  // namespace
 
-TimeScheme read_time_scheme(const Cursor& scheme) {
+TimeScheme read_time_scheme(const JsonView& scheme) {
   if (scheme.json().is_string()) {
     return scheme.get<std::string>() == "linear-acceleration" ? linear_acceleration()
                                                               : average_acceleration();
@@ -24,12 +24,12 @@ TimeScheme read_time_scheme(const Cursor& scheme) {
   }
 }
 
-RayleighDamping read_rayleigh(const std::optional<Cursor>& damping) {
+RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {
   if (!damping) return {};
   return {.mass = damping->get("mass_per_s", 0.0), .stiffness = damping->get("stiffness_s", 0.0)};
 }
 
-TransientOptions read_time_options(const Cursor& analysis) {
+TransientOptions read_time_options(const JsonView& analysis) {
   TransientOptions options;
   options.step = analysis.number("step_s");
   if (const auto scheme = analysis.find("scheme")) options.scheme = read_time_scheme(*scheme);

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/large_motion/solve/rigid_start.h"
+#include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/rigid_dynamics.h"
 
 namespace trammel {
 namespace {
 
-void require_joints(const Cursor& place, const ManipulatorDesign& design) {
+void require_joints(const JsonView& place, const ManipulatorDesign& design) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (design.active[i].kind != ActiveKind::locked) {
       throw place.error("expected locked actuators: they are driven");
@@ -42,27 +42,27 @@ Index member_between(const Model& model, Index first, Index second) {
 
 }  // namespace
 
-void track(const Cursor& place, const Scene& scene, Model& model, large::Scenario& scenario) {
-  if (!scene.manipulator || !scene.path) {
+void add_tracking_drives(const JsonView& place, const CaseModel& case_model, Model& model, large::LargeMotionModel& large_motion) {
+  if (!case_model.manipulator || !case_model.path) {
     throw place.error("expected a manipulator with a trajectory");
   }
-  require_joints(place, *scene.manipulator);
-  const Path& path = *scene.path;
-  const RigidManipulator rigid = rigid_manipulator(*scene.manipulator);
+  require_joints(place, *case_model.manipulator);
+  const Path& path = *case_model.path;
+  const RigidManipulator rigid = rigid_manipulator(*case_model.manipulator);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = "A" + std::to_string(i + 1);
     const Index node = model.find_node(name);
     for (Support& support : model.supports) {
       if (support.node == node) support.fixed[2] = false;
     }
-    scenario.drives.push_back({name, node, 2, actuator(rigid, path, i)});
+    large_motion.drives.push_back({name, node, 2, actuator(rigid, path, i)});
   }
 }
 
-large::GivenVelocities tracking_start(const Scene& scene, const large::LargeSystem& system) {
+large::PrescribedVelocities tracking_start(const CaseModel& case_model, const large::GeometricallyExactSystem& system) {
   const Model& model = system.model();
-  const TrajectoryPoint start = at(*scene.path, 0);
-  const InverseDynamics motion = inverse_dynamics(rigid_manipulator(*scene.manipulator), start);
+  const TrajectoryPoint start = at(*case_model.path, 0);
+  const InverseDynamics motion = inverse_dynamics(rigid_manipulator(*case_model.manipulator), start);
   const auto turn = [](double rate, const Vector2d& arm) {
     return Vector2d(-rate * arm.y(), rate * arm.x());
   };
@@ -85,7 +85,7 @@ large::GivenVelocities tracking_start(const Scene& scene, const large::LargeSyst
     member[member_between(model, a, b)] = motion.q_dot[i];
     member[member_between(model, b, model.find_node("C" + limb))] = motion.q_dot[3 + i];
   }
-  return rigid_start(system, node, member);
+  return rigid_member_velocities(system, node, member);
 }
 
 }  // namespace trammel

@@ -5,19 +5,19 @@
 namespace trammel {
 namespace {
 
-Pose read_pose(const Cursor& pose) {
+Pose read_pose(const JsonView& pose) {
   return {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")};
 }
 
-Circle read_circle(const Cursor& circle) {
-  const Cursor center = circle["center_m"];
+Circle read_circle(const JsonView& circle) {
+  const JsonView center = circle["center_m"];
   return {{center[0].get<double>(), center[1].get<double>()},
           circle.number("radius_m"),
           circle.get("angular_speed_rad_s", 1.0),
           circle.get("phi_rad", 0.0)};
 }
 
-Spline read_spline(const Cursor& spline) {
+Spline read_spline(const JsonView& spline) {
   std::vector<double> times;
   std::vector<Pose> poses;
   for (const auto& [index, knot] : spline["knots"].entries()) {
@@ -35,7 +35,7 @@ Spline read_spline(const Cursor& spline) {
                                          : SplineEnds::natural);
 }
 
-Path read_path(const std::string& kind, const Cursor& place) {
+Path read_path(const std::string& kind, const JsonView& place) {
   if (kind == "circle") return read_circle(place);
   if (kind == "spline") return read_spline(place);
   const Pose from = read_pose(place["from"]);
@@ -47,7 +47,7 @@ Path read_path(const std::string& kind, const Cursor& place) {
 
 }  // namespace
 
-Trajectory read_trajectory(const Cursor& trajectory) {
+Trajectory read_trajectory(const JsonView& trajectory) {
   const auto [kind, place] = trajectory.entries().front();
   try {
     const Path path = read_path(kind, place);

@@ -14,6 +14,6 @@ struct Trajectory {
 /// Reads /model/trajectory: a circle, a line, a motion from rest to rest, or a spline through
 /// poses.
 /// @throws InputError  where the path has no meaning, or its points go beyond the spline's last.
-[[nodiscard]] Trajectory read_trajectory(const Cursor& trajectory);
+[[nodiscard]] Trajectory read_trajectory(const JsonView& trajectory);
 
 }  // namespace trammel

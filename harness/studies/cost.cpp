@@ -11,46 +11,46 @@
 namespace trammel {
 namespace {
 
-using Standing = MeasuredSetting::Standing;
+using MeasurementStatus = MeasuredSetting::MeasurementStatus;
 
-double largest_of(const std::vector<double>& values) {
+double max_abs(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
   return largest;
 }
 
 /// What the error of an entry is divided by.
-double divisor(double truth, double largest, const Scale& scale) {
+double divisor(double reference_solution, double largest, const Scale& scale) {
   if (scale.kind == Scale::Kind::number) return scale.number;
-  if (scale.kind == Scale::Kind::largest || truth == 0) return largest;
-  return std::abs(truth);
+  if (scale.kind == Scale::Kind::largest || reference_solution == 0) return largest;
+  return std::abs(reference_solution);
 }
 
 std::vector<double> relative_errors(const std::vector<double>& found,
-                                    const std::vector<double>& truth, const Scale& scale,
+                                    const std::vector<double>& reference_solution, const Scale& scale,
                                     double largest_of_all) {
-  if (found.size() != truth.size()) {
-    throw std::runtime_error("expected " + std::to_string(truth.size()) +
+  if (found.size() != reference_solution.size()) {
+    throw std::runtime_error("expected " + std::to_string(reference_solution.size()) +
                              " values, as the truth has (got " + std::to_string(found.size()) +
                              ")");
   }
-  const double largest = scale.kind == Scale::Kind::largest ? largest_of_all : largest_of(truth);
+  const double largest = scale.kind == Scale::Kind::largest ? largest_of_all : max_abs(reference_solution);
   std::vector<double> errors;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const double by = divisor(truth[i], largest, scale);
+    const double by = divisor(reference_solution[i], largest, scale);
     if (!(by > 0)) throw std::runtime_error("expected true values other than zero");
-    errors.push_back((found[i] - truth[i]) / by);
+    errors.push_back((found[i] - reference_solution[i]) / by);
   }
   return errors;
 }
 
-Observations exact_values(const std::vector<Observed>& observed, const Observations& truth) {
+Observations exact_values(const std::vector<ObservedQuantity>& observed, const Observations& reference_solution) {
   Observations all;
   for (std::size_t i = 0; i < observed.size(); ++i) {
     if (observed[i].is_error) {
       all.emplace_back();
     } else {
-      all.push_back(observed[i].exact.empty() ? truth.at(i) : observed[i].exact);
+      all.push_back(observed[i].exact.empty() ? reference_solution.at(i) : observed[i].exact);
     }
   }
   return all;
@@ -60,42 +60,42 @@ InputError cannot(const Setting& setting, const std::string& what, const std::st
   return setting.document.error("", "expected " + what + " that can be computed: " + reason);
 }
 
-Observations compute_truth(const CostStudy& study, const References& references) {
-  if (!study.truth) return {};
-  const Trial trial = try_setting(*study.truth, study.time_limit_s, references);
-  if (trial.ending != Trial::Ending::solved) throw cannot(*study.truth, "a truth", trial.reason);
-  return trial.values;
+Observations compute_reference_solution(const CostStudy& study, const References& references) {
+  if (!study.reference_solution) return {};
+  const SandboxedRun sandboxed = run_sandboxed(*study.reference_solution, study.time_limit_s, references);
+  if (sandboxed.termination != SandboxedRun::Termination::solved) throw cannot(*study.reference_solution, "a truth", sandboxed.reason);
+  return sandboxed.values;
 }
 
 /// Everything but the time.
-MeasuredSetting judge_trial(const Trial& trial, const Setting& setting, const Observations& truth,
+MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting, const Observations& reference_solution,
                             const CostStudy& study) {
   MeasuredSetting measured;
-  measured.reason = trial.reason;
-  measured.cpu_s = trial.cpu_s;
-  measured.counters = trial.counters;
-  measured.standing =
-      trial.ending == Trial::Ending::timed_out ? Standing::timed_out : Standing::failed;
-  if (trial.ending != Trial::Ending::solved) return measured;
+  measured.reason = sandboxed.reason;
+  measured.cpu_s = sandboxed.cpu_s;
+  measured.counters = sandboxed.counters;
+  measured.status =
+      sandboxed.termination == SandboxedRun::Termination::timed_out ? MeasurementStatus::timed_out : MeasurementStatus::failed;
+  if (sandboxed.termination != SandboxedRun::Termination::solved) return measured;
   try {
-    measured.error = error_norms(trial.values, exact_values(setting.observed, truth), study.scale);
+    measured.error = error_norms(sandboxed.values, exact_values(setting.observed, reference_solution), study.scale);
   } catch (const std::runtime_error& error) {
     measured.reason = error.what();
     return measured;
   }
   const double error = measured.error->get(study.norm);
-  if (!(error <= diverged_above)) {
-    measured.standing = Standing::diverged;
+  if (!(error <= kDivergedError)) {
+    measured.status = MeasurementStatus::diverged;
     measured.reason = std::isfinite(error) ? "the error is above 1000 %" : "not finite";
     return measured;
   }
-  measured.standing = error == 0 && study.truth ? Standing::truth : Standing::measured;
+  measured.status = error == 0 && study.reference_solution ? MeasurementStatus::reference_solution : MeasurementStatus::measured;
   return measured;
 }
 
 bool is_computed(const MeasuredSetting& measured) {
-  return measured.standing == Standing::measured || measured.standing == Standing::wide ||
-         measured.standing == Standing::truth;
+  return measured.status == MeasurementStatus::measured || measured.status == MeasurementStatus::excessive_spread ||
+         measured.status == MeasurementStatus::reference_solution;
 }
 
 /// Median time of the repeats that begin at `first`, every `step`.
@@ -110,11 +110,11 @@ std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::size_t firs
   const Timing& baseline = *measured.settings[measured.study.baseline].timing;
   std::vector<CostPoint> points;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
-    const MeasuredSetting& one = measured.settings[i];
-    if (one.standing != Standing::measured) continue;
-    const double error = one.error->get(measured.study.norm);
-    points.push_back({i, std::max(error, smallest_error),
-                      median_of(*one.timing, first, step) / median_of(baseline, first, step)});
+    const MeasuredSetting& measurement = measured.settings[i];
+    if (measurement.status != MeasurementStatus::measured) continue;
+    const double error = measurement.error->get(measured.study.norm);
+    points.push_back({i, std::max(error, kMinError),
+                      median_of(*measurement.timing, first, step) / median_of(baseline, first, step)});
   }
   return points;
 }
@@ -153,17 +153,17 @@ double ErrorNorms::get(Norm norm) const {
   return norm == Norm::max ? max : norm == Norm::rms ? rms : mean;
 }
 
-ErrorNorms error_norms(const Observations& found, const Observations& truth, const Scale& scale) {
+ErrorNorms error_norms(const Observations& found, const Observations& reference_solution, const Scale& scale) {
   ErrorNorms norms;
   std::size_t count = 0;
   double squares = 0, sum = 0, largest = 0;
-  for (const std::vector<double>& values : truth) largest = std::max(largest, largest_of(values));
+  for (const std::vector<double>& values : reference_solution) largest = std::max(largest, max_abs(values));
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::vector<double> errors =
-        truth.at(i).empty() ? found[i] : relative_errors(found[i], truth[i], scale, largest);
+        reference_solution.at(i).empty() ? found[i] : relative_errors(found[i], reference_solution[i], scale, largest);
     for (const double error : errors) {
       const double size = std::abs(error);
-      norms.max = larger(norms.max, size);
+      norms.max = nan_max(norms.max, size);
       squares += size * size;
       sum += size;
       ++count;
@@ -179,52 +179,52 @@ MeasuredStudy measure(CostStudy study, const CostOptions& options, const Referen
   const Stopwatch watch;
   MeasuredStudy measured;
   measured.study = std::move(study);
-  const CostStudy& its = measured.study;
+  const CostStudy& cost_study = measured.study;
   const auto repeats = static_cast<std::size_t>(options.timing.repeats);
-  const std::size_t all = its.settings.size() * (repeats + 1);
+  const std::size_t all = cost_study.settings.size() * (repeats + 1);
   std::size_t done = 0;
-  const Observations truth = compute_truth(its, references);
-  for (const Setting& setting : its.settings) {
-    const Trial trial = try_setting(setting, its.time_limit_s, references);
-    measured.settings.push_back(judge_trial(trial, setting, truth, its));
+  const Observations reference_solution = compute_reference_solution(cost_study, references);
+  for (const Setting& setting : cost_study.settings) {
+    const SandboxedRun sandboxed = run_sandboxed(setting, cost_study.time_limit_s, references);
+    measured.settings.push_back(classify_run(sandboxed, setting, reference_solution, cost_study));
     if (options.progress) options.progress(++done, all);
   }
-  const MeasuredSetting& baseline = measured.settings[its.baseline];
+  const MeasuredSetting& baseline = measured.settings[cost_study.baseline];
   if (!is_computed(baseline)) {
-    throw cannot(its.settings[its.baseline], "a baseline", baseline.reason);
+    throw cannot(cost_study.settings[cost_study.baseline], "a baseline", baseline.reason);
   }
   time_settings(measured, options, references, done, all);
-  conclude(measured);
+  derive_results(measured);
   measured.wall_s = watch.wall_s();
   return measured;
 }
 
-void conclude(MeasuredStudy& measured) {
-  const CostStudy& its = measured.study;
-  for (MeasuredSetting& one : measured.settings) {
-    one.relative = one.cpu_s / measured.settings[its.baseline].cpu_s;
-    if (one.standing != Standing::measured && one.standing != Standing::wide) continue;
-    one.standing = one.timing->spread() > widest_spread ? Standing::wide : Standing::measured;
+void derive_results(MeasuredStudy& measured) {
+  const CostStudy& cost_study = measured.study;
+  for (MeasuredSetting& measurement : measured.settings) {
+    measurement.relative = measurement.cpu_s / measured.settings[cost_study.baseline].cpu_s;
+    if (measurement.status != MeasurementStatus::measured && measurement.status != MeasurementStatus::excessive_spread) continue;
+    measurement.status = measurement.timing->spread() > kMaxSpread ? MeasurementStatus::excessive_spread : MeasurementStatus::measured;
   }
   measured.points = points_of(measured, 0, 1);
-  measured.front = efficient_front(measured.points);
-  measured.words = front_in_words(measured.points, titles_of(its), its.baseline);
-  measured.repeatability = compare_fronts(points_of(measured, 0, 2), points_of(measured, 1, 2));
+  measured.pareto_front = find_pareto_front(measured.points);
+  measured.conclusion = describe_pareto_front(measured.points, titles_of(cost_study), cost_study.baseline);
+  measured.repeatability = compare_pareto_fronts(points_of(measured, 0, 2), points_of(measured, 1, 2));
 }
 
-const char* to_string(Standing standing) {
-  switch (standing) {
-    case Standing::measured:
+const char* to_string(MeasurementStatus status) {
+  switch (status) {
+    case MeasurementStatus::measured:
       return "measured";
-    case Standing::wide:
+    case MeasurementStatus::excessive_spread:
       return "wide";
-    case Standing::truth:
+    case MeasurementStatus::reference_solution:
       return "truth";
-    case Standing::diverged:
+    case MeasurementStatus::diverged:
       return "diverged";
-    case Standing::timed_out:
+    case MeasurementStatus::timed_out:
       return "timed-out";
-    case Standing::failed:
+    case MeasurementStatus::failed:
       return "failed";
   }
   return "";

@@ -19,24 +19,24 @@ struct ErrorNorms {
   [[nodiscard]] double get(Norm norm) const;
 };
 
-/// @param truth  as many values as `found`; empty lists where the values are errors themselves
+/// @param reference_solution  as many values as `found`; empty lists where the values are errors themselves
 /// @throws std::runtime_error  where they differ in length, or there is nothing to divide by.
-[[nodiscard]] ErrorNorms error_norms(const Observations& found, const Observations& truth,
+[[nodiscard]] ErrorNorms error_norms(const Observations& found, const Observations& reference_solution,
                                      const Scale& scale);
 
 /// An error above this is no approximation any more: the computation counts as diverged.
-inline constexpr double diverged_above = 10;
+inline constexpr double kDivergedError = 10;
 
 struct MeasuredSetting {
-  enum class Standing {
+  enum class MeasurementStatus {
     measured,
-    wide,       ///< measured, but the spread is too wide to be used
-    truth,      ///< what the others are measured against
-    diverged,   ///< not finite, or the error is above `diverged_above`
+    excessive_spread,       ///< measured, but the spread is too wide to be used
+    reference_solution,      ///< what the others are measured against
+    diverged,   ///< not finite, or the error is above `kDivergedError`
     timed_out,  ///< not done within the processor time allowed
     failed      ///< no solution; the reason says why
   };
-  Standing standing = Standing::failed;
+  MeasurementStatus status = MeasurementStatus::failed;
   std::string reason;
   std::optional<ErrorNorms> error;
   std::optional<Timing> timing;
@@ -49,10 +49,10 @@ struct MeasuredStudy {
   CostStudy study;
   std::vector<MeasuredSetting> settings;  ///< as in the study
   std::vector<CostPoint> points;          ///< settings that are used, by the study's norm
-  std::vector<CostPoint> front;
-  std::string words;
+  std::vector<CostPoint> pareto_front;
+  std::string conclusion;
   /// The fronts that odd and even repeats give by themselves.
-  FrontAgreement repeatability;
+  ParetoFrontAgreement repeatability;
   double wall_s = 0;  ///< that the whole study took
 };
 
@@ -68,8 +68,8 @@ struct CostOptions {
 
 /// What follows from errors and times: which spreads are too wide, the times relative to the
 /// baseline, the front, the words.
-void conclude(MeasuredStudy& measured);
+void derive_results(MeasuredStudy& measured);
 
-[[nodiscard]] const char* to_string(MeasuredSetting::Standing standing);
+[[nodiscard]] const char* to_string(MeasuredSetting::MeasurementStatus status);
 
 }  // namespace trammel

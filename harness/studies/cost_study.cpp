@@ -15,16 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::size_t> indices(const Cursor& place, const char* key) {
+std::vector<std::size_t> indices(const JsonView& place, const char* key) {
   const auto stated = place.find(key);
   if (!stated) return {};
   if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
   return {stated->get<std::size_t>()};
 }
 
-std::vector<double> exact_values(const Cursor& place, const std::string& quantity,
+std::vector<double> exact_values(const JsonView& place, const std::string& quantity,
                                  const References& references) {
-  const Cursor id = place["reference"];
+  const JsonView id = place["reference"];
   const Reference& reference = references.get(id);
   if (reference.unit != unit_of(quantity)) {
     throw id.error("expected a reference in " + unit_of(quantity) + " (got " + reference.unit +
@@ -43,59 +43,59 @@ std::vector<double> exact_values(const Cursor& place, const std::string& quantit
   return values;
 }
 
-std::vector<Observed> read_observed(const Cursor& quantities, const References& references) {
-  std::vector<Observed> observed;
+std::vector<ObservedQuantity> read_observed(const JsonView& quantities, const References& references) {
+  std::vector<ObservedQuantity> observed;
   for (const auto& [name, place] : quantities.entries()) {
-    Observed one;
-    one.quantity = name;
-    one.plus = place.get<std::string>("plus", "");
-    one.statistic = place.get<std::string>("statistic", "");
-    one.index = indices(place, "index");
-    one.is_error = place.get("is_error", false);
-    if (place.has("reference")) one.exact = exact_values(place, name, references);
-    observed.push_back(std::move(one));
+    ObservedQuantity entry;
+    entry.quantity = name;
+    entry.addend = place.get<std::string>("plus", "");
+    entry.statistic = place.get<std::string>("statistic", "");
+    entry.index = indices(place, "index");
+    entry.is_error = place.get("is_error", false);
+    if (place.has("reference")) entry.exact = exact_values(place, name, references);
+    observed.push_back(std::move(entry));
   }
   return observed;
 }
 
 /// Cases that studies and curves name, relative to the study's file.
-Document open_case(const Cursor& study, const Cursor& part) {
-  const Cursor name = part.has("case") ? part["case"] : study["case"];
+Document open_case(const JsonView& study, const JsonView& part) {
+  const JsonView name = part.has("case") ? part["case"] : study["case"];
   const Origin written = study.document().origin(name.pointer());
   Case given;
   try {
-    given = load_case(find_extended(name.get<std::string>(), written.file));
+    given = load_case(find_base_case(name.get<std::string>(), written.file));
   } catch (const InputError& error) {
     throw name.error(error.what());
   }
   // A curve of another case starts from that case as it stands.
   const bool own = part.has("case");
   const std::string otherwise =
-      own ? base_variant : study.get<std::string>("variant", base_variant);
+      own ? kBaseVariant : study.get<std::string>("variant", kBaseVariant);
   return patched(given, part.get<std::string>("variant", otherwise));
 }
 
-void lay(Document& document, const Cursor& patch) {
+void apply_patch(Document& document, const JsonView& patch) {
   const Origin written = patch.document().origin(patch.pointer());
-  document.lay(written.file, written.pointer, patch.json());
+  document.apply_patch(written.file, written.pointer, patch.json());
 }
 
 /// The case of a curve (or of the truth) with the study's patch and its own.
-Document start_of(const Cursor& study, const Cursor& part) {
+Document start_of(const JsonView& study, const JsonView& part) {
   Document document = open_case(study, part);
-  if (study.has("patch") && !part.has("case")) lay(document, study["patch"]);
-  if (part.has("patch")) lay(document, part["patch"]);
+  if (study.has("patch") && !part.has("case")) apply_patch(document, study["patch"]);
+  if (part.has("patch")) apply_patch(document, part["patch"]);
   return document;
 }
 
 /// With the patch of one value of a curve.
-Document at_value(const Cursor& curve, const Document& start, std::size_t i) {
+Document at_value(const JsonView& curve, const Document& start, std::size_t i) {
   Document document = start;
   if (curve.has("patches")) {
-    lay(document, curve["patches"][i]);
+    apply_patch(document, curve["patches"][i]);
     return document;
   }
-  const Cursor value = curve["values"][i];
+  const JsonView value = curve["values"][i];
   Json patch = Json::object();
   for (const auto& entry : curve["pointers"].entries()) {
     const auto pointer = entry.second.get<std::string>();
@@ -112,7 +112,7 @@ Document at_value(const Cursor& curve, const Document& start, std::size_t i) {
     patch.merge_patch(patch_at(start.value(), pointer, value.json()));
   }
   const Origin written = curve.document().origin(value.pointer());
-  document.lay_value(written.file, written.pointer, patch);
+  document.apply_value_patch(written.file, written.pointer, patch);
   return document;
 }
 
@@ -126,7 +126,7 @@ std::string named(const std::string& each, double value) {
   return each.substr(0, at) + shortest(value) + after;
 }
 
-void check_curve(const Cursor& curve) {
+void check_curve(const JsonView& curve) {
   const bool pointers = curve.has("pointers"), patches = curve.has("patches");
   if (!curve.has("values")) {
     if (pointers || patches) throw curve.error("expected 'values' beside the pointers or patches");
@@ -140,13 +140,13 @@ void check_curve(const Cursor& curve) {
   }
 }
 
-bool is_swept(const Cursor& curve, double value, Sweeping sweeping) {
-  if (sweeping == Sweeping::full || !curve.has("quick")) return true;
+bool is_swept(const JsonView& curve, double value, SweepExtent extent) {
+  if (extent == SweepExtent::full || !curve.has("quick")) return true;
   const auto quick = curve["quick"].get<std::vector<double>>();
   return std::find(quick.begin(), quick.end(), value) != quick.end();
 }
 
-void check_quick(const Cursor& curve) {
+void check_quick(const JsonView& curve) {
   if (!curve.has("quick") || !curve.has("values")) return;
   const auto values = curve["values"].get<std::vector<double>>();
   for (const auto& entry : curve["quick"].entries()) {
@@ -156,39 +156,39 @@ void check_quick(const Cursor& curve) {
   }
 }
 
-std::vector<Setting> read_curve(const Cursor& study, const std::string& name, const Cursor& curve,
-                                Sweeping sweeping, const References& references) {
+std::vector<Setting> read_curve(const JsonView& study, const std::string& name, const JsonView& curve,
+                                SweepExtent extent, const References& references) {
   check_curve(curve);
   check_quick(curve);
   Setting setting;
   setting.curve = name;
   setting.curve_title = setting.title = curve.text("title");
-  const Cursor quantities = curve.has("quantities") ? curve["quantities"] : study["quantities"];
+  const JsonView quantities = curve.has("quantities") ? curve["quantities"] : study["quantities"];
   setting.observed = read_observed(quantities, references);
   const Document start = start_of(study, curve);
   std::vector<Setting> settings;
   if (!curve.has("values")) {
-    const bool left_out = sweeping == Sweeping::quick && curve.has("quick");
+    const bool left_out = extent == SweepExtent::quick && curve.has("quick");
     if (left_out) return {};
     setting.document = start;
-    setting.document.check("case");
+    setting.document.validate("case");
     settings.push_back(std::move(setting));
     return settings;
   }
   for (std::size_t i = 0; i < curve["values"].size(); ++i) {
     const auto value = curve["values"][i].get<double>();
-    if (!is_swept(curve, value, sweeping)) continue;
-    Setting one = setting;
-    one.value = value;
-    one.title += ", " + named(curve.get<std::string>("each", "{}"), value);
-    one.document = at_value(curve, start, i);
-    one.document.check("case");
-    settings.push_back(std::move(one));
+    if (!is_swept(curve, value, extent)) continue;
+    Setting level_setting = setting;
+    level_setting.value = value;
+    level_setting.title += ", " + named(curve.get<std::string>("each", "{}"), value);
+    level_setting.document = at_value(curve, start, i);
+    level_setting.document.validate("case");
+    settings.push_back(std::move(level_setting));
   }
   return settings;
 }
 
-std::size_t find_baseline(const Cursor& place, const std::vector<Setting>& settings) {
+std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& settings) {
   const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& setting) {
     const bool same_value = setting.value.has_value() == place.has("value") &&
                             (!setting.value.has_value() || *setting.value == place.number("value"));
@@ -200,7 +200,7 @@ std::size_t find_baseline(const Cursor& place, const std::vector<Setting>& setti
   return static_cast<std::size_t>(found - settings.begin());
 }
 
-Scale read_scale(const Cursor& study) {
+Scale read_scale(const JsonView& study) {
   const auto place = study.find("scale");
   if (!place) return {};
   if (place->json().is_object()) return {Scale::Kind::number, place->number("value")};
@@ -208,7 +208,7 @@ Scale read_scale(const Cursor& study) {
   return {largest ? Scale::Kind::largest : Scale::Kind::entry, 0};
 }
 
-void check_scale(const Scale& scale, const Cursor& study) {
+void check_scale(const Scale& scale, const JsonView& study) {
   if (scale.kind == Scale::Kind::entry) return;
   const auto names = study["quantities"].entries();
   for (const auto& [name, place] : names) {
@@ -217,7 +217,7 @@ void check_scale(const Scale& scale, const Cursor& study) {
   }
 }
 
-std::string words_of(const Scale& scale, const Cursor& study) {
+std::string describe_scale(const Scale& scale, const JsonView& study) {
   switch (scale.kind) {
     case Scale::Kind::entry:
       return "relative to each true value";
@@ -229,12 +229,12 @@ std::string words_of(const Scale& scale, const Cursor& study) {
   return "";
 }
 
-Norm read_norm(const Cursor& study) {
+Norm read_norm(const JsonView& study) {
   const auto norm = study.get<std::string>("norm", "max");
   return norm == "rms" ? Norm::rms : norm == "mean" ? Norm::mean : Norm::max;
 }
 
-std::string references_of(const Cursor& quantities) {
+std::string references_of(const JsonView& quantities) {
   std::vector<std::string> names;
   for (const auto& entry : quantities.entries()) {
     if (!entry.second.has("reference")) continue;
@@ -244,37 +244,37 @@ std::string references_of(const Cursor& quantities) {
   return join(names, "and");
 }
 
-void read_truth(const Cursor& root, CostStudy& study, const References& references) {
-  const std::vector<Observed>& wanted = study.settings.front().observed;
+void read_reference_solution(const JsonView& root, CostStudy& study, const References& references) {
+  const std::vector<ObservedQuantity>& wanted = study.settings.front().observed;
   const bool needed = std::any_of(wanted.begin(), wanted.end(),
-                                  [](const Observed& one) { return one.needs_truth(); });
+                                  [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); });
   if (needed != root.has("truth")) {
     throw root.error(needed ? "expected 'truth', or a reference for each quantity"
                             : "expected either 'truth' or references, not both");
   }
   if (!needed) {
     const std::string named = references_of(root["quantities"]);
-    study.truth_words = named.empty() ? "the error norms of the computation itself" : named;
+    study.reference_description = named.empty() ? "the error norms of the computation itself" : named;
     return;
   }
-  const Cursor place = root["truth"];
-  Setting truth;
-  truth.title = study.truth_words = place.text("title");
-  const Cursor quantities = place.has("quantities") ? place["quantities"] : root["quantities"];
-  truth.observed = read_observed(quantities, references);
-  truth.document = start_of(root, place);
-  truth.document.check("case");
-  study.truth = std::move(truth);
+  const JsonView place = root["truth"];
+  Setting reference_solution;
+  reference_solution.title = study.reference_description = place.text("title");
+  const JsonView quantities = place.has("quantities") ? place["quantities"] : root["quantities"];
+  reference_solution.observed = read_observed(quantities, references);
+  reference_solution.document = start_of(root, place);
+  reference_solution.document.validate("case");
+  study.reference_solution = std::move(reference_solution);
 }
 
-void check_counts(const Cursor& root, const CostStudy& study) {
+void check_counts(const JsonView& root, const CostStudy& study) {
   const std::size_t wanted = study.settings.front().observed.size();
   for (const Setting& setting : study.settings) {
     if (setting.observed.size() == wanted) continue;
     throw root["curves"][setting.curve].error("expected " + std::to_string(wanted) +
                                               " quantities, as the first curve has");
   }
-  if (study.truth && study.truth->observed.size() != wanted) {
+  if (study.reference_solution && study.reference_solution->observed.size() != wanted) {
     throw root["truth"].error("expected " + std::to_string(wanted) + " quantities");
   }
 }
@@ -297,36 +297,36 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
 
 }  // namespace
 
-Observations observe(const Quantities& quantities, const std::vector<Observed>& observed) {
+Observations observe(const Quantities& quantities, const std::vector<ObservedQuantity>& observed) {
   Observations all;
-  for (const Observed& one : observed) {
-    std::vector<double> values = values_of(quantities, one.quantity);
-    if (!one.plus.empty()) {
-      const std::vector<double>& more = values_of(quantities, one.plus);
-      if (more.size() != values.size()) wrong_length(one.plus, values.size(), more.size());
+  for (const ObservedQuantity& entry : observed) {
+    std::vector<double> values = values_of(quantities, entry.quantity);
+    if (!entry.addend.empty()) {
+      const std::vector<double>& more = values_of(quantities, entry.addend);
+      if (more.size() != values.size()) wrong_length(entry.addend, values.size(), more.size());
       for (std::size_t i = 0; i < values.size(); ++i) values[i] += more[i];
     }
-    if (!one.index.empty()) {
+    if (!entry.index.empty()) {
       std::vector<double> chosen;
-      for (const std::size_t i : one.index) {
-        if (i >= values.size()) wrong_length(one.quantity, i + 1, values.size());
+      for (const std::size_t i : entry.index) {
+        if (i >= values.size()) wrong_length(entry.quantity, i + 1, values.size());
         chosen.push_back(values[i]);
       }
       values = std::move(chosen);
     }
-    if (!one.statistic.empty()) values = {statistic_of(one.statistic, values)};
-    if (!one.exact.empty() && one.exact.size() != values.size()) {
-      wrong_length(one.quantity, one.exact.size(), values.size());
+    if (!entry.statistic.empty()) values = {statistic_of(entry.statistic, values)};
+    if (!entry.exact.empty() && entry.exact.size() != values.size()) {
+      wrong_length(entry.quantity, entry.exact.size(), values.size());
     }
     all.push_back(std::move(values));
   }
   return all;
 }
 
-CostStudy load_cost_study(const fs::path& file, Sweeping sweeping, const References& references) {
-  const Document document = Document::as_it_stands(file.string(), read_json(file));
-  document.check("cost");
-  const Cursor root(document);
+CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const References& references) {
+  const Document document = Document::from_json(file.string(), read_json(file));
+  document.validate("cost");
+  const JsonView root(document);
   if (root.text("id") != file.stem().string()) {
     throw root["id"].error("expected the file's name, '" + printable(file.stem().string()) + "'");
   }
@@ -336,15 +336,15 @@ CostStudy load_cost_study(const fs::path& file, Sweeping sweeping, const Referen
   study.title = root.text("title");
   study.description = root.get<std::string>("description", "");
   for (const auto& [name, curve] : root["curves"].entries()) {
-    std::vector<Setting> its = read_curve(root, name, curve, sweeping, references);
-    std::move(its.begin(), its.end(), std::back_inserter(study.settings));
+    std::vector<Setting> curve_settings = read_curve(root, name, curve, extent, references);
+    std::move(curve_settings.begin(), curve_settings.end(), std::back_inserter(study.settings));
   }
   study.baseline = find_baseline(root["baseline"], study.settings);
-  read_truth(root, study, references);
+  read_reference_solution(root, study, references);
   check_counts(root, study);
   study.scale = read_scale(root);
   check_scale(study.scale, root);
-  study.scale_words = words_of(study.scale, root);
+  study.scale_description = describe_scale(study.scale, root);
   study.norm = read_norm(root);
   study.time_limit_s = root.get("time_limit_s", study.time_limit_s);
   return study;
@@ -357,7 +357,7 @@ bool is_cost_study(const fs::path& file) {
 
 std::vector<fs::path> cost_study_files() {
   std::vector<fs::path> files;
-  const fs::path folder = home() / "cases" / "cost";
+  const fs::path folder = data_root() / "cases" / "cost";
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());

@@ -14,16 +14,16 @@
 namespace trammel {
 
 /// A quantity that an error is measured of.
-struct Observed {
+struct ObservedQuantity {
   std::string quantity;
-  std::string plus;                ///< another quantity, added entry by entry; empty: none
+  std::string addend;                ///< another quantity, added entry by entry; empty: none
   std::string statistic;           ///< one number from the entries; empty: the entries themselves
   std::vector<std::size_t> index;  ///< empty: all
   bool is_error = false;           ///< the values are relative errors themselves
   std::vector<double> exact;       ///< from a reference; empty: from the study's truth
 
   /// Whether it needs the study's truth.
-  [[nodiscard]] bool needs_truth() const { return !is_error && exact.empty(); }
+  [[nodiscard]] bool needs_reference_solution() const { return !is_error && exact.empty(); }
 };
 
 /// The values of what is observed, one list a quantity.
@@ -33,7 +33,7 @@ using Observations = std::vector<std::vector<double>>;
 /// entries
 ///                             as its index or exact values ask for.
 [[nodiscard]] Observations observe(const Quantities& quantities,
-                                   const std::vector<Observed>& observed);
+                                   const std::vector<ObservedQuantity>& observed);
 
 /// One way of computing: a case or variant with all patches laid over it.
 struct Setting {
@@ -41,7 +41,7 @@ struct Setting {
   std::string title;               ///< with its value: "consistent mass, 4 elements a link"
   std::optional<double> value;     ///< along the curve
   Document document;
-  std::vector<Observed> observed;
+  std::vector<ObservedQuantity> observed;
 };
 
 enum class Norm { max, rms, mean };
@@ -55,21 +55,21 @@ struct Scale {
 struct CostStudy {
   std::string id, family, title, description;
   std::vector<Setting> settings;  ///< curve by curve, coarse to fine
-  std::optional<Setting> truth;   ///< where the observed quantities have no exact values
-  std::string truth_words;        ///< what errors are measured against
+  std::optional<Setting> reference_solution;   ///< where the observed quantities have no exact values
+  std::string reference_description;        ///< what errors are measured against
   std::size_t baseline = 0;       ///< among the settings
   Scale scale;
-  std::string scale_words;
+  std::string scale_description;
   Norm norm = Norm::max;
   int time_limit_s = 60;
 };
 
 /// Which values of the curves.
-enum class Sweeping { full, quick };
+enum class SweepExtent { full, quick };
 
 /// @throws InputError  where the file breaks its schema, a case or value is not there, or a patched
 ///                     setting breaks the schema of cases.
-[[nodiscard]] CostStudy load_cost_study(const std::filesystem::path& file, Sweeping sweeping,
+[[nodiscard]] CostStudy load_cost_study(const std::filesystem::path& file, SweepExtent extent,
                                         const References& references);
 
 /// The refinements of a case as a study: a curve for each of the sweeps named (all when none is),

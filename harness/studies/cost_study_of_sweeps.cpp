@@ -7,14 +7,14 @@
 namespace trammel {
 namespace {
 
-bool is_truth(const Reference& reference) {
+bool is_exact(const Reference& reference) {
   return reference.kind == ReferenceKind::exact || reference.kind == ReferenceKind::computed;
 }
 
 /// Exact values of an observed quantity: as many as its entries.
-std::vector<double> exact_values(const Reference& reference, const Observed& observed,
+std::vector<double> exact_values(const Reference& reference, const ObservedQuantity& observed,
                                  const std::vector<std::size_t>& chosen) {
-  if (!is_truth(reference) || reference.unit != unit_of(observed.quantity)) return {};
+  if (!is_exact(reference) || reference.unit != unit_of(observed.quantity)) return {};
   if (chosen.empty()) return reference.values;
   std::vector<double> values;
   for (const std::size_t i : chosen) {
@@ -23,72 +23,72 @@ std::vector<double> exact_values(const Reference& reference, const Observed& obs
   return values;
 }
 
-std::vector<std::size_t> indices(const Cursor& place, const char* key) {
+std::vector<std::size_t> indices(const JsonView& place, const char* key) {
   const auto stated = place.find(key);
   if (!stated) return {};
   if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
   return {stated->get<std::size_t>()};
 }
 
-std::vector<Observed> named_by_sweep(const Cursor& quantities, const References& references) {
-  std::vector<Observed> observed;
+std::vector<ObservedQuantity> named_by_sweep(const JsonView& quantities, const References& references) {
+  std::vector<ObservedQuantity> observed;
   for (const auto& [name, place] : quantities.entries()) {
-    Observed one;
-    one.quantity = name;
-    one.statistic = place.get<std::string>("statistic", "");
-    one.index = indices(place, "index");
-    one.is_error = place.get("is_error", false);
+    ObservedQuantity entry;
+    entry.quantity = name;
+    entry.statistic = place.get<std::string>("statistic", "");
+    entry.index = indices(place, "index");
+    entry.is_error = place.get("is_error", false);
     if (place.has("reference")) {
-      one.exact =
-          exact_values(references.get(place["reference"]), one, indices(place, "reference_index"));
+      entry.exact =
+          exact_values(references.get(place["reference"]), entry, indices(place, "reference_index"));
     }
-    observed.push_back(std::move(one));
+    observed.push_back(std::move(entry));
   }
   return observed;
 }
 
 /// What the checks look at, each once; counts and what is only bounded left out. A check with true
 /// values counts before one without.
-std::vector<Observed> named_by_checks(const Document& document, const std::string& variant,
+std::vector<ObservedQuantity> named_by_checks(const Document& document, const std::string& variant,
                                       const std::vector<std::string>& variants,
                                       const References& references) {
-  std::vector<Observed> observed;
+  std::vector<ObservedQuantity> observed;
   if (!document.value().contains("checks")) return observed;
-  const Cursor places = Cursor(document)["checks"];
+  const JsonView places = JsonView(document)["checks"];
   for (const Check& check : read_checks(document, variant, variants)) {
     const bool compared = !check.reference.empty() || !check.against_variant.empty();
     if (is_count(check.quantity) || !(compared || check.order)) continue;
-    Observed one;
-    one.quantity = check.quantity;
-    one.statistic = check.statistic;
-    one.index = check.index;
+    ObservedQuantity entry;
+    entry.quantity = check.quantity;
+    entry.statistic = check.statistic;
+    entry.index = check.index;
     if (!check.reference.empty()) {
-      one.exact =
-          exact_values(references.get(places[check.name]["reference"]), one, check.reference_index);
+      entry.exact =
+          exact_values(references.get(places[check.name]["reference"]), entry, check.reference_index);
     }
-    const auto same = std::find_if(observed.begin(), observed.end(), [&](const Observed& other) {
-      return other.quantity == one.quantity && other.statistic == one.statistic;
+    const auto same = std::find_if(observed.begin(), observed.end(), [&](const ObservedQuantity& other) {
+      return other.quantity == entry.quantity && other.statistic == entry.statistic;
     });
     if (same == observed.end()) {
-      observed.push_back(std::move(one));
-    } else if (same->exact.empty() && !one.exact.empty()) {
-      *same = std::move(one);
+      observed.push_back(std::move(entry));
+    } else if (same->exact.empty() && !entry.exact.empty()) {
+      *same = std::move(entry);
     }
   }
   return observed;
 }
 
 /// Only what has exact values, where anything has: an error is measured one way.
-bool keep_exact(std::vector<Observed>& observed) {
-  const auto lacks = [](const Observed& one) { return one.needs_truth(); };
+bool keep_exact(std::vector<ObservedQuantity>& observed) {
+  const auto lacks = [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); };
   if (std::all_of(observed.begin(), observed.end(), lacks)) return false;
   observed.erase(std::remove_if(observed.begin(), observed.end(), lacks), observed.end());
   return true;
 }
 
-std::string quantities_of(const std::vector<Observed>& observed) {
+std::string quantities_of(const std::vector<ObservedQuantity>& observed) {
   std::vector<std::string> names;
-  for (const Observed& one : observed) names.push_back(one.quantity);
+  for (const ObservedQuantity& entry : observed) names.push_back(entry.quantity);
   return join(names, "and");
 }
 
@@ -98,7 +98,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                const std::vector<std::string>& sweeps,
                                const References& references) {
   const Document document = patched(given, variant);
-  const Cursor root(document);
+  const JsonView root(document);
   if (!root.has("sweeps")) throw root.error("expected 'sweeps', which say what to refine");
   std::vector<std::string> there;
   for (const auto& entry : root["sweeps"].entries()) there.push_back(entry.first);
@@ -108,13 +108,13 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                did_you_mean(name, there));
   }
   CostStudy study;
-  study.id = given.id() + (variant == base_variant ? "" : "-" + variant);
+  study.id = given.id() + (variant == kBaseVariant ? "" : "-" + variant);
   study.family = given.document.value().value("family", given.id());
   study.title = given.title();
-  if (variant != base_variant) study.title += ": " + given.variant_title(variant);
+  if (variant != kBaseVariant) study.title += ": " + given.variant_title(variant);
   const std::vector<std::string>& wanted = sweeps.empty() ? there : sweeps;
-  const Cursor first = root["sweeps"][wanted.front()];
-  std::vector<Observed> observed =
+  const JsonView first = root["sweeps"][wanted.front()];
+  std::vector<ObservedQuantity> observed =
       first.has("quantities") ? named_by_sweep(first["quantities"], references)
                               : named_by_checks(document, variant, given.variants(), references);
   if (observed.empty()) {
@@ -122,7 +122,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   }
   const bool exact = keep_exact(observed);
   for (const std::string& name : wanted) {
-    const Cursor place = root["sweeps"][name];
+    const JsonView place = root["sweeps"][name];
     for (Level& level : levels(document, name)) {
       Setting setting;
       setting.curve = name;
@@ -134,15 +134,15 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
       study.settings.push_back(std::move(setting));
     }
   }
-  study.truth_words = "the exact values of " + quantities_of(observed);
+  study.reference_description = "the exact values of " + quantities_of(observed);
   if (!exact) {
     const auto finest =
         std::find_if(study.settings.rbegin(), study.settings.rend(),
                      [&](const Setting& setting) { return setting.curve == wanted.front(); });
-    study.truth = *finest;
-    study.truth_words = "the finest level, " + finest->title;
+    study.reference_solution = *finest;
+    study.reference_description = "the finest level, " + finest->title;
   }
-  study.scale_words = "relative to each true value";
+  study.scale_description = "relative to each true value";
   return study;
 }
 

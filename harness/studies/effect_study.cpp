@@ -32,10 +32,10 @@ std::string kind_of(const std::string& quantity) {
   return "";
 }
 
-double largest_of(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
+double max_abs(const std::vector<double>& values) {
+  double largest_change = 0;
+  for (const double value : values) largest_change = std::max(largest_change, std::abs(value));
+  return largest_change;
 }
 
 /// Of each kind, what its changes are measured by: not round-off.
@@ -44,7 +44,7 @@ std::map<std::string, double> scales_of(const Quantities& full, double size) {
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {
     const std::string kind = kind_of(name);
-    if (!kind.empty()) scale[kind] = std::max(scale[kind], largest_of(quantity.values));
+    if (!kind.empty()) scale[kind] = std::max(scale[kind], max_abs(quantity.values));
   }
   const auto floor = [&](const char* kind, const char* beside, double arm) {
     if (scale.count(kind) + scale.count(beside) < 2) return;
@@ -60,18 +60,18 @@ std::map<std::string, double> scales_of(const Quantities& full, double size) {
 double change(const std::vector<double>& full, const std::vector<double>& other, double scale,
               bool each) {
   if (full.size() != other.size()) return kInfinite;
-  double most = 0;
+  double largest_change = 0;
   for (std::size_t i = 0; i < full.size(); ++i) {
     const double by = each ? std::abs(full[i]) : scale;
     const double difference = std::abs(other[i] - full[i]);
     if (difference == 0) continue;
-    most = larger(most, by > 0 ? difference / by : kInfinite);
+    largest_change = nan_max(largest_change, by > 0 ? difference / by : kInfinite);
   }
-  return std::isnan(most) ? kInfinite : most;
+  return std::isnan(largest_change) ? kInfinite : largest_change;
 }
 
-double size_of(const Scene& scene) {
-  const Model model = build_model(scene, 0);
+double size_of(const CaseModel& case_model) {
+  const Model model = build_model(case_model, 0);
   Vector2d low = model.nodes.front().position, high = low;
   for (const Node& node : model.nodes) {
     low = low.cwiseMin(node.position);
@@ -84,17 +84,17 @@ class Study {
  public:
   Study(const Document& document, const EffectStudyOptions& options)
       : document_(document), options_(options) {
-    const auto asked = Cursor(document).find("effects");
-    study_.tolerance = asked && asked->json().is_object() ? (*asked)["auto"].number("tolerance")
+    const auto requested = JsonView(document).find("effects");
+    study_.tolerance = requested && requested->json().is_object() ? (*requested)["auto"].number("tolerance")
                                                           : options.tolerance;
-    const Scene scene = read_scene(document_);
-    size_ = size_of(scene);
-    study_.scope = effect_scope(document_, scene);
+    const CaseModel case_model = read_case_model(document_);
+    size_ = size_of(case_model);
+    study_.scope = effect_scope(document_, case_model);
   }
 
   EffectStudy run() {
     decide();
-    const Effects all = study_.scope.admitted;
+    const Effects all = study_.scope.applicable;
     study_.full = compute(all);
     if (!study_.full.outcome.solved()) return std::move(study_);
     study_.chosen = compute(study_.choice.chosen);
@@ -117,12 +117,12 @@ class Study {
   void decide() {
     const Document automatic = [this] {
       Document changed = with_effects(document_, Effects());
-      changed.lay(document_.origin("").file, "",
+      changed.apply_patch(document_.origin("").file, "",
                   Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
       return changed;
     }();
     const Stopwatch watch;
-    study_.choice = choose_effects(automatic, read_scene(automatic));
+    study_.choice = choose_effects(automatic, read_case_model(automatic));
     study_.choice_cpu_s = watch.cpu_s();
   }
 
@@ -138,7 +138,7 @@ class Study {
     return run;
   }
 
-  LeftOut leave_out(Effects from, const std::vector<Effect>& out) const {
+  Ablation leave_out(Effects from, const std::vector<Effect>& out) const {
     Effects left = from;
     for (const Effect effect : out) left = study_.scope.without(left, effect);
     return {out, compute(left)};
@@ -147,7 +147,7 @@ class Study {
   /// All sets in turns, in random order, so that what slows the machine slows all.
   void measure_time() {
     std::vector<EffectRun*> runs = {&study_.full, &study_.chosen};
-    for (LeftOut& one : study_.singles) runs.push_back(&one.run);
+    for (Ablation& ablation : study_.singles) runs.push_back(&ablation.run);
     std::vector<std::vector<double>> times(runs.size());
     std::vector<std::size_t> order(runs.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -186,37 +186,37 @@ Changes changes_between(const Quantities& full, const Quantities& other, double 
     const std::string kind = kind_of(name);
     if (kind.empty()) continue;
     const auto found = other.find(name);
-    double& most = changes[kind];
+    double& largest_change = changes[kind];
     if (found == other.end()) {  // a part may have no such thing without the effect; a mode is lost
-      if (kind == "frequency") most = kInfinite;
+      if (kind == "frequency") largest_change = kInfinite;
       continue;
     }
-    most = std::max(
-        most, change(quantity.values, found->second.values, scale.at(kind), kind == "frequency"));
+    largest_change = std::max(
+        largest_change, change(quantity.values, found->second.values, scale.at(kind), kind == "frequency"));
   }
   return changes;
 }
 
-double largest(const Changes& changes) {
-  double most = 0;
-  for (const auto& [kind, change] : changes) most = std::max(most, change);
-  return most;
+double max_change(const Changes& changes) {
+  double largest_change = 0;
+  for (const auto& [kind, change] : changes) largest_change = std::max(largest_change, change);
+  return largest_change;
 }
 
-bool EffectStudy::within() const {
-  return chosen.outcome.solved() && largest(chosen.changes) <= tolerance;
+bool EffectStudy::within_tolerance() const {
+  return chosen.outcome.solved() && max_change(chosen.changes) <= tolerance;
 }
 
-bool EffectStudy::minimal() const {
-  return std::all_of(from_chosen.begin(), from_chosen.end(), [this](const LeftOut& one) {
-    return !(largest(one.run.changes) <= tolerance);
+bool EffectStudy::is_minimal() const {
+  return std::all_of(from_chosen.begin(), from_chosen.end(), [this](const Ablation& ablation) {
+    return !(max_change(ablation.run.changes) <= tolerance);
   });
 }
 
 EffectStudy study_effects(const Document& document, const EffectStudyOptions& options) {
   if (!knows_effects(document)) {
-    throw Cursor(document)["analysis"].error(
-        std::string("expected an analysis that knows effects: ") + analyses_with_effects);
+    throw JsonView(document)["analysis"].error(
+        std::string("expected an analysis that knows effects: ") + kAnalysesWithEffects);
   }
   return Study(document, options).run();
 }

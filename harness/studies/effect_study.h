@@ -17,7 +17,7 @@ namespace trammel {
 using Changes = std::map<std::string, double>;
 [[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
                                       double size_m);
-[[nodiscard]] double largest(const Changes& changes);
+[[nodiscard]] double max_change(const Changes& changes);
 
 /// The scene with some effects.
 struct EffectRun {
@@ -30,7 +30,7 @@ struct EffectRun {
   double cpu_spread = 0;  ///< half of the range between the quartiles, relative
 };
 
-struct LeftOut {
+struct Ablation {
   std::vector<Effect> effects;  ///< left out with what they carry
   EffectRun run;
 };
@@ -41,11 +41,11 @@ struct EffectStudy {
   double tolerance = 0;
   EffectRun full, chosen;
   double choice_cpu_s = 0;              ///< what "auto" took to decide
-  std::vector<LeftOut> singles, pairs;  ///< from the whole scene
-  std::vector<LeftOut> from_chosen;     ///< each chosen effect left out of the chosen set
+  std::vector<Ablation> singles, pairs;  ///< from the whole scene
+  std::vector<Ablation> from_chosen;     ///< each chosen effect left out of the chosen set
 
-  [[nodiscard]] bool within() const;   ///< the chosen set is within the tolerance
-  [[nodiscard]] bool minimal() const;  ///< no chosen effect can go
+  [[nodiscard]] bool within_tolerance() const;   ///< the chosen set is within the tolerance
+  [[nodiscard]] bool is_minimal() const;  ///< no chosen effect can go
 };
 
 struct EffectStudyOptions {

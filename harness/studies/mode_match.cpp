@@ -17,14 +17,14 @@ using Places =
     std::map<std::string, std::vector<Vector2d>>;  ///< place -> displacement of each mode
 
 /// Modes beyond those asked for, so that a set at the end is whole.
-constexpr Index beyond = 4;
-constexpr int stations = 8;
+constexpr Index kExtraModes = 4;
+constexpr int kStations = 8;
 /// Relative distance within which frequencies are one set.
-constexpr double repeated = 1e-6;
+constexpr double kRepeatedTolerance = 1e-6;
 /// Below this, two sets do not look alike.
-constexpr double alike = 0.5;
+constexpr double kMinOverlap = 0.5;
 
-void see_nodes(const System& system, const Eigen::VectorXd& u, Places& places) {
+void sample_nodes(const System& system, const Eigen::VectorXd& u, Places& places) {
   for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
     const std::string& name = system.model.nodes[i].name;
     if (name.empty()) continue;
@@ -33,12 +33,12 @@ void see_nodes(const System& system, const Eigen::VectorXd& u, Places& places) {
   }
 }
 
-void see_members(const System& system, const Eigen::VectorXd& u, Places& places) {
+void sample_members(const System& system, const Eigen::VectorXd& u, Places& places) {
   std::size_t first = 0;
   for (const Member& member : system.model.members) {
     const auto count = static_cast<std::size_t>(member.elements);
-    for (int k = 1; k < stations; ++k) {
-      const double along = static_cast<double>(k) / stations * static_cast<double>(count);
+    for (int k = 1; k < kStations; ++k) {
+      const double along = static_cast<double>(k) / kStations * static_cast<double>(count);
       const std::size_t element = std::min(count - 1, static_cast<std::size_t>(along));
       places["member " + member.name + " " + std::to_string(k)].push_back(displacement_along(
           system.mesh.frame[first + element], u, along - static_cast<double>(element)));
@@ -47,14 +47,14 @@ void see_members(const System& system, const Eigen::VectorXd& u, Places& places)
   }
 }
 
-std::pair<std::vector<double>, Places> see(const Document& document) {
-  const Cursor analysis = Cursor(document)["analysis"];
+std::pair<std::vector<double>, Places> solve_and_sample(const Document& document) {
+  const JsonView analysis = JsonView(document)["analysis"];
   if (!analysis.has("modes")) throw analysis.error("expected 'modes', to match modes by shape");
-  Scene scene = read_scene(document);
-  scene.effects = choose_effects(document, scene).chosen;
-  const System system = assemble(build_model(scene, 0), scene.effects);
+  CaseModel case_model = read_case_model(document);
+  case_model.effects = choose_effects(document, case_model).chosen;
+  const System system = assemble(build_model(case_model, 0), case_model.effects);
   ModesOptions options;
-  options.count = std::min(system.K.rows(), analysis["modes"]["count"].get<Index>() + beyond);
+  options.count = std::min(system.K.rows(), analysis["modes"]["count"].get<Index>() + kExtraModes);
   const ModalSolution modes = solve_modes(system, options);
   if (!modes.outcome.solved())
     throw analysis.error("expected modes (" + modes.outcome.reason + ")");
@@ -62,8 +62,8 @@ std::pair<std::vector<double>, Places> see(const Document& document) {
   for (Index i = 0; i < modes.frequency.size(); ++i) {
     seen.first.push_back(modes.frequency[i]);
     const Eigen::VectorXd u = system.T * modes.shape.col(i);
-    see_nodes(system, u, seen.second);
-    see_members(system, u, seen.second);
+    sample_nodes(system, u, seen.second);
+    sample_members(system, u, seen.second);
   }
   return seen;
 }
@@ -71,7 +71,7 @@ std::pair<std::vector<double>, Places> see(const Document& document) {
 std::vector<std::vector<std::size_t>> sets_of(const std::vector<double>& frequency) {
   std::vector<std::vector<std::size_t>> sets;
   for (std::size_t i = 0; i < frequency.size(); ++i) {
-    const bool same = i > 0 && frequency[i] - frequency[i - 1] <= repeated * frequency[i];
+    const bool same = i > 0 && frequency[i] - frequency[i - 1] <= kRepeatedTolerance * frequency[i];
     if (!same) sets.emplace_back();
     sets.back().push_back(i);
   }
@@ -94,8 +94,8 @@ Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>&
 }  // namespace
 
 std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Document& b) {
-  const auto [frequency_a, places_a] = see(a);
-  const auto [frequency_b, places_b] = see(b);
+  const auto [frequency_a, places_a] = solve_and_sample(a);
+  const auto [frequency_b, places_b] = solve_and_sample(b);
   std::vector<std::string> common;
   for (const auto& item : places_a) {
     if (places_b.count(item.first) > 0) common.push_back(item.first);
@@ -142,7 +142,7 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
   for (const auto& set : sets_b) room_b.push_back(set.size());
   for (const auto& [overlap, i, j] : pairs) {
     const std::size_t taken = std::min(room_a[i], room_b[j]);
-    if (overlap < alike || taken == 0) continue;
+    if (overlap < kMinOverlap || taken == 0) continue;
     room_a[i] -= taken;
     room_b[j] -= taken;
     ModeMatch& match = matches[i];

@@ -31,22 +31,22 @@ std::set<std::size_t> settings_of(const std::vector<CostPoint>& points) {
 }  // namespace
 
 std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error) {
-  double least = std::numeric_limits<double>::infinity();
+  double min_time = std::numeric_limits<double>::infinity();
   for (const CostPoint& point : points) {
-    if (point.error <= error) least = std::min(least, point.time);
+    if (point.error <= error) min_time = std::min(min_time, point.time);
   }
   std::optional<CostPoint> best;
   for (const CostPoint& point : points) {
-    if (point.error > error || point.time > (1 + equal_within) * least) continue;
-    if (!best || point.error < (1 - equal_within) * best->error) best = point;
+    if (point.error > error || point.time > (1 + kParetoTolerance) * min_time) continue;
+    if (!best || point.error < (1 - kParetoTolerance) * best->error) best = point;
   }
   return best;
 }
 
-std::vector<CostPoint> efficient_front(const std::vector<CostPoint>& points) {
+std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points) {
   std::vector<CostPoint> front;
   for (const CostPoint& point : points) {
-    const CostPoint best = *cheapest(points, (1 + equal_within) * point.error);
+    const CostPoint best = *cheapest(points, (1 + kParetoTolerance) * point.error);
     const bool known = std::any_of(front.begin(), front.end(), [&](const CostPoint& other) {
       return other.setting == best.setting;
     });
@@ -57,15 +57,15 @@ std::vector<CostPoint> efficient_front(const std::vector<CostPoint>& points) {
   return front;
 }
 
-const std::vector<double>& asked_errors() {
+const std::vector<double>& target_errors() {
   static const std::vector<double> errors = {0.05, 0.01, 1e-3, 1e-6};
   return errors;
 }
 
-FrontAgreement compare_fronts(const std::vector<CostPoint>& a, const std::vector<CostPoint>& b) {
-  const auto front_a = efficient_front(a), front_b = efficient_front(b);
+ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a, const std::vector<CostPoint>& b) {
+  const auto front_a = find_pareto_front(a), front_b = find_pareto_front(b);
   const auto in_a = settings_of(front_a), in_b = settings_of(front_b);
-  FrontAgreement agreement;
+  ParetoFrontAgreement agreement;
   std::set<std::size_t> either = in_a;
   either.insert(in_b.begin(), in_b.end());
   agreement.either = either.size();
@@ -73,7 +73,7 @@ FrontAgreement compare_fronts(const std::vector<CostPoint>& a, const std::vector
   std::vector<double> differences;
   const auto look = [&](double error) {
     // Settings whose errors differ in the last digits are not told apart.
-    const double within = (1 + equal_within) * error;
+    const double within = (1 + kParetoTolerance) * error;
     const auto at_a = cheapest(front_a, within), at_b = cheapest(front_b, within);
     if (at_a && at_b) differences.push_back(std::abs(std::log(at_a->time / at_b->time)));
   };
@@ -83,18 +83,18 @@ FrontAgreement compare_fronts(const std::vector<CostPoint>& a, const std::vector
     agreement.median_difference = std::expm1(quantile(differences, 0.5));
     agreement.largest_difference = std::expm1(quantile(differences, 1));
   }
-  for (const double error : asked_errors()) {
+  for (const double error : target_errors()) {
     const auto at_a = cheapest(a, error), at_b = cheapest(b, error);
     if (!at_a || !at_b) continue;
-    ++agreement.asked;
+    ++agreement.targets;
     if (at_a->setting == at_b->setting) ++agreement.same_cheapest;
   }
   return agreement;
 }
 
-std::string front_in_words(const std::vector<CostPoint>& points,
+std::string describe_pareto_front(const std::vector<CostPoint>& points,
                            const std::vector<std::string>& titles, std::size_t baseline) {
-  const std::vector<CostPoint> front = efficient_front(points);
+  const std::vector<CostPoint> front = find_pareto_front(points);
   if (front.empty()) return "No setting could be measured.";
   const auto title = [&](const CostPoint& point) { return "'" + titles[point.setting] + "'"; };
   const auto first = cheapest(points, 0.01);
@@ -102,25 +102,25 @@ std::string front_in_words(const std::vector<CostPoint>& points,
     return "No setting comes within 1 %: the best, " + title(front.back()) + ", is off by " +
            percent(front.back().error) + ".";
   }
-  std::string words = "Within 1 %, " + title(*first) + " is cheapest";
-  if (std::abs(std::log(first->time)) <= std::log1p(equal_within)) {
-    if (first->setting != baseline) words += ", as quick as '" + titles[baseline] + "'";
+  std::string text = "Within 1 %, " + title(*first) + " is cheapest";
+  if (std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance)) {
+    if (first->setting != baseline) text += ", as quick as '" + titles[baseline] + "'";
   } else {
-    words += ", at " + times(first->time) + " times the time of '" + titles[baseline] + "'";
+    text += ", at " + times(first->time) + " times the time of '" + titles[baseline] + "'";
   }
   const auto fine = cheapest(points, 1e-6);
   if (fine && fine->setting == first->setting) {
-    return words + ", and it is good to 1e-6 at no further cost.";
+    return text + ", and it is good to 1e-6 at no further cost.";
   }
   if (fine) {
-    return words + "; 1e-6 takes " + title(*fine) + " and " + times(fine->time / first->time) +
+    return text + "; 1e-6 takes " + title(*fine) + " and " + times(fine->time / first->time) +
            " times as long.";
   }
   const CostPoint& best = front.back();
   if (best.setting == first->setting) {
-    return words + "; nothing more accurate is to be had than its " + percent(best.error) + ".";
+    return text + "; nothing more accurate is to be had than its " + percent(best.error) + ".";
   }
-  return words + "; no setting reaches 1e-6, the best is " + title(best) + ", off by " +
+  return text + "; no setting reaches 1e-6, the best is " + title(best) + ", off by " +
          percent(best.error) + ", " + times(best.time / first->time) + " times as long.";
 }
 

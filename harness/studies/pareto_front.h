@@ -16,38 +16,38 @@ struct CostPoint {
 };
 
 /// What an error of zero counts as: a double cannot tell less.
-inline constexpr double smallest_error = std::numeric_limits<double>::epsilon();
+inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 
 /// Times and errors nearer than this count as equal: a median of seven is not known better, and an
 /// accuracy that differs by less is of no use. Of equal settings the more accurate counts, of
 /// equally accurate ones the first of the study.
-inline constexpr double equal_within = 0.05;
+inline constexpr double kParetoTolerance = 0.05;
 
 /// The cheapest point with at most that error.
 [[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
 
 /// What is cheapest for the error of any point, or for one a little above; cheapest first.
-[[nodiscard]] std::vector<CostPoint> efficient_front(const std::vector<CostPoint>& points);
+[[nodiscard]] std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points);
 
 /// The errors that the table of cheapest settings asks for.
-[[nodiscard]] const std::vector<double>& asked_errors();
+[[nodiscard]] const std::vector<double>& target_errors();
 
 /// How near two measurements of the same settings come.
-struct FrontAgreement {
+struct ParetoFrontAgreement {
   std::size_t shared = 0, either = 0;        ///< settings on both fronts, and on at least one
-  std::size_t same_cheapest = 0, asked = 0;  ///< of the asked errors that both reach
+  std::size_t same_cheapest = 0, targets = 0;  ///< of the asked errors that both reach
   /// |ln| of the ratio of what an accuracy costs, over all errors of both fronts that both reach;
   /// as a share: 0.1 is 10 %.
   double median_difference = 0, largest_difference = 0;
 };
 
-[[nodiscard]] FrontAgreement compare_fronts(const std::vector<CostPoint>& a,
+[[nodiscard]] ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
                                             const std::vector<CostPoint>& b);
 
 /// What the front says, in a sentence or two.
 /// @param titles    of the settings
 /// @param baseline  the setting that times are relative to
-[[nodiscard]] std::string front_in_words(const std::vector<CostPoint>& points,
+[[nodiscard]] std::string describe_pareto_front(const std::vector<CostPoint>& points,
                                          const std::vector<std::string>& titles,
                                          std::size_t baseline);
 

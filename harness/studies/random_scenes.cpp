@@ -255,8 +255,8 @@ constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15;
 
 Document written(const std::string& name, const Json& scene) {
   Document document;
-  document.lay(name, "", scene);
-  document.check("case");
+  document.apply_patch(name, "", scene);
+  document.validate("case");
   return document;
 }
 

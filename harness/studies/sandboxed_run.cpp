@@ -19,7 +19,7 @@ namespace trammel {
 namespace {
 
 /// Wall time beyond which a process that uses none of its processor time counts as hung.
-constexpr unsigned patience = 20;
+constexpr unsigned kHangTimeoutFactor = 20;
 
 Json answer(const Setting& setting, const References& references) {
   Json json = Json::object();
@@ -48,7 +48,7 @@ Json answer(const Setting& setting, const References& references) {
   const auto seconds = static_cast<rlim_t>(time_limit_s);
   const rlimit limit{seconds, seconds + 1};
   setrlimit(RLIMIT_CPU, &limit);
-  alarm(patience * static_cast<unsigned>(time_limit_s));
+  alarm(kHangTimeoutFactor * static_cast<unsigned>(time_limit_s));
   const std::string text = answer(setting, references).dump(-1, ' ', true);
   std::size_t written = 0;
   while (written < text.size()) {
@@ -68,35 +68,35 @@ std::string read_all(int in) {
   return text;
 }
 
-Trial read_answer(const std::string& text) {
-  Trial trial;
+SandboxedRun read_answer(const std::string& text) {
+  SandboxedRun sandboxed;
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) {
-    trial.reason = "the computation ended without an answer";
-    return trial;
+    sandboxed.reason = "the computation ended without an answer";
+    return sandboxed;
   }
-  trial.cpu_s = json.at("cpu_s").get<double>();
+  sandboxed.cpu_s = json.at("cpu_s").get<double>();
   if (json.contains("counters")) {
     const auto counts = json.at("counters").get<std::array<std::int64_t, 4>>();
-    trial.counters = {counts[0], counts[1], counts[2], counts[3]};
+    sandboxed.counters = {counts[0], counts[1], counts[2], counts[3]};
   }
   if (json.contains("failure")) {
-    trial.reason = json.at("failure").get<std::string>();
-    return trial;
+    sandboxed.reason = json.at("failure").get<std::string>();
+    return sandboxed;
   }
   for (const Json& list : json.at("values")) {
-    trial.values.emplace_back();
+    sandboxed.values.emplace_back();
     for (const Json& value : list) {
-      trial.values.back().push_back(value.is_null() ? std::nan("") : value.get<double>());
+      sandboxed.values.back().push_back(value.is_null() ? std::nan("") : value.get<double>());
     }
   }
-  trial.ending = Trial::Ending::solved;
-  return trial;
+  sandboxed.termination = SandboxedRun::Termination::solved;
+  return sandboxed;
 }
 
 }  // namespace
 
-Trial try_setting(const Setting& setting, int time_limit_s, const References& references) {
+SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s, const References& references) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe for a trial");
   std::cout.flush();
@@ -113,16 +113,16 @@ Trial try_setting(const Setting& setting, int time_limit_s, const References& re
   int status = 0;
   waitpid(child, &status, 0);
   if (!WIFSIGNALED(status)) return read_answer(text);
-  Trial trial;
+  SandboxedRun sandboxed;
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL) {
-    trial.ending = Trial::Ending::timed_out;
-    trial.cpu_s = time_limit_s;
-    trial.reason = "not done after " + std::to_string(time_limit_s) + " s of processor time";
+    sandboxed.termination = SandboxedRun::Termination::timed_out;
+    sandboxed.cpu_s = time_limit_s;
+    sandboxed.reason = "not done after " + std::to_string(time_limit_s) + " s of processor time";
   } else {
-    trial.reason = "the computation crashed (signal " + std::to_string(signal) + ")";
+    sandboxed.reason = "the computation crashed (signal " + std::to_string(signal) + ")";
   }
-  return trial;
+  return sandboxed;
 }
 
 }  // namespace trammel

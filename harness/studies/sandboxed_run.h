@@ -8,9 +8,9 @@
 namespace trammel {
 
 /// What one computation of a setting came to.
-struct Trial {
-  enum class Ending { solved, failed, timed_out };
-  Ending ending = Ending::failed;
+struct SandboxedRun {
+  enum class Termination { solved, failed, timed_out };
+  Termination termination = Termination::failed;
   std::string reason;  ///< of a failure
   Observations values;
   Counters counters;
@@ -19,7 +19,7 @@ struct Trial {
 
 /// Computes a setting once, in a process of its own that is ended when it has used up its processor
 /// time: an endless loop or a crash costs no more than that.
-[[nodiscard]] Trial try_setting(const Setting& setting, int time_limit_s,
+[[nodiscard]] SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s,
                                 const References& references);
 
 }  // namespace trammel

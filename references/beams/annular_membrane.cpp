@@ -111,7 +111,7 @@ std::vector<double> annular_membrane_program(const Json& json) {
   for (const Json& mode : modes) {
     values.push_back(roots[mode[0].get<int>()][mode[1].get<int>() - 1] / (2 * pi<Real>()));
   }
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

@@ -59,25 +59,25 @@ std::vector<Real> beam_roots(const BeamEnds& ends, int count) {
   return first_roots(characteristic_equation(ends), 1e-3, 1e-2, count);
 }
 
-std::vector<double> beam_share_program(const Json& json) {
+std::vector<double> beam_modal_mass_program(const Json& json) {
   const Arguments arguments(json, "", {"count", "tip_mass_ratio"});
   const Real mu = arguments.positive("tip_mass_ratio");
   std::vector<Real> shares;
   for (const Real& b : beam_roots({"clamped-free", mu, 0}, arguments.count("count"))) {
     const Real sech = 1 / cosh(b);
     const Real force = cos(b) * tanh(b) - sin(b);
-    const Real by_mu = b * force;
-    const Real by_b = -sech * tanh(b) - sin(b) + mu * force +
+    const Real derivative_mu = b * force;
+    const Real derivative_b = -sech * tanh(b) - sin(b) + mu * force +
                       mu * b * (cos(b) * sech * sech - sin(b) * tanh(b) - cos(b));
-    shares.push_back(1 - 4 * (mu / b) * by_mu / by_b);
+    shares.push_back(1 - 4 * (mu / b) * derivative_mu / derivative_b);
   }
-  return rounded(shares);
+  return to_doubles(shares);
 }
 
 std::vector<double> beam_roots_program(const Json& json) {
   const Arguments arguments(json, "", {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio"});
   const BeamEnds ends = read_ends(arguments);
-  return rounded(beam_roots(ends, arguments.count("count")));
+  return to_doubles(beam_roots(ends, arguments.count("count")));
 }
 
 std::vector<double> beam_frequencies_program(const Json& json) {

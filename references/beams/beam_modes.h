@@ -40,6 +40,6 @@ struct BeamEnds {
 /// for the frequency falls with the tip mass as the tip mass's share of the kinetic energy
 /// (Rayleigh), and db/dmu follows from the characteristic equation. Arguments: tip_mass_ratio,
 /// count. Values: shares [-].
-[[nodiscard]] std::vector<double> beam_share_program(const Json& arguments);
+[[nodiscard]] std::vector<double> beam_modal_mass_program(const Json& arguments);
 
 }  // namespace trammel::derive

@@ -54,7 +54,7 @@ std::vector<double> column_buckling_program(const Json& json) {
   std::vector<Real> values = first_roots(weight ? self_weight_equation() : end_load_equation(ends),
                                          0.5, 0.1, arguments.count("count"));
   for (Real& value : values) value = scale * value * value;
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

@@ -13,8 +13,8 @@ namespace trammel::derive {
 
 namespace {
 
-constexpr int highest_wave = 4001;  // stresses fall off as n^-3
-const double pi_double = std::acos(-1.0);
+constexpr int kMaxWaveNumber = 4001;  // stresses fall off as n^-3
+const double kPi = std::acos(-1.0);
 
 /// One mode: its share of the static answer at mid-span, and how it moves.
 struct Mode {
@@ -34,25 +34,25 @@ std::vector<Mode> modes(const Arguments& arguments) {
       value("shear_coefficient") * E / (2 * (1 + static_cast<double>(arguments.number("nu"))));
   const double load = value("load_N_per_m");
   const bool rayleigh = arguments.has("rayleigh_mass_1_s");
-  const double of_mass = rayleigh ? value("rayleigh_mass_1_s") : 0;
-  const double of_stiffness = rayleigh ? value("rayleigh_stiffness_s") : 0;
+  const double rayleigh_alpha = rayleigh ? value("rayleigh_mass_1_s") : 0;
+  const double rayleigh_beta = rayleigh ? value("rayleigh_stiffness_s") : 0;
   const double ratio =
       rayleigh ? 0 : static_cast<double>(arguments.not_negative("damping_ratio", 0));
 
   std::vector<Mode> result;
-  for (int n = 1; n <= highest_wave; n += 2) {
-    const double a = n * pi_double / L;
+  for (int n = 1; n <= kMaxWaveNumber; n += 2) {
+    const double a = n * kPi / L;
     const double half = (kG * (a * a + 1 / r2) + E * a * a) / (2 * rho);
     const double product = kG * E / (rho * rho) * std::pow(a, 4);
     const double upper = half + std::sqrt(half * half - product);
     for (const double w2 : {product / upper, upper}) {
       const double s = a - rho * w2 / (kG * a);
       const double mass = L / 2 * rho * area * (1 + r2 * s * s);
-      const double force = load * 2 * L / (n * pi_double);
+      const double force = load * 2 * L / (n * kPi);
       const double sign = n % 4 == 1 ? 1 : -1;  // of the sine at mid-span
       const double share = sign * force / (mass * w2);
       const double w = std::sqrt(w2);
-      result.push_back({w, rayleigh ? of_mass / (2 * w) + of_stiffness * w / 2 : ratio, share,
+      result.push_back({w, rayleigh ? rayleigh_alpha / (2 * w) + rayleigh_beta * w / 2 : ratio, share,
                         share * E * a * s * thickness / 2});
     }
   }
@@ -87,7 +87,7 @@ double step_response(const Mode& mode, double t) {
   return 1 - (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (fast - slow);
 }
 
-double at_time(const std::vector<Mode>& modes, double Mode::*share, double t) {
+double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, double t) {
   return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
 }
 
@@ -96,7 +96,7 @@ double call(double x, void* f) {
 }
 
 /// Where f is largest between lo and hi: the best of a grid, refined by Brent's method.
-double largest(std::function<double(double)> f, double lo, double hi, int grid) {
+double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
   gsl_set_error_handler_off();
   int best = 1;
   std::vector<double> values(grid + 1);
@@ -130,11 +130,11 @@ std::vector<double> deep_beam_program(const Json& json) {
   const auto history = [&](double Mode::*share) -> std::function<double(double)> {
     if (response == "harmonic-peak")
       return [&, share](double w) { return amplitude(all, share, w); };
-    return [&, share](double t) { return at_time(all, share, t); };
+    return [&, share](double t) { return step_response_sum(all, share, t); };
   };
   const auto peak_at = [&](double Mode::*share) {
-    if (response == "harmonic-peak") return largest(history(share), 0.9 * first, 1.1 * first, 40);
-    return largest(history(share), 0.2 * pi_double / first, 1.8 * pi_double / first, 400);
+    if (response == "harmonic-peak") return maximizer(history(share), 0.9 * first, 1.1 * first, 40);
+    return maximizer(history(share), 0.2 * kPi / first, 1.8 * kPi / first, 400);
   };
   std::vector<double> values;
   for (const std::string& output : arguments.texts("outputs")) {
@@ -144,7 +144,7 @@ std::vector<double> deep_beam_program(const Json& json) {
                            ? sum<double>(all, share, [](const Mode&) { return 1.0; })
                            : history(share)(peak_at(share)));
     } else if (output == "frequency_Hz" && response == "harmonic-peak") {
-      values.push_back(peak_at(share) / (2 * pi_double));
+      values.push_back(peak_at(share) / (2 * kPi));
     } else if (output == "time_s" && response == "step-peak") {
       values.push_back(peak_at(share));
     } else {

@@ -37,14 +37,14 @@ std::vector<double> columns(const Arguments& arguments, const std::vector<Real>&
       arguments.choice("output", "all", {"all", names[0], names[1], names[2]});
   if (output == "all") {
     if (arguments.has("length_m")) arguments.fail("length_m", "expected an output beside it");
-    return rounded(table);
+    return to_doubles(table);
   }
   const auto column =
       static_cast<std::size_t>(std::find(names.begin(), names.end(), output) - names.begin());
   const Real unit = is_length.at(column) ? arguments.positive("length_m") : Real(1);
   std::vector<Real> chosen;
   for (std::size_t i = column; i < table.size(); i += 3) chosen.push_back(unit * table[i]);
-  return rounded(chosen);
+  return to_doubles(chosen);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::vector<double> elastica_tip_force_program(const Json& json) {
   for (const Real& load : arguments.numbers("load_parameter")) {
     if (!(load > 0)) arguments.fail("load_parameter", "expected positive numbers");
     const Real right = pi<Real>() / 2 * (1 - Real(1e-20));
-    const Real angle = polished_root([&](const Real& phi) { return load_parameter(phi) - load; },
+    const Real angle = refined_root([&](const Real& phi) { return load_parameter(phi) - load; },
                                      Real(1e-20), right);
     const auto [k, t] = modulus(angle);
     values.push_back(1 - 2 * (ellint_2(k) - ellint_2(k, t)) / sqrt(load));

@@ -91,7 +91,7 @@ std::vector<double> exponential_beam_program(const Json& json) {
   const auto scale = static_cast<double>(sqrt(e * beam.r2) / (beam.L * beam.L));
   std::vector<Real> values = first_roots(f, scale, 2 * scale, arguments.count("count"));
   for (Real& value : values) value /= 2 * pi<Real>();
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

@@ -31,7 +31,7 @@ std::vector<double> parallelogram_chain_program(const Json& json) {
     values.push_back(position ? x : Real(y * rate));
     values.push_back(position ? y : Real(-x * rate));
   }
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

@@ -29,7 +29,7 @@ std::vector<double> pendulum_program(const Json& json) {
     values.push_back(2 * length * half * sqrt(1 - half * half));
     values.push_back(length * (2 * half * half - 1));
   }
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

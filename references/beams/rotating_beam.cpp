@@ -86,7 +86,7 @@ std::vector<double> rotating_beam_roots_program(const Json& json) {
   if (beam.axial_ratio && !beam.in_plane) {
     arguments.fail("axial_ratio", "axial motion couples with bending in the plane alone");
   }
-  return rounded(rotating_beam_roots(beam, arguments.count("count")));
+  return to_doubles(rotating_beam_roots(beam, arguments.count("count")));
 }
 
 std::vector<double> rotating_beam_frequencies_program(const Json& json) {
@@ -106,7 +106,7 @@ std::vector<double> rotating_beam_frequencies_program(const Json& json) {
   }
   std::vector<Real> values = rotating_beam_roots(beam, arguments.count("count"));
   for (Real& value : values) value *= scale / (2 * pi<Real>());
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

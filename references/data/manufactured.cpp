@@ -61,7 +61,7 @@ Jet<T> sum(const Jet<T>& a, double weight, const Jet<T>& b) {
 
 /// From derivatives with respect to x / length to derivatives with respect to x, times `factor`.
 template <typename T>
-Jet<T> stretched(Jet<T> jet, double factor, double length) {
+Jet<T> rescaled(Jet<T> jet, double factor, double length) {
   for (T& d : jet) {
     d *= factor;
     factor /= length;
@@ -69,20 +69,20 @@ Jet<T> stretched(Jet<T> jet, double factor, double length) {
   return jet;
 }
 
-/// A function of the plane with its first and second derivatives.
+/// A function of two variables with its first and second derivatives.
 template <typename T>
-struct Plane {
+struct Jet2d {
   T f{}, x{}, y{}, xx{}, xy{}, yy{};
 };
 
 template <typename T>
-Plane<T> product(const Jet<T>& a, const Jet<T>& b) {
+Jet2d<T> product(const Jet<T>& a, const Jet<T>& b) {
   return {a[0] * b[0], a[1] * b[0], a[0] * b[1], a[2] * b[0], a[1] * b[1], a[0] * b[2]};
 }
 
 /// Scales the dimensionless coordinates x / length, y / height and the values.
 template <typename T>
-Plane<T> scaled(const Plane<T>& p, const MembraneProblem& problem) {
+Jet2d<T> scaled(const Jet2d<T>& p, const MembraneProblem& problem) {
   const double a = problem.amplitude;
   const double l = problem.length;
   const double h = problem.height;
@@ -91,7 +91,7 @@ Plane<T> scaled(const Plane<T>& p, const MembraneProblem& problem) {
 }
 
 template <typename T>
-std::array<Plane<T>, 2> displacement(MembraneField field, const T& x, const T& y) {
+std::array<Jet2d<T>, 2> displacement(MembraneField field, const T& x, const T& y) {
   switch (field) {
     case MembraneField::clamped:
       return {product(sine(kPi, x), sine(kPi, y)), product(sine(2 * kPi, x), sine(kPi, y))};
@@ -99,12 +99,12 @@ std::array<Plane<T>, 2> displacement(MembraneField field, const T& x, const T& y
       return {product(sine(kPi / 2, x), cosine(kPi / 2, y)),
               product(one_minus_cosine(kPi / 2, x), exponential(0.5, y))};
     case MembraneField::uniform_strain:
-      return {Plane<T>{x, T(1)}, Plane<T>{0.7 * x - 0.4 * y, T(0.7), T(-0.4)}};
+      return {Jet2d<T>{x, T(1)}, Jet2d<T>{0.7 * x - 0.4 * y, T(0.7), T(-0.4)}};
     case MembraneField::linear_strain:
       break;
   }
   const auto quadratic = [&](double a, double b, double c, double d, double e) {
-    return Plane<T>{a * x + b * y + c * x * x + d * x * y + e * y * y,
+    return Jet2d<T>{a * x + b * y + c * x * x + d * x * y + e * y * y,
                     a + 2 * c * x + d * y,
                     b + d * x + 2 * e * y,
                     T(2 * c),
@@ -124,7 +124,7 @@ Jet<T> bending_shape(const BeamProblem& problem, const T& x) {
     shape[0] -= 1.0 + xi;
     shape[1] -= 1.0;
   }
-  return stretched(shape, problem.amplitude, problem.length);
+  return rescaled(shape, problem.amplitude, problem.length);
 }
 
 /// Vanishes at x = 0.
@@ -132,14 +132,14 @@ template <typename T>
 Jet<T> axial_shape(const BeamProblem& problem, const T& x) {
   const T xi = x / problem.length;
   const Jet<T> shape = problem.field == BeamField::cubic ? cubic(1, 0, 0, xi) : sine(2, xi);
-  return stretched(shape, problem.amplitude / 2, problem.length);
+  return rescaled(shape, problem.amplitude / 2, problem.length);
 }
 
 /// Vanishes at x = 0.
 template <typename T>
 Jet<T> shear_angle(const BeamProblem& problem, const T& x) {
   const double l = problem.length;
-  return stretched(sine(2, T(x / l)), problem.amplitude / (2 * l), l);
+  return rescaled(sine(2, T(x / l)), problem.amplitude / (2 * l), l);
 }
 
 }  // namespace
@@ -147,8 +147,8 @@ Jet<T> shear_angle(const BeamProblem& problem, const T& x) {
 template <typename T>
 MembraneState<T> evaluate(const MembraneProblem& problem, const T& x, const T& y) {
   const auto uv = displacement<T>(problem.field, x / problem.length, y / problem.height);
-  const Plane<T> u = scaled(uv[0], problem);
-  const Plane<T> v = scaled(uv[1], problem);
+  const Jet2d<T> u = scaled(uv[0], problem);
+  const Jet2d<T> v = scaled(uv[1], problem);
   const double nu = problem.nu;
   const double D = problem.E / (1 - nu * nu);
   const double G = problem.E / (2 * (1 + nu));
@@ -163,12 +163,12 @@ MembraneState<T> evaluate(const MembraneProblem& problem, const T& x, const T& y
   return s;
 }
 
-std::array<bool, 2> held(const MembraneProblem& problem, double x, double y) {
-  const double tiny = 1e-9;
-  const bool left = x < tiny * problem.length;
-  const bool bottom = y < tiny * problem.height;
-  const bool right = x > (1 - tiny) * problem.length;
-  const bool top = y > (1 - tiny) * problem.height;
+std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x, double y) {
+  const double tolerance = 1e-9;
+  const bool left = x < tolerance * problem.length;
+  const bool bottom = y < tolerance * problem.height;
+  const bool right = x > (1 - tolerance) * problem.length;
+  const bool top = y > (1 - tolerance) * problem.height;
   switch (problem.field) {
     case MembraneField::clamped: {
       const bool edge = left || right || bottom || top;

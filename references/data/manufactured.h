@@ -43,7 +43,7 @@ template <typename T>
 [[nodiscard]] MembraneState<T> evaluate(const MembraneProblem& problem, const T& x, const T& y);
 
 /// Which displacements the ground holds at a point of the outline; the field is zero there.
-[[nodiscard]] std::array<bool, 2> held(const MembraneProblem& problem, double x, double y);
+[[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x, double y);
 
 /// Beams along 0 <= x <= length, clamped at x = 0 and loaded at the far end by (N, V, M) there.
 enum class BeamField {

@@ -33,7 +33,7 @@ T optional(const Json& json, const std::string& file, const char* key, const cha
   return json.contains(key) ? required<T>(json, file, key, expected) : T{};
 }
 
-ReferenceKind read_kind(const std::string& word, const std::string& file) {
+ReferenceKind parse_kind(const std::string& word, const std::string& file) {
   if (word == "exact") return ReferenceKind::exact;
   if (word == "computed") return ReferenceKind::computed;
   if (word == "paper") return ReferenceKind::paper;
@@ -42,23 +42,23 @@ ReferenceKind read_kind(const std::string& word, const std::string& file) {
 }
 
 /// One number for all values, or one for each.
-std::vector<double> spread(const Json& stated, const std::string& file, const char* pointer,
+std::vector<double> expand(const Json& stated, const std::string& file, const char* pointer,
                            std::size_t count) {
-  std::vector<double> each;
+  std::vector<double> half_widths;
   if (stated.is_number()) {
-    each.assign(count, stated.get<double>());
+    half_widths.assign(count, stated.get<double>());
   } else if (stated.is_array() && stated.size() == count) {
-    for (const Json& one : stated) {
-      if (!one.is_number()) fail(file, pointer, "numbers");
-      each.push_back(one.get<double>());
+    for (const Json& number : stated) {
+      if (!number.is_number()) fail(file, pointer, "numbers");
+      half_widths.push_back(number.get<double>());
     }
   } else {
     fail(file, pointer, "a number or " + std::to_string(count) + " of them, one a value");
   }
-  for (const double one : each) {
-    if (!(one >= 0)) fail(file, pointer, "numbers that are not negative");
+  for (const double value : half_widths) {
+    if (!(value >= 0)) fail(file, pointer, "numbers that are not negative");
   }
-  return each;
+  return half_widths;
 }
 
 std::vector<double> read_uncertainty(const Json& json, const Reference& reference,
@@ -71,16 +71,16 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
       fail(file, "/uncertainty", "'relative' or 'absolute'");
     }
     const std::string pointer = std::string("/uncertainty/") + key;
-    auto each = spread(stated->at(key), file, pointer.c_str(), reference.values.size());
-    for (std::size_t i = 0; relative && i < each.size(); ++i) {
-      each[i] *= std::abs(reference.values[i]);
+    auto half_widths = expand(stated->at(key), file, pointer.c_str(), reference.values.size());
+    for (std::size_t i = 0; relative && i < half_widths.size(); ++i) {
+      half_widths[i] *= std::abs(reference.values[i]);
     }
-    return each;
+    return half_widths;
   }
   if (reference.printed.empty()) {
     fail(file, "/", "'uncertainty', or 'printed' digits that tell it");
   }
-  std::vector<double> each;
+  std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
     // Where the digits are in another unit or corrected, they say nothing about the value.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
@@ -89,12 +89,12 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
            "the digits of the value, or 'uncertainty' beside them (got '" + reference.printed[i] +
                "')");
     }
-    each.push_back(half_unit_in_last_place(reference.printed[i]));
+    half_widths.push_back(half_unit_in_last_place(reference.printed[i]));
   }
-  return each;
+  return half_widths;
 }
 
-std::string in_words(const Json& derivation) {
+std::string describe_derivation(const Json& derivation) {
   std::string text = derivation.value("program", "");
   const Json arguments = derivation.value("arguments", Json::object());
   for (const auto& item : arguments.items()) text += " " + item.key() + "=" + item.value().dump();
@@ -141,7 +141,7 @@ Reference read_reference(const Json& json, const std::string& name) {
   Reference read;
   read.id = text("id");
   read.title = text("title");
-  read.kind = read_kind(text("kind"), name);
+  read.kind = parse_kind(text("kind"), name);
   read.unit = text("unit");
   read.values = required<std::vector<double>>(json, name, "values", "an array of numbers");
   read.source = text("source");
@@ -149,7 +149,7 @@ Reference read_reference(const Json& json, const std::string& name) {
   read.printed = optional<std::vector<std::string>>(json, name, "printed", "an array of texts");
   read.errata = optional<std::vector<std::string>>(json, name, "errata", "an array of texts");
   read.notes = optional<std::string>(json, name, "notes", "text");
-  if (json.contains("derivation")) read.derivation = in_words(json.at("derivation"));
+  if (json.contains("derivation")) read.derivation = describe_derivation(json.at("derivation"));
   if (read.values.empty()) fail(name, "/values", "at least one number");
   if (!read.printed.empty() && read.printed.size() != read.values.size()) {
     fail(name, "/printed",

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// A reference: numbers from outside with their passport, as stored in references/values/*.json.
+/// A reference: numbers from outside with their provenance, as stored in references/values/*.json.
 namespace trammel {
 
 enum class ReferenceKind { exact, computed, paper, code };

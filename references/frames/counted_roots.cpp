@@ -13,7 +13,7 @@ namespace trammel::derive {
 namespace {
 
 /// lo and hi within 1e-8 of each other, with fewer than `index` below lo and not so below hi.
-std::pair<Real, Real> coarse_bracket(const CountedFunction& f, int index) {
+std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
   double lo = f.lo;
   double hi = f.hi;
   for (int i = 0; f.coarse(hi) < index; ++i) {
@@ -29,18 +29,18 @@ std::pair<Real, Real> coarse_bracket(const CountedFunction& f, int index) {
 }
 
 /// Widens the bracket until the count in extended precision agrees with it.
-void confirm(const CountedFunction& f, int index, Real& lo, Real& hi) {
-  for (Real widen = Real(1e-8); f.fine(lo).below >= index; widen *= 10) {
-    lo *= 1 - std::min(widen, Real(0.5));
+void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
+  for (Real relative_width = Real(1e-8); f.fine(lo).below >= index; relative_width *= 10) {
+    lo *= 1 - std::min(relative_width, Real(0.5));
     if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the count does not fall to zero");
   }
-  for (Real widen = Real(1e-8); f.fine(hi).below < index; widen *= 10) hi *= 1 + widen;
+  for (Real relative_width = Real(1e-8); f.fine(hi).below < index; relative_width *= 10) hi *= 1 + relative_width;
 }
 
 /// Where the count passes `index`. The m-th root of |det D|, with the sign of the count, crosses
 /// zero there as a simple root does, m the passages that the bracket holds; where a clamped
 /// frequency of a member falls into the bracket, det D has a pole and the count alone is bisected.
-Real refined(const CountedFunction& f, int index, const Real& lo, const Real& hi) {
+Real refine_root(const CountingFunction& f, int index, const Real& lo, const Real& hi) {
   const auto at_lo = f.fine(lo);
   const auto at_hi = f.fine(hi);
   const Real shift = at_lo.log_determinant;
@@ -60,20 +60,20 @@ Real refined(const CountedFunction& f, int index, const Real& lo, const Real& hi
 
 }  // namespace
 
-Real counted_root(const CountedFunction& f, int index) {
+Real counted_root(const CountingFunction& f, int index) {
   auto [lo, hi] = coarse_bracket(f, index);
-  confirm(f, index, lo, hi);
-  return refined(f, index, lo, hi);
+  confirm_bracket(f, index, lo, hi);
+  return refine_root(f, index, lo, hi);
 }
 
-std::vector<Real> counted_roots(const CountedFunction& f, int first, int count) {
+std::vector<Real> counted_roots(const CountingFunction& f, int first, int count) {
   std::vector<Real> roots;
   while (static_cast<int>(roots.size()) < count) {
     const int found = first + static_cast<int>(roots.size());
     const Real root = counted_root(f, found + 1);
-    const int copies = f.fine(root * (1 + Real(1e-15))).below - found;
+    const int multiplicity = f.fine(root * (1 + Real(1e-15))).below - found;
     const int missing = count - static_cast<int>(roots.size());
-    roots.insert(roots.end(), std::clamp(copies, 1, missing), root);
+    roots.insert(roots.end(), std::clamp(multiplicity, 1, missing), root);
   }
   return roots;
 }

@@ -9,7 +9,7 @@
 /// as often as it occurs. (A double alone reaches about 3e-10.)
 namespace trammel::derive {
 
-struct CountedFunction {
+struct CountingFunction {
   std::function<int(double)> coarse;
   std::function<DynamicStiffness<Real>::Count(const Real&)> fine;
   double lo = 0;  ///< > 0; where the search begins; nothing sought lies below
@@ -18,9 +18,9 @@ struct CountedFunction {
 
 /// The `index`-th passage (from 1), to 1e-20.
 /// @throws DerivationError  where the count does not reach `index`.
-[[nodiscard]] Real counted_root(const CountedFunction& f, int index);
+[[nodiscard]] Real counted_root(const CountingFunction& f, int index);
 
 /// The passages from `first` + 1 to `first` + `count`.
-[[nodiscard]] std::vector<Real> counted_roots(const CountedFunction& f, int first, int count);
+[[nodiscard]] std::vector<Real> counted_roots(const CountingFunction& f, int first, int count);
 
 }  // namespace trammel::derive

@@ -7,7 +7,7 @@ namespace trammel::derive {
 namespace {
 
 /// Adds factor * (a - b)(a - b)^T; an index of -1 is the ground.
-void add_between(RealMatrix& K, int a, int b, const Real& factor) {
+void add_spring(RealMatrix& K, int a, int b, const Real& factor) {
   if (a >= 0) K(a, a) += factor;
   if (b >= 0) K(b, b) += factor;
   if (a >= 0 && b >= 0) {
@@ -19,7 +19,7 @@ void add_between(RealMatrix& K, int a, int b, const Real& factor) {
 /// Negative pivots and log |det| of a symmetric matrix, by L D L^T without interchanges: fifty
 /// digits leave room for the growth that a small pivot brings.
 template <class T>
-std::pair<int, T> inertia_of(Dense<T>& D) {
+std::pair<int, T> matrix_inertia(Dense<T>& D) {
   using std::abs;
   using std::log;
   const std::size_t n = D.rows();
@@ -43,18 +43,18 @@ std::pair<int, T> inertia_of(Dense<T>& D) {
 template <class T>
 DynamicStiffness<T>::DynamicStiffness(const Frame& frame) {
   const FrameCoordinates coordinates(frame, true);
-  place_members(frame, coordinates);
+  transform_members(frame, coordinates);
   add_springs(frame, coordinates);
   add_inertia(frame, coordinates);
 }
 
 template <class T>
-void DynamicStiffness<T>::place_members(const Frame& frame, const FrameCoordinates& coordinates) {
+void DynamicStiffness<T>::transform_members(const Frame& frame, const FrameCoordinates& coordinates) {
   const RealMatrix& N = coordinates.N();
   for (std::size_t e = 0; e < frame.members.size(); ++e) {
     const MemberAxis axis = member_axis(frame, frame.members[e]);
-    const auto u = coordinates.of_member(static_cast<int>(e));
-    PlacedMember placed{MemberData<T>(frame.members[e].section, axis.length), {}};
+    const auto u = coordinates.member_indices(static_cast<int>(e));
+    TransformedMember transformed{MemberData<T>(frame.members[e].section, axis.length), {}};
     for (std::size_t row = 0; row < 6; ++row) {
       const int x = u[row < 3 ? 0 : 3];
       const int y = u[row < 3 ? 1 : 4];
@@ -62,10 +62,10 @@ void DynamicStiffness<T>::place_members(const Frame& frame, const FrameCoordinat
         const Real value = row % 3 == 0   ? Real(axis.cosine * N(x, q) + axis.sine * N(y, q))
                            : row % 3 == 1 ? Real(axis.cosine * N(y, q) - axis.sine * N(x, q))
                                           : N(u[row], q);
-        if (value != 0) placed.local_of_q[row].emplace_back(q, static_cast<T>(value));
+        if (value != 0) transformed.transformation[row].emplace_back(q, static_cast<T>(value));
       }
     }
-    members_.push_back(placed);
+    members_.push_back(transformed);
   }
 }
 
@@ -76,16 +76,16 @@ void DynamicStiffness<T>::add_springs(const Frame& frame, const FrameCoordinates
     for (int motion = 0; motion < 3; ++motion) {
       const Real& k = spring.stiffness[motion];
       if (k == 0) continue;
-      const int b = spring.nodes[1] < 0 ? -1 : coordinates.of_node(spring.nodes[1], motion);
-      add_between(K, coordinates.of_node(spring.nodes[0], motion), b, k);
+      const int b = spring.nodes[1] < 0 ? -1 : coordinates.node_index(spring.nodes[1], motion);
+      add_spring(K, coordinates.node_index(spring.nodes[0], motion), b, k);
     }
   }
   for (std::size_t e = 0; e < frame.members.size(); ++e) {
     for (int end = 0; end < 2; ++end) {
       const FrameEnd& joint = frame.members[e].ends[end];
       if (joint.fixity != Fixity::sprung) continue;
-      add_between(K, coordinates.of_end(static_cast<int>(e), end),
-                  coordinates.of_node(frame.members[e].nodes[end], 2), joint.stiffness);
+      add_spring(K, coordinates.end_index(static_cast<int>(e), end),
+                  coordinates.node_index(frame.members[e].nodes[end], 2), joint.stiffness);
     }
   }
   stiffness_ = reduced(K, coordinates.N());
@@ -95,9 +95,9 @@ template <class T>
 void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates& coordinates) {
   RealMatrix M(coordinates.size(), coordinates.size());
   for (const FrameMass& mass : frame.masses) {
-    const int x = coordinates.of_node(mass.node, 0);
-    const int y = coordinates.of_node(mass.node, 1);
-    const int r = coordinates.of_node(mass.node, 2);
+    const int x = coordinates.node_index(mass.node, 0);
+    const int y = coordinates.node_index(mass.node, 1);
+    const int r = coordinates.node_index(mass.node, 2);
     M(x, x) += mass.mass;
     M(y, y) += mass.mass;
     if (r < 0) continue;
@@ -111,7 +111,7 @@ void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates
   }
   for (std::size_t e = 0; e < frame.members.size(); ++e) {
     for (int end = 0; end < 2; ++end) {
-      const int r = coordinates.of_end(static_cast<int>(e), end);
+      const int r = coordinates.end_index(static_cast<int>(e), end);
       M(r, r) += frame.members[e].ends[end].inertia;
     }
   }
@@ -142,22 +142,22 @@ typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
     }
   }
   Count count;
-  for (const PlacedMember& member : members_) {
+  for (const TransformedMember& member : members_) {
     const MemberStiffness<T> stiffness = member_stiffness(member.data, w2, load_factor);
     count.clamped_below += stiffness.clamped_below;
     const auto K = member_matrix(stiffness);
     for (std::size_t a = 0; a < 6; ++a) {
       for (std::size_t b = 0; b < 6; ++b) {
         if (K[a][b] == 0) continue;
-        for (const auto& [i, left] : member.local_of_q[a]) {
-          for (const auto& [j, right] : member.local_of_q[b]) {
+        for (const auto& [i, left] : member.transformation[a]) {
+          for (const auto& [j, right] : member.transformation[b]) {
             if (j <= i) D(i, j) += left * K[a][b] * right;
           }
         }
       }
     }
   }
-  const auto [negative, log_determinant] = inertia_of(D);
+  const auto [negative, log_determinant] = matrix_inertia(D);
   count.below = count.clamped_below + negative;
   count.log_determinant = log_determinant;
   return count;

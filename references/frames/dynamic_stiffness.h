@@ -33,17 +33,17 @@ class DynamicStiffness {
  private:
   /// A row of a member's transformation: its value of q, as (column, factor).
   using SparseRow = std::vector<std::pair<std::size_t, T>>;
-  struct PlacedMember {
+  struct TransformedMember {
     MemberData<T> data;
-    std::array<SparseRow, 6> local_of_q;
+    std::array<SparseRow, 6> transformation;
   };
 
-  void place_members(const Frame& frame, const FrameCoordinates& coordinates);
+  void transform_members(const Frame& frame, const FrameCoordinates& coordinates);
   void add_inertia(const Frame& frame, const FrameCoordinates& coordinates);
   void add_springs(const Frame& frame, const FrameCoordinates& coordinates);
   [[nodiscard]] Dense<T> reduced(const RealMatrix& full, const RealMatrix& N) const;
 
-  std::vector<PlacedMember> members_;
+  std::vector<TransformedMember> members_;
   Dense<T> stiffness_;  ///< of springs
   Dense<T> inertia_;    ///< of point masses and member ends
 };

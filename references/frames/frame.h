@@ -38,7 +38,7 @@ struct FrameMember {
 
 struct FrameNode {
   std::string name;
-  std::array<Real, 2> at{};  ///< [m]
+  std::array<Real, 2> position{};  ///< [m]
 };
 
 struct FrameBody {

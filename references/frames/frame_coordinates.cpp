@@ -10,37 +10,37 @@ namespace trammel::derive {
 namespace {
 
 /// Which nodes have a rotation of their own: those that something turns with.
-std::vector<bool> turning_nodes(const Frame& frame) {
-  std::vector<bool> turns(frame.nodes.size(), false);
+std::vector<bool> nodes_with_rotation(const Frame& frame) {
+  std::vector<bool> has_rotation(frame.nodes.size(), false);
   for (const FrameMember& member : frame.members) {
     for (int end = 0; end < 2; ++end) {
-      if (member.ends[end].fixity != Fixity::hinged) turns[member.nodes[end]] = true;
+      if (member.ends[end].fixity != Fixity::hinged) has_rotation[member.nodes[end]] = true;
     }
   }
-  for (const FrameBody& body : frame.bodies) turns[body.reference] = true;
+  for (const FrameBody& body : frame.bodies) has_rotation[body.reference] = true;
   for (const FrameMass& mass : frame.masses) {
-    if (mass.inertia > 0 || mass.offset[0] != 0 || mass.offset[1] != 0) turns[mass.node] = true;
+    if (mass.inertia > 0 || mass.offset[0] != 0 || mass.offset[1] != 0) has_rotation[mass.node] = true;
   }
   for (const FrameSpring& spring : frame.springs) {
     for (const int node : spring.nodes) {
-      if (node >= 0 && spring.stiffness[2] > 0) turns[node] = true;
+      if (node >= 0 && spring.stiffness[2] > 0) has_rotation[node] = true;
     }
   }
-  return turns;
+  return has_rotation;
 }
 
 }  // namespace
 
-FrameCoordinates::FrameCoordinates(const Frame& frame, bool hold_inextensible) {
+FrameCoordinates::FrameCoordinates(const Frame& frame, bool constrain_inextensible) {
   number(frame);
-  solve(equations(frame, hold_inextensible));
+  solve(equations(frame, constrain_inextensible));
 }
 
 void FrameCoordinates::number(const Frame& frame) {
-  const std::vector<bool> turns = turning_nodes(frame);
+  const std::vector<bool> has_rotation = nodes_with_rotation(frame);
   for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
-    node_.push_back({size_, size_ + 1, turns[i] ? size_ + 2 : -1});
-    size_ += turns[i] ? 3 : 2;
+    node_.push_back({size_, size_ + 1, has_rotation[i] ? size_ + 2 : -1});
+    size_ += has_rotation[i] ? 3 : 2;
   }
   for (const FrameMember& member : frame.members) {
     member_nodes_.push_back(member.nodes);
@@ -53,13 +53,13 @@ void FrameCoordinates::number(const Frame& frame) {
   }
 }
 
-std::array<int, 6> FrameCoordinates::of_member(int member) const {
+std::array<int, 6> FrameCoordinates::member_indices(int member) const {
   const auto& a = node_[member_nodes_[member][0]];
   const auto& b = node_[member_nodes_[member][1]];
   return {a[0], a[1], end_[member][0], b[0], b[1], end_[member][1]};
 }
 
-int FrameCoordinates::of_rotation(const FrameRotation& rotation) const {
+int FrameCoordinates::rotation_index(const FrameRotation& rotation) const {
   const int index =
       rotation.member >= 0 ? end_[rotation.member][rotation.end] : node_[rotation.node][2];
   if (index < 0) throw DerivationError("a constraint names a rotation that a node does not have");
@@ -67,7 +67,7 @@ int FrameCoordinates::of_rotation(const FrameRotation& rotation) const {
 }
 
 std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& frame,
-                                                               bool hold_inextensible) const {
+                                                               bool constrain_inextensible) const {
   std::vector<Row> rows;
   for (const FrameSupport& support : frame.supports) {
     for (int motion = 0; motion < 3; ++motion) {
@@ -79,15 +79,15 @@ std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& fram
     const auto& r = node_[body.reference];
     for (const int node : body.attached) {
       const auto& a = node_[node];
-      const Real dx = frame.nodes[node].at[0] - frame.nodes[body.reference].at[0];
-      const Real dy = frame.nodes[node].at[1] - frame.nodes[body.reference].at[1];
+      const Real dx = frame.nodes[node].position[0] - frame.nodes[body.reference].position[0];
+      const Real dy = frame.nodes[node].position[1] - frame.nodes[body.reference].position[1];
       rows.push_back({{a[0], Real(1)}, {r[0], Real(-1)}, {r[2], dy}});
       rows.push_back({{a[1], Real(1)}, {r[1], Real(-1)}, {r[2], -dx}});
       if (a[2] >= 0) rows.push_back({{a[2], Real(1)}, {r[2], Real(-1)}});
     }
   }
   for (const FrameMember& member : frame.members) {
-    if (!hold_inextensible || member.section.axial_compliance > 0) continue;
+    if (!constrain_inextensible || member.section.axial_compliance > 0) continue;
     const MemberAxis axis = member_axis(frame, member);
     const auto& a = node_[member.nodes[0]];
     const auto& b = node_[member.nodes[1]];
@@ -97,7 +97,7 @@ std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& fram
   for (const RotationConstraint& constraint : frame.constraints) {
     Row row;
     for (const auto& [rotation, coefficient] : constraint) {
-      row[of_rotation(rotation)] += coefficient;
+      row[rotation_index(rotation)] += coefficient;
     }
     rows.push_back(row);
   }

@@ -17,27 +17,27 @@ using RealMatrix = Dense<Real>;
 
 class FrameCoordinates {
  public:
-  /// @param hold_inextensible  whether members without axial compliance are constraints (dynamics)
+  /// @param constrain_inextensible  whether members without axial compliance are constraints (dynamics)
   ///                           or carry an axial force of their own (statics).
-  FrameCoordinates(const Frame& frame, bool hold_inextensible);
+  FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
   [[nodiscard]] int size() const { return size_; }                           ///< of u
   [[nodiscard]] int free() const { return static_cast<int>(N_.columns()); }  ///< of q
   [[nodiscard]] const RealMatrix& N() const { return N_; }                   ///< u x q
 
   /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 where it has no rotation.
-  [[nodiscard]] int of_node(int node, int motion) const { return node_[node][motion]; }
+  [[nodiscard]] int node_index(int node, int motion) const { return node_[node][motion]; }
   /// Index in u of the rotation of a member's end.
-  [[nodiscard]] int of_end(int member, int end) const { return end_[member][end]; }
+  [[nodiscard]] int end_index(int member, int end) const { return end_[member][end]; }
   /// Indices in u of x, y, rotation at both ends of a member.
-  [[nodiscard]] std::array<int, 6> of_member(int member) const;
+  [[nodiscard]] std::array<int, 6> member_indices(int member) const;
 
  private:
   using Row = std::map<int, Real>;  ///< one equation: index in u -> coefficient
 
   void number(const Frame& frame);
-  [[nodiscard]] std::vector<Row> equations(const Frame& frame, bool hold_inextensible) const;
-  [[nodiscard]] int of_rotation(const FrameRotation& rotation) const;
+  [[nodiscard]] std::vector<Row> equations(const Frame& frame, bool constrain_inextensible) const;
+  [[nodiscard]] int rotation_index(const FrameRotation& rotation) const;
   void solve(const std::vector<Row>& equations);
 
   int size_ = 0;

@@ -22,7 +22,7 @@ void add_loads(const Arguments& arguments, Frame& frame) {
 
 }  // namespace
 
-Frame frame_of(const Arguments& arguments) {
+Frame frame_from_arguments(const Arguments& arguments) {
   if (arguments.has("model")) {
     for (const char* key : {"manipulator", "pose", "loads"}) {
       if (arguments.has(key)) arguments.fail(key, "does not go with a model");

@@ -8,6 +8,6 @@ namespace trammel::derive {
 
 /// The frame of the arguments: "model", or "manipulator" with "pose" (and "loads").
 /// @throws DerivationError  with the JSON pointer.
-[[nodiscard]] Frame frame_of(const Arguments& arguments);
+[[nodiscard]] Frame frame_from_arguments(const Arguments& arguments);
 
 }  // namespace trammel::derive

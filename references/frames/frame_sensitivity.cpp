@@ -53,7 +53,7 @@ class Differences {
     }
     const Arguments arguments(json, "",
                               {"model", "manipulator", "pose", "pointers", "step", "count"});
-    return frame_frequencies(frame_of(arguments), count_).frequencies;
+    return frame_frequencies(frame_from_arguments(arguments), count_).frequencies;
   }
 
   const Json& json_;
@@ -77,7 +77,7 @@ std::vector<double> frame_sensitivity_program(const Json& json) {
     const Real bc = (4 * c[i] - b[i]) / 3;
     rate.push_back((16 * bc - ab) / 15);
   }
-  return rounded(rate);
+  return to_doubles(rate);
 }
 
 }  // namespace trammel::derive

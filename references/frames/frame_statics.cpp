@@ -36,7 +36,7 @@ class Outputs {
 
   [[nodiscard]] Real value(const std::string& text) const {
     const Name name = split(text);
-    if (!name.end.empty()) return of_member(text, name);
+    if (!name.end.empty()) return member_output(text, name);
     const int node = frame_.find_node(name.item);
     if (node < 0) throw DerivationError("/outputs: '" + text + "': there is no such node");
     static const std::array<const char*, 3> displacements = {"displacement_x_m", "displacement_y_m",
@@ -45,15 +45,15 @@ class Outputs {
                                                          "reaction_moment_N_m"};
     for (int motion = 0; motion < 3; ++motion) {
       if (name.quantity == displacements[motion])
-        return statics_.displacement[at(text, node, motion)];
+        return statics_.displacement[coordinate(text, node, motion)];
       if (name.quantity == reactions[motion]) return reaction(text, node, motion);
     }
     throw DerivationError("/outputs: '" + text + "': there is no such quantity");
   }
 
  private:
-  [[nodiscard]] int at(const std::string& text, int node, int motion) const {
-    const int index = coordinates_.of_node(node, motion);
+  [[nodiscard]] int coordinate(const std::string& text, int node, int motion) const {
+    const int index = coordinates_.node_index(node, motion);
     if (index < 0) throw DerivationError("/outputs: '" + text + "': this node has no rotation");
     return index;
   }
@@ -65,17 +65,17 @@ class Outputs {
         throw DerivationError("/outputs: '" + text + "': this node belongs to a rigid body");
       }
     }
-    return -statics_.unbalanced[at(text, node, motion)];
+    return -statics_.residual_force[coordinate(text, node, motion)];
   }
 
-  [[nodiscard]] Real of_member(const std::string& text, const Name& name) const {
+  [[nodiscard]] Real member_output(const std::string& text, const Name& name) const {
     const int member = frame_.find_member(name.item);
     if (member < 0) throw DerivationError("/outputs: '" + text + "': there is no such member");
     const int end = name.end == "start" ? 0 : 1;
     if (name.quantity == "axial_force_N") return statics_.members[member].N[end];
     if (name.quantity == "bending_moment_N_m") return statics_.members[member].M[end];
     if (name.quantity == "end_rotation_rad") {
-      return statics_.displacement[coordinates_.of_end(member, end)];
+      return statics_.displacement[coordinates_.end_index(member, end)];
     }
     throw DerivationError("/outputs: '" + text + "': there is no such quantity");
   }
@@ -89,7 +89,7 @@ class Outputs {
 
 std::vector<double> frame_statics_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "outputs"});
-  const Frame frame = frame_of(arguments);
+  const Frame frame = frame_from_arguments(arguments);
   const Outputs outputs(frame);
   std::vector<double> values;
   for (const std::string& name : arguments.texts("outputs")) {

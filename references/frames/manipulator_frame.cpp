@@ -1,12 +1,12 @@
 #include "references/frames/manipulator_frame.h"
 
-#include "references/frames/manipulator_shape.h"
+#include "references/frames/manipulator_geometry.h"
 
 namespace trammel::derive {
 
 namespace {
 
-using Point = Place<Real>;
+using Point = Point2<Real>;
 
 struct Limb {
   Point A, B, C;
@@ -61,7 +61,7 @@ FrameSection link_section(const Arguments& links, const Material& material, cons
 }
 
 /// welded, hinged or sprung; "locked" and "free" are the words for an active joint.
-FrameEnd joint(const Arguments& joints, const std::string& key) {
+FrameEnd member_end(const Arguments& joints, const std::string& key) {
   const Json& value = joints[key];
   if (value == "welded" || value == "locked") return {};
   if (value == "hinged" || value == "free" || value == "eq25-mean" || value == "eq25-sum") {
@@ -98,10 +98,10 @@ void add_links(const Arguments& links, const Arguments& joints, const Material& 
       member.section = link_section(
           links, material, links.positive(proximal ? "proximal_length_m" : "distal_length_m"));
       if (proximal) {
-        member.ends[0] = joint(joints, "active");
-        if (joints["elbow"] == "hinged") member.ends[1] = joint(joints, "elbow");
+        member.ends[0] = member_end(joints, "active");
+        if (joints["elbow"] == "hinged") member.ends[1] = member_end(joints, "elbow");
       } else {
-        member.ends = {joint(joints, "elbow"), joint(joints, "platform")};
+        member.ends = {member_end(joints, "elbow"), member_end(joints, "platform")};
       }
       for (FrameEnd& end : member.ends) end.inertia = J / 2;
       frame.members.push_back(member);
@@ -140,12 +140,12 @@ Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose) {
                          {"active", "elbow", "platform"});
 
   Frame frame;
-  const auto places = limbs(manipulator, links, platform, pose);
+  const auto positions = limbs(manipulator, links, platform, pose);
   for (int i = 0; i < 3; ++i) {
     const std::string limb = std::to_string(i + 1);
-    frame.nodes.push_back({std::string("A").append(limb), places[i].A});
-    frame.nodes.push_back({std::string("B").append(limb), places[i].B});
-    frame.nodes.push_back({std::string("C").append(limb), places[i].C});
+    frame.nodes.push_back({std::string("A").append(limb), positions[i].A});
+    frame.nodes.push_back({std::string("B").append(limb), positions[i].B});
+    frame.nodes.push_back({std::string("C").append(limb), positions[i].C});
   }
   frame.nodes.push_back({"P", {pose.number("x_m"), pose.number("y_m")}});
   add_links(links, joints, material, frame);

@@ -31,7 +31,7 @@ struct HalfStiffness {
 template <class T>
 struct MemberStiffness {
   HalfStiffness<T> even, odd;  ///< bending
-  T stretch, shift;            ///< axial: ends apart by 2 u, both ends by u
+  T axial_odd, axial_even;            ///< axial: ends apart by 2 u, both ends by u
   int clamped_below = 0;       ///< frequencies below w with both ends clamped
 };
 
@@ -70,7 +70,7 @@ std::array<T, 2> half_wave(const T& k2, const T& h) {
 
 /// (forces of two solutions) (displacements of two solutions)^-1.
 template <class T>
-HalfStiffness<T> quotient(const std::array<std::array<T, 2>, 2>& force,
+HalfStiffness<T> stiffness_from_solutions(const std::array<std::array<T, 2>, 2>& force,
                           const std::array<std::array<T, 2>, 2>& motion) {
   const T det = motion[0][0] * motion[1][1] - motion[0][1] * motion[1][0];
   return {(force[0][0] * motion[1][1] - force[0][1] * motion[1][0]) / det,
@@ -121,8 +121,8 @@ template <class T>
     odd_force[0][i] = shear * C;
     odd_force[1][i] = m.EI * slope * k2 * S;
   }
-  MemberStiffness<T> result{detail::quotient(even_force, even_motion),
-                            detail::quotient(odd_force, odd_motion), T(0), T(0), 0};
+  MemberStiffness<T> result{detail::stiffness_from_solutions(even_force, even_motion),
+                            detail::stiffness_from_solutions(odd_force, odd_motion), T(0), T(0), 0};
 
   // Pinned ends have known frequencies; clamping the two rotations takes away as many as their
   // stiffness has negative eigenvalues.
@@ -131,14 +131,14 @@ template <class T>
   result.clamped_below = pinned - (result.even.pp < 0 ? 1 : 0) - (result.odd.pp < 0 ? 1 : 0);
 
   if (m.axial_compliance == 0) {
-    result.shift = -w2 * m.mass * h;
+    result.axial_even = -w2 * m.mass * h;
     return result;
   }
   const T k = sqrt(w2 * m.mass * m.axial_compliance);
   const T c = cos(k * h);
   const T s = sin(k * h);
-  result.stretch = k * c / (s * m.axial_compliance);
-  result.shift = -k * s / (c * m.axial_compliance);
+  result.axial_odd = k * c / (s * m.axial_compliance);
+  result.axial_even = -k * s / (c * m.axial_compliance);
   result.clamped_below += detail::waves_below(k, m.length);
   return result;
 }
@@ -148,9 +148,9 @@ template <class T>
 [[nodiscard]] std::array<std::array<T, 6>, 6> member_matrix(const MemberStiffness<T>& s) {
   std::array<std::array<T, 6>, 6> K{};
   const auto set = [&K](int i, int j, const T& value) { K[i][j] = K[j][i] = value; };
-  set(0, 0, (s.shift + s.stretch) / 2);
-  set(3, 3, (s.shift + s.stretch) / 2);
-  set(0, 3, (s.shift - s.stretch) / 2);
+  set(0, 0, (s.axial_even + s.axial_odd) / 2);
+  set(3, 3, (s.axial_even + s.axial_odd) / 2);
+  set(0, 3, (s.axial_even - s.axial_odd) / 2);
   set(1, 1, (s.even.vv + s.odd.vv) / 2);
   set(4, 4, (s.even.vv + s.odd.vv) / 2);
   set(1, 4, (s.even.vv - s.odd.vv) / 2);

@@ -62,18 +62,18 @@ std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
 }
 
 /// A spring: its force is +s on coordinate `from` and -s on `to` (-1: the ground).
-struct Link {
+struct SpringElement {
   int from, to;
   Real compliance;
 };
 
-std::vector<Link> links(const Frame& frame, const FrameCoordinates& coordinates) {
-  std::vector<Link> result;
+std::vector<SpringElement> spring_elements(const Frame& frame, const FrameCoordinates& coordinates) {
+  std::vector<SpringElement> result;
   for (const FrameSpring& spring : frame.springs) {
     for (int motion = 0; motion < 3; ++motion) {
       if (spring.stiffness[motion] == 0) continue;
-      const int to = coordinates.of_node(spring.nodes[0], motion);
-      const int from = spring.nodes[1] < 0 ? -1 : coordinates.of_node(spring.nodes[1], motion);
+      const int to = coordinates.node_index(spring.nodes[0], motion);
+      const int from = spring.nodes[1] < 0 ? -1 : coordinates.node_index(spring.nodes[1], motion);
       result.push_back({from, to, 1 / spring.stiffness[motion]});
     }
   }
@@ -81,8 +81,8 @@ std::vector<Link> links(const Frame& frame, const FrameCoordinates& coordinates)
     const FrameMember& member = frame.members[i];
     for (int end = 0; end < 2; ++end) {
       if (member.ends[end].fixity != Fixity::sprung) continue;
-      result.push_back({coordinates.of_node(member.nodes[end], 2),
-                        coordinates.of_end(static_cast<int>(i), end),
+      result.push_back({coordinates.node_index(member.nodes[end], 2),
+                        coordinates.end_index(static_cast<int>(i), end),
                         1 / member.ends[end].stiffness});
     }
   }
@@ -100,7 +100,7 @@ void add_member(const Frame& frame, int index, const FrameCoordinates& coordinat
   const MemberAxis axis = member_axis(frame, member);
   const auto load = member_load(frame, member);
   const Real L = axis.length;
-  const auto u = coordinates.of_member(index);
+  const auto u = coordinates.member_indices(index);
   const std::array<Real, 3> x_of = {axis.cosine, -axis.sine, 0};  // world x of unit N, V, M
   const std::array<Real, 3> y_of = {axis.sine, axis.cosine, 0};
   for (int k = 0; k < 3; ++k) {
@@ -130,7 +130,7 @@ void add_member(const Frame& frame, int index, const FrameCoordinates& coordinat
 
 void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equations& e) {
   const auto add = [&](int node, int motion, const Real& force) {
-    const int index = coordinates.of_node(node, motion);
+    const int index = coordinates.node_index(node, motion);
     if (index >= 0) {
       e.p[index] += force;
     } else if (force != 0) {
@@ -150,7 +150,7 @@ void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equation
 }
 
 Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
-  const std::vector<Link> springs = links(frame, coordinates);
+  const std::vector<SpringElement> springs = spring_elements(frame, coordinates);
   const std::size_t forces = 3 * frame.members.size() + springs.size();
   const std::size_t n = coordinates.size();
   Equations e{RealMatrix(n, forces), RealMatrix(forces, forces), RealVector(n, Real(0)),
@@ -169,7 +169,7 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
 }
 
 /// Phi f + B^T N q = -phi0, N^T (B f + p) = 0; returns f, then q.
-RealVector least_complementary_energy(const Equations& e, const RealMatrix& N) {
+RealVector minimize_complementary_energy(const Equations& e, const RealMatrix& N) {
   const RealMatrix G = transpose_product(N, e.B);
   const std::size_t forces = e.Phi.rows();
   const std::size_t all = forces + N.columns();
@@ -196,15 +196,15 @@ RealVector least_complementary_energy(const Equations& e, const RealMatrix& N) {
 FrameStatics unit_load_statics(const Frame& frame) {
   const FrameCoordinates coordinates(frame, false);
   const Equations e = equations(frame, coordinates);
-  const RealVector x = least_complementary_energy(e, coordinates.N());
+  const RealVector x = minimize_complementary_energy(e, coordinates.N());
   const auto forces = static_cast<std::ptrdiff_t>(e.Phi.rows());
   const RealVector f(x.begin(), x.begin() + forces);
   const RealVector q(x.begin() + forces, x.end());
 
   FrameStatics statics;
   statics.displacement = product(coordinates.N(), q);
-  statics.unbalanced = product(e.B, f);
-  for (std::size_t i = 0; i < e.p.size(); ++i) statics.unbalanced[i] += e.p[i];
+  statics.residual_force = product(e.B, f);
+  for (std::size_t i = 0; i < e.p.size(); ++i) statics.residual_force[i] += e.p[i];
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     const auto load = member_load(frame, frame.members[i]);
     const Real L = member_axis(frame, frame.members[i]).length;

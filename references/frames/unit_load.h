@@ -23,7 +23,7 @@ struct MemberForces {
 
 struct FrameStatics {
   std::vector<Real> displacement;  ///< of every coordinate of FrameCoordinates(frame, false)
-  std::vector<Real> unbalanced;    ///< force on every coordinate by all but its support
+  std::vector<Real> residual_force;    ///< force on every coordinate by all but its support
   std::vector<MemberForces> members;
 };
 

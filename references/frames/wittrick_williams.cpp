@@ -12,7 +12,7 @@ namespace trammel::derive {
 namespace {
 
 /// The lowest circular frequency that any member could have by itself: a scale, not a bound.
-Real lowest_scale(const Frame& frame) {
+Real frequency_scale(const Frame& frame) {
   Real scale = 0;
   for (const FrameMember& member : frame.members) {
     const Real L = member_axis(frame, member).length;
@@ -60,8 +60,8 @@ Real buckling_scale(const Frame& frame) {
 FrameFrequencies frame_frequencies(const Frame& frame, int count) {
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
-  const Real scale = lowest_scale(frame);
-  const CountedFunction f{[&](double w) { return coarse.count(w).below; },
+  const Real scale = frequency_scale(frame);
+  const CountingFunction f{[&](double w) { return coarse.count(w).below; },
                           [&](const Real& w) { return fine.count(w); },
                           1e-3 * static_cast<double>(scale), static_cast<double>(scale)};
   FrameFrequencies result;
@@ -75,12 +75,12 @@ int frequencies_below(const Frame& frame, const Real& frequency) {
   return DynamicStiffness<Real>(frame).count(2 * pi<Real>() * frequency).below;
 }
 
-std::vector<Real> frame_buckling_factors(const Frame& given, int count) {
-  const Frame frame = with_axial_forces(given);
+std::vector<Real> frame_buckling_factors(const Frame& unloaded, int count) {
+  const Frame frame = with_axial_forces(unloaded);
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
-  const Real w = lowest_scale(frame) * Real(1e-11);  // its square changes a factor by 1e-22
-  const auto coarse_w = static_cast<double>(lowest_scale(frame)) * 1e-3;
+  const Real w = frequency_scale(frame) * Real(1e-11);  // its square changes a factor by 1e-22
+  const auto coarse_w = static_cast<double>(frequency_scale(frame)) * 1e-3;
   if (fine.count(w, Real(1e-6) * buckling_scale(frame)).below > 0) {
     throw DerivationError("the frame can move freely");
   }
@@ -93,18 +93,18 @@ std::vector<Real> frame_buckling_factors(const Frame& given, int count) {
 
 std::vector<double> frame_frequencies_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "count"});
-  return rounded(frame_frequencies(frame_of(arguments), arguments.count("count")).frequencies);
+  return to_doubles(frame_frequencies(frame_from_arguments(arguments), arguments.count("count")).frequencies);
 }
 
 std::vector<double> frame_count_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "below_Hz"});
   return {
-      static_cast<double>(frequencies_below(frame_of(arguments), arguments.positive("below_Hz")))};
+      static_cast<double>(frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz")))};
 }
 
 std::vector<double> frame_buckling_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "count"});
-  return rounded(frame_buckling_factors(frame_of(arguments), arguments.count("count")));
+  return to_doubles(frame_buckling_factors(frame_from_arguments(arguments), arguments.count("count")));
 }
 
 }  // namespace trammel::derive

@@ -22,7 +22,7 @@ LinkBody link_body(const Arguments& links, const Real& density, const Real& leng
   return body;
 }
 
-PlaneManipulator read_manipulator(const Arguments& manipulator) {
+PlanarManipulator read_manipulator(const Arguments& manipulator) {
   const Arguments links(manipulator["links"], manipulator.pointer("links"),
                         {"proximal_length_m", "distal_length_m", "thickness_m", "width_m",
                          "mass_kg", "inertia_kg_m2"});
@@ -33,12 +33,12 @@ PlaneManipulator read_manipulator(const Arguments& manipulator) {
   const Real density = material.positive("rho_kg_m3");
   const Real base = manipulator.positive("base_side_m");
   const Real side = platform.positive("side_m");
-  const auto feet = triangle<Real>({base / 2, base / (2 * sqrt(Real(3)))}, base, 0);
+  const auto base_joints = triangle<Real>({base / 2, base / (2 * sqrt(Real(3)))}, base, 0);
   const auto corners = triangle<Real>({0, 0}, side, 0);
-  PlaneManipulator result;
+  PlanarManipulator result;
   for (std::size_t i = 0; i < 3; ++i) {
     LimbBodies& limb = result.limbs[i];
-    limb.base = feet[i];
+    limb.base = base_joints[i];
     limb.corner = corners[i];
     limb.proximal_length = links.positive("proximal_length_m");
     limb.distal_length = links.positive("distal_length_m");
@@ -58,8 +58,8 @@ PlaneManipulator read_manipulator(const Arguments& manipulator) {
 
 }  // namespace
 
-PlaneManipulator read_plane_manipulator(const Arguments& arguments) {
-  PlaneManipulator manipulator =
+PlanarManipulator read_planar_manipulator(const Arguments& arguments) {
+  PlanarManipulator manipulator =
       read_manipulator(Arguments(arguments["manipulator"], "/manipulator",
                                  {"base_side_m", "links", "platform", "material", "working_mode"}));
   if (arguments.has("gravity_m_s2")) {
@@ -69,8 +69,8 @@ PlaneManipulator read_plane_manipulator(const Arguments& arguments) {
   return manipulator;
 }
 
-PlaneWrench read_wrench(const Arguments& arguments) {
-  PlaneWrench wrench;
+PlanarWrench read_wrench(const Arguments& arguments) {
+  PlanarWrench wrench;
   if (arguments.has("force_N")) {
     const std::vector<Real> force = arguments.numbers("force_N", 2);
     wrench.x = force[0];
@@ -83,8 +83,8 @@ PlaneWrench read_wrench(const Arguments& arguments) {
 std::vector<double> manipulator_torques_program(const Json& json) {
   const Arguments arguments(
       json, "", {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m", "gravity_m_s2"});
-  const PlaneManipulator manipulator = read_plane_manipulator(arguments);
-  const PlaneWrench wrench = read_wrench(arguments);
+  const PlanarManipulator manipulator = read_planar_manipulator(arguments);
+  const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory(arguments["trajectory"], "/trajectory",
                              {"circle", "line", "rest_to_rest", "spline"});
   const std::vector<Real> times = arguments.numbers("times_s");
@@ -94,7 +94,7 @@ std::vector<double> manipulator_torques_program(const Json& json) {
         newton_euler_torques(manipulator, platform_motion(trajectory, times[k]), wrench);
     for (std::size_t i = 0; i < 3; ++i) values[i * times.size() + k] = torques[i];
   }
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

@@ -9,10 +9,10 @@
 namespace trammel::derive {
 
 /// "manipulator", as a case file's, with "gravity_m_s2" beside it.
-[[nodiscard]] PlaneManipulator read_plane_manipulator(const Arguments& arguments);
+[[nodiscard]] PlanarManipulator read_planar_manipulator(const Arguments& arguments);
 
 /// "force_N" and "moment_N_m".
-[[nodiscard]] PlaneWrench read_wrench(const Arguments& arguments);
+[[nodiscard]] PlanarWrench read_wrench(const Arguments& arguments);
 
 /// Arguments: manipulator (as a case file's; masses and inertias as numbers, or from density),
 /// trajectory (circle | line | rest_to_rest | spline), times_s, force_N and moment_N_m (on the

@@ -31,8 +31,8 @@ struct Sample {
   std::vector<Real> torques, joints;
 };
 
-Sample sample_at(const PlaneManipulator& manipulator, const Arguments& trajectory,
-                 const PlaneWrench& wrench, const Real& time) {
+Sample sample_at(const PlanarManipulator& manipulator, const Arguments& trajectory,
+                 const PlanarWrench& wrench, const Real& time) {
   const auto motion = platform_motion(trajectory, time);
   const auto torques = newton_euler_torques(manipulator, motion, wrench);
   Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
@@ -50,20 +50,20 @@ Sample sample_at(const PlaneManipulator& manipulator, const Arguments& trajector
 
 std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
                                   const std::vector<Real>& query, const Real& sigma) {
-  std::vector<Real> squared;
+  std::vector<Real> squared_distance;
   for (const auto& input : inputs) {
     Real sum = 0;
     for (std::size_t f = 0; f < query.size(); ++f) {
       sum += (query[f] - input[f]) * (query[f] - input[f]);
     }
-    squared.push_back(sum);
+    squared_distance.push_back(sum);
   }
-  Real least = squared.front();
-  for (const Real& d : squared) least = d < least ? d : least;
+  Real min_squared_distance = squared_distance.front();
+  for (const Real& d : squared_distance) min_squared_distance = d < min_squared_distance ? d : min_squared_distance;
   std::vector<Real> estimate(outputs.front().size(), Real(0));
   Real weights = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const Real weight = exp(-(squared[i] - least) / (2 * sigma * sigma));
+    const Real weight = exp(-(squared_distance[i] - min_squared_distance) / (2 * sigma * sigma));
     weights += weight;
     for (std::size_t j = 0; j < estimate.size(); ++j) estimate[j] += weight * outputs[i][j];
   }
@@ -82,15 +82,15 @@ std::vector<double> grnn_program(const Json& json) {
     if (query.size() != inputs.front().size()) arguments.fail("queries", "as long as the inputs");
     for (const Real& y : nadaraya_watson(inputs, outputs, query, sigma)) values.push_back(y);
   }
-  return rounded(values);
+  return to_doubles(values);
 }
 
 std::vector<double> manipulator_grnn_program(const Json& json) {
   const Arguments arguments(json, "",
                             {"manipulator", "trajectory", "force_N", "moment_N_m", "gravity_m_s2",
                              "step_s", "train", "sigma", "queries", "output"});
-  const PlaneManipulator manipulator = read_plane_manipulator(arguments);
-  const PlaneWrench wrench = read_wrench(arguments);
+  const PlanarManipulator manipulator = read_planar_manipulator(arguments);
+  const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory(arguments["trajectory"], "/trajectory",
                              {"circle", "line", "rest_to_rest", "spline"});
   const Real step = arguments.positive("step_s");
@@ -105,11 +105,11 @@ std::vector<double> manipulator_grnn_program(const Json& json) {
   const std::size_t first = output == "angles" ? 0 : 3;
   std::vector<Real> values(3 * queries.size());
   for (std::size_t q = 0; q < queries.size(); ++q) {
-    const Sample asked = sample_at(manipulator, trajectory, wrench, queries[q] * step);
-    const auto found = nadaraya_watson(inputs, outputs, asked.torques, arguments.positive("sigma"));
+    const Sample query = sample_at(manipulator, trajectory, wrench, queries[q] * step);
+    const auto found = nadaraya_watson(inputs, outputs, query.torques, arguments.positive("sigma"));
     for (std::size_t j = 0; j < 3; ++j) values[j * queries.size() + q] = found[first + j];
   }
-  return rounded(values);
+  return to_doubles(values);
 }
 
 }  // namespace trammel::derive

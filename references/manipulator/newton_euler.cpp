@@ -6,21 +6,21 @@ namespace trammel::derive {
 
 namespace {
 
-using Moving = Place<Jet>;
+using PointJet = Point2<Jet>;
 
-Moving rotated(const Place<Real>& v, const Jet& angle) {
+PointJet rotated(const Point2<Real>& v, const Jet& angle) {
   const Jet c = cos(angle), s = sin(angle);
   return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
 }
 
 /// The point at `distance` from `from` on the line to `to`, `length` away.
-Moving between(const Moving& from, const Moving& to, const Real& distance, const Real& length) {
+PointJet between(const PointJet& from, const PointJet& to, const Real& distance, const Real& length) {
   const Real share = distance / length;
   return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
 }
 
 /// Angular acceleration of the line from one point to another, which keeps its length.
-Real turning(const Moving& from, const Moving& to) {
+Real angular_acceleration(const PointJet& from, const PointJet& to) {
   const Jet x = to[0] - from[0], y = to[1] - from[1];
   return (x.value * y.acceleration - y.value * x.acceleration) /
          (x.value * x.value + y.value * y.value);
@@ -33,69 +33,69 @@ enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
 /// The three equations of one body: force balance and moments about its centre of mass.
 class Body {
  public:
-  Body(Dense<Real>& A, std::vector<Real>& b, std::size_t row, const Moving& center)
+  Body(Dense<Real>& A, std::vector<Real>& b, std::size_t row, const PointJet& center)
       : A_(A), b_(b), row_(row), center_(center) {}
 
   /// A force of unknown components, `sign` of which acts on this body at `point`.
-  void joint(std::size_t unknown, const Moving& point, int sign) {
+  void add_joint_force(std::size_t unknown, const PointJet& point, int sign) {
     A_(row_, unknown) += sign;
     A_(row_ + 1, unknown + 1) += sign;
     A_(row_ + 2, unknown) -= sign * (point[1].value - center_[1].value);
     A_(row_ + 2, unknown + 1) += sign * (point[0].value - center_[0].value);
   }
-  void couple(std::size_t unknown) { A_(row_ + 2, unknown) += 1; }
-  void load(const PlaneWrench& w, const Moving& point) {
+  void add_torque(std::size_t unknown) { A_(row_ + 2, unknown) += 1; }
+  void add_load(const PlanarWrench& w, const PointJet& point) {
     b_[row_] -= w.x;
     b_[row_ + 1] -= w.y;
     b_[row_ + 2] -= w.moment + (point[0].value - center_[0].value) * w.y -
                     (point[1].value - center_[1].value) * w.x;
   }
-  void inertia(const Real& mass, const Real& J, const Real& turning, const Place<Real>& gravity) {
+  void add_inertia(const Real& mass, const Real& J, const Real& angular_acceleration, const Point2<Real>& gravity) {
     b_[row_] += mass * (center_[0].acceleration - gravity[0]);
     b_[row_ + 1] += mass * (center_[1].acceleration - gravity[1]);
-    b_[row_ + 2] += J * turning;
+    b_[row_ + 2] += J * angular_acceleration;
   }
 
  private:
   Dense<Real>& A_;
   std::vector<Real>& b_;
   std::size_t row_;
-  const Moving center_;
+  const PointJet center_;
 };
 
 }  // namespace
 
-std::array<Moving, 3> limb_joints(const LimbBodies& limb, const std::array<Jet, 3>& motion) {
-  const Moving foot = {limb.base[0], limb.base[1]};
-  const Moving corner = rotated(limb.corner, motion[2]);
-  const Moving C = {motion[0] + corner[0], motion[1] + corner[1]};
-  return {foot, elbow<Jet>(foot, C, limb.proximal_length, limb.distal_length, limb.mode), C};
+std::array<PointJet, 3> limb_joints(const LimbBodies& limb, const std::array<Jet, 3>& motion) {
+  const PointJet base_joint = {limb.base[0], limb.base[1]};
+  const PointJet corner = rotated(limb.corner, motion[2]);
+  const PointJet C = {motion[0] + corner[0], motion[1] + corner[1]};
+  return {base_joint, elbow<Jet>(base_joint, C, limb.proximal_length, limb.distal_length, limb.mode), C};
 }
 
-std::array<Real, 3> newton_euler_torques(const PlaneManipulator& m,
+std::array<Real, 3> newton_euler_torques(const PlanarManipulator& m,
                                          const std::array<Jet, 3>& motion,
-                                         const PlaneWrench& wrench) {
+                                         const PlanarWrench& wrench) {
   Dense<Real> A(21, 21);
   std::vector<Real> b(21, Real(0));
-  const Moving P = {motion[0], motion[1]};
-  const Moving offset = rotated(m.platform_center, motion[2]);
+  const PointJet P = {motion[0], motion[1]};
+  const PointJet offset = rotated(m.platform_center, motion[2]);
   Body platform(A, b, 18, {P[0] + offset[0], P[1] + offset[1]});
-  platform.inertia(m.platform_mass, m.platform_inertia, motion[2].acceleration, m.gravity);
-  platform.load(wrench, P);
+  platform.add_inertia(m.platform_mass, m.platform_inertia, motion[2].acceleration, m.gravity);
+  platform.add_load(wrench, P);
   for (std::size_t i = 0; i < 3; ++i) {
     const LimbBodies& limb = m.limbs[i];
-    const auto [foot, B, C] = limb_joints(limb, motion);
+    const auto [base_joint, B, C] = limb_joints(limb, motion);
     const std::size_t first = per_limb * i;
-    Body proximal(A, b, 6 * i, between(foot, B, limb.proximal.center, limb.proximal_length));
-    proximal.joint(first + at_A, foot, 1);
-    proximal.joint(first + at_B, B, -1);
-    proximal.couple(first + torque);
-    proximal.inertia(limb.proximal.mass, limb.proximal.inertia, turning(foot, B), m.gravity);
+    Body proximal(A, b, 6 * i, between(base_joint, B, limb.proximal.center, limb.proximal_length));
+    proximal.add_joint_force(first + at_A, base_joint, 1);
+    proximal.add_joint_force(first + at_B, B, -1);
+    proximal.add_torque(first + torque);
+    proximal.add_inertia(limb.proximal.mass, limb.proximal.inertia, angular_acceleration(base_joint, B), m.gravity);
     Body distal(A, b, 6 * i + 3, between(B, C, limb.distal.center, limb.distal_length));
-    distal.joint(first + at_B, B, 1);
-    distal.joint(first + at_C, C, -1);
-    distal.inertia(limb.distal.mass, limb.distal.inertia, turning(B, C), m.gravity);
-    platform.joint(first + at_C, C, 1);
+    distal.add_joint_force(first + at_B, B, 1);
+    distal.add_joint_force(first + at_C, C, -1);
+    distal.add_inertia(limb.distal.mass, limb.distal.inertia, angular_acceleration(B, C), m.gravity);
+    platform.add_joint_force(first + at_C, C, 1);
   }
   if (!solve_in_place(A, b, Real("1e-40"))) {
     throw DerivationError("the posture is singular: no torques hold it");

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "references/numerics/jet.h"
-#include "references/frames/manipulator_shape.h"
+#include "references/frames/manipulator_geometry.h"
 
 /// Inverse dynamics of the planar 3-RRR by the laws of Newton and Euler for each of its seven
 /// bodies cut free: 21 equations for the forces in the nine joints and the three torques. Motions
@@ -18,36 +18,36 @@ struct LinkBody {
 };
 
 struct LimbBodies {
-  Place<Real> base;    ///< A
-  Place<Real> corner;  ///< C from P, in platform axes
+  Point2<Real> base;    ///< A
+  Point2<Real> corner;  ///< C from P, in platform axes
   Real proximal_length = 0, distal_length = 0;
   int mode = -1;  ///< side of the elbow, as in `elbow`
   LinkBody proximal, distal;
 };
 
-struct PlaneManipulator {
+struct PlanarManipulator {
   std::array<LimbBodies, 3> limbs;
   Real platform_mass = 0;
   Real platform_inertia = 0;     ///< about its centre of mass
-  Place<Real> platform_center;   ///< of mass, from P, in platform axes
-  Place<Real> gravity = {0, 0};  ///< acceleration
+  Point2<Real> platform_center;   ///< of mass, from P, in platform axes
+  Point2<Real> gravity = {0, 0};  ///< acceleration
 };
 
-struct PlaneWrench {
+struct PlanarWrench {
   Real x = 0, y = 0, moment = 0;  ///< on the platform, at P
 };
 
 /// A_i, B_i and C_i of a limb.
 /// @param motion  of the platform: x, y of P and its orientation, with their derivatives
 /// @throws DerivationError  where the limb cannot reach.
-[[nodiscard]] std::array<Place<Jet>, 3> limb_joints(const LimbBodies& limb,
+[[nodiscard]] std::array<Point2<Jet>, 3> limb_joints(const LimbBodies& limb,
                                                     const std::array<Jet, 3>& motion);
 
 /// Torques of the base on the three proximal links, counterclockwise, in SI.
 /// @param motion  as in `limb_joints`
 /// @throws DerivationError  where a limb cannot reach, or the posture is singular.
-[[nodiscard]] std::array<Real, 3> newton_euler_torques(const PlaneManipulator& manipulator,
+[[nodiscard]] std::array<Real, 3> newton_euler_torques(const PlanarManipulator& manipulator,
                                                        const std::array<Jet, 3>& motion,
-                                                       const PlaneWrench& wrench);
+                                                       const PlanarWrench& wrench);
 
 }  // namespace trammel::derive

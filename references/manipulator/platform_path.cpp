@@ -15,12 +15,12 @@ Motion on_circle(const Arguments& circle, const Jet& t) {
   return {center[0] + radius * cos(s), center[1] + radius * sin(s), circle.number("phi_rad", 0)};
 }
 
-std::array<Real, 3> pose(const Arguments& place, const std::string& key) {
-  const Arguments p(place[key], place.pointer(key), {"x_m", "y_m", "phi_rad"});
+std::array<Real, 3> pose(const Arguments& parent, const std::string& key) {
+  const Arguments p(parent[key], parent.pointer(key), {"x_m", "y_m", "phi_rad"});
   return {p.number("x_m"), p.number("y_m"), p.number("phi_rad")};
 }
 
-Motion between_poses(const Arguments& line, const Jet& share) {
+Motion interpolate_poses(const Arguments& line, const Jet& share) {
   const auto from = pose(line, "from"), to = pose(line, "to");
   Motion motion;
   for (std::size_t c = 0; c < 3; ++c) motion[c] = from[c] + Real(to[c] - from[c]) * share;
@@ -29,9 +29,9 @@ Motion between_poses(const Arguments& line, const Jet& share) {
 
 Motion from_rest_to_rest(const Arguments& line, const Jet& t) {
   const Jet u = t / line.positive("duration_s");
-  if (!(u.value > 0)) return between_poses(line, 0);
-  if (!(u.value < 1)) return between_poses(line, 1);
-  return between_poses(line, u * u * u * (Real(10) - Real(15) * u + Real(6) * u * u));
+  if (!(u.value > 0)) return interpolate_poses(line, 0);
+  if (!(u.value < 1)) return interpolate_poses(line, 1);
+  return interpolate_poses(line, u * u * u * (Real(10) - Real(15) * u + Real(6) * u * u));
 }
 
 struct Knots {
@@ -114,21 +114,21 @@ Motion on_spline(const Arguments& spline, const Jet& t) {
 
 Motion platform_motion(const Arguments& trajectory, const Real& time) {
   const Jet t(time, 1, 0);
-  const auto inside = [&](const char* key, std::initializer_list<const char*> known) {
+  const auto section = [&](const char* key, std::initializer_list<const char*> known) {
     return Arguments(trajectory[key], trajectory.pointer(key), known);
   };
   if (trajectory.has("circle")) {
-    return on_circle(inside("circle", {"center_m", "radius_m", "angular_speed_rad_s", "phi_rad"}),
+    return on_circle(section("circle", {"center_m", "radius_m", "angular_speed_rad_s", "phi_rad"}),
                      t);
   }
   if (trajectory.has("line")) {
-    const Arguments line = inside("line", {"from", "to", "duration_s"});
-    return between_poses(line, t / line.positive("duration_s"));
+    const Arguments line = section("line", {"from", "to", "duration_s"});
+    return interpolate_poses(line, t / line.positive("duration_s"));
   }
   if (trajectory.has("rest_to_rest")) {
-    return from_rest_to_rest(inside("rest_to_rest", {"from", "to", "duration_s"}), t);
+    return from_rest_to_rest(section("rest_to_rest", {"from", "to", "duration_s"}), t);
   }
-  return on_spline(inside("spline", {"knots", "ends"}), t);
+  return on_spline(section("spline", {"knots", "ends"}), t);
 }
 
 }  // namespace trammel::derive

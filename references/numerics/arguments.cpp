@@ -7,9 +7,9 @@ namespace trammel::derive {
 
 namespace {
 
-std::string joined(std::initializer_list<const char*> words) {
+std::string joined(std::initializer_list<const char*> choices) {
   std::string text;
-  for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  for (const char* name : choices) text += (text.empty() ? "" : ", ") + std::string(name);
   return text;
 }
 
@@ -62,8 +62,8 @@ Real Arguments::number(const std::string& key) const {
   return decimal(value);
 }
 
-Real Arguments::number(const std::string& key, const Real& absent) const {
-  return has(key) ? number(key) : absent;
+Real Arguments::number(const std::string& key, const Real& default_value) const {
+  return has(key) ? number(key) : default_value;
 }
 
 Real Arguments::positive(const std::string& key) const {
@@ -72,8 +72,8 @@ Real Arguments::positive(const std::string& key) const {
   return value;
 }
 
-Real Arguments::not_negative(const std::string& key, const Real& absent) const {
-  Real value = number(key, absent);
+Real Arguments::not_negative(const std::string& key, const Real& default_value) const {
+  Real value = number(key, default_value);
   if (value < 0) fail(key, "expected a number that is not negative");
   return value;
 }
@@ -86,8 +86,8 @@ int Arguments::count(const std::string& key) const {
   return value.get<int>();
 }
 
-bool Arguments::flag(const std::string& key, bool absent) const {
-  if (!has(key)) return absent;
+bool Arguments::flag(const std::string& key, bool default_value) const {
+  if (!has(key)) return default_value;
   if (!(*this)[key].is_boolean()) fail(key, "expected true or false");
   return (*this)[key].get<bool>();
 }
@@ -97,12 +97,12 @@ std::string Arguments::text(const std::string& key) const {
   return (*this)[key].get<std::string>();
 }
 
-std::string Arguments::choice(const std::string& key, const std::string& absent,
+std::string Arguments::choice(const std::string& key, const std::string& default_value,
                               std::initializer_list<const char*> choices) const {
-  if (!has(key) && !absent.empty()) return absent;
+  if (!has(key) && !default_value.empty()) return default_value;
   const Json& value = (*this)[key];
   const auto* const found =
-      std::find_if(choices.begin(), choices.end(), [&](const char* word) { return value == word; });
+      std::find_if(choices.begin(), choices.end(), [&](const char* name) { return value == name; });
   if (found == choices.end()) fail(key, "expected one of " + joined(choices));
   return *found;
 }

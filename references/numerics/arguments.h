@@ -35,14 +35,14 @@ class Arguments {
 
   // Numbers are the decimals that the reader sees: 0.0015 is 15/10000, not the nearest double.
   [[nodiscard]] Real number(const std::string& key) const;
-  [[nodiscard]] Real number(const std::string& key, const Real& absent) const;
+  [[nodiscard]] Real number(const std::string& key, const Real& default_value) const;
   [[nodiscard]] Real positive(const std::string& key) const;
-  [[nodiscard]] Real not_negative(const std::string& key, const Real& absent) const;
+  [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;
   [[nodiscard]] int count(const std::string& key) const;  ///< 1 ... 1000
-  [[nodiscard]] bool flag(const std::string& key, bool absent) const;
+  [[nodiscard]] bool flag(const std::string& key, bool default_value) const;
   [[nodiscard]] std::string text(const std::string& key) const;
-  /// One of `choices`; `absent` where the key is missing.
-  [[nodiscard]] std::string choice(const std::string& key, const std::string& absent,
+  /// One of `choices`; `default_value` where the key is missing.
+  [[nodiscard]] std::string choice(const std::string& key, const std::string& default_value,
                                    std::initializer_list<const char*> choices) const;
   [[nodiscard]] std::vector<Real> numbers(const std::string& key) const;
   [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size) const;

@@ -50,9 +50,9 @@ template <class T>
 }
 
 /// Solves A x = b by Gaussian elimination with partial pivoting; b becomes x.
-/// @returns false where a pivot is below `smallest`, that is, where A is singular.
+/// @returns false where a pivot is below `min_pivot`, that is, where A is singular.
 template <class T>
-[[nodiscard]] bool solve_in_place(Dense<T> A, std::vector<T>& b, const T& smallest) {
+[[nodiscard]] bool solve_in_place(Dense<T> A, std::vector<T>& b, const T& min_pivot) {
   using std::abs;
   const std::size_t n = A.rows();
   for (std::size_t k = 0; k < n; ++k) {
@@ -60,7 +60,7 @@ template <class T>
     for (std::size_t i = k + 1; i < n; ++i) {
       if (abs(A(i, k)) > abs(A(p, k))) p = i;
     }
-    if (!(abs(A(p, k)) > smallest)) return false;
+    if (!(abs(A(p, k)) > min_pivot)) return false;
     for (std::size_t j = k; j < n; ++j) std::swap(A(k, j), A(p, j));
     std::swap(b[k], b[p]);
     for (std::size_t i = k + 1; i < n; ++i) {

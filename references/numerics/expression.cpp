@@ -28,14 +28,14 @@ const std::map<std::string, Function>& functions() {
 }
 
 /// sum = product (('+'|'-') product)*; product = power (('*'|'/') power)*;
-/// power = '-' power | atom ('^' power)?; atom = number | name | function '(' sum ')' | '(' sum
+/// power = '-' power | primary ('^' power)?; primary = number | name | function '(' sum ')' | '(' sum
 /// ')'.
 class Parser {
  public:
   Parser(const std::string& text, const std::map<std::string, Real>& values)
       : text_(text), values_(values) {}
 
-  Real whole() {
+  Real parse() {
     const Real value = sum();
     if (peek() != '\0') fail("expected an operator");
     return value;
@@ -43,26 +43,26 @@ class Parser {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw DerivationError("'" + text_ + "', column " + std::to_string(at_ + 1) + ": " + what);
+    throw DerivationError("'" + text_ + "', column " + std::to_string(position_ + 1) + ": " + what);
   }
 
   char peek() {
-    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
-    return at_ < text_.size() ? text_[at_] : '\0';
+    while (position_ < text_.size() && text_[position_] == ' ') ++position_;
+    return position_ < text_.size() ? text_[position_] : '\0';
   }
 
-  bool take(char c) {
+  bool accept(char c) {
     if (peek() != c) return false;
-    ++at_;
+    ++position_;
     return true;
   }
 
   Real sum() {
     Real value = product();
     for (;;) {
-      if (take('+')) {
+      if (accept('+')) {
         value += product();
-      } else if (take('-')) {
+      } else if (accept('-')) {
         value -= product();
       } else {
         return value;
@@ -73,9 +73,9 @@ class Parser {
   Real product() {
     Real value = power();
     for (;;) {
-      if (take('*')) {
+      if (accept('*')) {
         value *= power();
-      } else if (take('/')) {
+      } else if (accept('/')) {
         value /= power();
       } else {
         return value;
@@ -84,71 +84,71 @@ class Parser {
   }
 
   Real power() {
-    if (take('-')) return -power();
-    const Real base = atom();
-    return take('^') ? Real(pow(base, power())) : base;
+    if (accept('-')) return -power();
+    const Real base = primary();
+    return accept('^') ? Real(pow(base, power())) : base;
   }
 
   Real parenthesised() {
-    if (!take('(')) fail("expected '('");
+    if (!accept('(')) fail("expected '('");
     const Real value = sum();
-    if (!take(')')) fail("expected ')'");
+    if (!accept(')')) fail("expected ')'");
     return value;
   }
 
-  Real atom() {
+  Real primary() {
     const char c = peek();
     if (c == '(') return parenthesised();
     if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0) return named();
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) return identifier();
     fail("expected a number, a name or '('");
   }
 
   Real number() {
-    const std::size_t from = at_;
+    const std::size_t from = position_;
     const auto digits = [&] {
-      while (at_ < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[at_])) != 0)) {
-        ++at_;
+      while (position_ < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[position_])) != 0)) {
+        ++position_;
       }
     };
     digits();
-    if (at_ < text_.size() && text_[at_] == '.') {
-      ++at_;
+    if (position_ < text_.size() && text_[position_] == '.') {
+      ++position_;
       digits();
     }
-    if (at_ < text_.size() && text_[at_] == 'e') {
-      ++at_;
-      if (at_ < text_.size() && (text_[at_] == '-' || text_[at_] == '+')) ++at_;
+    if (position_ < text_.size() && text_[position_] == 'e') {
+      ++position_;
+      if (position_ < text_.size() && (text_[position_] == '-' || text_[position_] == '+')) ++position_;
       digits();
     }
-    return Real(text_.substr(from, at_ - from));
+    return Real(text_.substr(from, position_ - from));
   }
 
-  Real named() {
-    const std::size_t from = at_;
-    while (at_ < text_.size() &&
-           (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) {
-      ++at_;
+  Real identifier() {
+    const std::size_t from = position_;
+    while (position_ < text_.size() &&
+           (std::isalnum(static_cast<unsigned char>(text_[position_])) != 0 || text_[position_] == '_')) {
+      ++position_;
     }
-    const std::string name = text_.substr(from, at_ - from);
+    const std::string name = text_.substr(from, position_ - from);
     const auto value = values_.find(name);
     if (value != values_.end()) return value->second;
     if (name == "pi") return pi<Real>();
     const auto function = functions().find(name);
     if (function != functions().end()) return function->second(parenthesised());
-    at_ = from;
+    position_ = from;
     fail("unknown name '" + name + "'");
   }
 
   const std::string& text_;
   const std::map<std::string, Real>& values_;
-  std::size_t at_ = 0;
+  std::size_t position_ = 0;
 };
 
 }  // namespace
 
 Real evaluate_expression(const std::string& text, const std::map<std::string, Real>& values) {
-  const Real value = Parser(text, values).whole();
+  const Real value = Parser(text, values).parse();
   if (!(boost::math::isfinite)(value)) throw DerivationError("'" + text + "' is not finite");
   return value;
 }

@@ -7,7 +7,7 @@
 #include "references/numerics/arguments.h"
 #include "references/numerics/real.h"
 
-/// Closed formulas written out in the passport itself: numbers, names, + - * / ^ (right to left),
+/// Closed formulas written out in the reference file itself: numbers, names, + - * / ^ (right to left),
 /// unary minus, parentheses, pi, and abs, sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh,
 /// cosh, tanh.
 namespace trammel::derive {

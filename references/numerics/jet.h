@@ -30,24 +30,24 @@ struct Jet {
 }
 
 /// f(a), from f, f' and f'' at its value.
-[[nodiscard]] inline Jet chained(const Jet& a, const Real& f, const Real& df, const Real& ddf) {
+[[nodiscard]] inline Jet chain_rule(const Jet& a, const Real& f, const Real& df, const Real& ddf) {
   return {f, df * a.rate, ddf * a.rate * a.rate + df * a.acceleration};
 }
 [[nodiscard]] inline Jet operator/(const Jet& a, const Jet& b) {
   const Real i = 1 / b.value;
-  return a * chained(b, i, -i * i, 2 * i * i * i);
+  return a * chain_rule(b, i, -i * i, 2 * i * i * i);
 }
 [[nodiscard]] inline Jet sqrt(const Jet& a) {
   const Real root = sqrt(a.value);
-  return chained(a, root, 1 / (2 * root), -1 / (4 * root * a.value));
+  return chain_rule(a, root, 1 / (2 * root), -1 / (4 * root * a.value));
 }
 [[nodiscard]] inline Jet sin(const Jet& a) {
   const Real s = sin(a.value);
-  return chained(a, s, cos(a.value), -s);
+  return chain_rule(a, s, cos(a.value), -s);
 }
 [[nodiscard]] inline Jet cos(const Jet& a) {
   const Real c = cos(a.value);
-  return chained(a, c, -sin(a.value), -c);
+  return chain_rule(a, c, -sin(a.value), -c);
 }
 [[nodiscard]] inline bool operator<(const Jet& a, const Real& b) {
   return a.value < b;

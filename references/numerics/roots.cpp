@@ -22,7 +22,7 @@ double evaluate(double x, void* f) {
 }
 
 /// Brent's method in double; f(lo) and f(hi) differ in sign.
-double coarse_root(const std::function<double(double)>& f, double lo, double hi) {
+double brent_root(const std::function<double(double)>& f, double lo, double hi) {
   const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
   gsl_set_error_handler_off();  // errors are returned, not aborts
@@ -54,7 +54,7 @@ std::pair<Real, Real> bracket(const std::function<Real(const Real&)>& f, double 
 
 }  // namespace
 
-Real polished_root(const std::function<Real(const Real&)>& f, const Real& lo, const Real& hi) {
+Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo, const Real& hi) {
   const Real f_lo = f(lo);
   const Real f_hi = f(hi);
   if (f_lo == 0) return lo;
@@ -77,8 +77,8 @@ std::vector<Real> first_roots(const Equation& f, double start, double step, int 
     const double hi = start + static_cast<double>(i) * step;
     const double f_hi = f.coarse(hi);
     if ((f_lo < 0) != (f_hi < 0)) {
-      const auto [a, b] = bracket(f.fine, coarse_root(f.coarse, lo, hi), lo, hi);
-      roots.push_back(polished_root(f.fine, a, b));
+      const auto [a, b] = bracket(f.fine, brent_root(f.coarse, lo, hi), lo, hi);
+      roots.push_back(refined_root(f.fine, a, b));
     }
     lo = hi;
     f_lo = f_hi;
@@ -87,7 +87,7 @@ std::vector<Real> first_roots(const Equation& f, double start, double step, int 
   return roots;
 }
 
-std::vector<double> rounded(const std::vector<Real>& values) {
+std::vector<double> to_doubles(const std::vector<Real>& values) {
   std::vector<double> result;
   for (const Real& value : values) result.push_back(static_cast<double>(value));
   return result;

@@ -22,7 +22,7 @@ template <class F>
 
 /// The root of `f` between lo and hi, where f changes sign, to 45 digits.
 /// @throws DerivationError  where f does not change sign.
-[[nodiscard]] Real polished_root(const std::function<Real(const Real&)>& f, const Real& lo,
+[[nodiscard]] Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo,
                                  const Real& hi);
 
 /// The first `count` sign changes of `f` above `start`, found on a grid of spacing `step` and
@@ -31,6 +31,6 @@ template <class F>
 [[nodiscard]] std::vector<Real> first_roots(const Equation& f, double start, double step,
                                             int count);
 
-[[nodiscard]] std::vector<double> rounded(const std::vector<Real>& values);
+[[nodiscard]] std::vector<double> to_doubles(const std::vector<Real>& values);
 
 }  // namespace trammel::derive

@@ -7,13 +7,13 @@
 #include <sstream>
 
 #include "references/programs/program.h"
-#include "references/programs/stored.h"
+#include "references/programs/derivation_comparison.h"
 
 namespace trammel::derive {
 
 namespace {
 
-const char* const usage =
+const char* const kUsage =
     "Usage: trammel_derive REFERENCE-FILE...\n"
     "       trammel_derive --program NAME [--arguments JSON]\n"
     "       trammel_derive --list\n"
@@ -74,37 +74,37 @@ bool print_comparison(const std::string& file, std::ostream& out) {
   }
   out << " by " << comparison.program << "\n";
   print_values(comparison, out);
-  out << "  " << (comparison.holds() ? "holds" : "DOES NOT HOLD") << "\n";
-  return comparison.holds();
+  out << "  " << (comparison.within_uncertainty() ? "holds" : "DOES NOT HOLD") << "\n";
+  return comparison.within_uncertainty();
 }
 
-int run(const std::vector<std::string>& words, std::ostream& out, std::ostream& err) {
-  if (words.empty()) {
-    err << usage;
+int run(const std::vector<std::string>& command_line, std::ostream& out, std::ostream& err) {
+  if (command_line.empty()) {
+    err << kUsage;
     return 2;
   }
-  if (words[0] == "--help" || words[0] == "-h") {
-    out << usage;
+  if (command_line[0] == "--help" || command_line[0] == "-h") {
+    out << kUsage;
     return 0;
   }
-  if (words[0] == "--list" && words.size() == 1) return list_programs(out);
-  if (words[0] == "--program" && words.size() == 2) return run_program(words[1], "{}", out);
-  if (words[0] == "--program" && words.size() == 4 && words[2] == "--arguments") {
-    return run_program(words[1], words[3], out);
+  if (command_line[0] == "--list" && command_line.size() == 1) return list_programs(out);
+  if (command_line[0] == "--program" && command_line.size() == 2) return run_program(command_line[1], "{}", out);
+  if (command_line[0] == "--program" && command_line.size() == 4 && command_line[2] == "--arguments") {
+    return run_program(command_line[1], command_line[3], out);
   }
-  for (const std::string& word : words) {
-    if (word.rfind("--", 0) == 0) throw DerivationError("cannot use '" + word + "' here");
+  for (const std::string& argument : command_line) {
+    if (argument.rfind("--", 0) == 0) throw DerivationError("cannot use '" + argument + "' here");
   }
   bool holds = true;
-  for (const std::string& file : words) holds = print_comparison(file, out) && holds;
+  for (const std::string& file : command_line) holds = print_comparison(file, out) && holds;
   return holds ? 0 : 1;
 }
 
 }  // namespace
 
-int derive_command(const std::vector<std::string>& words, std::ostream& out, std::ostream& err) {
+int derive_command(const std::vector<std::string>& command_line, std::ostream& out, std::ostream& err) {
   try {
-    return run(words, out, err);
+    return run(command_line, out, err);
   } catch (const DerivationError& error) {
     err << "trammel_derive: " << error.what() << "\n";
     return 2;

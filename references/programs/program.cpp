@@ -13,9 +13,9 @@
 #include "references/beams/parallelogram_chain.h"
 #include "references/beams/pendulum.h"
 #include "references/beams/rotating_beam.h"
-#include "references/programs/swept.h"
+#include "references/programs/parameter_sweep.h"
 #include "references/frames/unit_load.h"
-#include "references/beams/wedge.h"
+#include "references/beams/corner_singularity.h"
 #include "references/frames/wittrick_williams.h"
 
 namespace trammel::derive {
@@ -79,7 +79,7 @@ const std::map<std::string, Program>& programs() {
         beam_roots_program}},
       {"beam-share",
        {"the beam's share of the modal mass of a cantilever with a tip mass",
-        "count, tip_mass_ratio M/(rho A L)", beam_share_program}},
+        "count, tip_mass_ratio M/(rho A L)", beam_modal_mass_program}},
       {"frame-buckling",
        {"factors of the loads at which a planar frame buckles, by the count of Wittrick and "
         "Williams "
@@ -137,7 +137,7 @@ const std::map<std::string, Program>& programs() {
         formula_program}},
       {"swept",
        {"another program at each of several values: the truth of a parameter study",
-        "program, arguments, pointers (into the arguments) and values, or patches", swept_program}},
+        "program, arguments, pointers (into the arguments) and values, or patches", parameter_sweep_program}},
   };
   return table;
 }

@@ -9,39 +9,39 @@ namespace trammel::reports {
 
 namespace {
 
-struct Name {
-  Standing standing;
+struct StatusText {
+  CheckStatus status;
   const char *words, *css, *sign;
 };
 
-constexpr std::array<Name, 6> names = {{
-    {Standing::holds, "holds", "holds", "✓"},
-    {Standing::known, "known discrepancy", "known", "≠"},
-    {Standing::recorded, "recorded only", "recorded", "○"},
-    {Standing::fails, "fails", "fails", "✗"},
-    {Standing::error, "error", "error", "!"},
-    {Standing::not_run, "not run", "not-run", "–"},
+constexpr std::array<StatusText, 6> kStatusTexts = {{
+    {CheckStatus::passes, "holds", "holds", "✓"},
+    {CheckStatus::known_discrepancy, "known discrepancy", "known", "≠"},
+    {CheckStatus::not_judged, "recorded only", "recorded", "○"},
+    {CheckStatus::fails, "fails", "fails", "✗"},
+    {CheckStatus::error, "error", "error", "!"},
+    {CheckStatus::not_run, "not run", "not-run", "–"},
 }};
 
-const Name& name_of(Standing standing) {
-  for (const Name& name : names)
-    if (name.standing == standing) return name;
+const StatusText& text_of(CheckStatus status) {
+  for (const StatusText& name : kStatusTexts)
+    if (name.status == status) return name;
   throw std::logic_error("unknown standing");
 }
 
-int severity(Standing standing) {
-  switch (standing) {
-    case Standing::error:
+int severity(CheckStatus status) {
+  switch (status) {
+    case CheckStatus::error:
       return 5;
-    case Standing::fails:
+    case CheckStatus::fails:
       return 4;
-    case Standing::not_run:
+    case CheckStatus::not_run:
       return 3;
-    case Standing::recorded:
+    case CheckStatus::not_judged:
       return 2;
-    case Standing::known:
+    case CheckStatus::known_discrepancy:
       return 1;
-    case Standing::holds:
+    case CheckStatus::passes:
       return 0;
   }
   return 0;
@@ -49,51 +49,51 @@ int severity(Standing standing) {
 
 }  // namespace
 
-Standing standing(const Check& check) {
+CheckStatus check_status(const Check& check) {
   switch (check.verdict) {
     case Verdict::pass:
-      return check.known_discrepancy ? Standing::known : Standing::holds;
+      return check.known_discrepancy ? CheckStatus::known_discrepancy : CheckStatus::passes;
     case Verdict::fail:
-      return Standing::fails;
+      return CheckStatus::fails;
     case Verdict::error:
-      return Standing::error;
+      return CheckStatus::error;
     case Verdict::not_run:
-      return Standing::not_run;
+      return CheckStatus::not_run;
     case Verdict::recorded:
-      return Standing::recorded;
+      return CheckStatus::not_judged;
   }
   throw std::logic_error("unknown verdict");
 }
 
-Standing standing(const Run& run) {
+CheckStatus check_status(const Run& run) {
   const bool expected =
       !run.checks.empty() && std::all_of(run.checks.begin(), run.checks.end(),
                                          [](const Check& c) { return c.verdict == Verdict::pass; });
   switch (run.status) {
     case Status::solved:
-      return Standing::holds;
+      return CheckStatus::passes;
     case Status::singular:
     case Status::not_converged:
-      return expected ? Standing::holds : Standing::fails;
+      return expected ? CheckStatus::passes : CheckStatus::fails;
     case Status::error:
-      return Standing::error;
+      return CheckStatus::error;
     case Status::not_run:
-      return Standing::not_run;
+      return CheckStatus::not_run;
   }
   throw std::logic_error("unknown status");
 }
 
-std::string in_words(Standing standing) {
-  return name_of(standing).words;
+std::string to_text(CheckStatus status) {
+  return text_of(status).words;
 }
-std::string css_class(Standing standing) {
-  return name_of(standing).css;
+std::string css_class(CheckStatus status) {
+  return text_of(status).css;
 }
-std::string sign(Standing standing) {
-  return name_of(standing).sign;
+std::string sign(CheckStatus status) {
+  return text_of(status).sign;
 }
 
-double tolerance_used(const Check& check) {
+double tolerance_fraction(const Check& check) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Number& judged = check.measure == "bound" ? check.computed : check.difference;
   if (!check.tolerance || !judged) return infinity;
@@ -110,9 +110,9 @@ double tolerance_used(const Check& check) {
 }
 
 bool worse(const Check& a, const Check& b) {
-  const int sa = severity(standing(a));
-  const int sb = severity(standing(b));
-  return sa != sb ? sa > sb : tolerance_used(a) > tolerance_used(b);
+  const int sa = severity(check_status(a));
+  const int sb = severity(check_status(b));
+  return sa != sb ? sa > sb : tolerance_fraction(a) > tolerance_fraction(b);
 }
 
 const Check& CheckGroup::worst() const {
@@ -132,8 +132,8 @@ std::vector<CheckGroup> group_checks(const Run& run) {
   return groups;
 }
 
-std::size_t count_of(const Counts& counts, Standing standing) {
-  const auto found = counts.find(standing);
+std::size_t count_of(const Counts& counts, CheckStatus status) {
+  const auto found = counts.find(status);
   return found == counts.end() ? 0 : found->second;
 }
 
@@ -144,11 +144,11 @@ std::size_t total(const Counts& counts) {
 }
 
 void add(Counts& counts, const Run& run) {
-  for (const Check& check : run.checks) ++counts[standing(check)];
+  for (const Check& check : run.checks) ++counts[check_status(check)];
 }
 
-bool gate_holds(const Counts& counts) {
-  return count_of(counts, Standing::fails) + count_of(counts, Standing::error) == 0;
+bool all_checks_pass(const Counts& counts) {
+  return count_of(counts, CheckStatus::fails) + count_of(counts, CheckStatus::error) == 0;
 }
 
 }  // namespace trammel::reports

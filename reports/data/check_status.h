@@ -11,26 +11,26 @@ namespace trammel::reports {
 
 /// Where a check stands, as the page says it: a pass that was expected to agree is not the same
 /// as a pass that was expected to differ.
-enum class Standing { holds, known, recorded, fails, error, not_run };
-inline constexpr std::array<Standing, 6> all_standings = {Standing::holds,    Standing::known,
-                                                          Standing::recorded, Standing::fails,
-                                                          Standing::error,    Standing::not_run};
+enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run };
+inline constexpr std::array<CheckStatus, 6> kAllCheckStatuses = {CheckStatus::passes,    CheckStatus::known_discrepancy,
+                                                          CheckStatus::not_judged, CheckStatus::fails,
+                                                          CheckStatus::error,    CheckStatus::not_run};
 
-[[nodiscard]] Standing standing(const Check& check);
+[[nodiscard]] CheckStatus check_status(const Check& check);
 
 /// How a run's own ending counts: a singular or not converged run holds when it has checks and all
 /// of them pass, for then the case expects that ending.
-[[nodiscard]] Standing standing(const Run& run);
+[[nodiscard]] CheckStatus check_status(const Run& run);
 
 /// "holds", "known discrepancy", "fails", "error", "not run"; and the class name in the style
 /// sheet; and a sign that does not need colour.
-[[nodiscard]] std::string in_words(Standing standing);
-[[nodiscard]] std::string css_class(Standing standing);
-[[nodiscard]] std::string sign(Standing standing);
+[[nodiscard]] std::string to_text(CheckStatus status);
+[[nodiscard]] std::string css_class(CheckStatus status);
+[[nodiscard]] std::string sign(CheckStatus status);
 
 /// Share of its tolerance that a check uses: 1 at the limit, infinity where nothing can be said.
 /// For a band the distance from its middle over its half width.
-[[nodiscard]] double tolerance_used(const Check& check);
+[[nodiscard]] double tolerance_fraction(const Check& check);
 
 /// Checks of one run under one name and quantity, in their order.
 struct CheckGroup {
@@ -46,10 +46,10 @@ struct CheckGroup {
 /// Whether `a` deserves attention before `b`.
 [[nodiscard]] bool worse(const Check& a, const Check& b);
 
-using Counts = std::map<Standing, std::size_t>;
-[[nodiscard]] std::size_t count_of(const Counts& counts, Standing standing);
+using Counts = std::map<CheckStatus, std::size_t>;
+[[nodiscard]] std::size_t count_of(const Counts& counts, CheckStatus status);
 [[nodiscard]] std::size_t total(const Counts& counts);
 void add(Counts& counts, const Run& run);  ///< its checks
-[[nodiscard]] bool gate_holds(const Counts& counts);
+[[nodiscard]] bool all_checks_pass(const Counts& counts);
 
 }  // namespace trammel::reports

@@ -12,11 +12,11 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr int most_target_digits = 8;
+constexpr int kMaxTargetDigits = 8;
 
 std::string with_unit(const std::string& number, const std::string& unit) {
-  const std::string people = unit_for_people(unit);
-  return people.empty() ? number : number + "\u202f" + people;
+  const std::string symbol = display_unit(unit);
+  return symbol.empty() ? number : number + "\u202f" + symbol;
 }
 
 int digits_in(const std::string& text) {
@@ -29,7 +29,7 @@ int digits_in(const std::string& text) {
 
 int digits_for(const Check& check) {
   if (!check.expected || !check.computed) return 4;
-  return telling_digits(*check.expected, *check.computed);
+  return distinguishing_digits(*check.expected, *check.computed);
 }
 
 /// The part of an order check that judges the extrapolated value.
@@ -39,22 +39,22 @@ bool is_extrapolated(const Check& check) {
          check.name.compare(check.name.size() - end.size(), end.size(), end) == 0;
 }
 
-std::string statistic_words(std::string statistic) {
+std::string statistic_text(std::string statistic) {
   constexpr std::array<std::pair<const char*, const char*>, 4> words = {{
       {"max_abs", "largest magnitude"},
       {"max", "largest"},
       {"min", "smallest"},
       {"rms", "root mean square"},
   }};
-  for (const auto& [key, people] : words)
-    if (statistic == key) return people;
+  for (const auto& [key, text_of_key] : words)
+    if (statistic == key) return text_of_key;
   std::replace(statistic.begin(), statistic.end(), '_', ' ');
   return statistic;
 }
 
 /// As many as show how far from 1 it is.
 int ratio_digits(double ratio) {
-  return telling_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
+  return distinguishing_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
 }
 
 /// A limit or difference in the check's own measure.
@@ -85,7 +85,7 @@ std::string target_text(const Check& check) {
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
   // A value that was printed with few digits is shown with those; a long one as far as it tells.
   const int own = digits_in(shortest(*check.expected));
-  if (own <= most_target_digits) return significant(*check.expected, own);
+  if (own <= kMaxTargetDigits) return significant(*check.expected, own);
   return significant(*check.expected, digits_for(check));
 }
 
@@ -105,7 +105,7 @@ std::string difference_text(const Check& check, double difference) {
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
     // Of an upper limit the share used; a range is only kept or not.
-    const double used = tolerance_used(check);
+    const double used = tolerance_fraction(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low) return used <= 1 ? "within" : "outside";
     return relative(used, 2, false) + " of limit";
@@ -128,28 +128,28 @@ std::string tolerance_text(const Check& check) {
 
 std::string quantity_text(const Check& check) {
   const Quantity quantity = parse_quantity(check.quantity);
-  std::string text = in_words(quantity);
+  std::string text = to_text(quantity);
   if (check.measure == "status") return "how the run ends";
   if (check.measure == "order") return "order of convergence of " + text;
   if (check.measure == "leading-term")
     return "error of " + text + " over the leading term of theory";
   if (is_extrapolated(check)) text = "extrapolated " + text;
-  if (!check.statistic.empty()) text = statistic_words(check.statistic) + " of " + text;
+  if (!check.statistic.empty()) text = statistic_text(check.statistic) + " of " + text;
   if (!check.against_quantity.empty())
-    text += ", against " + in_words(parse_quantity(check.against_quantity));
+    text += ", against " + to_text(parse_quantity(check.against_quantity));
   if (!check.against_variant.empty()) text += ", against " + check.against_variant;
-  return axis_label(text, check.unit.empty() ? quantity.unit : unit_for_people(check.unit));
+  return axis_label(text, check.unit.empty() ? quantity.unit : display_unit(check.unit));
 }
 
-std::string entry_text(const Check& check, std::size_t of) {
+std::string entry_text(const Check& check, std::size_t entries) {
   if (!check.index) return "";
   const std::string number = std::to_string(*check.index + 1);
   if (check.quantity.rfind("frequency", 0) == 0) return "mode " + number;
-  if (of > 20 || *check.index > 20) return "point " + number;
-  return of > 1 || *check.index > 0 ? number : "";
+  if (entries > 20 || *check.index > 20) return "point " + number;
+  return entries > 1 || *check.index > 0 ? number : "";
 }
 
-std::string trouble_text(const CheckGroup& group) {
+std::string failure_text(const CheckGroup& group) {
   const Check& worst = group.worst();
   const auto bad = static_cast<std::size_t>(
       std::count_if(group.checks.begin(), group.checks.end(), [](const Check* check) {

@@ -24,9 +24,9 @@ namespace trammel::reports {
 [[nodiscard]] std::string quantity_text(const Check& check);
 
 /// "mode 3", "point 37", "2"; empty without an index.
-[[nodiscard]] std::string entry_text(const Check& check, std::size_t of);
+[[nodiscard]] std::string entry_text(const Check& check, std::size_t entries);
 
 /// One line that says what went wrong with a group: how many, and the worst.
-[[nodiscard]] std::string trouble_text(const CheckGroup& group);
+[[nodiscard]] std::string failure_text(const CheckGroup& group);
 
 }  // namespace trammel::reports

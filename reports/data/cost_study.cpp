@@ -9,24 +9,24 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr int any_number = std::numeric_limits<int>::max();
+constexpr int kAnyNumber = std::numeric_limits<int>::max();
 
 CostSetting read_setting(const JsonView& view, const std::string& norm) {
   CostSetting setting;
   setting.curve = view.at("curve").text();
   setting.curve_title = view.at("curve_title").text();
   setting.title = view.at("title").text();
-  setting.standing = view.at("standing").text();
+  setting.status = view.at("standing").text();
   setting.reason = view.find("reason").text_or("");
-  setting.value = view.find("value").maybe_number();
+  setting.value = view.find("value").optional_number();
   if (const JsonView error = view.find("error"); !error.null()) {
-    setting.max = error.at("max").maybe_number();
-    setting.rms = error.at("rms").maybe_number();
-    setting.mean = error.at("mean").maybe_number();
-    setting.error = error.at(norm).maybe_number();
+    setting.max = error.at("max").optional_number();
+    setting.rms = error.at("rms").optional_number();
+    setting.mean = error.at("mean").optional_number();
+    setting.error = error.at(norm).optional_number();
   }
   setting.cpu_s = view.at("cpu_s").number();
-  setting.relative = view.at("relative_time").maybe_number();
+  setting.relative = view.at("relative_time").optional_number();
   if (const JsonView time = view.find("time"); !time.null()) {
     setting.spread = time.at("spread").number();
     const double unit = setting.relative.value_or(0) / setting.cpu_s;
@@ -35,7 +35,7 @@ CostSetting read_setting(const JsonView& view, const std::string& norm) {
   }
   for (const auto& [name, n] : view.find("counters").members())
     setting.counters.emplace_back(name, n.number());
-  setting.on_front = view.at("on_front").boolean();
+  setting.pareto_optimal = view.at("on_front").boolean();
   return setting;
 }
 
@@ -45,10 +45,10 @@ CostStudy read_study(const JsonView& view) {
   study.family = view.at("family").text();
   study.title = view.at("title").text();
   study.description = view.find("description").text_or("");
-  study.truth = view.at("truth").text();
+  study.reference_solution = view.at("truth").text();
   study.scale = view.at("scale").text();
   study.norm = view.at("norm").text();
-  study.words = view.at("words").text();
+  study.conclusion = view.at("words").text();
   study.wall_s = view.at("wall_s").number();
   for (const JsonView& entry : view.at("settings").entries())
     study.settings.push_back(read_setting(entry, study.norm));
@@ -61,9 +61,9 @@ CostStudy read_study(const JsonView& view) {
     study.cheapest.emplace_back(entry.at("error").number(), setting);
   }
   const JsonView both = view.at("repeatability");
-  study.shared = static_cast<std::size_t>(both.at("shared").integer(any_number));
-  study.either = static_cast<std::size_t>(both.at("either").integer(any_number));
-  study.largest_difference = both.at("largest_difference").maybe_number().value_or(0);
+  study.on_both_fronts = static_cast<std::size_t>(both.at("shared").integer(kAnyNumber));
+  study.on_either_front = static_cast<std::size_t>(both.at("either").integer(kAnyNumber));
+  study.largest_difference = both.at("largest_difference").optional_number().value_or(0);
   return study;
 }
 
@@ -84,8 +84,8 @@ std::string grouped(double n) {
 CostStudies read_cost_studies(const JsonView& view) {
   CostStudies all;
   all.quick = view.at("sweep").text() == "quick";
-  all.repeats = view.at("repeats").integer(any_number);
-  all.widest_spread = view.at("widest_spread").number();
+  all.repeats = view.at("repeats").integer(kAnyNumber);
+  all.kMaxSpread = view.at("widest_spread").number();
   for (const JsonView& entry : view.at("studies").entries())
     all.studies.push_back(read_study(entry));
   return all;

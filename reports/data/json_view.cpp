@@ -28,10 +28,10 @@ void JsonView::fail(const std::string& expected) const {
 }
 
 JsonView JsonView::find(const std::string& key) const {
-  static const Json nothing;
+  static const Json kNull;
   if (!value_->is_object()) fail("an object");
   const auto found = value_->find(key);
-  return JsonView(found == value_->end() ? nothing : *found, pointer_ + "/" + escaped(key));
+  return JsonView(found == value_->end() ? kNull : *found, pointer_ + "/" + escaped(key));
 }
 
 JsonView JsonView::at(const std::string& key) const {
@@ -54,16 +54,16 @@ double JsonView::number() const {
   return value_->get<double>();
 }
 
-std::optional<double> JsonView::maybe_number() const {
+std::optional<double> JsonView::optional_number() const {
   if (null()) return std::nullopt;
   return number();
 }
 
-int JsonView::integer(int below) const {
-  const std::string expected = "an integer from 0 to " + std::to_string(below - 1);
+int JsonView::integer(int upper_bound) const {
+  const std::string expected = "an integer from 0 to " + std::to_string(upper_bound - 1);
   if (!value_->is_number_integer()) fail(expected);
   const auto i = value_->get<long long>();
-  if (i < 0 || i >= below) fail(expected);
+  if (i < 0 || i >= upper_bound) fail(expected);
   return static_cast<int>(i);
 }
 

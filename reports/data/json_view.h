@@ -27,8 +27,8 @@ class JsonView {
 
   [[nodiscard]] std::string text() const;                      ///< a string
   [[nodiscard]] double number() const;                         ///< a number
-  [[nodiscard]] std::optional<double> maybe_number() const;    ///< a number, null or absent
-  [[nodiscard]] int integer(int below) const;                  ///< 0 <= i < below
+  [[nodiscard]] std::optional<double> optional_number() const;    ///< a number, null or absent
+  [[nodiscard]] int integer(int upper_bound) const;                  ///< 0 <= i < below
   [[nodiscard]] bool boolean() const;                          ///< true or false
   [[nodiscard]] std::string text_or(const char* other) const;  ///< a string, null or absent
 

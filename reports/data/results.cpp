@@ -11,10 +11,10 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr int any_index = std::numeric_limits<int>::max();
+constexpr int kAnyIndex = std::numeric_limits<int>::max();
 
 template <typename Value>
-Value one_of(const JsonView& view, const std::vector<std::pair<std::string, Value>>& names) {
+Value parse_name(const JsonView& view, const std::vector<std::pair<std::string, Value>>& names) {
   const std::string name = view.text();
   std::string expected = "one of";
   for (const auto& [known, value] : names) {
@@ -46,7 +46,7 @@ const std::vector<std::pair<std::string, Status>>& statuses() {
 
 Numbers numbers(const JsonView& view) {
   Numbers out;
-  for (const JsonView& entry : view.entries()) out.push_back(entry.maybe_number());
+  for (const JsonView& entry : view.entries()) out.push_back(entry.optional_number());
   return out;
 }
 
@@ -62,8 +62,8 @@ std::vector<Point> points(const JsonView& view) {
     const auto xy = entry.entries();
     if (xy.size() != 2) entry.fail("two numbers");
     constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();  // is not drawn
-    out.emplace_back(xy[0].maybe_number().value_or(nowhere),
-                     xy[1].maybe_number().value_or(nowhere));
+    out.emplace_back(xy[0].optional_number().value_or(nowhere),
+                     xy[1].optional_number().value_or(nowhere));
   }
   return out;
 }
@@ -81,8 +81,8 @@ std::optional<Tolerance> read_tolerance(const JsonView& view, const std::string&
   }
   const auto ends = view.entries();
   if (ends.size() != 2) view.fail("a number or two");
-  tolerance.low = ends[0].maybe_number();
-  tolerance.high = ends[1].maybe_number();
+  tolerance.low = ends[0].optional_number();
+  tolerance.high = ends[1].optional_number();
   return tolerance;
 }
 
@@ -100,13 +100,13 @@ Check read_check(const JsonView& view) {
   check.statistic = view.find("statistic").text_or("");
   check.against_quantity = view.find("against_quantity").text_or("");
   check.against_variant = view.find("against_variant").text_or("");
-  if (!view.find("index").null()) check.index = view.at("index").integer(any_index);
-  check.computed = view.find("computed").maybe_number();
-  check.expected = view.find("expected").maybe_number();
-  check.difference = view.find("difference").maybe_number();
+  if (!view.find("index").null()) check.index = view.at("index").integer(kAnyIndex);
+  check.computed = view.find("computed").optional_number();
+  check.expected = view.find("expected").optional_number();
+  check.difference = view.find("difference").optional_number();
   check.tolerance = read_tolerance(view.find("tolerance"), check.measure);
   check.known_discrepancy = view.find("expectation").text_or("agrees") == "known-discrepancy";
-  check.verdict = one_of(view.at("verdict"), verdicts());
+  check.verdict = parse_name(view.at("verdict"), verdicts());
   return check;
 }
 
@@ -115,7 +115,7 @@ std::vector<double> read_levels(const JsonView& view) {
   std::vector<double> levels;
   for (const JsonView& level : view.entries()) {
     const auto number = static_cast<double>(levels.size() + 1);
-    levels.push_back(level.maybe_number().value_or(number));
+    levels.push_back(level.optional_number().value_or(number));
   }
   return levels;
 }
@@ -125,7 +125,7 @@ Convergence read_convergence(const JsonView& view) {
   c.sweep = view.find("sweep").text_or("");
   c.quantity = view.at("quantity").text();
   c.reference = view.find("reference").text_or("");
-  if (!view.find("index").null()) c.index = view.at("index").integer(any_index);
+  if (!view.find("index").null()) c.index = view.at("index").integer(kAnyIndex);
   c.parameter = read_levels(view.at("parameter"));
   const std::size_t levels = c.parameter.size();
   const auto column = [&](const char* key) {
@@ -138,20 +138,20 @@ Convergence read_convergence(const JsonView& view) {
   c.error = column("error");
   c.roundoff = column("roundoff");
   c.order = column("order");
-  c.band = column("band");
+  c.gci = column("band");
   for (const JsonView& level : view.find("in_asymptotic_range").entries())
     c.in_asymptotic_range.push_back(!level.null() && level.boolean());
   c.in_asymptotic_range.resize(levels, false);
   for (const JsonView& level : view.find("at_roundoff_floor").entries())
     c.at_roundoff_floor.push_back(!level.null() && level.boolean());
   c.at_roundoff_floor.resize(levels, false);
-  c.lower_order = view.find("lower_order").maybe_number();
+  c.lower_order = view.find("lower_order").optional_number();
   if (!view.find("two_term").null())
-    c.law_within = view.at("two_term").find("worst").maybe_number();
-  c.exact = view.find("exact").maybe_number();
-  c.theory_order = view.find("theory_order").maybe_number();
-  c.fitted_order = view.find("fitted_order").maybe_number();
-  c.richardson = view.find("richardson").maybe_number();
+    c.two_term_misfit = view.at("two_term").find("worst").optional_number();
+  c.exact = view.find("exact").optional_number();
+  c.theory_order = view.find("theory_order").optional_number();
+  c.fitted_order = view.find("fitted_order").optional_number();
+  c.richardson = view.find("richardson").optional_number();
   return c;
 }
 
@@ -197,8 +197,8 @@ Drawing read_drawing(const JsonView& view) {
 Cost read_cost(const JsonView& view) {
   Cost cost;
   if (view.null()) return cost;
-  cost.wall_s = view.find("wall_s").maybe_number().value_or(0);
-  cost.cpu_s = view.find("cpu_s").maybe_number().value_or(0);
+  cost.wall_s = view.find("wall_s").optional_number().value_or(0);
+  cost.cpu_s = view.find("cpu_s").optional_number().value_or(0);
   for (const auto& [name, count] : view.find("counters").members())
     cost.counters.emplace_back(name, count.number());
   for (const auto& [name, timing] : view.find("timings").members())
@@ -210,35 +210,35 @@ Comparison read_comparison(const JsonView& view) {
   Comparison c;
   c.check = view.at("check").text();
   c.quantity = view.at("quantity").text();
-  c.index = view.at("index").integer(any_index);
+  c.index = view.at("index").integer(kAnyIndex);
   c.reference = view.at("reference").text();
-  c.simulation = view.find("simulation").maybe_number();
-  c.expected = view.find("expected").maybe_number();
-  c.difference = view.find("difference").maybe_number();
-  c.u_num = view.find("u_num").maybe_number();
-  c.u_input = view.find("u_input").maybe_number();
-  c.u_reference = view.find("u_reference").maybe_number();
-  c.u_val = view.find("u_val").maybe_number();
+  c.simulation = view.find("simulation").optional_number();
+  c.expected = view.find("expected").optional_number();
+  c.difference = view.find("difference").optional_number();
+  c.u_num = view.find("u_num").optional_number();
+  c.u_input = view.find("u_input").optional_number();
+  c.u_reference = view.find("u_reference").optional_number();
+  c.u_val = view.find("u_val").optional_number();
   c.dominant_input = view.find("dominant_input").text_or("");
-  c.dominant_share = view.find("dominant_share").maybe_number();
+  c.dominant_share = view.find("dominant_share").optional_number();
   c.verdict = view.at("verdict").text();
-  c.words = view.find("words").text_or("");
+  c.conclusion = view.find("words").text_or("");
   if (!view.find("literal").null()) {
-    c.literal_u_val = view.at("literal").find("u_val").maybe_number();
-    c.literal_words = view.at("literal").find("words").text_or("");
+    c.all_inputs_u_val = view.at("literal").find("u_val").optional_number();
+    c.all_inputs_conclusion = view.at("literal").find("words").text_or("");
   }
   return c;
 }
 
-Bands read_bands(const JsonView& view) {
-  Bands bands;
-  bands.levels = view.at("levels").integer(any_index);
-  bands.hits = view.at("hits").integer(any_index);
-  bands.least_hit_rate = view.find("least_hit_rate").maybe_number();
-  bands.median_ratio = view.find("median_ratio").maybe_number();
-  bands.largest_median_ratio = view.find("largest_median_ratio").maybe_number();
-  bands.holds = view.at("holds").boolean();
-  return bands;
+UncertaintyCoverage read_uncertainty_coverage(const JsonView& view) {
+  UncertaintyCoverage coverage;
+  coverage.levels = view.at("levels").integer(kAnyIndex);
+  coverage.covered = view.at("hits").integer(kAnyIndex);
+  bands.kMinHitRate = view.find("least_hit_rate").optional_number();
+  coverage.median_ratio = view.find("median_ratio").optional_number();
+  bands.kMaxMedianRatio = view.find("largest_median_ratio").optional_number();
+  coverage.passes = view.at("holds").boolean();
+  return coverage;
 }
 
 EffectRow read_effect(const JsonView& view) {
@@ -247,8 +247,8 @@ EffectRow read_effect(const JsonView& view) {
           view.at("why").text(),
           view.at("admitted").boolean(),
           view.at("on").boolean(),
-          view.find("number").maybe_number(),
-          view.find("change").maybe_number()};
+          view.find("number").optional_number(),
+          view.find("change").optional_number()};
 }
 
 Run read_run(const JsonView& view) {
@@ -256,7 +256,7 @@ Run read_run(const JsonView& view) {
   run.case_id = view.at("case").text();
   run.variant = view.find("variant").text_or("base");
   run.reason = view.find("reason").text_or("");
-  run.status = one_of(view.at("status"), statuses());
+  run.status = parse_name(view.at("status"), statuses());
   for (const auto& [name, values] : view.find("quantities").members())
     run.quantities.emplace_back(name, numbers(values));
   for (const JsonView& check : view.find("checks").entries())
@@ -286,28 +286,28 @@ TableRequest read_table(const std::string& id, const JsonView& view) {
   return table;
 }
 
-ClaimReading read_reading(const JsonView& view) {
-  ClaimReading reading{view.at("what").text(),
+ClaimInterpretation read_interpretation(const JsonView& view) {
+  ClaimInterpretation interpretation{view.at("what").text(),
                        view.at("take").text(),
                        view.at("unit").text(),
                        view.at("verdict").text(),
                        {}};
   for (const JsonView& entry : view.at("entries").entries())
-    reading.entries.push_back(
+    interpretation.entries.push_back(
         {entry.at("case").text(), entry.at("variant").text(), entry.at("value").number()});
-  return reading;
+  return interpretation;
 }
 
 Claims read_claims(const JsonView& view) {
   Claims claims;
   claims.title = view.at("title").text();
-  for (const JsonView& one : view.at("claims").entries()) {
-    Claim claim{one.at("id").text(),          one.at("claim").text(),
-                one.at("place").text(),       one.at("verdict").text(),
-                one.at("expected").text(),    one.at("conclusion").text(),
-                one.at("undecidable").text(), {}};
-    for (const JsonView& reading : one.at("readings").entries())
-      claim.readings.push_back(read_reading(reading));
+  for (const JsonView& item : view.at("claims").entries()) {
+    Claim claim{item.at("id").text(),          item.at("claim").text(),
+                item.at("place").text(),       item.at("verdict").text(),
+                item.at("expected").text(),    item.at("conclusion").text(),
+                item.at("undecidable").text(), {}};
+    for (const JsonView& interpretation : item.at("readings").entries())
+      claim.interpretations.push_back(read_interpretation(interpretation));
     claims.claims.push_back(std::move(claim));
   }
   return claims;
@@ -320,8 +320,8 @@ CaseInfo read_case(const std::string& id, const JsonView& view) {
   info.description = view.find("description").text_or("");
   info.family = view.find("family").text_or(id.c_str());
   info.labels = texts(view.find("labels"));
-  if (const JsonView battery = view.find("battery"); !battery.null())
-    info.battery = {battery.at("item").integer(any_index), texts(battery.at("indicators"))};
+  if (const JsonView suite = view.find("battery"); !suite.null())
+    info.stress_suite = {suite.at("item").integer(kAnyIndex), texts(suite.at("indicators"))};
   for (const auto& [figure, plot] : view.find("figures").members()) {
     PlotRequest request;
     request.id = figure;
@@ -386,7 +386,7 @@ void check_cases(const JsonView& runs, const Results& results) {
 }
 
 Results read_all(const JsonView& root) {
-  if (root.at("format").integer(any_index) != 1) root.at("format").fail("1");
+  if (root.at("format").integer(kAnyIndex) != 1) root.at("format").fail("1");
   Results results;
   read_environment(root.at("environment"), results);
   for (const auto& [id, view] : root.at("cases").members())
@@ -394,11 +394,11 @@ Results read_all(const JsonView& root) {
   for (const auto& [id, view] : root.find("references").members())
     results.references.push_back(read_reference(id, view));
   for (const JsonView& run : root.at("runs").entries()) results.runs.push_back(read_run(run));
-  if (!root.find("bands").null()) results.bands = read_bands(root.at("bands"));
+  if (!root.find("bands").null()) results.uncertainty_coverage = read_uncertainty_coverage(root.at("bands"));
   check_cases(root.at("runs"), results);
   if (const JsonView cost = root.find("cost"); !cost.null()) results.cost = read_cost_studies(cost);
-  if (const JsonView ledger = root.find("ledger"); !ledger.null())
-    results.ledger = read_claims(ledger);
+  if (const JsonView claims = root.find("ledger"); !claims.null())
+    results.claims = read_claims(claims);
   return results;
 }
 

@@ -43,27 +43,27 @@ struct Convergence {
   std::string sweep, quantity, reference;
   int index = 0;
   std::vector<double> parameter;
-  Numbers values, error, roundoff, order, band;
+  Numbers values, error, roundoff, order, gci;
   std::vector<bool> in_asymptotic_range, at_roundoff_floor;
   Number exact, theory_order, fitted_order, richardson;
   Number lower_order;  ///< where two orders mix
-  Number law_within;   ///< largest |law of two orders / error - 1|
+  Number two_term_misfit;   ///< largest |law of two orders / error - 1|
 };
 
 /// One entry against the paper after ASME V&V 20: E = S - D and what it stands against. Standard
 /// uncertainties, all in the quantity's unit.
 struct Comparison {
-  std::string check, quantity, reference, dominant_input, verdict, words, literal_words;
+  std::string check, quantity, reference, dominant_input, verdict, conclusion, all_inputs_conclusion;
   int index = 0;
-  Number simulation, expected, difference, u_num, u_input, u_reference, u_val, literal_u_val;
+  Number simulation, expected, difference, u_num, u_input, u_reference, u_val, all_inputs_u_val;
   Number dominant_share;  ///< of u_input squared
 };
 
 /// How good the bands of numerical uncertainty are, over all refinements with exact values.
-struct Bands {
-  int levels = 0, hits = 0;
-  Number least_hit_rate, median_ratio, largest_median_ratio;
-  bool holds = false;
+struct UncertaintyCoverage {
+  int levels = 0, covered = 0;
+  Number kMinHitRate, median_ratio, kMaxMedianRatio;
+  bool passes = false;
 };
 
 using Point = std::pair<double, double>;  ///< (x, y) [m]
@@ -99,9 +99,9 @@ struct Cost {
 
 /// One effect in a run, and why it is there or not.
 struct EffectRow {
-  std::string name, number_of, why;
-  bool admitted = false, on = false;
-  Number number, change;
+  std::string name, number_definition, why;
+  bool applicable = false, active = false;
+  Number dimensionless_number, estimated_change;
 };
 
 struct Run {
@@ -146,7 +146,7 @@ struct TableRequest {
 
 /// The place of a case in the battery of hard cases: an item, and the checks that indicate how well
 /// it is stood.
-struct BatteryPlace {
+struct StressSuiteEntry {
   int item = 0;
   std::vector<std::string> indicators;
 };
@@ -154,7 +154,7 @@ struct BatteryPlace {
 struct CaseInfo {
   std::string id, title, description, family;
   std::vector<std::string> labels;
-  std::optional<BatteryPlace> battery;
+  std::optional<StressSuiteEntry> stress_suite;
   std::vector<PlotRequest> figures;
   std::vector<TableRequest> tables;
   std::vector<std::pair<std::string, std::string>> variants;  ///< id, title
@@ -174,15 +174,15 @@ struct ClaimEntry {
   double value = 0;
 };
 
-struct ClaimReading {
-  std::string what, take, unit, verdict;
+struct ClaimInterpretation {
+  std::string description, metric, unit, verdict;
   std::vector<ClaimEntry> entries;
 };
 
 /// A claim of the publication under examination; verdicts in words.
 struct Claim {
   std::string id, claim, place, verdict, expected, conclusion, undecidable;
-  std::vector<ClaimReading> readings;
+  std::vector<ClaimInterpretation> interpretations;
 };
 
 struct Claims {
@@ -196,9 +196,9 @@ struct Results {
   std::vector<CaseInfo> cases;
   std::vector<Reference> references;
   std::vector<Run> runs;
-  std::optional<Bands> bands;
+  std::optional<UncertaintyCoverage> uncertainty_coverage;
   std::optional<CostStudies> cost;  ///< what accuracy costs in time, where it was measured
-  std::optional<Claims> ledger;
+  std::optional<Claims> claims;
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
   /// @returns nullptr for an unknown or empty id.

@@ -42,17 +42,17 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
       << "set encoding utf8\nset minussign\n"
       << "set terminal svg size " << figure.width << ',' << figure.height
       << " dynamic noenhanced font 'Helvetica,15' linewidth 1 rounded background '"
-      << palette::paper << "'\n"
+      << palette::k\upaper << "'\n"
       << "set output " << quoted_path(svg) << '\n'
-      << "set border 3" << lc(palette::structure) << '\n'
-      << "set tics nomirror out scale 0.5 textcolor rgb '" << palette::muted << "'\n"
-      << "set grid" << lc(palette::grid) << " lw 1 lt 1," << lc(palette::grid) << " lw 1 lt 1\n"
+      << "set border 3" << lc(palette::k\ustructure) << '\n'
+      << "set tics nomirror out scale 0.5 textcolor rgb '" << palette::k\umuted << "'\n"
+      << "set grid" << lc(palette::k\ugrid) << " lw 1 lt 1," << lc(palette::k\ugrid) << " lw 1 lt 1\n"
       << "set xtics offset 0,0.35\nset ytics offset 0.3,0\n"
-      << "set xlabel offset 0,0.7 textcolor rgb '" << palette::ink << "'\n"
-      << "set ylabel offset 0.6,0 textcolor rgb '" << palette::ink << "'\n"
+      << "set xlabel offset 0,0.7 textcolor rgb '" << palette::k\uink << "'\n"
+      << "set ylabel offset 0.6,0 textcolor rgb '" << palette::k\uink << "'\n"
       << "set key outside below center horizontal Left reverse samplen 1.6 spacing 1.15 textcolor "
          "rgb '"
-      << palette::ink << "'\n"
+      << palette::k\uink << "'\n"
       << "set style fill solid 1 noborder\n";
   return out.str();
 }

@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t longest_key = 38;  ///< characters that gnuplot finds room for
+constexpr std::size_t kMaxKeyCharacters = 38;  ///< characters that gnuplot finds room for
 
 /// Eight digits are finer than any pixel; a break where there is no finite point.
 std::string row_text(const std::vector<double>& row) {
@@ -32,7 +32,7 @@ bool starts_character(char c) {
 }
 
 std::string titled(const std::string& title) {
-  return title.empty() ? " notitle" : " title " + quoted(shortened(title, longest_key));
+  return title.empty() ? " notitle" : " title " + quoted(shortened(title, kMaxKeyCharacters));
 }
 
 }  // namespace
@@ -59,11 +59,11 @@ std::size_t characters(const std::string& utf8) {
   return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), starts_character));
 }
 
-std::string shortened(const std::string& text, std::size_t most) {
-  if (characters(text) <= most) return text;
+std::string shortened(const std::string& text, std::size_t max_characters) {
+  if (characters(text) <= max_characters) return text;
   std::size_t seen = 0;
   std::size_t end = 0;
-  while (end < text.size() && (seen += starts_character(text[end])) < most) ++end;
+  while (end < text.size() && (seen += starts_character(text[end])) < max_characters) ++end;
   return text.substr(0, end) + "…";
 }
 
@@ -102,7 +102,7 @@ void PlotScript::plot() {
 int PlotScript::key_below(const std::vector<std::string>& titles) {
   std::size_t longest = 1;
   for (const std::string& title : titles)
-    longest = std::max(longest, std::min(characters(title), longest_key));
+    longest = std::max(longest, std::min(characters(title), kMaxKeyCharacters));
   const std::size_t columns = std::clamp<std::size_t>(56 / (longest + 7), 1, 4);
   command("set key maxcols " + std::to_string(columns));
   return 22 * static_cast<int>((titles.size() + columns - 1) / columns);
@@ -116,11 +116,11 @@ void PlotScript::axis_label(const std::string& axis, const std::string& text) {
   command("set " + axis + "label " + quoted(text));
 }
 
-void PlotScript::log_axis(const std::string& axis, double low, double high, int most_labels) {
+void PlotScript::log_axis(const std::string& axis, double low, double high, int max_labels) {
   const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
   const int last = static_cast<int>(std::ceil(std::log10(high) - 1e-9));
   int step = 1;
-  while ((last - first) / step + 1 > most_labels) ++step;
+  while ((last - first) / step + 1 > max_labels) ++step;
   command("set logscale " + axis);
   range(axis, std::pow(10.0, first), std::pow(10.0, last));
   std::string tics;

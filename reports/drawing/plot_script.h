@@ -12,8 +12,8 @@ namespace trammel::reports {
 /// A label of an axis with its place, for `set xtics (...)`.
 [[nodiscard]] std::string tic(const std::string& text, double at);
 
-/// At most `most` characters, with an ellipsis where cut.
-[[nodiscard]] std::string shortened(const std::string& text, std::size_t most);
+/// At most `max_characters` characters, with an ellipsis where cut.
+[[nodiscard]] std::string shortened(const std::string& text, std::size_t max_characters);
 [[nodiscard]] std::size_t characters(const std::string& utf8);
 
 /// " lc rgb '#1f5fa8'".
@@ -49,7 +49,7 @@ class PlotScript {
   void axis_label(const std::string& axis, const std::string& text);
 
   /// A logarithmic axis over whole decades, labelled 10⁻⁶ 10⁻⁴ ...
-  void log_axis(const std::string& axis, double low, double high, int most_labels = 7);
+  void log_axis(const std::string& axis, double low, double high, int max_labels = 7);
 
   [[nodiscard]] const std::string& commands() const { return commands_; }
 

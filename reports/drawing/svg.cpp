@@ -46,7 +46,7 @@ void shorten_colors(std::string& text) {
 }
 
 /// What gnuplot says of every group again and stands once on the root.
-constexpr std::array<const char*, 6> common = {" fill=\"none\"",
+constexpr std::array<const char*, 6> kCommonAttributes = {" fill=\"none\"",
                                                " stroke-linecap=\"butt\"",
                                                " stroke-linejoin=\"miter\"",
                                                " stroke-linecap=\"round\"",
@@ -153,7 +153,7 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   for (std::size_t at = body.find("<g id="); at != std::string::npos; at = body.find("<g id=", at))
     body.replace(at, body.find('>', at) + 1 - at, "<g>");
   shorten_colors(body);
-  for (const char* inherited : common) replace_all(body, inherited, "");
+  for (const char* inherited : kCommonAttributes) replace_all(body, inherited, "");
   shorten_coordinates(body);
   body = without_empty_groups(body);
   body = symbols(definitions, body) + body;

@@ -14,7 +14,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double smallest_drawn = 1e-17;  ///< stands for an error of exactly zero
+constexpr double kSmallestDrawnError = 1e-17;  ///< stands for an error of exactly zero
 
 using Sweeps = std::vector<const Convergence*>;
 
@@ -29,7 +29,7 @@ Numbers errors_of(const Convergence& c) {
 }
 
 double drawn_error(double error) {
-  return std::max(std::abs(error), smallest_drawn);
+  return std::max(std::abs(error), kSmallestDrawnError);
 }
 
 struct Extent {
@@ -60,7 +60,7 @@ std::string entry_name(const Convergence& c) {
 
 /// With the fitted order, which the eye then finds beside its curve.
 std::string series_title(const Convergence& c, bool alone) {
-  std::string title = alone ? in_words(parse_quantity(c.quantity)) : entry_name(c);
+  std::string title = alone ? to_text(parse_quantity(c.quantity)) : entry_name(c);
   if (c.fitted_order) title += ": " + significant(*c.fitted_order, 3);
   return title;
 }
@@ -77,8 +77,8 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
     if (c.in_asymptotic_range[k]) inside.push_back(line.back());
   }
   const std::string color = lc(palette::color(i));
-  const std::string style = std::to_string(palette::open_point[i % palette::open_point.size()]);
-  const std::string solid = std::to_string(palette::filled_point[i % palette::filled_point.size()]);
+  const std::string style = std::to_string(palette::k\uopen_point[i % palette::k\uopen_point.size()]);
+  const std::string solid = std::to_string(palette::k\ufilled_point[i % palette::k\ufilled_point.size()]);
   script.curve(line, "with linespoints lw 1.4 ps 0.8 pt " + style + color);
   script.curve(inside, "with points ps 0.8 pt " + solid + color);
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
@@ -121,10 +121,10 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Extent&
   const double x_bottom = falls ? x1 : x0;
   extent.cover(bottom);
   script.curve({{x_top, top}, {x_top, bottom}, {x_bottom, bottom}, {x_top, top}},
-               "with lines lw 1.4" + lc(palette::ink));
+               "with lines lw 1.4" + lc(palette::k\uink));
   script.label(trimmed(theory, 3), shortest(x_top) + "," + shortest(std::sqrt(top * bottom)) +
                                        (falls ? " right offset -0.6,0" : " left offset 0.6,0") +
-                                       " front textcolor rgb '" + palette::ink + "'");
+                                       " front textcolor rgb '" + palette::k\uink + "'");
 }
 
 /// "3.98 to 4.01", "4.00".
@@ -144,9 +144,9 @@ std::string conclusion_of_two(const Sweeps& sweeps) {
   std::size_t met = 0;
   double worst = 0;
   for (const Convergence* c : sweeps) {
-    if (!c->law_within) continue;
+    if (!c->two_term_misfit) continue;
     ++met;
-    worst = std::max(worst, *c->law_within);
+    worst = std::max(worst, *c->two_term_misfit);
   }
   const std::string law = law_of(*sweeps.front());
   if (met == 0) return "Two orders mix by theory, but no law " + law + " meets the errors.";
@@ -224,7 +224,7 @@ Table table_of(const Sweeps& sweeps) {
       table.rows.push_back({c->parameter[k], static_cast<double>(c->index + 1), cell(c->values[k]),
                             cell(errors[k]), cell(c->roundoff[k]), cell(c->order[k]),
                             std::string(c->in_asymptotic_range[k] ? "yes" : "no"),
-                            cell(c->band[k])});
+                            cell(c->gci[k])});
   }
   return table;
 }
@@ -250,7 +250,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
       std::any_of(first.error.begin(), first.error.end(), [](const Number& e) { return e; });
   PlotScript script;
   parameter_axis(script, sweeps);
-  const std::string words = in_words(parse_quantity(first.quantity));
+  const std::string words = to_text(parse_quantity(first.quantity));
   script.axis_label(
       "y", exact ? "relative error of " + words : "distance of " + words + " from extrapolated");
   Extent extent;
@@ -259,7 +259,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   const int key_height = script.key_below(titles);
   const auto floor = floor_of(sweeps);
   for (const auto& row : floor) extent.cover(0.3 * row[1]);
-  script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::shade), "round-off");
+  script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::k\ushade), "round-off");
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     draw_series(script, *sweeps[i], i, sweeps.size() == 1, extent);
   if (first.theory_order) draw_slope(script, sweeps, *first.theory_order, extent);

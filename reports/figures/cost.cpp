@@ -11,18 +11,18 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double smallest_drawn = 1e-16;  ///< stands for an error of zero
+constexpr double kSmallestDrawnError = 1e-16;  ///< stands for an error of zero
 
 struct Extent {
   double low_error = 1e300, high_error = 0, low_time = 1e300, high_time = 0;
 };
 
 double drawn_error(const CostSetting& setting) {
-  return std::max(setting.error.value_or(0), smallest_drawn);
+  return std::max(setting.error.value_or(0), kSmallestDrawnError);
 }
 
 bool is_drawn(const CostSetting& setting) {
-  return (setting.measured() || setting.standing == "wide") && setting.error && setting.relative;
+  return (setting.measured() || setting.status == "wide") && setting.error && setting.relative;
 }
 
 Extent extent_of(const CostStudy& study) {
@@ -54,7 +54,7 @@ std::vector<std::string> curves_of(const CostStudy& study) {
 }
 
 std::string point_type(std::size_t curve, bool filled) {
-  const auto& types = filled ? palette::filled_point : palette::open_point;
+  const auto& types = filled ? palette::k\ufilled_point : palette::k\uopen_point;
   return std::to_string(types[curve % types.size()]);
 }
 
@@ -71,9 +71,9 @@ Strip strip_of(double low, double high) {
 void draw_strip(PlotScript& script, const Strip& strip) {
   script.command("set object 1 rectangle from " + shortest(strip.left) + ", graph 0 to " +
                  shortest(strip.right) + ", graph 1 behind fillstyle solid noborder fc rgb '" +
-                 palette::blush + "'");
+                 palette::k\ublush + "'");
   script.label("no answer", shortest(strip.middle) +
-                                ", graph 0.5 center rotate front textcolor rgb '" + palette::muted +
+                                ", graph 0.5 center rotate front textcolor rgb '" + palette::k\umuted +
                                 "'");
 }
 
@@ -81,7 +81,7 @@ void draw_strip(PlotScript& script, const Strip& strip) {
 PlotScript::Rows steps_of(const CostStudy& study, const Extent& extent) {
   std::vector<std::pair<double, double>> front;
   for (const CostSetting& setting : study.settings)
-    if (setting.on_front && is_drawn(setting))
+    if (setting.pareto_optimal && is_drawn(setting))
       front.emplace_back(drawn_error(setting), *setting.relative);
   std::sort(front.rbegin(), front.rend());
   PlotScript::Rows rows;
@@ -103,7 +103,7 @@ void draw_curve(PlotScript& script, const CostStudy& study, const std::string& c
   for (const CostSetting& setting : study.settings) {
     if (setting.curve != curve) continue;
     title = setting.curve_title;
-    if (setting.outside() && setting.relative && *setting.relative > 0)
+    if (setting.without_result() && setting.relative && *setting.relative > 0)
       outside.push_back({strip.middle, *setting.relative});
     if (!is_drawn(setting)) continue;
     const std::vector<double> point = {drawn_error(setting), *setting.relative,
@@ -113,12 +113,12 @@ void draw_curve(PlotScript& script, const CostStudy& study, const std::string& c
     (setting.measured() ? used : wide).push_back(point);
   }
   const std::string color = lc(palette::color(number));
-  const bool filled = number < palette::filled_point.size();
+  const bool filled = number < palette::k\ufilled_point.size();
   const std::string mark = point_type(number, filled);
   script.curve(line, "using 1:2 with lines lw 1.2" + color);
   script.curve(used, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
   script.curve(wide, "using 1:2:3:4 with yerrorbars lw 1 ps 0.8 pt " + point_type(number, false) +
-                         lc(palette::muted));
+                         lc(palette::k\umuted));
   script.curve(outside, "using 1:2 with points lw 1.6 ps 1 pt 2" + color);
   script.key_entry("with linespoints lw 1.2 ps 0.8 pt " + mark + color, title);
 }
@@ -142,12 +142,12 @@ Table table_of(const CostStudy& study) {
   for (const auto& counter : study.settings.front().counters) table.heads.push_back(counter.first);
   for (const CostSetting& s : study.settings) {
     std::vector<Table::Cell> row = {s.title,        s.curve,
-                                    cell(s.value),  s.standing,
+                                    cell(s.value),  s.status,
                                     s.reason,       cell(s.max),
                                     cell(s.rms),    cell(s.mean),
                                     s.cpu_s,        cell(s.relative),
                                     cell(s.lower),  cell(s.upper),
-                                    cell(s.spread), std::string(s.on_front ? "yes" : "no")};
+                                    cell(s.spread), std::string(s.pareto_optimal ? "yes" : "no")};
     for (const auto& counter : s.counters) row.emplace_back(counter.second);
     table.rows.push_back(std::move(row));
   }
@@ -157,8 +157,8 @@ Table table_of(const CostStudy& study) {
 std::string notes_on(const CostStudy& study) {
   std::size_t outside = 0, wide = 0;
   for (const CostSetting& setting : study.settings) {
-    outside += setting.outside() ? 1 : 0;
-    wide += setting.standing == "wide" ? 1 : 0;
+    outside += setting.without_result() ? 1 : 0;
+    wide += setting.status == "wide" ? 1 : 0;
   }
   std::string text;
   if (outside > 0)
@@ -174,7 +174,7 @@ Figure cost_figure(const CostStudy& study) {
   PlotScript script;
   const Extent extent = extent_of(study);
   const bool any_outside = std::any_of(study.settings.begin(), study.settings.end(),
-                                       [](const CostSetting& s) { return s.outside(); });
+                                       [](const CostSetting& s) { return s.without_result(); });
   script.log_axis("x", extent.low_error, extent.high_error);
   script.log_axis("y", extent.low_time, extent.high_time);
   const double low = std::pow(10, std::floor(std::log10(extent.low_error) + 1e-9));
@@ -189,7 +189,7 @@ Figure cost_figure(const CostStudy& study) {
   Extent whole = extent;
   whole.high_error = high;
   script.curve(steps_of(study, whole),
-               std::string("using 1:2 with lines lw 5") + lc(palette::plate), "efficient front");
+               std::string("using 1:2 with lines lw 5") + lc(palette::k\uplate), "efficient front");
   const std::vector<std::string> curves = curves_of(study);
   std::vector<std::string> keys = {"efficient front"};
   for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -203,11 +203,11 @@ Figure cost_figure(const CostStudy& study) {
   script.plot();
   figure.id = slug("cost-" + study.id);
   figure.title = study.title;
-  figure.caption = study.words + notes_on(study);
+  figure.caption = study.conclusion + notes_on(study);
   figure.alt =
       "Time against error on logarithmic axes, a curve for each kind of setting, with the "
       "efficient front below them. " +
-      study.words;
+      study.conclusion;
   figure.commands = script.commands();
   figure.data = table_of(study);
   return figure;

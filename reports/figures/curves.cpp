@@ -13,8 +13,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t most_drawn_points = 1500;
-constexpr std::array<const char*, 5> dashes = {"", "-", "..", "-.", "_ "};
+constexpr std::size_t kMaxDrawnPoints = 1500;
+constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "_ "};
 
 struct Series {
   std::string quantity, variant, label;
@@ -32,8 +32,8 @@ double largest_of(const Numbers& values) {
 
 /// Smallest and largest of each bucket, in order: a long signal keeps its outline.
 PlotScript::Rows thinned(const PlotScript::Rows& rows) {
-  if (rows.size() <= most_drawn_points) return rows;
-  const std::size_t bucket = 2 * rows.size() / most_drawn_points + 1;
+  if (rows.size() <= kMaxDrawnPoints) return rows;
+  const std::size_t bucket = 2 * rows.size() / kMaxDrawnPoints + 1;
   PlotScript::Rows out;
   for (std::size_t from = 0; from < rows.size(); from += bucket) {
     const auto begin = rows.begin() + static_cast<long>(from);
@@ -108,7 +108,7 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
       } else if (parse_quantity(y).unit != parse_quantity(request.y.front()).unit) {
         problem = y + " and " + request.y.front() + " differ in unit";
       } else {
-        // Colours tell quantities apart, dashes variants; of one quantity both tell variants.
+        // Colours tell quantities apart, kDashes variants; of one quantity both tell variants.
         const std::size_t color = request.y.size() > 1 ? iy : iv;
         series.push_back({y, variant, "", color, iv, values, largest_of(*values)});
         continue;
@@ -130,7 +130,7 @@ std::string own_words(const std::string& name, const PlotRequest& request) {
   const bool one_label = std::all_of(request.y.begin(), request.y.end(), [&](const auto& y) {
     return parse_quantity(y).label == quantity.label;
   });
-  return one_label && !quantity.subject.empty() ? quantity.subject : in_words(quantity);
+  return one_label && !quantity.subject.empty() ? quantity.subject : to_text(quantity);
 }
 
 void name_series(std::vector<Series>& series, const CaseInfo& info, const PlotRequest& request,
@@ -158,7 +158,7 @@ std::string common_end(const std::string& a, const std::string& b) {
 
 /// "x displacement of P", "x reaction", "displacement", "value": as much as all have in common.
 std::string common_words(const std::vector<std::string>& names) {
-  if (names.size() == 1) return in_words(parse_quantity(names.front()));
+  if (names.size() == 1) return to_text(parse_quantity(names.front()));
   std::string common = parse_quantity(names.front()).label;
   for (const std::string& name : names) common = common_end(common, parse_quantity(name).label);
   return common.empty() ? "value" : common;
@@ -227,12 +227,12 @@ Table table_of(const std::vector<Series>& series, const std::vector<const Run*>&
 }
 
 std::string dashed(std::size_t variant) {
-  const std::size_t pattern = variant % dashes.size();
-  return pattern == 0 ? "" : " dt " + quoted(dashes[pattern]);
+  const std::size_t pattern = variant % kDashes.size();
+  return pattern == 0 ? "" : " dt " + quoted(kDashes[pattern]);
 }
 
 /// The curves and their key: where quantities and variants both differ, the key tells colours and
-/// dashes apart instead of naming every pair. @returns the height of the key.
+/// kDashes apart instead of naming every pair. @returns the height of the key.
 int draw_series(PlotScript& script, const std::vector<Series>& series, const CaseInfo& info,
                 const PlotRequest& request, const std::vector<std::string>& variants,
                 std::pair<double, double> factors, const std::vector<const Run*>& runs) {
@@ -243,7 +243,7 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
     for (std::size_t i = 0; i < request.y.size(); ++i)
       entries.emplace_back(line + lc(palette::color(i)), own_words(request.y[i], request));
     for (std::size_t i = 0; i < variants.size(); ++i)
-      entries.emplace_back(line + dashed(i) + lc(palette::muted), info.variant_title(variants[i]));
+      entries.emplace_back(line + dashed(i) + lc(palette::k\umuted), info.variant_title(variants[i]));
   }
   for (const Series& s : series) {
     const Numbers* at = run_of(runs, s.variant)->quantity(request.x);
@@ -283,7 +283,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
                             : readable_scale(x.unit, largest_of(*x_values));
 
   PlotScript script;
-  script.axis_label("x", request.x.empty() ? "number" : axis_label(in_words(x), x_scale.unit));
+  script.axis_label("x", request.x.empty() ? "number" : axis_label(to_text(x), x_scale.unit));
   const std::string words = common_words(request.y);
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
@@ -306,7 +306,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   figure.title = request.title;
   figure.caption =
       request.caption + (request.caption.empty() ? "" : " ") + measured(series, y_scale, y.unit);
-  figure.alt = "Curves of " + words + " over " + (request.x.empty() ? "number" : in_words(x)) +
+  figure.alt = "Curves of " + words + " over " + (request.x.empty() ? "number" : to_text(x)) +
                ". " + measured(series, y_scale, y.unit);
   figure.height = 345 + key_height;
   figure.commands = script.commands();

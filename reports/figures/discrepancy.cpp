@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t most_digits = 9;  ///< entries of a row that can be told apart by digits
+constexpr std::size_t kMaxDigits = 9;  ///< entries of a row that can be told apart by digits
 
 /// Checks of the same name and measure over all runs of a case.
 struct Subject {
@@ -40,7 +40,7 @@ std::vector<Subject> subjects(const std::vector<const Run*>& runs) {
 }
 
 bool by_digits(const CheckGroup& group) {
-  return group.checks.size() > 1 && group.checks.size() <= most_digits;
+  return group.checks.size() > 1 && group.checks.size() <= kMaxDigits;
 }
 
 bool digits_shown(const Subject& subject) {
@@ -74,13 +74,13 @@ PlotScript::Rows box(double x0, double x1, std::size_t row) {
 }
 
 /// The bands of a row; one that is too narrow to be seen is drawn as wide as a digit.
-PlotScript::Rows bands(const CheckGroup& group, std::size_t row, double factor, const Span& span) {
-  const double least = 0.022 * (span.high - span.low);
+PlotScript::Rows tolerance_bars(const CheckGroup& group, std::size_t row, double factor, const Span& span) {
+  const double min_width = 0.022 * (span.high - span.low);
   PlotScript::Rows rows;
   for (const Check* check : group.checks) {
     double low = check->tolerance->low.value_or(span.low);
     double high = check->tolerance->high.value_or(span.high);
-    const double more = 0.5 * std::max(0.0, least - (high - low));
+    const double more = 0.5 * std::max(0.0, min_width - (high - low));
     low = factor * (low - more);
     high = factor * (high + more);
     if (!rows.empty()) rows.emplace_back();
@@ -117,7 +117,7 @@ void draw_digits(PlotScript& script, const CheckGroup& group, std::size_t row, d
 
 void draw_row(PlotScript& script, const CheckGroup& group, std::size_t row, double factor,
               const Span& span) {
-  script.curve(bands(group, row, factor, span), "with filledcurves closed" + lc(palette::amber),
+  script.curve(tolerance_bars(group, row, factor, span), "with filledcurves closed" + lc(palette::k\uamber),
                row == 0 ? "expected" : "");
   if (by_digits(group)) return draw_digits(script, group, row, factor, span);
   PlotScript::Rows good, bad;
@@ -198,7 +198,7 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Subject& su
     draw_row(script, subject.rows[i], i, factor, span);
   const double bottom = -static_cast<double>(subject.rows.size());
   script.curve({{factor * origin, bottom}, {factor * origin, 0}},
-               "with lines lw 1.5" + lc(palette::ink), percent ? "agreement" : "");
+               "with lines lw 1.5" + lc(palette::k\uink), percent ? "agreement" : "");
   script.plot();
 
   const Reference* reference = results.reference(first.reference);

@@ -19,7 +19,7 @@ struct JointSymbol {
   bool filled;
 };
 
-constexpr std::array<JointSymbol, 7> symbols = {{
+constexpr std::array<JointSymbol, 7> kJointSymbols = {{
     {"point", "", 7, 0.6, true},
     {"support", "support", 9, 1.3, true},
     {"rigid", "rigid body", 5, 0.9, true},
@@ -30,7 +30,7 @@ constexpr std::array<JointSymbol, 7> symbols = {{
 }};
 
 const char* joint_color(const JointSymbol& symbol) {
-  return std::string(symbol.kind) == "active" ? palette::color(1) : palette::ink;
+  return std::string(symbol.kind) == "active" ? palette::color(1) : palette::k\uink;
 }
 
 bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
@@ -49,8 +49,8 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
                             shortest(symbol.size) + lc(joint_color(symbol));
   script.curve(rows, style, symbol.filled ? symbol.words : "");
   if (symbol.filled) return;
-  script.curve(rows, "with points pt 7 ps " + shortest(0.6 * symbol.size) + lc(palette::paper));
-  script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::ink), symbol.words);
+  script.curve(rows, "with points pt 7 ps " + shortest(0.6 * symbol.size) + lc(palette::k\upaper));
+  script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::k\uink), symbol.words);
 }
 
 /// Names stand outside: away from the middle of the drawing.
@@ -66,7 +66,7 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
     const double lift = r < reach ? reach : 0;
     script.label(joint.name, shortest(x + reach * (x - cx) / r) + "," +
                                  shortest(y + reach * (y - cy) / r + lift) +
-                                 " center front textcolor rgb '" + palette::ink + "'");
+                                 " center front textcolor rgb '" + palette::k\uink + "'");
   }
 }
 
@@ -126,7 +126,7 @@ std::optional<Figure> mechanism_figure(
   for (const Pose& pose : drawing.poses) titles.push_back(pose.label);
   for (const auto& [label, _] : further) titles.push_back(label);
   if (!titles.empty()) titles.push_back(base_label);
-  for (const JointSymbol& symbol : symbols)
+  for (const JointSymbol& symbol : kJointSymbols)
     if (is_drawn(drawing, symbol)) titles.emplace_back(symbol.words);
   const int key_height = script.key_below(titles);
   Figure figure;
@@ -142,10 +142,10 @@ std::optional<Figure> mechanism_figure(
     add_rows(figure.data, label, *other, other->nodes);
   }
   script.curve(filled_triangles(drawing, drawing.nodes),
-               "with filledcurves closed" + lc(palette::plate));
+               "with filledcurves closed" + lc(palette::k\uplate));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
   add_rows(figure.data, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
-  for (const JointSymbol& symbol : symbols) draw_joints(script, drawing, symbol);
+  for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);
   name_joints(script, drawing, box_around({drawing.nodes}, 0, 0));
   script.plot();
 

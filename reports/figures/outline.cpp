@@ -13,14 +13,14 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t coarse_mesh = 12;  ///< triangles up to which every edge can be seen
-constexpr std::size_t fine_mesh = 600;  ///< and up to which thin lines show the mesh in one drawing
+constexpr std::size_t kCoarseMesh = 12;  ///< triangles up to which every edge can be seen
+constexpr std::size_t kFineMesh = 600;  ///< and up to which thin lines show the mesh in one drawing
 
 /// 1, 2 or 5 times a power of ten, not below `least`.
-double round_step(double least) {
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
+double round_step(double min_step) {
+  const double power = std::pow(10.0, std::floor(std::log10(min_step)));
   for (const double digit : {1.0, 2.0, 5.0})
-    if (digit * power >= least) return digit * power;
+    if (digit * power >= min_step) return digit * power;
   return 10 * power;
 }
 
@@ -100,7 +100,7 @@ std::vector<std::vector<int>> polylines(const Drawing& drawing) {
 }
 
 std::vector<std::vector<int>> triangle_edges(const Drawing& drawing) {
-  if (drawing.triangles.size() > coarse_mesh) return outline(drawing);
+  if (drawing.triangles.size() > kCoarseMesh) return outline(drawing);
   std::vector<std::vector<int>> lines;
   for (auto& [_, side] : sides(drawing)) lines.push_back(std::move(side.nodes));
   return lines;
@@ -109,7 +109,7 @@ std::vector<std::vector<int>> triangle_edges(const Drawing& drawing) {
 std::vector<std::vector<int>> inner_edges(const Drawing& drawing, std::size_t panels) {
   std::vector<std::vector<int>> lines;
   const std::size_t triangles = drawing.triangles.size();
-  if (triangles <= coarse_mesh || panels * triangles > fine_mesh) return lines;
+  if (triangles <= kCoarseMesh || panels * triangles > kFineMesh) return lines;
   for (auto& [_, side] : sides(drawing))
     if (side.uses > 1) lines.push_back(std::move(side.nodes));
   return lines;
@@ -132,7 +132,7 @@ PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
 
 PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Point>& nodes) {
   std::vector<std::vector<int>> closed;
-  if (drawing.triangles.size() <= coarse_mesh) {
+  if (drawing.triangles.size() <= kCoarseMesh) {
     for (const auto& t : drawing.triangles) {
       closed.push_back(t);
       closed.back().push_back(t.front());
@@ -160,7 +160,7 @@ std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape
   return out;
 }
 
-Box box_around(const std::vector<std::vector<Point>>& sets, double margin, double least) {
+Box box_around(const std::vector<std::vector<Point>>& sets, double margin, double min_aspect) {
   constexpr double far = std::numeric_limits<double>::max();
   Box box{far, -far, far, -far};
   for (const auto& set : sets) {
@@ -173,7 +173,7 @@ Box box_around(const std::vector<std::vector<Point>>& sets, double margin, doubl
   }
   const double side = std::max({box.width(), box.height(), 1e-12});
   const auto widen = [&](double& low, double& high) {
-    const double more = margin * side + std::max(0.0, 0.5 * (least * side - (high - low)));
+    const double more = margin * side + std::max(0.0, 0.5 * (min_aspect * side - (high - low)));
     low -= more;
     high += more;
   };

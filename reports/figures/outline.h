@@ -32,14 +32,14 @@ namespace trammel::reports {
 [[nodiscard]] std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape,
                                            double factor);
 
-/// The smallest box around all points, never thinner than `least` times its longer side.
+/// The smallest box around all points, never thinner than `min_aspect` times its longer side.
 struct Box {
   double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
   [[nodiscard]] double width() const { return x1 - x0; }
   [[nodiscard]] double height() const { return y1 - y0; }
 };
 [[nodiscard]] Box box_around(const std::vector<std::vector<Point>>& sets, double margin,
-                             double least);
+                             double min_aspect);
 
 /// Sets ranges and an equal scale on both axes.
 void frame(PlotScript& script, const Box& box);

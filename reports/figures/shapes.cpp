@@ -11,27 +11,27 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t most_shapes = 8;
-constexpr double drawn_amplitude = 0.13;  ///< of the longer side
+constexpr std::size_t kMaxShapes = 8;
+constexpr double kDrawnAmplitude = 0.13;  ///< of the longer side
 
 double factor_for(const Shape& shape, double side) {
   double largest = 0;
   for (const auto& [ux, uy] : shape.displacement) largest = std::max(largest, std::hypot(ux, uy));
-  return largest > 0 && std::isfinite(largest) ? drawn_amplitude * side / largest : 0;
+  return largest > 0 && std::isfinite(largest) ? kDrawnAmplitude * side / largest : 0;
 }
 
 void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Point>& moved,
                 const std::string& label, std::size_t panels) {
   script.command("unset label");
   script.label(
-      label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::ink) + "'");
+      label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::k\uink) + "'");
   const auto lines = polylines(drawing);
   const auto edges = triangle_edges(drawing);
-  const std::string grey = lc(palette::structure);
+  const std::string grey = lc(palette::k\ustructure);
   const std::string blue = lc(palette::color(0));
   script.curve(rows_of(edges, drawing.nodes), "with lines lw 1" + grey);
   script.curve(rows_of(lines, drawing.nodes), "with lines lw 1.2" + grey);
-  script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::plate));
+  script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::k\uplate));
   script.curve(rows_of(inner_edges(drawing, panels), moved), "with lines lw 0.4" + blue);
   script.curve(rows_of(edges, moved), "with lines lw 1.2" + blue);
   script.curve(rows_of(lines, moved), "with lines lw 2.2" + blue);
@@ -46,7 +46,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   if (drawing.members.empty() && drawing.triangles.empty()) return std::nullopt;
   const Box body = box_around({drawing.nodes}, 0, 0);
   const double side = std::max(body.width(), body.height());
-  const std::size_t n = std::min(drawing.shapes.size(), most_shapes);
+  const std::size_t n = std::min(drawing.shapes.size(), kMaxShapes);
   std::vector<std::vector<Point>> moved;
   Figure figure;
   figure.data.heads = {"shape", "node", "x_m", "y_m", "u_x_m", "u_y_m", "drawn_times"};
@@ -82,7 +82,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   figure.caption =
       "Grey: at rest; blue: displaced. Each shape is scaled so that its largest "
       "displacement is " +
-      trimmed(100 * drawn_amplitude, 2) + "\u202f% of the longer side.";
+      trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side.";
   figure.alt = "Small pictures of the shapes";
   for (std::size_t s = 0; s < n; ++s) figure.alt += (s ? "; " : ": ") + drawing.shapes[s].label;
   figure.height = static_cast<int>(height * static_cast<double>(rows)) + 8;

@@ -12,8 +12,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double least = 1e-8;  ///< left edge: smaller shares, exact agreement included
-constexpr double most = 100;    ///< right edge: anything beyond, and what has no number
+constexpr double kMinShare = 1e-8;  ///< left edge: smaller shares, exact agreement included
+constexpr double kMaxShare = 100;    ///< right edge: anything beyond, and what has no number
 
 struct Row {
   std::string label;
@@ -22,14 +22,14 @@ struct Row {
 };
 
 double share(const Check& check) {
-  if (check.verdict == Verdict::error) return most;
-  return std::clamp(tolerance_used(check), least, most);
+  if (check.verdict == Verdict::error) return kMaxShare;
+  return std::clamp(tolerance_fraction(check), kMinShare, kMaxShare);
 }
 
 bool is_shown(const Check& check) {
   if (check.known_discrepancy || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
-         (check.verdict == Verdict::pass && std::isfinite(tolerance_used(check)));
+         (check.verdict == Verdict::pass && std::isfinite(tolerance_fraction(check)));
 }
 
 /// A row a case; a row a check where the family has one case only.
@@ -87,8 +87,8 @@ std::string conclusion(const std::vector<Row>& rows) {
 
 void draw_limits(PlotScript& script, std::size_t rows) {
   const double bottom = -static_cast<double>(rows);
-  script.curve({{1, bottom}, {most * 1.6, bottom}, {most * 1.6, 0}, {1, 0}, {1, bottom}},
-               "with filledcurves closed" + lc(palette::blush));
+  script.curve({{1, bottom}, {kMaxShare * 1.6, bottom}, {kMaxShare * 1.6, 0}, {1, 0}, {1, bottom}},
+               "with filledcurves closed" + lc(palette::k\ublush));
   script.curve({{1, bottom}, {1, 0}}, "with lines lw 1.5" + lc(palette::color(1)));
 }
 
@@ -97,7 +97,7 @@ Table table_of(const std::vector<Row>& rows) {
   table.heads = {"case", "variant", "check", "quantity", "index", "share_of_tolerance", "verdict"};
   for (const Row& row : rows)
     for (const auto& [run, check] : row.checks) {
-      const double used = tolerance_used(*check);
+      const double used = tolerance_fraction(*check);
       table.rows.push_back(
           {run->case_id, run->variant, check->name, check->quantity,
            check->index ? Table::Cell(static_cast<double>(*check->index + 1)) : Table::Cell{},
@@ -120,8 +120,8 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   for (const Row& row : rows)
     labels.push_back(shortened(row.label, 44) + " (" + std::to_string(row.checks.size()) + ")");
   strip_rows(script, labels);
-  script.log_axis("x", least, most);
-  script.range("x", least / 1.6, most * 1.6);
+  script.log_axis("x", kMinShare, kMaxShare);
+  script.range("x", kMinShare / 1.6, kMaxShare * 1.6);
   script.command(
       "set xtics ('≤ 10⁻⁸' 1e-8, '10⁻⁶' 1e-6, '10⁻⁴' 1e-4, '1 %%' 1e-2, '10 %%' 1e-1, "
       "'limit' 1, '≥ 100' 1e2)");

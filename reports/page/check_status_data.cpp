@@ -5,20 +5,20 @@
 
 namespace trammel::reports {
 
-void set_standing(Data& data, Standing standing) {
-  data.set("standing", in_words(standing));
-  data.set("standing_class", css_class(standing));
-  data.set("sign", sign(standing));
+void set_check_status(Data& data, CheckStatus status) {
+  data.set("standing", to_text(status));
+  data.set("standing_class", css_class(status));
+  data.set("sign", sign(status));
 }
 
 Data counts_list(const Counts& counts) {
   Data out = list();
   const auto all = static_cast<double>(total(counts));
-  for (const Standing which : all_standings) {
+  for (const CheckStatus which : kAllCheckStatuses) {
     const std::size_t n = count_of(counts, which);
     if (n == 0) continue;
     Data entry = object();
-    set_standing(entry, which);
+    set_check_status(entry, which);
     entry.set("n", std::to_string(n));
     entry.set("percent", shortest(100.0 * static_cast<double>(n) / all));
     out.push_back(entry);

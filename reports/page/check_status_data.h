@@ -8,7 +8,7 @@
 namespace trammel::reports {
 
 /// Signs and class names of a standing: keys standing, standing_class, sign.
-void set_standing(Data& data, Standing standing);
+void set_check_status(Data& data, CheckStatus status);
 
 /// Counts as a list of {n, standing, standing_class, sign, percent} without the zeros.
 [[nodiscard]] Data counts_list(const Counts& counts);

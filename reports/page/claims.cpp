@@ -9,11 +9,11 @@ namespace trammel::reports {
 
 namespace {
 
-/// How the page marks a verdict: the words say it, the sign and its colour only help to find it.
-struct Mark {
+/// How the page kVerdictStyles a verdict: the words say it, the sign and its colour only help to find it.
+struct VerdictStyle {
   const char *verdict, *css_class, *sign;
 };
-constexpr std::array<Mark, 10> marks = {{
+constexpr std::array<VerdictStyle, 10> kVerdictStyles = {{
     {"confirmed", "holds", "✓"},
     {"confirmed in part", "known", "±"},
     {"contradicted", "fails", "≠"},
@@ -26,48 +26,48 @@ constexpr std::array<Mark, 10> marks = {{
     {"", "not-run", "–"},
 }};
 
-void set_mark(Data& data, const std::string& verdict) {
-  const auto* found = std::find_if(marks.begin(), marks.end() - 1,
-                                   [&](const Mark& mark) { return verdict == mark.verdict; });
+void set_verdict(Data& data, const std::string& verdict) {
+  const auto* found = std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
+                                   [&](const VerdictStyle& style) { return verdict == style.verdict; });
   data.set("verdict", verdict);
   data.set("standing_class", found->css_class);
   data.set("sign", found->sign);
 }
 
-std::string number_text(const ClaimReading& reading, double value) {
-  if (reading.take == "relative") return relative(value, 3, true);
-  if (reading.take == "ratio") return "× " + trimmed(value, 4);
-  const std::string unit = unit_for_people(reading.unit);
+std::string number_text(const ClaimInterpretation& interpretation, double value) {
+  if (interpretation.metric == "relative") return relative(value, 3, true);
+  if (interpretation.metric == "ratio") return "× " + trimmed(value, 4);
+  const std::string unit = display_unit(interpretation.unit);
   return trimmed(value, 4) + (unit.empty() ? "" : "\u202f" + unit);
 }
 
 /// The value, or the least and the most of several.
-std::string measured(const ClaimReading& reading) {
-  if (reading.entries.empty()) return "";
-  const auto [least, most] = std::minmax_element(
-      reading.entries.begin(), reading.entries.end(),
+std::string measured(const ClaimInterpretation& interpretation) {
+  if (interpretation.entries.empty()) return "";
+  const auto [lowest, highest] = std::minmax_element(
+      interpretation.entries.begin(), interpretation.entries.end(),
       [](const ClaimEntry& a, const ClaimEntry& b) { return a.value < b.value; });
-  const std::string low = number_text(reading, least->value);
-  const std::string high = number_text(reading, most->value);
+  const std::string low = number_text(interpretation, lowest->value);
+  const std::string high = number_text(interpretation, highest->value);
   return low == high ? low : low + " to " + high;
 }
 
-Data reading_data(const ClaimReading& reading, const Results& results) {
+Data interpretation_data(const ClaimInterpretation& interpretation, const Results& results) {
   Data data = object();
-  set_mark(data, reading.verdict);
-  data.set("what", reading.what);
-  set_text(data, "measured", measured(reading));
+  set_verdict(data, interpretation.verdict);
+  data.set("what", interpretation.description);
+  set_text(data, "measured", measured(interpretation));
   Data cases = list();
   std::vector<std::string> seen;
-  for (const ClaimEntry& entry : reading.entries) {
+  for (const ClaimEntry& entry : interpretation.entries) {
     const bool listed = std::any_of(results.runs.begin(), results.runs.end(),
                                     [&](const Run& run) { return run.case_id == entry.case_id; });
     if (!listed || std::find(seen.begin(), seen.end(), entry.case_id) != seen.end()) continue;
     seen.push_back(entry.case_id);
-    Data one = object();
-    one.set("case_id", entry.case_id);
-    one.set("case_anchor", case_anchor(entry.case_id));
-    cases.push_back(one);
+    Data case_link = object();
+    case_link.set("case_id", entry.case_id);
+    case_link.set("case_anchor", case_anchor(entry.case_id));
+    cases.push_back(case_link);
   }
   data.set("cases", cases);
   return data;
@@ -81,26 +81,26 @@ Data claim_data(const Claim& claim, const Results& results) {
   data.set("conclusion", claim.verdict == "not measured" ? "No case of these results measures it."
                                                          : claim.conclusion);
   set_text(data, "undecidable", claim.undecidable);
-  set_mark(data, claim.verdict);
+  set_verdict(data, claim.verdict);
   set_text(
       data, "differs",
       claim.verdict == claim.expected || claim.verdict == "not measured" ? "" : claim.expected);
-  Data readings = list();
-  for (const ClaimReading& reading : claim.readings)
-    readings.push_back(reading_data(reading, results));
-  data.set("readings", readings);
+  Data interpretations = list();
+  for (const ClaimInterpretation& interpretation : claim.interpretations)
+    interpretations.push_back(interpretation_data(interpretation, results));
+  data.set("readings", interpretations);
   return data;
 }
 
 /// "2 confirmed, 4 contradicted, ..."
-std::string overview(const Claims& ledger) {
+std::string overview(const Claims& claims) {
   std::string text;
-  for (const Mark& mark : marks) {
-    const auto n = std::count_if(ledger.claims.begin(), ledger.claims.end(),
-                                 [&](const Claim& claim) { return claim.verdict == mark.verdict; });
-    if (n > 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + mark.verdict;
+  for (const VerdictStyle& style : kVerdictStyles) {
+    const auto n = std::count_if(claims.claims.begin(), claims.claims.end(),
+                                 [&](const Claim& claim) { return claim.verdict == style.verdict; });
+    if (n > 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + style.verdict;
   }
-  return count(ledger.claims.size(), "claim") + ": " + text +
+  return count(claims.claims.size(), "claim") + ": " + text +
          ". A verdict follows from the readings below it by a recorded rule, and a test fails when "
          "it no longer does.";
 }
@@ -109,11 +109,11 @@ std::string overview(const Claims& ledger) {
 
 Data claims_section(const Results& results) {
   Data section = object();
-  if (!results.ledger) return section;
-  section.set("title", results.ledger->title);
-  section.set("overview", overview(*results.ledger));
+  if (!results.claims) return section;
+  section.set("title", results.claims->title);
+  section.set("overview", overview(*results.claims));
   Data claims = list();
-  for (const Claim& claim : results.ledger->claims) claims.push_back(claim_data(claim, results));
+  for (const Claim& claim : results.claims->claims) claims.push_back(claim_data(claim, results));
   section.set("list", claims);
   return section;
 }

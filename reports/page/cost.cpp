@@ -95,35 +95,35 @@ Data cheapest_row(const CostStudy& study, double error, std::optional<std::size_
   return row;
 }
 
-std::string standing_words(const CostSetting& setting) {
-  if (setting.standing == "wide")
+std::string status_text(const CostSetting& setting) {
+  if (setting.status == "wide")
     return "spread of " + relative(setting.spread.value_or(0), 2, false) + ", not used";
-  if (setting.standing == "timed-out") return "out of time";
-  return setting.standing == "diverged" ? "diverged" : "no solution";
+  if (setting.status == "timed-out") return "out of time";
+  return setting.status == "diverged" ? "diverged" : "no solution";
 }
 
 Data left_out(const CostStudy& study) {
   Data rows = list();
   for (const CostSetting& setting : study.settings) {
-    if (!setting.outside() && setting.standing != "wide") continue;
+    if (!setting.without_result() && setting.status != "wide") continue;
     Data row = object();
     row.set("setting", setting.title);
-    row.set("standing", standing_words(setting));
+    row.set("standing", status_text(setting));
     set_text(row, "reason", setting.reason);
     rows.push_back(row);
   }
   return rows;
 }
 
-std::string measured_words(const CostStudy& study) {
+std::string measured_text(const CostStudy& study) {
   const CostSetting& baseline = study.settings[study.baseline];
   std::string norm = study.norm == "max"   ? "The largest error"
                      : study.norm == "rms" ? "The root mean square of the errors"
                                            : "The mean error";
-  return norm + " against " + study.truth + ", " + study.scale + ". Times are relative to '" +
+  return norm + " against " + study.reference_solution + ", " + study.scale + ". Times are relative to '" +
          baseline.title + "', which takes " + duration(baseline.cpu_s) +
-         ". Taken by themselves, odd and even repeats put " + std::to_string(study.shared) +
-         " of " + std::to_string(study.either) +
+         ". Taken by themselves, odd and even repeats put " + std::to_string(study.on_both_fronts) +
+         " of " + std::to_string(study.on_either_front) +
          " settings on the front both, and what an accuracy costs differs by at most " +
          relative(study.largest_difference, 2, false) + " between them.";
 }
@@ -138,7 +138,7 @@ Data study_data(const CostPanel& panel) {
   data.set("anchor", study_anchor(study));
   data.set("study_title", study.title);
   set_text(data, "description", study.description);
-  data.set("measured", measured_words(study));
+  data.set("measured", measured_text(study));
   data.set("figure", figure_data(panel.figure));
   Data rows = list();
   for (const auto& [error, setting] : study.cheapest)
@@ -193,13 +193,13 @@ Data cost_section(const Results& results, const std::vector<Family>& families,
   section.set("sweep", cost.quick ? "the quick sweep" : "the full sweep");
   set_flag(section, "quick", cost.quick);
   section.set("repeats", std::to_string(cost.repeats));
-  section.set("widest", relative(cost.widest_spread, 2, false));
+  section.set("widest", relative(cost.kMaxSpread, 2, false));
   Data studies = list();
   for (const CostPanel& panel : panels) studies.push_back(study_data(panel));
   const std::string studies_count = count(panels.size(), "study", "studies");
   section.set("studies_count", studies_count);
   const CostStudy& first = *panels.front().study;
-  section.set("words", studies_count + ". " + first.title + ": " + first.words);
+  section.set("words", studies_count + ". " + first.title + ": " + first.conclusion);
   set_overview(section, panels);
   section.set("studies", studies);
   return section;

@@ -9,11 +9,11 @@ namespace {
 
 bool chose_effects(const Run* run) {
   return std::any_of(run->effects.begin(), run->effects.end(),
-                     [](const EffectRow& effect) { return effect.change.has_value(); });
+                     [](const EffectRow& effect) { return effect.estimated_change.has_value(); });
 }
 
 /// "axial-flexibility" -> "axial flexibility"
-std::string words_of(std::string name) {
+std::string text_of(std::string name) {
   std::replace(name.begin(), name.end(), '-', ' ');
   return name;
 }
@@ -22,8 +22,8 @@ std::string title_of(const Run& run) {
   std::string on;
   std::size_t off = 0;
   for (const EffectRow& effect : run.effects) {
-    if (effect.on) on += (on.empty() ? "" : ", ") + words_of(effect.name);
-    if (effect.admitted && !effect.on) ++off;
+    if (effect.active) on += (on.empty() ? "" : ", ") + text_of(effect.name);
+    if (effect.applicable && !effect.active) ++off;
   }
   return "Computed with " + (on.empty() ? "bending alone" : on) + "; " +
          count(off, "other effect was left out", "other effects were left out");
@@ -31,11 +31,11 @@ std::string title_of(const Run& run) {
 
 Data row_of(const EffectRow& effect) {
   Data row = object();
-  row.set("effect", words_of(effect.name));
-  row.set("state", effect.on ? "on" : "off");
-  set_text(row, "number", effect.number ? trimmed(*effect.number, 3) : "");
-  set_text(row, "number_of", effect.number_of);
-  set_text(row, "change", effect.change ? relative(*effect.change, 3, false) : "");
+  row.set("effect", text_of(effect.name));
+  row.set("state", effect.active ? "on" : "off");
+  set_text(row, "number", effect.dimensionless_number ? trimmed(*effect.dimensionless_number, 3) : "");
+  set_text(row, "number_of", effect.number_definition);
+  set_text(row, "change", effect.estimated_change ? relative(*effect.estimated_change, 3, false) : "");
   row.set("why", effect.why);
   return row;
 }
@@ -48,7 +48,7 @@ void set_effects(Data& data, const std::vector<const Run*>& runs) {
   Data rows = list();
   if (found != runs.end()) {
     for (const EffectRow& effect : (*found)->effects) {
-      if (effect.admitted) rows.push_back(row_of(effect));
+      if (effect.applicable) rows.push_back(row_of(effect));
     }
   }
   data.set("effects", rows);

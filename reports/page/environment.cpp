@@ -7,7 +7,7 @@ namespace {
 struct Entry {
   const char *key, *words;
 };
-constexpr std::array<Entry, 9> known = {{
+constexpr std::array<Entry, 9> kEntries = {{
     {"trammel", "trammel"},
     {"commit", "commit"},
     {"date", "date"},
@@ -35,9 +35,9 @@ std::string value_of(const Results& results, const std::string& key) {
 
 Data environment_section(const Results& results) {
   Data data = object();
-  for (const Entry& entry : known) set_text(data, entry.key, value_of(results, entry.key));
+  for (const Entry& entry : kEntries) set_text(data, entry.key, value_of(results, entry.key));
   Data rows = list();
-  for (const Entry& entry : known) {
+  for (const Entry& entry : kEntries) {
     const std::string value = value_of(results, entry.key);
     if (!value.empty()) add(rows, entry.words, value);
   }

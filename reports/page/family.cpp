@@ -31,17 +31,17 @@ Counts counts_of(const std::vector<const Run*>& runs) {
 }
 
 /// The one sign of many checks and runs: the worst of them.
-Standing overall(const std::vector<const Run*>& runs) {
+CheckStatus overall(const std::vector<const Run*>& runs) {
   const Counts counts = counts_of(runs);
-  const auto any_run = [&](Standing which) {
+  const auto any_run = [&](CheckStatus which) {
     return std::any_of(runs.begin(), runs.end(),
-                       [&](const Run* run) { return standing(*run) == which; });
+                       [&](const Run* run) { return check_status(*run) == which; });
   };
-  for (const Standing bad : {Standing::error, Standing::fails})
+  for (const CheckStatus bad : {CheckStatus::error, CheckStatus::fails})
     if (count_of(counts, bad) > 0 || any_run(bad)) return bad;
-  for (const Standing some : {Standing::known, Standing::holds, Standing::recorded})
+  for (const CheckStatus some : {CheckStatus::known_discrepancy, CheckStatus::passes, CheckStatus::not_judged})
     if (count_of(counts, some) > 0) return some;
-  return Standing::not_run;
+  return CheckStatus::not_run;
 }
 
 Data endings(const CaseInfo& info, const std::vector<const Run*>& runs) {
@@ -52,7 +52,7 @@ Data endings(const CaseInfo& info, const std::vector<const Run*>& runs) {
     data.set("variant", info.variant_title(run->variant));
     data.set("status", to_string(run->status));
     set_text(data, "reason", run->reason);
-    set_standing(data, standing(*run));
+    set_check_status(data, check_status(*run));
     out.push_back(data);
   }
   return out;
@@ -80,7 +80,7 @@ Data case_data(const CaseInfo& info, const Family& family, const Results& result
   data.set("labels", texts(info.labels));
   set_text(data, "variants_count", runs.size() > 1 ? count(runs.size(), "variant") : "");
   data.set("counts", counts_list(counts_of(runs)));
-  set_standing(data, overall(runs));
+  set_check_status(data, overall(runs));
   data.set("endings", endings(info, runs));
   set_effects(data, runs);
   data.set("problems", texts(gallery.problems));
@@ -105,7 +105,7 @@ Data family_section(const Family& family, const Results& results) {
   data.set("cases_count", cases_count);
   data.set("extent", cases_count + ", " + count(total(counts_of(family.runs)), "check"));
   data.set("counts", counts_list(counts_of(family.runs)));
-  set_standing(data, overall(family.runs));
+  set_check_status(data, overall(family.runs));
   set_flag(data, "has_overview", !family.overview.empty());
   data.set("overview", figures_data(family.overview));
   data.set("matrices", comparison_matrices(family, results));

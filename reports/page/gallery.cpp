@@ -11,8 +11,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t most_poses = 4;
-constexpr std::size_t most_drawn = 24;  ///< variants of one case whose shapes the page carries
+constexpr std::size_t kMaxPoses = 4;
+constexpr std::size_t kMaxDrawnVariants = 24;  ///< variants of one case whose shapes the page carries
 
 /// Joints of one name stand in one place; what has no name says nothing.
 bool same_geometry(const Drawing& a, const Drawing& b) {
@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, const Drawing*>> further_poses(
     const CaseInfo& info, const std::vector<const Run*>& runs, const Drawing& base) {
   std::vector<std::pair<std::string, const Drawing*>> poses;
   for (const Run* run : runs) {
-    if (!run->drawing || run->drawing->joints.empty() || poses.size() + 1 == most_poses) continue;
+    if (!run->drawing || run->drawing->joints.empty() || poses.size() + 1 == kMaxPoses) continue;
     const Drawing& drawing = *run->drawing;
     const bool known = same_geometry(base, drawing) ||
                        std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
@@ -59,13 +59,13 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   }
   std::size_t variants = 0;
   for (const Run* run : runs) {
-    if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= most_drawn)
+    if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= kMaxDrawnVariants)
       (variants == 1 ? gallery.shown : gallery.folded).push_back(*shapes);
   }
-  if (variants > most_drawn)
+  if (variants > kMaxDrawnVariants)
     gallery.problems.push_back("The page draws the shapes of the first " +
-                               std::to_string(most_drawn) + " variants; those of " +
-                               std::to_string(variants - most_drawn) +
+                               std::to_string(kMaxDrawnVariants) + " variants; those of " +
+                               std::to_string(variants - kMaxDrawnVariants) +
                                " more stand in results.json.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;

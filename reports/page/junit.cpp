@@ -42,7 +42,7 @@ std::string attributes(const Tally& tally) {
 
 /// One testcase element, counted.
 std::string testcase(const std::string& classname, const std::string& name, double time_s,
-                     Standing standing, const std::string& message, Tally& tally) {
+                     CheckStatus status, const std::string& message, Tally& tally) {
   ++tally.tests;
   tally.time_s += time_s;
   const std::string head = "    <testcase" + attribute("classname", classname) +
@@ -50,19 +50,19 @@ std::string testcase(const std::string& classname, const std::string& name, doub
   const auto with = [&](const std::string& element) {
     return head + ">\n      <" + element + attribute("message", message) + "/>\n    </testcase>\n";
   };
-  switch (standing) {
-    case Standing::fails:
+  switch (status) {
+    case CheckStatus::fails:
       ++tally.failures;
       return with("failure");
-    case Standing::error:
+    case CheckStatus::error:
       ++tally.errors;
       return with("error");
-    case Standing::not_run:
+    case CheckStatus::not_run:
       ++tally.skipped;
       return with("skipped");
-    case Standing::holds:
-    case Standing::known:
-    case Standing::recorded:
+    case CheckStatus::passes:
+    case CheckStatus::known_discrepancy:
+    case CheckStatus::not_judged:
       break;
   }
   return head + "/>\n";
@@ -89,11 +89,11 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   for (const Run& run : results.runs) {
     if (run.case_id != info.id) continue;
     const std::string classname = info.id + "." + run.variant;
-    body += testcase(classname, "status: " + to_string(run.status), run.cost.wall_s, standing(run),
+    body += testcase(classname, "status: " + to_string(run.status), run.cost.wall_s, check_status(run),
                      run.reason, tally);
     for (const Check& check : run.checks)
       body +=
-          testcase(classname, check_name(check), 0, standing(check), check_message(check), tally);
+          testcase(classname, check_name(check), 0, check_status(check), check_message(check), tally);
   }
   if (tally.tests == 0) return "";
   all.add(tally);

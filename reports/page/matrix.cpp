@@ -11,10 +11,10 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t fewest_rows = 4, fewest_columns = 3, most_columns = 16;
-constexpr std::size_t open_rows = 10;  ///< of more than three rows beyond these, the rest is folded
-constexpr double full_colour = 0.4;    ///< relative difference that is drawn in full colour
-constexpr double reached = 0.01;       ///< a target nearer than this counts as reached
+constexpr std::size_t kMinRows = 4, kMinColumns = 3, kMaxColumns = 16;
+constexpr std::size_t kMaxUnfoldedRows = 10;  ///< of more than three rows beyond these, the rest is folded
+constexpr double kFullColourDifference = 0.4;    ///< relative difference that is drawn in full colour
+constexpr double kTargetReached = 0.01;       ///< a target nearer than this counts as reached
 
 /// One variant: its checks by entry.
 struct Row {
@@ -85,8 +85,8 @@ Data cell_of(const Check* check) {
   cell.set("value", significant(*check->computed, 4));
   cell.set("difference", relative(d, std::abs(d) >= 0.1 ? 2 : 1, true));
   cell.set("side", d < 0 ? "below" : "above");
-  cell.set("depth", trimmed(std::min(1.0, std::abs(d) / full_colour), 2));
-  set_standing(cell, standing(*check));
+  cell.set("depth", trimmed(std::min(1.0, std::abs(d) / kFullColourDifference), 2));
+  set_check_status(cell, check_status(*check));
   return cell;
 }
 
@@ -125,7 +125,7 @@ std::string conclusion(const Subject& subject, const Family& family, const Resul
   std::string missed;
   std::size_t n = 0;
   for (const Nearest& nearest : nearest_of(subject)) {
-    if (std::abs(*nearest.check->difference) <= reached) continue;
+    if (std::abs(*nearest.check->difference) <= kTargetReached) continue;
     missed += (n++ ? ", " : "") + std::to_string(nearest.entry + 1) + " (nearest " +
               relative(*nearest.check->difference, 2, true) + ")";
   }
@@ -141,7 +141,7 @@ Data matrix_of(const Subject& subject, const Family& family, const Results& resu
   Data matrix = object();
   matrix.set("title", reference ? reference->title : subject.reference);
   set_text(matrix, "reference_anchor", reference ? reference_anchor(reference->id) : "");
-  matrix.set("quantity", axis_label(in_words(quantity), quantity.unit));
+  matrix.set("quantity", axis_label(to_text(quantity), quantity.unit));
   matrix.set("conclusion", conclusion(subject, family, results));
   matrix.set("entry_word", entry_word(subject));
 
@@ -156,7 +156,7 @@ Data matrix_of(const Subject& subject, const Family& family, const Results& resu
 
   Data rows = list();
   Data folded = list();
-  const std::size_t shown = subject.rows.size() > open_rows + 3 ? open_rows : subject.rows.size();
+  const std::size_t shown = subject.rows.size() > kMaxUnfoldedRows + 3 ? kMaxUnfoldedRows : subject.rows.size();
   const std::size_t whole = subject.rows.front().checks.size();
   for (const Row& row : subject.rows) {
     Data data = object();
@@ -191,8 +191,8 @@ Data matrix_of(const Subject& subject, const Family& family, const Results& resu
 std::vector<Subject> compared(const Family& family) {
   std::vector<Subject> out;
   for (Subject& subject : subjects(family)) {
-    if (subject.rows.size() < fewest_rows || subject.targets.size() < fewest_columns ||
-        subject.targets.size() > most_columns)
+    if (subject.rows.size() < kMinRows || subject.targets.size() < kMinColumns ||
+        subject.targets.size() > kMaxColumns)
       continue;
     sort_rows(subject);
     out.push_back(std::move(subject));

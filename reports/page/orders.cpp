@@ -10,26 +10,26 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double a_tenth = 0.1;
-constexpr std::size_t most_open = 24;  ///< rows of a family's table that is not folded
+constexpr double kOrderTolerance = 0.1;
+constexpr std::size_t kMaxUnfoldedRows = 24;  ///< rows of a family's table that is not folded
 
 /// How many bands hold the exact value, and how wide they are for the error that there is.
-struct BandCount {
+struct GciCoverage {
   std::size_t levels = 0, hits = 0;
   std::vector<double> ratios;
 
   void add(const Convergence& c) {
     if (!c.exact || *c.exact == 0) return;
-    for (std::size_t k = 0; k < c.band.size(); ++k) {
-      if (!c.band[k] || !c.values[k] || !c.error[k]) continue;
+    for (std::size_t k = 0; k < c.gci.size(); ++k) {
+      if (!c.gci[k] || !c.values[k] || !c.error[k]) continue;
       // The band is relative to the value, the error to the exact one.
-      const double band = *c.band[k] * std::abs(*c.values[k] / *c.exact);
+      const double half_width = *c.gci[k] * std::abs(*c.values[k] / *c.exact);
       ++levels;
-      hits += band >= *c.error[k] ? 1 : 0;
-      if (!c.at_roundoff_floor[k] && *c.error[k] > 0) ratios.push_back(band / *c.error[k]);
+      hits += half_width >= *c.error[k] ? 1 : 0;
+      if (!c.at_roundoff_floor[k] && *c.error[k] > 0) ratios.push_back(half_width / *c.error[k]);
     }
   }
-  void add(const BandCount& more) {
+  void add(const GciCoverage& more) {
     levels += more.levels;
     hits += more.hits;
     ratios.insert(ratios.end(), more.ratios.begin(), more.ratios.end());
@@ -99,14 +99,14 @@ struct Findings {
   double first = 0, last = 0;
   double off = -1;  ///< of the extrapolated value from the exact one; below 0: not known
   std::size_t fitted = 0, near = 0;  ///< entries with a fitted order, and with one near theory
-  BandCount bands;
+  GciCoverage coverage;
 };
 
-Findings findings(const Row& row) {
+Findings summarise(const Row& row) {
   Findings found;
   for (const Convergence* c : row.entries) {
     found.order.add(c->lower_order ? std::nullopt : c->fitted_order);
-    found.law.add(c->law_within);
+    found.law.add(c->two_term_misfit);
     found.first = std::max(found.first, largest_finite(c->error, true));
     found.last = std::max(found.last, largest_finite(c->error, false));
     if (c->exact && *c->exact != 0 && c->richardson)
@@ -114,9 +114,9 @@ Findings findings(const Row& row) {
     if (!c->lower_order && c->fitted_order && c->theory_order) {
       ++found.fitted;
       const double apart = std::abs(*c->fitted_order - *c->theory_order);
-      found.near += apart <= a_tenth * std::max(1.0, *c->theory_order) ? 1 : 0;
+      found.near += apart <= kOrderTolerance * std::max(1.0, *c->theory_order) ? 1 : 0;
     }
-    found.bands.add(*c);
+    found.coverage.add(*c);
   }
   return found;
 }
@@ -135,7 +135,7 @@ std::string observed_text(const Findings& found) {
 Data data_of(const Row& row, const Findings& found, const CaseInfo& info) {
   const Quantity quantity = parse_quantity(row.front().quantity);
   Data data = object();
-  data.set("quantity", in_words(quantity));
+  data.set("quantity", to_text(quantity));
   set_text(data, "entries",
            row.entries.size() > 1 ? count(row.entries.size(), "entry", "entries") : "");
   set_text(data, "variant", row.run->variant == "base" ? "" : info.variant_title(row.run->variant));
@@ -143,19 +143,19 @@ Data data_of(const Row& row, const Findings& found, const CaseInfo& info) {
   data.set("observed", observed_text(found));
   data.set("error", significant(found.first, 2) + " to " + significant(found.last, 2));
   data.set("off", found.off < 0 ? "–" : significant(found.off, 2));
-  const bool counted = found.bands.levels > 0;
+  const bool counted = found.coverage.levels > 0;
   data.set("hits",
-           counted ? std::to_string(found.bands.hits) + " of " + std::to_string(found.bands.levels)
+           counted ? std::to_string(found.coverage.hits) + " of " + std::to_string(found.coverage.levels)
                    : "–");
-  data.set("ratio", or_dash(found.bands.median(), 3));
+  data.set("ratio", or_dash(found.coverage.median(), 3));
   return data;
 }
 
-std::string bands_words(const BandCount& bands) {
-  if (bands.levels == 0) return "";
-  std::string text = "Bands hold the exact value on " + std::to_string(bands.hits) + " of " +
-                     count(bands.levels, "level");
-  if (const Number median = bands.median())
+std::string coverage_text(const GciCoverage& coverage) {
+  if (coverage.levels == 0) return "";
+  std::string text = "Bands hold the exact value on " + std::to_string(coverage.hits) + " of " +
+                     count(coverage.levels, "level");
+  if (const Number median = coverage.median())
     text += " and are " + trimmed(*median, 3) + " times the error (median)";
   return text + ".";
 }
@@ -163,10 +163,10 @@ std::string bands_words(const BandCount& bands) {
 struct Totals {
   std::size_t rows = 0, series = 0, fitted = 0, near = 0;
   double law = 0;
-  BandCount bands;
+  GciCoverage coverage;
 };
 
-std::string orders_words(const Totals& totals) {
+std::string orders_text(const Totals& totals) {
   std::string text = count(totals.series, "refinement") + ".";
   if (totals.fitted > 0)
     text += " The fitted order lies within a tenth of theory for " + std::to_string(totals.near) +
@@ -185,7 +185,7 @@ Data family_of(const Family& family, Totals& totals) {
     bool any = false;
     for (const Run* run : family.runs_of(info->id)) {
       for (const Row& row : rows_of(*run)) {
-        const Findings found = findings(row);
+        const Findings found = summarise(row);
         rows.push_back(data_of(row, found, *info));
         any = true;
         ++totals.rows;
@@ -193,21 +193,21 @@ Data family_of(const Family& family, Totals& totals) {
         totals.fitted += found.fitted;
         totals.near += found.near;
         if (!found.law.empty()) totals.law = std::max(totals.law, found.law.high);
-        totals.bands.add(found.bands);
+        totals.coverage.add(found.coverage);
       }
     }
     if (!any) continue;
-    Data one = object();
-    one.set("case_title", family.short_title(*info));
-    one.set("case_anchor", case_anchor(info->id));
-    one.set("rows", rows);
-    cases.push_back(one);
+    Data case_data = object();
+    case_data.set("case_title", family.short_title(*info));
+    case_data.set("case_anchor", case_anchor(info->id));
+    case_data.set("rows", rows);
+    cases.push_back(case_data);
   }
   data.set("family_title", family.title);
   data.set("cases", cases);
-  data.set("words", orders_words(totals) + " " + bands_words(totals.bands));
+  data.set("words", orders_text(totals) + " " + coverage_text(totals.coverage));
   data.set("folded_title", count(totals.rows, "row"));
-  set_flag(data, "open", totals.rows <= most_open);
+  set_flag(data, "open", totals.rows <= kMaxUnfoldedRows);
   return data;
 }
 
@@ -228,25 +228,25 @@ Data orders_section(const Results& results, const std::vector<Family>& families)
   section.set("words", count(series, "quantity", "quantities") +
                            " followed along a refinement, with the order that theory promises and "
                            "the one that is seen.");
-  std::string bands;
-  if (results.bands && results.bands->levels > 0) {
-    const Bands& found = *results.bands;
-    const double rate = static_cast<double>(found.hits) / found.levels;
-    bands =
+  std::string text;
+  if (results.uncertainty_coverage && results.uncertainty_coverage->levels > 0) {
+    const UncertaintyCoverage& found = *results.uncertainty_coverage;
+    const double rate = static_cast<double>(found.covered) / found.levels;
+    text =
         "The band of numerical uncertainty, which is made from the computed values alone, holds "
         "the exact value on " +
-        std::to_string(found.hits) + " of " + std::to_string(found.levels) + " levels (" +
+        std::to_string(found.covered) + " of " + std::to_string(found.levels) + " levels (" +
         relative(rate, 3, false) + ")";
-    if (found.least_hit_rate)
-      bands += "; " + relative(*found.least_hit_rate, 3, false) + " is asked for";
+    if (found.kMinHitRate)
+      text += "; " + relative(*found.kMinHitRate, 3, false) + " is asked for";
     if (found.median_ratio)
-      bands += ". In the median it is " + trimmed(*found.median_ratio, 3) + " times the true error";
-    if (found.largest_median_ratio)
-      bands += "; more than " + trimmed(*found.largest_median_ratio, 3) +
+      text += ". In the median it is " + trimmed(*found.median_ratio, 3) + " times the true error";
+    if (found.kMaxMedianRatio)
+      text += "; more than " + trimmed(*found.kMaxMedianRatio, 3) +
                " would be a band that is right because it is wide";
-    bands += ".";
+    text += ".";
   }
-  set_text(section, "bands", bands);
+  set_text(section, "bands", text);
   section.set("families", list_of_families);
   return section;
 }

@@ -9,12 +9,12 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t most_open_values = 8;
+constexpr std::size_t kMaxUnfoldedValues = 8;
 
 struct Kind {
   const char *name, *meaning;
 };
-constexpr std::array<Kind, 4> kinds = {{
+constexpr std::array<Kind, 4> kKinds = {{
     {"exact", "exact: from a closed form, re-derived by a program of its own"},
     {"computed", "computed by an independent program"},
     {"paper", "printed in a publication"},
@@ -22,7 +22,7 @@ constexpr std::array<Kind, 4> kinds = {{
 }};
 
 std::string kind_meaning(const std::string& kind) {
-  for (const Kind& known : kinds)
+  for (const Kind& known : kKinds)
     if (kind == known.name) return known.meaning;
   return kind;
 }
@@ -68,13 +68,13 @@ Data used_by(const Results& results, const std::string& id) {
   return out;
 }
 
-Data passport(const Reference& reference, const Results& results) {
+Data provenance(const Reference& reference, const Results& results) {
   Data data = object();
   data.set("anchor", reference_anchor(reference.id));
   data.set("reference_id", reference.id);
   data.set("reference_title", reference.title);
   data.set("kind", kind_meaning(reference.kind));
-  set_text(data, "unit", unit_for_people(reference.unit));
+  set_text(data, "unit", display_unit(reference.unit));
   set_text(data, "citation", reference.citation);
   set_text(data, "doi", reference.doi);
   set_text(data, "place", reference.place);
@@ -88,7 +88,7 @@ Data passport(const Reference& reference, const Results& results) {
   }
   set_flag(data, "has_errata", !reference.errata.empty());
   data.set("errata", errata);
-  const bool few = reference.values.size() <= most_open_values;
+  const bool few = reference.values.size() <= kMaxUnfoldedValues;
   set_flag(data, "few_values", few && !reference.values.empty());
   set_text(data, "many_values", few ? "" : count(reference.values.size(), "value"));
   data.set("values", values_of(reference));
@@ -100,7 +100,7 @@ Data passport(const Reference& reference, const Results& results) {
 
 Data references_section(const Results& results) {
   Data out = list();
-  for (const Reference& reference : results.references) out.push_back(passport(reference, results));
+  for (const Reference& reference : results.references) out.push_back(provenance(reference, results));
   return out;
 }
 

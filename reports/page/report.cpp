@@ -15,7 +15,7 @@ namespace {
 using namespace reports;
 namespace fs = std::filesystem;
 
-constexpr const char* generator = R"(<meta name="generator" content="trammel">)";
+constexpr const char* kGenerator = R"(<meta name="generator" content="trammel">)";
 
 Data page_data(const Results& results, const std::vector<Family>& families,
                const std::vector<CostPanel>& panels) {
@@ -31,32 +31,32 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   page.set("environment", environment_section(results));
   const Data claims = claims_section(results);
   const Data cost = cost_section(results, families, panels);
-  const Data battery = battery_section(families);
+  const Data stress_suite = stress_suite_section(families);
   const Data targets = targets_section(results, families);
   const Data orders = orders_section(results, families);
-  const Data noise = noise_section(results, families);
-  std::vector<Answer> answers;
-  const auto answer = [&](const std::string& title, const std::string& anchor, const Data& section,
+  const Data uncertainty = validation_uncertainty_section(results, families);
+  std::vector<SectionSummary> summaries;
+  const auto add_summary = [&](const std::string& title, const std::string& anchor, const Data& section,
                           const char* key) {
     const Data* words = section.get(key);
     const Data* rows = section.get("has_rows");
     if (words != nullptr && words->is_string() && (rows == nullptr || rows->is_true()))
-      answers.push_back({title, anchor, words->string_value()});
+      summaries.push_back({title, anchor, words->string_value()});
   };
-  answer("The paper's claims", "claims", claims, "overview");
-  answer("What accuracy costs", "cost", cost, "words");
-  answer("The battery of hard cases", "battery", battery, "words");
-  answer("Published targets", "targets", targets, "words");
-  answer("Orders and bands", "orders", orders, "words");
-  answer("Difference and noise", "noise", noise, "words");
-  page.set("summary", summary_section(results, families, answers));
+  add_summary("The paper's claims", "claims", claims, "overview");
+  add_summary("What accuracy costs", "cost", cost, "words");
+  add_summary("The battery of hard cases", "battery", stress_suite, "words");
+  add_summary("Published targets", "targets", targets, "words");
+  add_summary("Orders and bands", "orders", orders, "words");
+  add_summary("Difference and noise", "noise", uncertainty, "words");
+  page.set("summary", summary_section(results, families, summaries));
   page.set("claims", claims);
-  set_flag(page, "has_claims", results.ledger.has_value());
+  set_flag(page, "has_claims", results.claims.has_value());
   page.set("cost", cost);
-  page.set("battery", battery);
+  page.set("battery", stress_suite);
   page.set("targets", targets);
   page.set("orders", orders);
-  page.set("noise", noise);
+  page.set("noise", uncertainty);
   Data family_list = list();
   for (const Family& family : families) family_list.push_back(family_section(family, results));
   page.set("families", family_list);
@@ -78,7 +78,7 @@ void remove_earlier(const fs::path& out) {
   const fs::path page = out / "index.html";
   if (!fs::exists(page)) return;
   const std::string html = read_file(page);
-  if (html.find(generator) == std::string::npos) return;
+  if (html.find(kGenerator) == std::string::npos) return;
   for (const std::string folder : {"figures/", "checks/"}) {
     const std::string link = "href=\"" + folder;
     for (std::size_t at = html.find(link); at != std::string::npos; at = html.find(link, at + 1)) {

@@ -14,13 +14,13 @@ namespace trammel::reports {
 /// The parts of the page as data for their templates, each in a source file of its own name.
 
 /// What a section of the page comes to, in a sentence.
-struct Answer {
-  std::string title, anchor, words;
+struct SectionSummary {
+  std::string title, anchor, text;
 };
 
-/// What holds, what fails, the answers in short, what is known not to agree and why.
+/// What holds, what fails, the summaries in short, what is known not to agree and why.
 [[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families,
-                                   const std::vector<Answer>& answers);
+                                   const std::vector<SectionSummary>& summaries);
 
 /// The claims of the publication under examination, each with what was measured and a verdict;
 /// empty where the results have no ledger.
@@ -51,7 +51,7 @@ void set_effects(Data& data, const std::vector<const Run*>& runs);
 
 /// The battery of hard cases: items in order, each indicator with its worst value, bound, reason
 /// and verdict, and links to the pictures; empty where no case belongs to it.
-[[nodiscard]] Data battery_section(const std::vector<Family>& families);
+[[nodiscard]] Data stress_suite_section(const std::vector<Family>& families);
 
 /// Published targets beside better values and what comes out; empty rows where no case is labelled
 /// as a benchmark.
@@ -61,7 +61,7 @@ void set_effects(Data& data, const std::vector<const Run*>& runs);
 [[nodiscard]] Data orders_section(const Results& results, const std::vector<Family>& families);
 
 /// Differences from the paper beside the noise that they stand against, after ASME V&V 20.
-[[nodiscard]] Data noise_section(const Results& results, const std::vector<Family>& families);
+[[nodiscard]] Data validation_uncertainty_section(const Results& results, const std::vector<Family>& families);
 
 /// A study of what accuracy costs with its figure.
 struct CostPanel {

@@ -18,22 +18,22 @@ struct Indicator {
   std::set<const Run*> variants;  ///< that have it
 };
 
-Indicator indicator_of(const std::string& check, const std::vector<const Run*>& runs) {
+Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs) {
   Indicator found;
   for (const Run* run : runs) {
-    for (const Check& one : run->checks) {
-      if (one.name != check) continue;
+    for (const Check& entry : run->checks) {
+      if (entry.name != check) continue;
       ++found.entries;
       found.variants.insert(run);
-      if (found.worst && !worse(one, *found.worst)) continue;
-      found.worst = &one;
+      if (found.worst && !worse(entry, *found.worst)) continue;
+      found.worst = &entry;
       found.run = run;
     }
   }
   return found;
 }
 
-std::string of_what(const Indicator& indicator, const CaseInfo& info) {
+std::string scope_text(const Indicator& indicator, const CaseInfo& info) {
   std::string text =
       indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
   if (indicator.entries > 1) {
@@ -57,11 +57,11 @@ Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const Check& check = *indicator.worst;
   Data row = object();
   row.set("quantity", check.title.empty() ? quantity_text(check) : check.title);
-  set_text(row, "of_what", of_what(indicator, info));
+  set_text(row, "of_what", scope_text(indicator, info));
   row.set("value", value_of(check));
   row.set("bound", bound_of(check));
   set_text(row, "why", check.why);
-  set_standing(row, standing(check));
+  set_check_status(row, check_status(check));
   return row;
 }
 
@@ -72,7 +72,7 @@ Data missing_row(const std::string& check) {
   row.set("value", "–");
   row.set("bound", "–");
   set_text(row, "why", "");
-  set_standing(row, Standing::not_run);
+  set_check_status(row, CheckStatus::not_run);
   return row;
 }
 
@@ -82,7 +82,7 @@ Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
   for (const PlotRequest& request : info.figures) {
     const auto figure =
         std::find_if(gallery.shown.begin(), gallery.shown.end(),
-                     [&](const Figure& one) { return one.id == slug(info.id + "-" + request.id); });
+                     [&](const Figure& figure) { return figure.id == slug(info.id + "-" + request.id); });
     if (figure == gallery.shown.end()) continue;
     Data picture = object();
     picture.set("id", figure->id);
@@ -94,7 +94,7 @@ Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
 
 /// "Battery 7: from 1 to 10,000 elements" stands under item 7 without its first two words.
 std::string title_of(const CaseInfo& info) {
-  const std::string prefix = "Battery " + std::to_string(info.battery->item) + ": ";
+  const std::string prefix = "Battery " + std::to_string(info.stress_suite->item) + ": ";
   if (info.title.rfind(prefix, 0) != 0) return info.title;
   std::string title = info.title.substr(prefix.size());
   if (title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
@@ -103,42 +103,42 @@ std::string title_of(const CaseInfo& info) {
 
 Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
   Data data = object();
-  data.set("item", std::to_string(info.battery->item));
+  data.set("item", std::to_string(info.stress_suite->item));
   data.set("case_title", title_of(info));
   data.set("case_anchor", case_anchor(info.id));
   data.set("pictures", pictures_of(info, family.galleries.at(info.id)));
   Data rows = list();
-  for (const std::string& check : info.battery->indicators) {
-    const Indicator indicator = indicator_of(check, family.runs_of(info.id));
-    ++counts[indicator.worst ? standing(*indicator.worst) : Standing::not_run];
+  for (const std::string& check : info.stress_suite->indicators) {
+    const Indicator indicator = worst_of(check, family.runs_of(info.id));
+    ++counts[indicator.worst ? check_status(*indicator.worst) : CheckStatus::not_run];
     rows.push_back(indicator.worst ? row_of(indicator, info) : missing_row(check));
   }
   data.set("rows", rows);
   return data;
 }
 
-std::string words_of(const Counts& counts, std::size_t items, std::size_t cases) {
+std::string text_of(const Counts& counts, std::size_t items, std::size_t cases) {
   std::string text = count(items, "item") + ", " + count(cases, "case") + ", " +
                      count(total(counts), "indicator") + ":";
-  for (const Standing one : all_standings) {
-    if (count_of(counts, one) == 0) continue;
-    text += (text.back() == ':' ? " " : ", ") + std::to_string(count_of(counts, one)) + " " +
-            (one == Standing::holds && count_of(counts, one) > 1 ? "hold" : in_words(one));
+  for (const CheckStatus status : kAllCheckStatuses) {
+    if (count_of(counts, status) == 0) continue;
+    text += (text.back() == ':' ? " " : ", ") + std::to_string(count_of(counts, status)) + " " +
+            (status == CheckStatus::passes && count_of(counts, status) > 1 ? "hold" : to_text(status));
   }
   return text + ".";
 }
 
 }  // namespace
 
-Data battery_section(const std::vector<Family>& families) {
+Data stress_suite_section(const std::vector<Family>& families) {
   std::multimap<int, Data> cases;
   std::set<int> items;
   Counts counts;
   for (const Family& family : families) {
     for (const CaseInfo* info : family.cases) {
-      if (!info->battery) continue;
-      cases.emplace(info->battery->item, case_of(*info, family, counts));
-      items.insert(info->battery->item);
+      if (!info->stress_suite) continue;
+      cases.emplace(info->stress_suite->item, case_of(*info, family, counts));
+      items.insert(info->stress_suite->item);
     }
   }
   Data section = object();
@@ -146,12 +146,12 @@ Data battery_section(const std::vector<Family>& families) {
   for (const auto& [item, data] : cases) in_order.push_back(data);
   set_flag(section, "has_rows", !cases.empty());
   section.set("cases", in_order);
-  section.set("words", words_of(counts, items.size(), cases.size()));
-  std::string gaps;
+  section.set("words", text_of(counts, items.size(), cases.size()));
+  std::string missing_items;
   for (int item = 1; !items.empty() && item < *items.rbegin(); ++item) {
-    if (!items.contains(item)) gaps += (gaps.empty() ? "" : ", ") + std::to_string(item);
+    if (!items.contains(item)) missing_items += (missing_items.empty() ? "" : ", ") + std::to_string(item);
   }
-  set_text(section, "gaps", gaps);
+  set_text(section, "gaps", missing_items);
   return section;
 }
 

@@ -11,7 +11,7 @@ namespace {
 struct Role {
   const char *name, *meaning;
 };
-constexpr std::array<Role, 3> roles = {{
+constexpr std::array<Role, 3> kRoles = {{
     {"verification", "against exact or independent truth"},
     {"validation", "against the published results under examination"},
     {"regression", "against our own earlier results"},
@@ -21,28 +21,28 @@ Counts counts_of(const Results& results, const std::string& role) {
   Counts counts;
   for (const Run& run : results.runs)
     for (const Check& check : run.checks)
-      if (role.empty() || check.role == role) ++counts[standing(check)];
+      if (role.empty() || check.role == role) ++counts[check_status(check)];
   return counts;
 }
 
 /// All but what few results have and none of these does.
-std::vector<Standing> role_columns(const Counts& all) {
-  std::vector<Standing> columns;
-  for (const Standing which : all_standings)
-    if (which != Standing::recorded || count_of(all, which) > 0) columns.push_back(which);
+std::vector<CheckStatus> role_columns(const Counts& all) {
+  std::vector<CheckStatus> columns;
+  for (const CheckStatus which : kAllCheckStatuses)
+    if (which != CheckStatus::not_judged || count_of(all, which) > 0) columns.push_back(which);
   return columns;
 }
 
 Data role_row(const std::string& name, const std::string& meaning, const Counts& counts,
-              const std::vector<Standing>& columns) {
+              const std::vector<CheckStatus>& columns) {
   Data row = object();
   row.set("role", name);
   set_text(row, "meaning", meaning);
   Data cells = list();
-  for (const Standing which : columns) {
+  for (const CheckStatus which : columns) {
     Data cell = object();
     const std::size_t n = count_of(counts, which);
-    set_standing(cell, which);
+    set_check_status(cell, which);
     set_text(cell, "n", n ? std::to_string(n) : "");
     cells.push_back(cell);
   }
@@ -54,8 +54,8 @@ Data role_row(const std::string& name, const std::string& meaning, const Counts&
 Data role_table(const Results& results) {
   Data rows = list();
   const Counts all = counts_of(results, "");
-  const std::vector<Standing> columns = role_columns(all);
-  for (const Role& role : roles) {
+  const std::vector<CheckStatus> columns = role_columns(all);
+  for (const Role& role : kRoles) {
     const Counts counts = counts_of(results, role.name);
     if (total(counts) > 0) rows.push_back(role_row(role.name, role.meaning, counts, columns));
   }
@@ -74,22 +74,22 @@ Data item(const CaseInfo& info, const Run& run, const std::string& what, const s
 }
 
 /// Runs that did not end as their case expects, and checks that fail or could not be judged.
-Data troubles(const Results& results, std::size_t& runs_without) {
+Data failures(const Results& results, std::size_t& unexpected_endings) {
   Data out = list();
   for (const Run& run : results.runs) {
     const CaseInfo& info = results.case_info(run.case_id);
-    const Standing ending = standing(run);
-    if (ending == Standing::fails || ending == Standing::error) {
-      ++runs_without;
+    const CheckStatus ending = check_status(run);
+    if (ending == CheckStatus::fails || ending == CheckStatus::error) {
+      ++unexpected_endings;
       Data data = item(info, run, to_string(run.status), run.reason);
-      set_standing(data, ending);
+      set_check_status(data, ending);
       out.push_back(data);
     }
     for (const CheckGroup& group : group_checks(run)) {
-      const Standing worst = standing(group.worst());
-      if (worst != Standing::fails && worst != Standing::error) continue;
-      Data data = item(info, run, check_title(group.front()), trouble_text(group));
-      set_standing(data, worst);
+      const CheckStatus worst = check_status(group.worst());
+      if (worst != CheckStatus::fails && worst != CheckStatus::error) continue;
+      Data data = item(info, run, check_title(group.front()), failure_text(group));
+      set_check_status(data, worst);
       out.push_back(data);
     }
   }
@@ -99,13 +99,13 @@ Data troubles(const Results& results, std::size_t& runs_without) {
 /// Differences with one and the same reason.
 struct Reason {
   std::string text;
-  const Check* least;
-  const Check* most;
+  const Check* lowest;
+  const Check* highest;
   std::vector<const Run*> runs;
 };
 
 /// Known discrepancies of a family under one name and with one reference.
-struct Known {
+struct KnownDiscrepancy {
   const Family* family;
   const Check* first;
   std::size_t checks = 0;
@@ -119,31 +119,31 @@ Item& find_or_add(std::vector<Item>& items, Is is, const Item& fresh) {
   return found == items.end() ? items.emplace_back(fresh) : *found;
 }
 
-void add(Known& known, const Run& run, const Check& check, const CaseInfo& info) {
+void add(KnownDiscrepancy& known, const Run& run, const Check& check, const CaseInfo& info) {
   ++known.checks;
   find_or_add(
       known.cases, [&](const CaseInfo* c) { return c == &info; }, &info);
   Reason& reason = find_or_add(
       known.reasons, [&](const Reason& r) { return r.text == check.why; },
       Reason{check.why, &check, &check, {}});
-  if (check.difference < reason.least->difference) reason.least = &check;
-  if (check.difference > reason.most->difference) reason.most = &check;
+  if (check.difference < reason.lowest->difference) reason.lowest = &check;
+  if (check.difference > reason.highest->difference) reason.highest = &check;
   find_or_add(
       reason.runs, [&](const Run* r) { return r == &run; }, &run);
 }
 
-std::vector<Known> known_discrepancies(const Results& results,
+std::vector<KnownDiscrepancy> known_discrepancies(const Results& results,
                                        const std::vector<Family>& families) {
-  std::vector<Known> out;
+  std::vector<KnownDiscrepancy> out;
   for (const Family& family : families) {
     for (const Run* run : family.runs) {
       for (const Check& check : run->checks) {
-        if (standing(check) != Standing::known) continue;
-        const auto same = [&](const Known& known) {
+        if (check_status(check) != CheckStatus::known_discrepancy) continue;
+        const auto same = [&](const KnownDiscrepancy& known) {
           return known.family == &family && known.first->name == check.name &&
                  known.first->reference == check.reference && known.first->measure == check.measure;
         };
-        add(find_or_add(out, same, Known{&family, &check, 0, {}, {}}), *run, check,
+        add(find_or_add(out, same, KnownDiscrepancy{&family, &check, 0, {}, {}}), *run, check,
             results.case_info(run->case_id));
       }
     }
@@ -151,21 +151,21 @@ std::vector<Known> known_discrepancies(const Results& results,
   return out;
 }
 
-std::string span_text(const Check& least, const Check& most) {
-  if (!least.difference || !most.difference) return "";
-  const std::string low = difference_text(least, *least.difference);
-  const std::string high = difference_text(most, *most.difference);
+std::string span_text(const Check& lowest, const Check& highest) {
+  if (!lowest.difference || !highest.difference) return "";
+  const std::string low = difference_text(lowest, *lowest.difference);
+  const std::string high = difference_text(highest, *highest.difference);
   return low == high ? low : low + " to " + high;
 }
 
-std::string span_text(const Known& known) {
-  const Check* least = known.first;
-  const Check* most = known.first;
+std::string span_text(const KnownDiscrepancy& known) {
+  const Check* lowest = known.first;
+  const Check* highest = known.first;
   for (const Reason& reason : known.reasons) {
-    if (reason.least->difference < least->difference) least = reason.least;
-    if (reason.most->difference > most->difference) most = reason.most;
+    if (reason.lowest->difference < lowest->difference) lowest = reason.lowest;
+    if (reason.highest->difference > highest->difference) highest = reason.highest;
   }
-  return span_text(*least, *most);
+  return span_text(*lowest, *highest);
 }
 
 /// What does not agree: as the case puts it, else what it is compared with.
@@ -174,7 +174,7 @@ std::string known_title(const Check& check, const Reference* reference) {
   return reference ? reference->title : check.name;
 }
 
-std::string run_names(const Reason& reason, const Known& known, const Results& results) {
+std::string run_names(const Reason& reason, const KnownDiscrepancy& known, const Results& results) {
   std::string text;
   for (const Run* run : reason.runs) {
     const CaseInfo& info = results.case_info(run->case_id);
@@ -184,11 +184,11 @@ std::string run_names(const Reason& reason, const Known& known, const Results& r
   return text;
 }
 
-Data reasons_data(const Known& known, const Results& results) {
+Data reasons_data(const KnownDiscrepancy& known, const Results& results) {
   Data out = list();
   for (const Reason& reason : known.reasons) {
     Data data = object();
-    set_text(data, "span", span_text(*reason.least, *reason.most));
+    set_text(data, "span", span_text(*reason.lowest, *reason.highest));
     set_text(data, "text", reason.text);
     data.set("variants", run_names(reason, known, results));
     out.push_back(data);
@@ -197,7 +197,7 @@ Data reasons_data(const Known& known, const Results& results) {
 }
 
 /// One reason stands as it is; many stand folded, under what they come to.
-Data known_data(const Known& known, const Results& results) {
+Data known_data(const KnownDiscrepancy& known, const Results& results) {
   Data data = object();
   const Reference* reference = results.reference(known.first->reference);
   Data cases = list();
@@ -216,18 +216,18 @@ Data known_data(const Known& known, const Results& results) {
   std::string extent = count(known.checks, "check");
   if (variants > 1) extent += " of " + count(variants, "variant");
   data.set("extent", extent);
-  const bool one = known.reasons.size() == 1;
+  const bool single_reason = known.reasons.size() == 1;
   set_text(data, "reason",
-           one ? known.reasons.front().text
+           single_reason ? known.reasons.front().text
                : comparison_conclusion(*known.family, results, *known.first));
-  set_text(data, "reasons_title", one ? "" : count(known.reasons.size(), "reason"));
-  data.set("reasons", one ? list() : reasons_data(known, results));
+  set_text(data, "reasons_title", single_reason ? "" : count(known.reasons.size(), "reason"));
+  data.set("reasons", single_reason ? list() : reasons_data(known, results));
   return data;
 }
 
 /// Families with known discrepancies, each with its list.
 Data known_by_family(const Results& results, const std::vector<Family>& families) {
-  const std::vector<Known> all = known_discrepancies(results, families);
+  const std::vector<KnownDiscrepancy> all = known_discrepancies(results, families);
   Data out = list();
   for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
     std::size_t checks = 0;
@@ -246,47 +246,47 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
   return out;
 }
 
-Data answers_list(const std::vector<Answer>& answers) {
+Data section_summaries(const std::vector<SectionSummary>& summaries) {
   Data out = list();
-  for (const Answer& answer : answers) {
+  for (const SectionSummary& summary : summaries) {
     Data data = object();
-    data.set("title", answer.title);
-    data.set("anchor", answer.anchor);
-    data.set("words", answer.words);
+    data.set("title", summary.title);
+    data.set("anchor", summary.anchor);
+    data.set("words", summary.text);
     out.push_back(data);
   }
   return out;
 }
 
-std::string verdict_words(const Counts& counts, std::size_t runs_without) {
-  const std::size_t fails = count_of(counts, Standing::fails);
-  const std::size_t errors = count_of(counts, Standing::error);
+std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
+  const std::size_t fails = count_of(counts, CheckStatus::fails);
+  const std::size_t errors = count_of(counts, CheckStatus::error);
   if (total(counts) == 0) return "Nothing was checked.";
   std::string text;
   const auto add_part = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (fails > 0) add_part(count(fails, "check fails", "checks fail"));
   if (errors > 0) add_part(std::to_string(errors) + " could not be judged");
-  if (runs_without > 0)
-    add_part(count(runs_without, "run did not end as expected", "runs did not end as expected"));
+  if (unexpected_endings > 0)
+    add_part(count(unexpected_endings, "run did not end as expected", "runs did not end as expected"));
   return text.empty() ? "Every gate holds." : text + ".";
 }
 
-std::string overview_words(const Results& results, const std::vector<Family>& families,
+std::string overview_text(const Results& results, const std::vector<Family>& families,
                            const Counts& counts) {
   std::size_t cases = 0;
   for (const Family& family : families) cases += family.cases.size();
   std::string text = count(cases, "case") + " in " + count(families.size(), "family", "families") +
                      " were solved in " + count(results.runs.size(), "variant") + " and " +
                      count(total(counts), "check") + " made. ";
-  text += count(count_of(counts, Standing::holds), "check holds", "checks hold") +
+  text += count(count_of(counts, CheckStatus::passes), "check holds", "checks hold") +
           " within a reasoned tolerance.";
-  if (const std::size_t known = count_of(counts, Standing::known))
+  if (const std::size_t known = count_of(counts, CheckStatus::known_discrepancy))
     text += " " + count(known, "comparison is", "comparisons are") + " known not to agree and " +
             (known == 1 ? "does" : "do") + " not, by as much as recorded; the reasons are below.";
-  if (const std::size_t recorded = count_of(counts, Standing::recorded))
+  if (const std::size_t recorded = count_of(counts, CheckStatus::not_judged))
     text += " " + count(recorded, "comparison is", "comparisons are") +
             " recorded without an expectation.";
-  if (const std::size_t skipped = count_of(counts, Standing::not_run))
+  if (const std::size_t skipped = count_of(counts, CheckStatus::not_run))
     text += " " + count(skipped, "check was", "checks were") + " not run.";
   return text;
 }
@@ -294,28 +294,28 @@ std::string overview_words(const Results& results, const std::vector<Family>& fa
 }  // namespace
 
 Data summary_section(const Results& results, const std::vector<Family>& families,
-                     const std::vector<Answer>& answers) {
+                     const std::vector<SectionSummary>& summaries) {
   const Counts counts = counts_of(results, "");
-  std::size_t runs_without = 0;
+  std::size_t unexpected_endings = 0;
   Data summary = object();
-  const Data trouble_list = troubles(results, runs_without);
-  const bool good = gate_holds(counts) && runs_without == 0 && total(counts) > 0;
-  summary.set("verdict", verdict_words(counts, runs_without));
+  const Data failure_list = failures(results, unexpected_endings);
+  const bool good = all_checks_pass(counts) && unexpected_endings == 0 && total(counts) > 0;
+  summary.set("verdict", verdict_text(counts, unexpected_endings));
   summary.set("verdict_class", good ? "holds" : "fails");
-  summary.set("overview", overview_words(results, families, counts));
+  summary.set("overview", overview_text(results, families, counts));
   summary.set("bar", counts_list(counts));
   summary.set("roles", role_table(results));
-  set_flag(summary, "has_troubles", trouble_list.is_non_empty_list());
-  summary.set("troubles", trouble_list);
-  set_flag(summary, "has_answers", !answers.empty());
-  summary.set("answers", answers_list(answers));
+  set_flag(summary, "has_troubles", failure_list.is_non_empty_list());
+  summary.set("troubles", failure_list);
+  set_flag(summary, "has_answers", !summaries.empty());
+  summary.set("answers", section_summaries(summaries));
   const Data known = known_by_family(results, families);
   set_flag(summary, "has_known", known.is_non_empty_list());
   summary.set("known_families", known);
   Data heads = list();
-  for (const Standing which : role_columns(counts)) {
+  for (const CheckStatus which : role_columns(counts)) {
     Data head = object();
-    set_standing(head, which);
+    set_check_status(head, which);
     heads.push_back(head);
   }
   summary.set("heads", heads);

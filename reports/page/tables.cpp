@@ -9,8 +9,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t most_open_rows = 16;  ///< rows of a case shown without folding
-constexpr std::size_t most_entries = 12;    ///< entries of one check shown one by one
+constexpr std::size_t kMaxUnfoldedRows = 16;  ///< rows of a case shown without folding
+constexpr std::size_t kMaxEntries = 12;    ///< entries of one check shown one by one
 
 /// The cells of one check; the first of its group carries what the group has in common.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
@@ -20,7 +20,7 @@ Data row_of(const Check& check, const std::string& entry, bool first = true) {
   row.set("target", target_text(check));
   row.set("computed", computed_text(check));
   row.set("difference", difference_text(check));
-  set_standing(row, standing(check));
+  set_check_status(row, check_status(check));
   const bool telling = check.verdict != Verdict::pass || check.measure == "status";
   set_text(row, "message", telling ? check.message : "");
   set_text(row, "own_range", "");
@@ -65,7 +65,7 @@ bool same_reason(const Check& a, const Check& b) {
 
 /// Every entry, or the worst of many. Entries with reasons of their own stand apart.
 void add_group(Data& groups, const CheckGroup& group, const Results& results) {
-  if (group.checks.size() > most_entries) {
+  if (group.checks.size() > kMaxEntries) {
     Data rows = list();
     rows.push_back(row_of(group.worst(), worst_entry(group)));
     groups.push_back(group_of(group.worst(), results, rows, 1));
@@ -95,7 +95,7 @@ Data run_data(const CaseInfo& info, const Run& run, bool many) {
   set_text(data, "variant_id", many ? run.variant : "");
   set_text(data, "ending", run.status == Status::solved ? "" : to_string(run.status));
   set_text(data, "reason", run.reason);
-  set_standing(data, standing(run));
+  set_check_status(data, check_status(run));
   return data;
 }
 
@@ -104,7 +104,7 @@ std::size_t rows_in(const std::vector<const Run*>& runs) {
   std::size_t n = 0;
   for (const Run* run : runs)
     for (const CheckGroup& group : group_checks(*run))
-      n += group.checks.size() > most_entries ? 1 : group.checks.size();
+      n += group.checks.size() > kMaxEntries ? 1 : group.checks.size();
   return n;
 }
 
@@ -172,7 +172,7 @@ Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
   std::size_t checks = 0;
   for (const Run* run : runs) checks += run->checks.size();
   set_flag(tables, "has_checks", checks > 0);
-  const bool few = rows_in(runs) <= most_open_rows;
+  const bool few = rows_in(runs) <= kMaxUnfoldedRows;
   tables.set("runs", few ? full_table(info, runs, results) : worst_table(info, runs, results));
   set_flag(tables, "has_folded", !few);
   if (few) return tables;

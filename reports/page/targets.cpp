@@ -20,7 +20,7 @@ struct Target {
   [[nodiscard]] double ratio() const { return *check->computed / *check->expected; }
 };
 
-bool is_truth(const Reference& reference) {
+bool is_independent(const Reference& reference) {
   return reference.kind == "exact" || reference.kind == "computed";
 }
 
@@ -32,7 +32,7 @@ bool compares_values(const Check& check) {
 const Check* find_better(const Run& run, const Check& target, const Results& results) {
   for (const Check& check : run.checks) {
     const Reference* reference = results.reference(check.reference);
-    if (reference && is_truth(*reference) && compares_values(check) &&
+    if (reference && is_independent(*reference) && compares_values(check) &&
         check.quantity == target.quantity && check.statistic == target.statistic &&
         check.index == target.index)
       return &check;
@@ -41,17 +41,17 @@ const Check* find_better(const Run& run, const Check& target, const Results& res
 }
 
 /// Of the entries of one check the one farthest from its target.
-void keep_farthest(std::vector<Target>& targets, const Target& one) {
+void keep_farthest(std::vector<Target>& targets, const Target& candidate) {
   const auto same = std::find_if(targets.begin(), targets.end(), [&](const Target& other) {
-    return other.run == one.run && other.check->name == one.check->name &&
-           other.check->quantity == one.check->quantity;
+    return other.run == candidate.run && other.check->name == candidate.check->name &&
+           other.check->quantity == candidate.check->quantity;
   });
   if (same == targets.end()) {
-    targets.push_back(one);
+    targets.push_back(candidate);
     return;
   }
   const std::size_t entries = same->entries + 1;
-  if (std::abs(one.ratio() - 1) > std::abs(same->ratio() - 1)) *same = one;
+  if (std::abs(candidate.ratio() - 1) > std::abs(same->ratio() - 1)) *same = candidate;
   same->entries = entries;
 }
 
@@ -59,7 +59,7 @@ std::vector<Target> targets_of(const Run& run, const Results& results) {
   std::vector<Target> targets;
   for (const Check& check : run.checks) {
     const Reference* reference = results.reference(check.reference);
-    if (!reference || is_truth(*reference) || !compares_values(check)) continue;
+    if (!reference || is_independent(*reference) || !compares_values(check)) continue;
     keep_farthest(targets, {&run, &check, find_better(run, check, results)});
   }
   return targets;
@@ -90,7 +90,7 @@ Data row_of(const Target& target, const CaseInfo& info, const Results& results) 
   const Check& check = *target.check;
   Data row = object();
   const Quantity quantity = parse_quantity(check.quantity);
-  row.set("quantity", axis_label(in_words(quantity), quantity.unit));
+  row.set("quantity", axis_label(to_text(quantity), quantity.unit));
   std::string of_what =
       target.run->variant == "base" ? "" : info.variant_title(target.run->variant);
   if (target.entries > 1) {
@@ -104,7 +104,7 @@ Data row_of(const Target& target, const CaseInfo& info, const Results& results) 
   row.set("ratio", significant(target.ratio(), 5));
   row.set("better_ratio",
           target.better ? significant(*check.computed / *target.better->expected, 7) : "–");
-  set_standing(row, standing(check));
+  set_check_status(row, check_status(check));
   return row;
 }
 

@@ -11,8 +11,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t open_rows = 8;
-constexpr double full_colour = 0.4;  ///< relative difference that is drawn in full colour
+constexpr std::size_t kMaxUnfoldedRows = 8;
+constexpr double kFullColourDifference = 0.4;  ///< relative difference that is drawn in full colour
 
 /// One variant in one check.
 struct Row {
@@ -58,7 +58,7 @@ struct Tally {
   }
 };
 
-std::string verdict_words(const Tally& counts) {
+std::string verdict_text(const Tally& counts) {
   constexpr std::array<std::pair<const char*, const char*>, 4> words = {{
       {"within-noise", "within the noise"},
       {"model-off", "the model is off"},
@@ -66,26 +66,26 @@ std::string verdict_words(const Tally& counts) {
       {"undecided", "undecided"},
   }};
   std::string text;
-  for (const auto& [key, people] : words) {
+  for (const auto& [key, text_of_key] : words) {
     const auto found = counts.verdict.find(key);
     if (found == counts.verdict.end()) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(found->second) + " " + people;
+    text += (text.empty() ? "" : ", ") + std::to_string(found->second) + " " + text_of_key;
   }
   return text;
 }
 
-std::string name_for_people(std::string name) {
+std::string display_name(std::string name) {
   std::replace(name.begin(), name.end(), '-', ' ');
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-std::string dominant_words(const Tally& counts) {
+std::string dominant_text(const Tally& counts) {
   const auto most =
       std::max_element(counts.dominant.begin(), counts.dominant.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   if (most == counts.dominant.end()) return "";
-  return " The printed digit that matters most is that of the " + name_for_people(most->first) +
+  return " The printed digit that matters most is that of the " + display_name(most->first) +
          ", for " + std::to_string(most->second) + " of " + std::to_string(counts.entries) + ".";
 }
 
@@ -99,7 +99,7 @@ std::string dominant_text(const Row& row) {
   }
   std::string text;
   for (const auto& [name, share] : shares) {
-    text += (text.empty() ? "" : "; ") + name_for_people(name);
+    text += (text.empty() ? "" : "; ") + display_name(name);
     if (share) text += ", up to " + relative(*share, 2, false);
   }
   return text.empty() ? "–" : text;
@@ -114,9 +114,9 @@ Data cell_of(const Comparison* c) {
   cell.set("noise", relative(2 * *c->u_val / std::abs(*c->expected), 2, false));
   cell.set("verdict", c->verdict);
   cell.set("side", difference < 0 ? "below" : "above");
-  cell.set("depth", trimmed(std::min(1.0, std::abs(difference) / full_colour), 2));
-  std::string words = c->words;
-  if (!c->literal_words.empty()) words += " Lengths read literally: " + c->literal_words;
+  cell.set("depth", trimmed(std::min(1.0, std::abs(difference) / kFullColourDifference), 2));
+  std::string words = c->conclusion;
+  if (!c->all_inputs_conclusion.empty()) words += " Lengths read literally: " + c->all_inputs_conclusion;
   set_text(cell, "words", words);
   return cell;
 }
@@ -139,8 +139,8 @@ Data table_of(const Subject& subject, bool is_only, const Results& results) {
   Data table = object();
   table.set("title", reference ? reference->title : subject.reference);
   set_text(table, "reference_anchor", reference ? reference_anchor(reference->id) : "");
-  set_text(table, "unit", reference ? unit_for_people(reference->unit) : "");
-  set_text(table, "check", is_only ? "" : name_for_people(subject.check));
+  set_text(table, "unit", reference ? display_unit(reference->unit) : "");
+  set_text(table, "check", is_only ? "" : display_name(subject.check));
   table.set("case_title", subject.info->title);
   table.set("case_anchor", case_anchor(subject.info->id));
   const bool modes = subject.quantity.rfind("frequency", 0) == 0;
@@ -154,7 +154,7 @@ Data table_of(const Subject& subject, bool is_only, const Results& results) {
   table.set("columns", columns);
   Tally counts;
   Data rows = list(), folded = list();
-  const std::size_t shown = subject.rows.size() > open_rows + 3 ? open_rows : subject.rows.size();
+  const std::size_t shown = subject.rows.size() > kMaxUnfoldedRows + 3 ? kMaxUnfoldedRows : subject.rows.size();
   for (std::size_t i = 0; i < subject.rows.size(); ++i) {
     counts.add(subject.rows[i]);
     (i < shown ? rows : folded).push_back(row_of(subject.rows[i], subject));
@@ -164,14 +164,14 @@ Data table_of(const Subject& subject, bool is_only, const Results& results) {
   set_text(
       table, "folded_title",
       shown == subject.rows.size() ? "" : count(subject.rows.size() - shown, "further variant"));
-  table.set("words", "Of " + count(counts.entries, "comparison") + ": " + verdict_words(counts) +
-                         "." + dominant_words(counts));
+  table.set("words", "Of " + count(counts.entries, "comparison") + ": " + verdict_text(counts) +
+                         "." + dominant_text(counts));
   return table;
 }
 
 }  // namespace
 
-Data noise_section(const Results& results, const std::vector<Family>& families) {
+Data validation_uncertainty_section(const Results& results, const std::vector<Family>& families) {
   std::vector<Subject> subjects;
   for (const Family& family : families)
     for (const CaseInfo* info : family.cases)
@@ -187,8 +187,8 @@ Data noise_section(const Results& results, const std::vector<Family>& families) 
     tables.push_back(table_of(subject, same == 1, results));
   }
   set_flag(section, "has_rows", !subjects.empty());
-  section.set("words", count(all.entries, "comparison") + " with the paper: " + verdict_words(all) +
-                           "." + dominant_words(all));
+  section.set("words", count(all.entries, "comparison") + " with the paper: " + verdict_text(all) +
+                           "." + dominant_text(all));
   section.set("tables", tables);
   return section;
 }

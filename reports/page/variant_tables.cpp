@@ -17,15 +17,15 @@ Number statistic(const std::string& name, const Numbers& numbers) {
     values.push_back(*number);
   }
   if (values.empty()) return std::nullopt;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto n = static_cast<double>(values.size());
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
   if (name == "first") return values.front();
   if (name == "last") return values.back();
-  if (name == "max") return *most;
-  if (name == "min") return *least;
-  if (name == "range") return *most - *least;
+  if (name == "max") return *highest;
+  if (name == "min") return *lowest;
+  if (name == "range") return *highest - *lowest;
   if (name == "max_abs") return std::abs(*std::max_element(values.begin(), values.end(), smaller));
   if (name == "min_abs") return std::abs(*std::min_element(values.begin(), values.end(), smaller));
   if (name == "sum") return sum;

@@ -73,7 +73,7 @@ std::string relative(double x, int digits, bool sign) {
   return text(100 * x) + "\u202f%";
 }
 
-int telling_digits(double a, double b) {
+int distinguishing_digits(double a, double b) {
   const double scale = std::max(std::abs(a), std::abs(b));
   if (scale == 0 || a == b || !std::isfinite(a) || !std::isfinite(b)) return 6;
   const double digits = std::ceil(-std::log10(std::abs(a - b) / scale)) + 1;

@@ -21,7 +21,7 @@ namespace trammel::reports {
 [[nodiscard]] std::string relative(double x, int digits, bool sign);
 
 /// Digits that show where two numbers part, between 4 and 10; 6 where they agree beyond that.
-[[nodiscard]] int telling_digits(double a, double b);
+[[nodiscard]] int distinguishing_digits(double a, double b);
 
 /// The shortest text that reads back as the same double, independent of the locale.
 [[nodiscard]] std::string shortest(double x);

@@ -12,7 +12,7 @@ namespace trammel::reports {
 namespace {
 
 /// Longest first, so that N_m is not read as m.
-constexpr std::array<std::pair<const char*, const char*>, 29> units = {{
+constexpr std::array<std::pair<const char*, const char*>, 29> kUnits = {{
     {"Hz_m3_per_kg", "Hz·m³/kg"},
     {"N_m_per_rad", "N·m/rad"},
     {"rad_per_s2", "rad/s²"},
@@ -74,9 +74,9 @@ bool is_of_a_quantity(const std::string& base) {
 
 }  // namespace
 
-std::string unit_for_people(const std::string& unit) {
+std::string display_unit(const std::string& unit) {
   if (unit == "1") return "";
-  for (const auto& [key, people] : units)
+  for (const auto& [key, people] : kUnits)
     if (unit == key) return people;
   std::string people;
   for (std::size_t i = 0; i < unit.size(); ++i) {
@@ -102,9 +102,9 @@ Quantity parse_quantity(const std::string& name) {
       !quantity.subject.empty()) {
     quantity.subject.insert(0, "mode ");
   } else if (quantity.subject.find(':') != std::string::npos || is_of_a_quantity(base)) {
-    quantity.subject = in_words(parse_quantity(quantity.subject));
+    quantity.subject = to_text(parse_quantity(quantity.subject));
   }
-  for (const auto& [key, people] : units) {
+  for (const auto& [key, people] : kUnits) {
     if (!ends_with(base, std::string("_") + key)) continue;
     quantity.unit = people;
     base.resize(base.size() - std::string(key).size() - 1);
@@ -114,7 +114,7 @@ Quantity parse_quantity(const std::string& name) {
   return quantity;
 }
 
-std::string in_words(const Quantity& quantity) {
+std::string to_text(const Quantity& quantity) {
   return quantity.subject.empty() ? quantity.label : quantity.label + " of " + quantity.subject;
 }
 

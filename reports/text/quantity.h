@@ -14,10 +14,10 @@ struct Quantity {
 [[nodiscard]] Quantity parse_quantity(const std::string& name);
 
 /// "x displacement of P".
-[[nodiscard]] std::string in_words(const Quantity& quantity);
+[[nodiscard]] std::string to_text(const Quantity& quantity);
 
 /// A unit as written in key names (N_m, kg_m2, rad_per_s) for people (N·m, kg·m², rad/s).
-[[nodiscard]] std::string unit_for_people(const std::string& unit);
+[[nodiscard]] std::string display_unit(const std::string& unit);
 
 /// The factor that brings values of up to `largest` near 1 ... 1000, and the unit that goes with
 /// it: 0.0081 m is 8.1 mm. Where the unit takes no prefix, a power of ten stands in its place.

@@ -10,7 +10,7 @@
 #include "solver/linalg/symmetric_builder.h"
 #include "solver/assembly/system.h"
 #include "solver/assembly/validate.h"
-#include "solver/assembly/reduced_model.h"
+#include "solver/assembly/restrict_model_effects.h"
 
 namespace trammel {
 namespace {
@@ -45,7 +45,7 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
 
 class Assembler {
  public:
-  Assembler(Model model, Effects kept) : kept_(kept) {
+  Assembler(Model model, Effects active) : active_(active) {
     validate(model);
     Discretisation discretisation = discretise(model);
     system_.constraints = constrain(model, discretisation);
@@ -58,7 +58,7 @@ class Assembler {
 
   System run() {
     stiffness();
-    if (kept_.has(Effect::inertia)) mass();
+    if (active_.has(Effect::inertia)) mass();
     loads();
     return std::move(system_);
   }
@@ -90,7 +90,7 @@ class Assembler {
       const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
       if (e.is_bar()) continue;
       if (member.axially_flexible) counters.count(Effect::axial_flexibility, 1);
-      if (shears(member.theory)) counters.count(Effect::shear, 1);
+      if (has_shear_deformation(member.theory)) counters.count(Effect::shear, 1);
     }
     for (const Member& member : system_.model.members) {
       for (const MemberEnd& end : member.ends) {
@@ -176,14 +176,14 @@ class Assembler {
       for (Index i = 0; i < fall.size(); ++i) fall[i] = model.gravity[i % 2];
       add_load(coordinates, (m * fall).eval());
     });
-    for (const PointMass& lump : model.masses) {
-      const Vector2d weight = lump.mass * model.gravity;
-      add_load(system_.coordinates.node[static_cast<std::size_t>(lump.node)],
-               Vector3d(weight.x(), weight.y(), cross(lump.offset, weight)));
+    for (const PointMass& point_mass : model.masses) {
+      const Vector2d weight = point_mass.mass * model.gravity;
+      add_load(system_.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+               Vector3d(weight.x(), weight.y(), cross(point_mass.offset, weight)));
     }
   }
 
-  Effects kept_;
+  Effects active_;
   System system_;
 };
 
@@ -199,8 +199,8 @@ Vector6d element_load(const FrameElement& element, const Vector2d& load) {
   return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * load, element.length);
 }
 
-System assemble(const Model& model, Effects kept) {
-  return Assembler(reduced(model, kept), kept).run();
+System assemble(const Model& model, Effects active) {
+  return Assembler(restrict_effects(model, active), active).run();
 }
 
 Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {

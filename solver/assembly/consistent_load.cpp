@@ -77,7 +77,7 @@ bool runs_counterclockwise(const Model& model, const Triangle& triangle) {
 void add_body_force(System& system, const BodyForce& force) {
   for (const Triangle& triangle : system.model.triangles) {
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-      const TriangleInterpolation at = interpolate(system.model, triangle, point.at);
+      const TriangleInterpolation at = interpolate(system.model, triangle, point.area_coordinates);
       const double volume = point.weight * at.area * plate_of(system, triangle).thickness;
       add_to_nodes(system, triangle, at, volume * force(at.position));
     }
@@ -92,8 +92,8 @@ void add_edge_traction(System& system, const Traction& traction) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (count.at(side_of(triangle, k)) != 1) continue;
       for (const LineQuadraturePoint& point : line_quadrature()) {
-        const TriangleInterpolation at = interpolate(system.model, triangle, on_side(k, point.at));
-        const Vector2d along = tangent(system.model, triangle, k, point.at);
+        const TriangleInterpolation at = interpolate(system.model, triangle, on_side(k, point.xi));
+        const Vector2d along = tangent(system.model, triangle, k, point.xi);
         const Vector2d normal = outward / along.norm() * Vector2d(along.y(), -along.x());
         const double area = point.weight * along.norm() * plate_of(system, triangle).thickness;
         add_to_nodes(system, triangle, at, area * traction(at.position, normal));
@@ -112,10 +112,10 @@ void add_line_load(System& system, const LineLoad& load) {
     const Vector2d& start = system.mesh.positions[static_cast<std::size_t>(e.nodes[0])];
     Vector6d force = Vector6d::Zero();
     for (const LineQuadraturePoint& point : line_quadrature()) {
-      Vector3d q = load(start + point.at * e.length * e.direction);
+      Vector3d q = load(start + point.xi * e.length * e.direction);
       q.head<2>() = R.topLeftCorner<2, 2>() * q.head<2>();
       force +=
-          point.weight * e.length * frame_interpolation(phi, e.length, point.at).transpose() * q;
+          point.weight * e.length * frame_interpolation(phi, e.length, point.xi).transpose() * q;
     }
     force = R.transpose() * force;
     for (std::size_t i = 0; i < 6; ++i) {

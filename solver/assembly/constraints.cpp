@@ -271,21 +271,21 @@ Constraints constrain(const Model& model, const Discretisation& discretisation) 
 
 Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
   // Square system of the kept rows and their pivots; supports, one entry each, come last.
-  std::vector<Index> kept;
+  std::vector<Index> independent_rows;
   std::vector<Index> number_of_pivot(static_cast<std::size_t>(T.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pivot[i] < 0 || rows[i].source == ConstraintRow::Source::support) continue;
-    number_of_pivot[static_cast<std::size_t>(pivot[i])] = static_cast<Index>(kept.size());
-    kept.push_back(static_cast<Index>(i));
+    number_of_pivot[static_cast<std::size_t>(pivot[i])] = static_cast<Index>(independent_rows.size());
+    independent_rows.push_back(static_cast<Index>(i));
   }
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Index>(rows.size()));
-  Eigen::VectorXd rest = force;
-  if (!kept.empty()) {
-    const auto n = static_cast<Index>(kept.size());
+  Eigen::VectorXd remaining_force = force;
+  if (!independent_rows.empty()) {
+    const auto n = static_cast<Index>(independent_rows.size());
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd right(n);
     for (Index k = 0; k < n; ++k) {
-      const auto row = static_cast<std::size_t>(kept[static_cast<std::size_t>(k)]);
+      const auto row = static_cast<std::size_t>(independent_rows[static_cast<std::size_t>(k)]);
       right[k] = force[pivot[row]];
       for (const auto& [u, c] : rows[row].terms) {
         const Index equation = number_of_pivot[static_cast<std::size_t>(u)];
@@ -297,14 +297,14 @@ Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
     Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
     const Eigen::VectorXd solution = lu.solve(right);
     for (Index k = 0; k < n; ++k) {
-      const auto row = static_cast<std::size_t>(kept[static_cast<std::size_t>(k)]);
+      const auto row = static_cast<std::size_t>(independent_rows[static_cast<std::size_t>(k)]);
       lambda[static_cast<Index>(row)] = solution[k];
-      for (const auto& [u, c] : rows[row].terms) rest[u] -= c * solution[k];
+      for (const auto& [u, c] : rows[row].terms) remaining_force[u] -= c * solution[k];
     }
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pivot[i] < 0 || rows[i].source != ConstraintRow::Source::support) continue;
-    lambda[static_cast<Index>(i)] = rest[pivot[i]];
+    lambda[static_cast<Index>(i)] = remaining_force[pivot[i]];
   }
   return lambda;
 }

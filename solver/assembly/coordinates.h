@@ -40,7 +40,7 @@ struct Coordinates {
 
   /// (u1 v1 u2 v2 ...) of a triangle's first n / 2 nodes.
   template <std::size_t n>
-  [[nodiscard]] std::array<Index, n> of(const Triangle& triangle) const {
+  [[nodiscard]] std::array<Index, n> of_triangle(const Triangle& triangle) const {
     std::array<Index, n> numbers{};
     for (std::size_t i = 0; i < n; ++i) {
       numbers[i] = node[static_cast<std::size_t>(triangle.nodes[i / 2])][i % 2];

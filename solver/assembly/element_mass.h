@@ -21,9 +21,9 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   const Model& model = system.model;
   for (const Triangle& triangle : model.triangles) {
     if (triangle.quadratic()) {
-      visit(system.coordinates.of<12>(triangle), triangle6_mass(model, triangle));
+      visit(system.coordinates.of_triangle<12>(triangle), triangle6_mass(model, triangle));
     } else {
-      visit(system.coordinates.of<6>(triangle),
+      visit(system.coordinates.of_triangle<6>(triangle),
             triangle_mass(corners(model, triangle),
                           model.plates[static_cast<std::size_t>(triangle.plate)]));
     }

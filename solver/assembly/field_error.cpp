@@ -93,7 +93,7 @@ class FrameField {
   }
   /// Shear compliance [1/N]; 0 for a theory without shear.
   [[nodiscard]] double shear_compliance(const Section& section) const {
-    return shears(theory_) ? 1 / section.kappa_GA : 0;
+    return has_shear_deformation(theory_) ? 1 / section.kappa_GA : 0;
   }
 
  private:
@@ -139,7 +139,7 @@ MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
   for (const Triangle& triangle : system.model.triangles) {
     const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-      const TriangleInterpolation at = interpolate(system.model, triangle, point.at);
+      const TriangleInterpolation at = interpolate(system.model, triangle, point.area_coordinates);
       const MembraneFieldPoint h = membrane_point(system, triangle, at, u);
       const MembraneFieldPoint x = exact(at.position);
       const double weight = point.weight * at.area * plate.thickness;
@@ -165,7 +165,7 @@ BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q, const Bea
       return start + xi * e.length * e.direction;
     };
     for (const LineQuadraturePoint& point : line_quadrature()) {
-      norms.add(point.weight * e.length, field.at(point.at), exact(position(point.at)),
+      norms.add(point.weight * e.length, field.at(point.xi), exact(position(point.xi)),
                 1 / e.section.EI, field.shear_compliance(e.section));
     }
     for (const double end : {0.0, 1.0}) norms.add_node(field.at(end), exact(position(end)));

@@ -30,9 +30,9 @@ void for_each_inertia(const System& system, Visit&& visit) {
     visit(e.coordinates, world_mass(e, member));
   }
   for_each_plate_mass(system, visit);
-  for (const PointMass& lump : system.model.masses) {
-    visit(system.coordinates.node[static_cast<std::size_t>(lump.node)],
-          point_inertia(lump.mass, lump.inertia, lump.offset));
+  for (const PointMass& point_mass : system.model.masses) {
+    visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+          point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset));
   }
   for (std::size_t i = 0; i < system.model.members.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {

@@ -12,7 +12,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// L H of prestress.h.
-Eigen::Matrix3d turning_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
+Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   H(0, 0) = N;
   if (!e.is_bar()) {
@@ -27,40 +27,40 @@ Eigen::Matrix3d turning_rigidity(const FrameElement& e, BeamTheory theory, doubl
 
 /// Gradients of u and v along the principal axes of the stress, at one point of a triangle.
 template <int n>
-struct PlateTurning {
+struct PlateGeometricStiffness {
   Eigen::Matrix<double, 4, n> B = Eigen::Matrix<double, 4, n>::Zero();
   Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
 };
 
 template <int n>
-PlateTurning<n> plate_turning(const TriangleInterpolation& at, const Eigen::RowVector3d& stress,
+PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation& at, const Eigen::RowVector3d& stress,
                               double volume) {
   Eigen::Matrix2d tensor;
   tensor << stress[0], stress[2], stress[2], stress[1];
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(tensor);
   const Eigen::Matrix<double, 2, 6> along = principal.eigenvectors().transpose() * at.gradient;
-  PlateTurning<n> turning;
+  PlateGeometricStiffness<n> part;
   for (Index i = 0; i < n / 2; ++i) {
-    turning.B(0, 2 * i) = turning.B(1, 2 * i + 1) = along(0, i);
-    turning.B(2, 2 * i) = turning.B(3, 2 * i + 1) = along(1, i);
+    part.B(0, 2 * i) = part.B(1, 2 * i + 1) = along(0, i);
+    part.B(2, 2 * i) = part.B(3, 2 * i + 1) = along(1, i);
   }
   const Vector2d s = volume * principal.eigenvalues();
-  turning.H.diagonal() << s[0], s[0], s[1], s[1];
-  return turning;
+  part.H.diagonal() << s[0], s[0], s[1], s[1];
+  return part;
 }
 
 /// Calls visit(coordinates, B, H) for every part B^T H B of the geometric stiffness.
 template <class Visit>
-void for_each_turning(const System& system, const Prestress& state, Visit&& visit) {
+void for_each_geometric_stiffness(const System& system, const Prestress& state, Visit&& visit) {
   const Model& model = system.model;
   for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
     const FrameElement& e = system.mesh.frame[i];
     const double axial = state.axial[static_cast<Index>(i)];
-    const double growth = state.growth[static_cast<Index>(i)];
-    if (axial == 0 && growth == 0) continue;
+    const double axial_variation = state.axial_variation[static_cast<Index>(i)];
+    if (axial == 0 && axial_variation == 0) continue;
     const BeamTheory theory = model.members[static_cast<std::size_t>(e.member)].theory;
-    visit(e.coordinates, frame_turning(e.direction, e.length),
-          turning_rigidity(e, theory, axial, growth));
+    visit(e.coordinates, frame_chord_rotation_and_bending(e.direction, e.length),
+          geometric_rigidity(e, theory, axial, axial_variation));
   }
   const double h = 0.5;
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
@@ -71,25 +71,25 @@ void for_each_turning(const System& system, const Prestress& state, Visit&& visi
     if (triangle.quadratic()) {  // the middles of the sides: exact to degree 2
       for (const Vector3d& at : {Vector3d(h, h, 0), Vector3d(0, h, h), Vector3d(h, 0, h)}) {
         const TriangleInterpolation point = interpolate(model, triangle, at);
-        const auto turning = plate_turning<12>(point, stress, t * point.area / 3);
-        visit(system.coordinates.of<12>(triangle), turning.B, turning.H);
+        const auto part = plate_geometric_stiffness<12>(point, stress, t * point.area / 3);
+        visit(system.coordinates.of_triangle<12>(triangle), part.B, part.H);
       }
     } else {
       const TriangleInterpolation point = interpolate(model, triangle, Vector3d::Constant(1 / 3.0));
-      const auto turning = plate_turning<6>(point, stress, t * point.area);
-      visit(system.coordinates.of<6>(triangle), turning.B, turning.H);
+      const auto part = plate_geometric_stiffness<6>(point, stress, t * point.area);
+      visit(system.coordinates.of_triangle<6>(triangle), part.B, part.H);
     }
   }
-  using One = Eigen::Matrix<double, 1, 1>;
+  using Matrix1d = Eigen::Matrix<double, 1, 1>;
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
-    if (state.arm[static_cast<Index>(i)] == 0) continue;
+    if (state.arm_moment[static_cast<Index>(i)] == 0) continue;
     const Index rotation = system.constraints.rows[i].terms[2].first;
-    visit(std::array<Index, 1>{rotation}, One(1), One(state.arm[static_cast<Index>(i)]));
+    visit(std::array<Index, 1>{rotation}, Matrix1d(1), Matrix1d(state.arm_moment[static_cast<Index>(i)]));
   }
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
-    if (state.offset[static_cast<Index>(i)] == 0) continue;
+    if (state.offset_moment[static_cast<Index>(i)] == 0) continue;
     const auto& node = system.coordinates.node[static_cast<std::size_t>(model.masses[i].node)];
-    visit(std::array<Index, 1>{node[2]}, One(1), One(state.offset[static_cast<Index>(i)]));
+    visit(std::array<Index, 1>{node[2]}, Matrix1d(1), Matrix1d(state.offset_moment[static_cast<Index>(i)]));
   }
 }
 
@@ -122,10 +122,10 @@ Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
     Vector3d d;
     if (triangle.quadratic()) {
       d = triangle6_deformation(model, triangle, Vector3d::Constant(1 / 3.0)) *
-          detail::gather(system.coordinates.of<12>(triangle), u);
+          detail::gather(system.coordinates.of_triangle<12>(triangle), u);
     } else {
       d = triangle_deformation(corners(model, triangle)) *
-          detail::gather(system.coordinates.of<6>(triangle), u);
+          detail::gather(system.coordinates.of_triangle<6>(triangle), u);
     }
     stress.row(static_cast<Index>(i)) = membrane_stress(material, d);
   }
@@ -134,7 +134,7 @@ Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
 
 }  // namespace
 
-FrameDeformation frame_turning(const Vector2d& direction, double length) {
+FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction, double length) {
   const double c = direction.x() / length;
   const double s = direction.y() / length;
   FrameDeformation B = frame_deformation(direction, length);
@@ -149,7 +149,7 @@ BodyForces body_forces(const System& system) {
     const Vector2d& load = model.members[static_cast<std::size_t>(e.member)].load;
     body.element.emplace_back(load + e.section.mass_per_length * model.gravity);
   }
-  for (const PointMass& lump : model.masses) body.lump.emplace_back(lump.mass * model.gravity);
+  for (const PointMass& point_mass : model.masses) body.point_mass.emplace_back(point_mass.mass * model.gravity);
   return body;
 }
 
@@ -174,16 +174,16 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
                     const BodyForces& body) {
   Prestress state;
   state.axial = axial_forces(system, u, multipliers);
-  state.growth.resize(state.axial.size());
-  for (Index i = 0; i < state.growth.size(); ++i) {
+  state.axial_variation.resize(state.axial.size());
+  for (Index i = 0; i < state.axial_variation.size(); ++i) {
     const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
-    state.growth[i] = -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
+    state.axial_variation[i] = -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
   }
   state.stress = centroid_stress(system, u);
-  state.arm = arm_moments(system, multipliers);
-  state.offset.setZero(static_cast<Index>(system.model.masses.size()));
+  state.arm_moment = arm_moments(system, multipliers);
+  state.offset_moment.setZero(static_cast<Index>(system.model.masses.size()));
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
-    state.offset[static_cast<Index>(i)] = body.lump[i].dot(system.model.masses[i].offset);
+    state.offset_moment[static_cast<Index>(i)] = body.point_mass[i].dot(system.model.masses[i].offset);
   }
   return state;
 }
@@ -191,15 +191,15 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
 SparseMatrix geometric_stiffness(const System& system, const Prestress& state) {
   SymmetricBuilder builder(system.constraints.free_count);
   Projection projection(system.constraints, builder);
-  for_each_turning(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
+  for_each_geometric_stiffness(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
     projection.add(coordinates, (B.transpose() * H * B).eval());
   });
   return builder.build();
 }
 
-VectorXd turning_forces(const System& system, const Prestress& state, const VectorXd& u) {
+VectorXd geometric_stiffness_forces(const System& system, const Prestress& state, const VectorXd& u) {
   VectorXd force = VectorXd::Zero(u.size());
-  for_each_turning(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
+  for_each_geometric_stiffness(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
     const auto local = (B.transpose() * (H * (B * detail::gather(coordinates, u)))).eval();
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
@@ -208,11 +208,11 @@ VectorXd turning_forces(const System& system, const Prestress& state, const Vect
   return force;
 }
 
-Vector6d turning_forces(const FrameElement& element, BeamTheory theory, double axial, double growth,
+Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory, double axial, double axial_variation,
                         const Vector6d& u) {
-  const Vector3d d = frame_turning(element.direction, element.length) * u;
-  return frame_turning(Vector2d::UnitX(), element.length).transpose() *
-         (turning_rigidity(element, theory, axial, growth) * d);
+  const Vector3d d = frame_chord_rotation_and_bending(element.direction, element.length) * u;
+  return frame_chord_rotation_and_bending(Vector2d::UnitX(), element.length).transpose() *
+         (geometric_rigidity(element, theory, axial, axial_variation) * d);
 }
 
 }  // namespace trammel

@@ -8,29 +8,29 @@ namespace {
 
 using Eigen::VectorXd;
 
-const Eigen::Matrix2d& quarter_turn() {
+const Eigen::Matrix2d& perpendicular_matrix() {
   static const Eigen::Matrix2d J = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
   return J;
 }
 
 /// The part of a vector that leads away from the axis.
-Eigen::Matrix2d away_from(SpinAxis axis) {
-  return Eigen::Vector2d(axis == SpinAxis::x ? 0 : 1, axis == SpinAxis::y ? 0 : 1).asDiagonal();
+Eigen::Matrix2d distance_projector(RotationAxis axis) {
+  return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1).asDiagonal();
 }
 
 /// Translation of a point mass's centre from (x, y, rotation) of its node.
-Eigen::Matrix<double, 2, 3> centre_motion(const PointMass& lump) {
+Eigen::Matrix<double, 2, 3> centre_of_mass_interpolation(const PointMass& point_mass) {
   Eigen::Matrix<double, 2, 3> B;
-  B << Eigen::Matrix2d::Identity(), quarter_turn() * lump.offset;
+  B << Eigen::Matrix2d::Identity(), perpendicular_matrix() * point_mass.offset;
   return B;
 }
 
 /// integral rho N^T J N of a frame element in its axes.
-Matrix6d frame_coriolis(const FrameElement& e, const Member& member) {
+Matrix6d frame_gyroscopic(const FrameElement& e, const Member& member) {
   const double m = e.section.mass_per_length * e.length;
   Matrix6d G = Matrix6d::Zero();
   const auto add = [&G](const Eigen::Matrix<double, 2, 6>& N, double mass) {
-    G += mass * N.transpose() * quarter_turn() * N;
+    G += mass * N.transpose() * perpendicular_matrix() * N;
   };
   if (member.mass == MassMatrix::lumped || e.is_bar()) {
     const Matrix6d M = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
@@ -46,14 +46,14 @@ Matrix6d frame_coriolis(const FrameElement& e, const Member& member) {
   }
   const double phi = shear_ratio(e.section, member.theory, e.length);
   for (const LineQuadraturePoint& point : line_quadrature()) {
-    add(frame_interpolation(phi, e.length, point.at).topRows<2>(), point.weight * m);
+    add(frame_interpolation(phi, e.length, point.xi).topRows<2>(), point.weight * m);
   }
   return G;
 }
 
 /// integral rho N^T P N of a frame element, P the projection away from an axis in the plane. World
 /// axes; lumped mass turns nothing.
-Matrix6d frame_pull(const FrameElement& e, const Member& member, const Eigen::Matrix2d& P) {
+Matrix6d frame_centrifugal(const FrameElement& e, const Member& member, const Eigen::Matrix2d& P) {
   const Matrix6d R = frame_rotation(e.direction);
   const Eigen::Matrix2d P_element =
       R.topLeftCorner<2, 2>() * P * R.topLeftCorner<2, 2>().transpose();
@@ -70,7 +70,7 @@ Matrix6d frame_pull(const FrameElement& e, const Member& member, const Eigen::Ma
   const double m = e.section.mass_per_length * e.length;
   const double phi = shear_ratio(e.section, member.theory, e.length);
   for (const LineQuadraturePoint& point : line_quadrature()) {
-    const Eigen::Matrix<double, 2, 6> N = frame_interpolation(phi, e.length, point.at).topRows<2>();
+    const Eigen::Matrix<double, 2, 6> N = frame_interpolation(phi, e.length, point.xi).topRows<2>();
     S += point.weight * m * N.transpose() * P_element * N;
   }
   return R.transpose() * S * R;
@@ -78,9 +78,9 @@ Matrix6d frame_pull(const FrameElement& e, const Member& member, const Eigen::Ma
 
 /// Calls visit(coordinates, S, G) for everything that has mass, in world axes.
 template <class Visit>
-void for_each_moving_mass(const System& system, SpinAxis axis, Visit&& visit) {
+void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& visit) {
   const Model& model = system.model;
-  const Eigen::Matrix2d P = away_from(axis);
+  const Eigen::Matrix2d P = distance_projector(axis);
   for (const FrameElement& e : system.mesh.frame) {
     if (e.section.mass_per_length == 0) continue;
     const Member& member = model.members[static_cast<std::size_t>(e.member)];
@@ -88,8 +88,8 @@ void for_each_moving_mass(const System& system, SpinAxis axis, Visit&& visit) {
     light.section.inertia_per_length = 0;
     const Matrix6d R = frame_rotation(e.direction);
     const Matrix6d S =
-        axis == SpinAxis::normal ? world_mass(light, member) : frame_pull(light, member, P);
-    visit(e.coordinates, S, (R.transpose() * frame_coriolis(e, member) * R).eval());
+        axis == RotationAxis::normal ? world_mass(light, member) : frame_centrifugal(light, member, P);
+    visit(e.coordinates, S, (R.transpose() * frame_gyroscopic(e, member) * R).eval());
   }
   for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
     auto S = m;
@@ -97,36 +97,36 @@ void for_each_moving_mass(const System& system, SpinAxis axis, Visit&& visit) {
     for (Index i = 0; i < m.rows(); i += 2) {
       for (Index j = 0; j < m.cols(); j += 2) {
         S.template block<2, 2>(i, j) = m(i, j) * P;
-        G.template block<2, 2>(i, j) = m(i, j) * quarter_turn();
+        G.template block<2, 2>(i, j) = m(i, j) * perpendicular_matrix();
       }
     }
     visit(coordinates, S, G);
   });
-  for (const PointMass& lump : model.masses) {
-    const Eigen::Matrix<double, 2, 3> B = centre_motion(lump);
-    visit(system.coordinates.node[static_cast<std::size_t>(lump.node)],
-          (lump.mass * B.transpose() * P * B).eval(),
-          (lump.mass * B.transpose() * quarter_turn() * B).eval());
+  for (const PointMass& point_mass : model.masses) {
+    const Eigen::Matrix<double, 2, 3> B = centre_of_mass_interpolation(point_mass);
+    visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+          (point_mass.mass * B.transpose() * P * B).eval(),
+          (point_mass.mass * B.transpose() * perpendicular_matrix() * B).eval());
   }
 }
 
 }  // namespace
 
-SparseMatrix spin_softening(const System& system, SpinAxis axis) {
+SparseMatrix centrifugal_softening(const System& system, RotationAxis axis) {
   SymmetricBuilder builder(system.constraints.free_count);
   Projection projection(system.constraints, builder);
-  for_each_moving_mass(system, axis, [&](const auto& coordinates, const auto& S, const auto&) {
+  for_each_rotating_mass(system, axis, [&](const auto& coordinates, const auto& S, const auto&) {
     projection.add(coordinates, S);
   });
   return builder.build();
 }
 
-SparseMatrix coriolis_matrix(const System& system) {
+SparseMatrix gyroscopic_matrix(const System& system) {
   using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
   const auto& T = system.constraints.T;
   std::vector<Eigen::Triplet<double>> entries;
-  const SpinAxis normal = SpinAxis::normal;
-  for_each_moving_mass(system, normal, [&](const auto& coordinates, const auto&, const auto& G) {
+  const RotationAxis normal = RotationAxis::normal;
+  for_each_rotating_mass(system, normal, [&](const auto& coordinates, const auto&, const auto& G) {
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       for (std::size_t j = 0; j < coordinates.size(); ++j) {
         const double g = G(static_cast<Index>(i), static_cast<Index>(j));
@@ -145,47 +145,47 @@ SparseMatrix coriolis_matrix(const System& system) {
   return 0.5 * (matrix - transposed);  // skew to the last bit
 }
 
-VectorXd centrifugal_forces(const System& system, const Spin& spin, const VectorXd& u) {
+VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, const VectorXd& u) {
   // The interpolation holds the position of every point: the nodes' positions with no rotation.
-  VectorXd place = u;
+  VectorXd position = u;
   for (std::size_t node = 0; node < system.coordinates.node.size(); ++node) {
-    const Vector2d arm = system.mesh.positions[node] - spin.centre;
-    place[system.coordinates.node[node][0]] += arm.x();
-    place[system.coordinates.node[node][1]] += arm.y();
+    const Vector2d arm = system.mesh.positions[node] - frame.centre;
+    position[system.coordinates.node[node][0]] += arm.x();
+    position[system.coordinates.node[node][1]] += arm.y();
   }
-  const double w2 = spin.speed * spin.speed;
-  const Eigen::Matrix2d P = away_from(spin.axis);
+  const double w2 = frame.speed * frame.speed;
+  const Eigen::Matrix2d P = distance_projector(frame.axis);
   VectorXd force = VectorXd::Zero(u.size());
   const auto add = [&force](const auto& coordinates, const auto& local) {
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
     }
   };
-  for_each_moving_mass(system, spin.axis, [&](const auto& coordinates, const auto& S, const auto&) {
-    add(coordinates, (w2 * (S * detail::gather(coordinates, place))).eval());
+  for_each_rotating_mass(system, frame.axis, [&](const auto& coordinates, const auto& S, const auto&) {
+    add(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval());
   });
-  for (const PointMass& lump : system.model.masses) {  // but for the offset itself
-    add(system.coordinates.node[static_cast<std::size_t>(lump.node)],
-        (w2 * lump.mass * centre_motion(lump).transpose() * P * lump.offset).eval());
+  for (const PointMass& point_mass : system.model.masses) {  // but for the offset itself
+    add(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+        (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() * P * point_mass.offset).eval());
   }
   return force;
 }
 
-BodyForces body_forces(const System& system, const Spin& spin) {
+BodyForces body_forces(const System& system, const RotatingFrame& frame) {
   BodyForces body = body_forces(system);
-  const Eigen::Matrix2d w2 = spin.speed * spin.speed * away_from(spin.axis);
+  const Eigen::Matrix2d w2 = frame.speed * frame.speed * distance_projector(frame.axis);
   for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
     const FrameElement& e = system.mesh.frame[i];
     const Vector2d middle = (system.mesh.positions[static_cast<std::size_t>(e.nodes[0])] +
                              system.mesh.positions[static_cast<std::size_t>(e.nodes[1])]) /
                             2;
-    body.element[i] += e.section.mass_per_length * w2 * (middle - spin.centre);
+    body.element[i] += e.section.mass_per_length * w2 * (middle - frame.centre);
   }
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
-    const PointMass& lump = system.model.masses[i];
-    const Vector2d place =
-        system.model.nodes[static_cast<std::size_t>(lump.node)].position + lump.offset;
-    body.lump[i] += lump.mass * w2 * (place - spin.centre);
+    const PointMass& point_mass = system.model.masses[i];
+    const Vector2d position =
+        system.model.nodes[static_cast<std::size_t>(point_mass.node)].position + point_mass.offset;
+    body.point_mass[i] += point_mass.mass * w2 * (position - frame.centre);
   }
   return body;
 }

@@ -16,25 +16,25 @@ namespace trammel {
 /// About the normal of the plane, or about an axis in it: then the centrifugal forces pull away
 /// from that axis alone, motion along the axis (the flapping of a blade) is not softened, and the
 /// Coriolis forces point out of the plane, where nothing moves.
-enum class SpinAxis { normal, x, y };
+enum class RotationAxis { normal, x, y };
 
-struct Spin {
+struct RotatingFrame {
   double speed = 0;                    ///< W [rad/s]
   Vector2d centre = Vector2d::Zero();  ///< c, a point of the axis [m]
-  SpinAxis axis = SpinAxis::normal;
+  RotationAxis axis = RotationAxis::normal;
 };
 
 /// S: the mass of the translations away from the axis, q x q.
-[[nodiscard]] SparseMatrix spin_softening(const System& system, SpinAxis axis = SpinAxis::normal);
+[[nodiscard]] SparseMatrix centrifugal_softening(const System& system, RotationAxis axis = RotationAxis::normal);
 
 /// G = integral rho N^T J N dV, q x q; skew.   Source: Coriolis force on the interpolation.
-[[nodiscard]] SparseMatrix coriolis_matrix(const System& system);
+[[nodiscard]] SparseMatrix gyroscopic_matrix(const System& system);
 
 /// Centrifugal forces W^2 integral rho N^T (x - c + u) dV on the unconstrained coordinates.
-[[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const Spin& spin,
+[[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame,
                                                  const Eigen::VectorXd& u);
 
 /// The model's own body forces and the centrifugal ones of the undeformed geometry.
-[[nodiscard]] BodyForces body_forces(const System& system, const Spin& spin);
+[[nodiscard]] BodyForces body_forces(const System& system, const RotatingFrame& frame);
 
 }  // namespace trammel

@@ -41,13 +41,13 @@ void for_each_deformation(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
     if (triangle.quadratic()) {
       const Triangle6Stiffness k = triangle6_stiffness(system.model, triangle);
-      visit(system.coordinates.of<12>(triangle), k.deformation, k.rigidity);
+      visit(system.coordinates.of_triangle<12>(triangle), k.deformation, k.rigidity);
       continue;
     }
     const TrianglePoints points = corners(system.model, triangle);
     const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
     const double volume = plate.thickness * std::abs(signed_area(points));
-    visit(system.coordinates.of<6>(triangle), triangle_deformation(points),
+    visit(system.coordinates.of_triangle<6>(triangle), triangle_deformation(points),
           membrane_rigidity(plate.material, volume));
   }
   for (const SpringElement& spring : system.springs) {

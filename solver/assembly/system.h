@@ -38,9 +38,9 @@ struct System {
 };
 
 /// Builds K, M, f of the free coordinates (paper Eq. 7-11) of the model without the effects that
-/// are not kept; without inertia there is no M.
+/// are not active; without inertia there is no M.
 /// @throws ModelError  where the model has no meaning.
-[[nodiscard]] System assemble(const Model& model, Effects kept = Effects::all());
+[[nodiscard]] System assemble(const Model& model, Effects active = Effects::all());
 
 /// Node motions of free coordinates q: model node x (ux [m], uy [m], rotation [rad]); NaN rotation
 /// where a node has none.

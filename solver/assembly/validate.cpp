@@ -100,7 +100,7 @@ class Validator {
     require(is_amount(section.mass_per_length), part, "has a negative mass");
     require(is_amount(section.inertia_per_length), part, "has a negative rotary inertia");
     if (section.EI > 0) {
-      require(!shears(member.theory) || is_positive(section.kappa_GA), part,
+      require(!has_shear_deformation(member.theory) || is_positive(section.kappa_GA), part,
               "has shear and must have a positive shear stiffness kappa G A");
       return;
     }

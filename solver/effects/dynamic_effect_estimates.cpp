@@ -9,7 +9,7 @@
 #include "solver/effects/energy_shares.h"
 #include "solver/linalg/factorization.h"
 #include "solver/modes/modes.h"
-#include "solver/manipulator/reduced_design.h"
+#include "solver/manipulator/restrict_design_effects.h"
 
 namespace trammel {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::size_t kPoses = 4;
 constexpr Index kElements = 8;
 
 /// The whole motion, on a mesh that is good enough to decide by.
-ElastodynamicsOptions sampled(ElastodynamicsOptions options) {
+ElastodynamicsOptions coarsened(ElastodynamicsOptions options) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (LinkDesign* link : {&options.design.proximal[i], &options.design.distal[i]}) {
       link->elements = std::min(link->elements, kElements);
@@ -44,9 +44,9 @@ double path_rate(const ElastodynamicsOptions& options) {
 }
 
 /// The system built at a pose of the path, which moves on from there.
-class PoseAt {
+class PathPose {
  public:
-  PoseAt(const ElastodynamicsOptions& options, double time)
+  PathPose(const ElastodynamicsOptions& options, double time)
       : options_(options),
         rigid_(rigid_manipulator(options.design)),
         moving_(model_at(options, time), true) {
@@ -54,14 +54,14 @@ class PoseAt {
     start_ = inverse_dynamics(rigid_, at(options.path, time), options.wrench).q;
   }
 
-  [[nodiscard]] Outcome go_to(double time, const Vector2d& gravity) {
+  [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity) {
     const TrajectoryPoint point = at(options_.path, time);
     const InverseDynamics dynamics = inverse_dynamics(rigid_, point, options_.wrench);
     if (!dynamics.outcome.solved()) return dynamics.outcome;
     const Outcome outcome = moving_.move_to(
         nominal_motion(options_.design, moving_.start().model, dynamics, start_, point, gravity));
     for (const auto* parts : {&moving_.motion().member, &moving_.motion().rigid_body}) {
-      for (const PartMotion& part : *parts) turning = std::max(turning, std::abs(part.rate));
+      for (const PartMotion& part : *parts) max_angular_velocity = std::max(max_angular_velocity, std::abs(part.rate));
     }
     return outcome;
   }
@@ -73,7 +73,7 @@ class PoseAt {
   }
   [[nodiscard]] const MovingSystem& system() const { return moving_; }
 
-  double turning = 0;  ///< fastest of a part so far [rad/s]
+  double max_angular_velocity = 0;  ///< fastest of a part so far [rad/s]
 
  private:
   static Model model_at(const ElastodynamicsOptions& options, double time) {
@@ -89,36 +89,36 @@ class PoseAt {
 };
 
 /// A response to a load, by its largest translation [m] and by its energy, which stands for forces.
-struct Size {
+struct ResponseSize {
   double translation = 0, energy = 0;
 
-  void grow(const Size& other) {
+  void take_max(const ResponseSize& other) {
     translation = std::max(translation, other.translation);
     energy = std::max(energy, other.energy);
   }
 };
 
 /// Largest over the poses.
-struct Sizes {
-  Size response;
-  std::map<Effect, Size> change;
+struct LargestSizes {
+  ResponseSize response;
+  std::map<Effect, ResponseSize> change;
   std::map<Effect, double> share;  ///< of the strain energy, or of that of all loads
 };
 
 class MotionEstimates {
  public:
-  MotionEstimates(const ElastodynamicsOptions& options, Effects admitted)
-      : options_(sampled(options)), admitted_(admitted), rate_(path_rate(options)) {}
+  MotionEstimates(const ElastodynamicsOptions& options, Effects applicable)
+      : options_(coarsened(options)), applicable_(applicable), rate_(path_rate(options)) {}
 
   EffectEstimates run() {
     for (std::size_t k = 0; k < kPoses && estimates_.outcome.solved(); ++k) {
       const double share = (static_cast<double>(k) + 0.5) / kPoses;
-      look_at(options_.time.start + share * (options_.time.end - options_.time.start));
+      estimate_at(options_.time.start + share * (options_.time.end - options_.time.start));
     }
     if (estimates_.outcome.solved() && frequency_ <= 0) {
       estimates_.outcome = {Status::singular, "nothing vibrates"};
     }
-    if (estimates_.outcome.solved()) conclude();
+    if (estimates_.outcome.solved()) collect_estimates();
     return std::move(estimates_);
   }
 
@@ -131,17 +131,17 @@ class MotionEstimates {
     }
     return largest;
   }
-  [[nodiscard]] static Size size_of(const MovingSystem& system, const VectorXd& q) {
+  [[nodiscard]] static ResponseSize size_of(const MovingSystem& system, const VectorXd& q) {
     return {translation_of(system, q), std::sqrt(std::max(0.0, q.dot(system.K() * q)))};
   }
 
-  void keep(Effect effect, const Size& change) {
-    if (admitted_.has(effect)) sizes_.change[effect].grow(change);
+  void record_change(Effect effect, const ResponseSize& change) {
+    if (applicable_.has(effect)) sizes_.change[effect].take_max(change);
   }
 
   /// K q = F + f; empty where it has no solution.
-  VectorXd respond(PoseAt& pose, double time, const Vector2d& gravity) {
-    estimates_.outcome = pose.go_to(time, gravity);
+  VectorXd quasi_static_response(PathPose& pose, double time, const Vector2d& gravity) {
+    estimates_.outcome = pose.move_to(time, gravity);
     if (!estimates_.outcome.solved()) return {};
     factorization_.compute(pose.system().K());
     ++estimates_.counters.factorizations;
@@ -153,22 +153,22 @@ class MotionEstimates {
     return factorization_.solve(pose.load());
   }
 
-  void look_at(double time) {
-    PoseAt pose(options_, time);
+  void estimate_at(double time) {
+    PathPose pose(options_, time);
     const double step = rate_ > 0 ? 1e-3 / rate_ : 1e-4 * (options_.time.end - options_.time.start);
-    const VectorXd before = respond(pose, time - step, options_.gravity);
+    const VectorXd before = quasi_static_response(pose, time - step, options_.gravity);
     if (!estimates_.outcome.solved()) return;
-    const VectorXd after = respond(pose, time + step, options_.gravity);
+    const VectorXd after = quasi_static_response(pose, time + step, options_.gravity);
     if (!estimates_.outcome.solved()) return;
-    const VectorXd q = respond(pose, time, options_.gravity);
+    const VectorXd q = quasi_static_response(pose, time, options_.gravity);
     if (!estimates_.outcome.solved()) return;
     const VectorXd v = (after - before) / (2 * step);
     const VectorXd a = (after - 2 * q + before) / (step * step);
     const MovingSystem& system = pose.system();
     const SparseMatrix& K = system.K();
-    const Size whole = size_of(system, q);
-    sizes_.response.grow(whole);
-    const auto answer = [&](const VectorXd& load) -> VectorXd {
+    const ResponseSize total = size_of(system, q);
+    sizes_.response.take_max(total);
+    const auto solve = [&](const VectorXd& load) -> VectorXd {
       ++estimates_.counters.solves;
       return factorization_.solve(load);
     };
@@ -176,38 +176,38 @@ class MotionEstimates {
     const VectorXd damping =
         options_.damping.mass * (system.M() * v) + options_.damping.stiffness * (K * v);
     // What drags is held by the same loads: only displacements change.
-    const VectorXd dragged = answer(damping), shaken = answer(inertia);
-    keep(Effect::damping, {translation_of(system, dragged), 0});
-    keep(Effect::inertia,
-         {translation_of(system, dragged + shaken), size_of(system, shaken).energy});
-    keep(Effect::gyroscopic, size_of(system, answer(system.convective_damping() * v +
-                                                    system.convective_stiffness() * q)));
+    const VectorXd damping_response = solve(damping), inertia_response = solve(inertia);
+    record_change(Effect::damping, {translation_of(system, damping_response), 0});
+    record_change(Effect::inertia,
+         {translation_of(system, damping_response + inertia_response), size_of(system, inertia_response).energy});
+    record_change(Effect::gyroscopic, size_of(system, solve(system.gyroscopic_matrix() * v +
+                                                    system.centrifugal_and_euler_matrix() * q)));
     const double energy = q.dot(K * q);
     const EnergyShares shares(system.start(), q, energy);
     for (const Effect effect : flexibilities()) {
       const double share = energy > 0 ? shares.elastic(effect) : 0;
       sizes_.share[effect] = std::max(sizes_.share[effect], share);
-      const VectorXd lost = answer(system.start().T.transpose() * shares.forces(effect));
-      keep(effect, {translation_of(system, lost), share * whole.energy});
+      const VectorXd lost = solve(system.start().T.transpose() * shares.forces(effect));
+      record_change(effect, {translation_of(system, lost), share * total.energy});
     }
     const VectorXd load = pose.load();
     without_masses(time, load, system);
-    turning_ = std::max(turning_, pose.turning);
-    if (estimates_.outcome.solved()) look_at_modes(system);
-    if (!admitted_.has(Effect::gravity) || !estimates_.outcome.solved()) return;
-    estimates_.outcome = pose.go_to(time, Vector2d::Zero());
+    max_angular_velocity_ = std::max(max_angular_velocity_, pose.max_angular_velocity);
+    if (estimates_.outcome.solved()) estimate_frequency_changes(system);
+    if (!applicable_.has(Effect::gravity) || !estimates_.outcome.solved()) return;
+    estimates_.outcome = pose.move_to(time, Vector2d::Zero());
     if (!estimates_.outcome.solved()) return;
-    const Size weight = size_of(system, answer(load - pose.load()));
+    const ResponseSize weight = size_of(system, solve(load - pose.load()));
     double& of_all = sizes_.share[Effect::gravity];
-    if (whole.energy > 0) of_all = std::max(of_all, weight.energy / whole.energy);
-    keep(Effect::gravity, weight);
+    if (total.energy > 0) of_all = std::max(of_all, weight.energy / total.energy);
+    record_change(Effect::gravity, weight);
   }
 
   [[nodiscard]] std::vector<Effect> flexibilities() const {
     std::vector<Effect> all;
     for (const Effect effect : {Effect::axial_flexibility, Effect::shear,
                                 Effect::platform_flexibility, Effect::joint_compliance}) {
-      if (admitted_.has(effect)) all.push_back(effect);
+      if (applicable_.has(effect)) all.push_back(effect);
     }
     return all;
   }
@@ -215,20 +215,20 @@ class MotionEstimates {
   /// The same model without masses of links, or the turning of their sections: other loads.
   void without_masses(double time, const VectorXd& load, const MovingSystem& system) {
     for (const Effect effect : {Effect::link_mass, Effect::rotary_inertia}) {
-      if (!admitted_.has(effect)) continue;
+      if (!applicable_.has(effect)) continue;
       ElastodynamicsOptions light = options_;
-      light.design = reduced(light.design, Effects::all().without(effect));
-      PoseAt pose(light, time);
-      estimates_.outcome = pose.go_to(time, options_.gravity);
+      light.design = restrict_effects(light.design, Effects::all().without(effect));
+      PathPose pose(light, time);
+      estimates_.outcome = pose.move_to(time, options_.gravity);
       if (!estimates_.outcome.solved()) return;
       ++estimates_.counters.solves;
-      keep(effect, size_of(system, factorization_.solve(load - pose.load())));
+      record_change(effect, size_of(system, factorization_.solve(load - pose.load())));
     }
   }
 
   /// The first modes that are no rigid motions, and what the first one's frequency owes to each
   /// effect.
-  void look_at_modes(const MovingSystem& moving) {
+  void estimate_frequency_changes(const MovingSystem& moving) {
     const System& system = moving.start();
     const ModalSolution modes = solve_modes(system, {.count = 4});
     estimates_.counters += modes.counters;
@@ -238,44 +238,44 @@ class MotionEstimates {
     while (first < modes.frequency.size() && !(modes.frequency[first] > 0)) ++first;
     if (first == modes.frequency.size()) return;
     const double omega = 2 * std::numbers::pi * modes.frequency[first];
-    couple(moving, modes, first);
+    estimate_gyroscopic_coupling(moving, modes, first);
     if (frequency_ > 0 && omega >= frequency_) return;
     frequency_ = omega;
     damping_ = damping_ratio(options_.damping, omega);
     const EnergyShares shares(system, modes.shape.col(first), omega * omega);
-    for (const Effect effect : flexibilities()) tuning_[effect] = faster(shares.elastic(effect));
+    for (const Effect effect : flexibilities()) frequency_change_[effect] = frequency_change_without_inertia(shares.elastic(effect));
     const double rotary = shares.kinetic(true), all = shares.kinetic(false);
-    tuning_[Effect::link_mass] = faster(all - rotary);
-    tuning_[Effect::rotary_inertia] = faster(rotary);
+    frequency_change_[Effect::link_mass] = frequency_change_without_inertia(all - rotary);
+    frequency_change_[Effect::rotary_inertia] = frequency_change_without_inertia(rotary);
     sizes_.share[Effect::link_mass] = all - rotary;
     sizes_.share[Effect::rotary_inertia] = rotary;
   }
 
   /// By how much gyroscopic forces change one of the first modes while it lasts, or turn it into
   /// another: the slower, the nearer their frequencies.
-  void couple(const MovingSystem& moving, const ModalSolution& modes, Index first) {
-    const SparseMatrix& C = moving.convective_damping();
-    const SparseMatrix& S = moving.convective_stiffness();
+  void estimate_gyroscopic_coupling(const MovingSystem& moving, const ModalSolution& modes, Index first) {
+    const SparseMatrix& C = moving.gyroscopic_matrix();
+    const SparseMatrix& S = moving.centrifugal_and_euler_matrix();
     const auto omega = [&](Index i) { return 2 * std::numbers::pi * modes.frequency[i]; };
-    const double time = lasts(omega(first), damping_ratio(options_.damping, omega(first)));
+    const double time = vibration_duration(omega(first), damping_ratio(options_.damping, omega(first)));
     for (Index i = first; i < modes.shape.cols(); ++i) {
       for (Index j = first; j < modes.shape.cols(); ++j) {
         const double rate = (std::abs(modes.shape.col(i).dot(C * modes.shape.col(j))) +
                              std::abs(modes.shape.col(i).dot(S * modes.shape.col(j))) / omega(i)) /
                             2;
-        const double apart = std::abs(omega(i) - omega(j));
-        coupling_ = std::max(coupling_, rate * (apart * time > 1 ? 1 / apart : time));
+        const double frequency_difference = std::abs(omega(i) - omega(j));
+        coupling_ = std::max(coupling_, rate * (frequency_difference * time > 1 ? 1 / frequency_difference : time));
       }
     }
   }
 
   /// Whether a load sets in at once: the plate takes it before the links do.
-  [[nodiscard]] bool struck() const {
+  [[nodiscard]] bool is_suddenly_loaded() const {
     return !options_.time.quasi_static_start && !options_.wrench.isZero(0);
   }
 
   /// How long a vibration lasts.
-  [[nodiscard]] double lasts(double omega, double damping) const {
+  [[nodiscard]] double vibration_duration(double omega, double damping) const {
     const double time = options_.time.end - options_.time.start;
     return damping > 0 ? std::min(time, 1 / (std::numbers::e * damping * omega)) : time;
   }
@@ -283,10 +283,10 @@ class MotionEstimates {
   /// Of a change that the quasi-static response shows; nothing moves without a load.
   [[nodiscard]] double of_response(Effect effect) const {
     const auto found = sizes_.change.find(effect);
-    const Size& whole = sizes_.response;
-    if (found == sizes_.change.end() || !(whole.translation > 0 && whole.energy > 0)) return 0;
-    return std::max(found->second.translation / whole.translation,
-                    found->second.energy / whole.energy);
+    const ResponseSize& total = sizes_.response;
+    if (found == sizes_.change.end() || !(total.translation > 0 && total.energy > 0)) return 0;
+    return std::max(found->second.translation / total.translation,
+                    found->second.energy / total.energy);
   }
   [[nodiscard]] double translation_share(Effect effect) const {
     const auto found = sizes_.change.find(effect);
@@ -294,62 +294,62 @@ class MotionEstimates {
     return found->second.translation / sizes_.response.translation;
   }
 
-  void conclude() {
+  void collect_estimates() {
     const double r = rate_ / frequency_;
     const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
     const double time = options_.time.end - options_.time.start;
     // What starts on q_s swings about the response beside it: half a period later it is twice as
     // far.
     const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
-    const double swings = lasts(frequency_, damping_) * frequency_;
-    const double vibrates = options_.time.quasi_static_start
+    const double duration_in_phase = vibration_duration(frequency_, damping_) * frequency_;
+    const double vibration_share = options_.time.quasi_static_start
                                 ? std::min(1.0, translation_share(Effect::inertia) * amplified)
                                 : 1;
-    for (const Effect effect : admitted_.list()) {
+    for (const Effect effect : applicable_.list()) {
       double change = of_response(effect) * amplified;
       double number = sizes_.share[effect];
       switch (effect) {
         case Effect::inertia:
           number = r * r;
-          change = std::max(change * from_start, vibrates);
+          change = std::max(change * from_start, vibration_share);
           break;
         case Effect::damping:
           number = damping_;
           change *= from_start;
-          change += vibrates * -std::expm1(-damping_ * frequency_ * time);
+          change += vibration_share * -std::expm1(-damping_ * frequency_ * time);
           break;
         case Effect::gyroscopic:
-          number = 2 * turning_ / frequency_;
-          change += vibrates * std::min(2.0, coupling_);
+          number = 2 * max_angular_velocity_ / frequency_;
+          change += vibration_share * std::min(2.0, coupling_);
           break;
         case Effect::gravity:
           break;
         default:
-          if (effect == Effect::axial_flexibility && admitted_.has(Effect::damping)) {
-            change += options_.damping.stiffness * turning_;
+          if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping)) {
+            change += options_.damping.stiffness * max_angular_velocity_;
           }
-          change += vibrates * std::min(2.0, std::abs(tuning_[effect]) * swings);
-          if (effect == Effect::platform_flexibility && struck()) change = std::max(change, 1.0);
+          change += vibration_share * std::min(2.0, std::abs(frequency_change_[effect]) * duration_in_phase);
+          if (effect == Effect::platform_flexibility && is_suddenly_loaded()) change = std::max(change, 1.0);
       }
       estimates_.effects.push_back({effect, number, VectorXd::Constant(1, change)});
     }
   }
 
   ElastodynamicsOptions options_;
-  Effects admitted_;
+  Effects applicable_;
   double rate_;
   Factorization factorization_;
-  Sizes sizes_;
-  double frequency_ = 0, damping_ = 0, turning_ = 0;
-  std::map<Effect, double> tuning_;  ///< relative change of the first frequency
+  LargestSizes sizes_;
+  double frequency_ = 0, damping_ = 0, max_angular_velocity_ = 0;
+  std::map<Effect, double> frequency_change_;  ///< relative change of the first frequency
   double coupling_ = 0;
   EffectEstimates estimates_;
 };
 
 }  // namespace
 
-EffectEstimates estimate_motion_effects(const ElastodynamicsOptions& options, Effects admitted) {
-  return MotionEstimates(options, admitted).run();
+EffectEstimates estimate_motion_effects(const ElastodynamicsOptions& options, Effects applicable) {
+  return MotionEstimates(options, applicable).run();
 }
 
 }  // namespace trammel

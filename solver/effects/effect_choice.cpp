@@ -6,40 +6,40 @@ namespace trammel {
 
 Effects EffectScope::without(Effects set, Effect effect) const {
   set = set.without(effect);
-  for (const Effect carried : carries[static_cast<std::size_t>(effect)].list()) {
-    if (set.has(carried)) set = without(set, carried);
+  for (const Effect dependent : dependents[static_cast<std::size_t>(effect)].list()) {
+    if (set.has(dependent)) set = without(set, dependent);
   }
   return set;
 }
 
 Effects choose_effects(const EffectEstimates& estimates, const EffectScope& scope,
                        double tolerance) {
-  if (!estimates.outcome.solved()) return scope.admitted;
-  constexpr double kInHand = 0.9;
+  if (!estimates.outcome.solved()) return scope.applicable;
+  constexpr double kSafetyFactor = 0.9;
   std::vector<const EffectEstimate*> candidates;
-  for (const EffectEstimate& one : estimates.effects) {
-    if (!scope.required.has(one.effect)) candidates.push_back(&one);
+  for (const EffectEstimate& estimate : estimates.effects) {
+    if (!scope.required.has(estimate.effect)) candidates.push_back(&estimate);
   }
   std::stable_sort(
       candidates.begin(), candidates.end(),
       [](const EffectEstimate* a, const EffectEstimate* b) { return a->size() < b->size(); });
-  Effects kept = scope.admitted;
-  Eigen::VectorXd lost;
-  for (bool again = true; again;) {
-    again = false;
-    for (const EffectEstimate* one : candidates) {
-      if (!kept.has(one->effect)) continue;
+  Effects active = scope.applicable;
+  Eigen::VectorXd total_change;
+  for (bool removed = true; removed;) {
+    removed = false;
+    for (const EffectEstimate* estimate : candidates) {
+      if (!active.has(estimate->effect)) continue;
       // What it carries must go first.
-      if (!(scope.without(kept, one->effect) == kept.without(one->effect))) continue;
-      const Eigen::VectorXd with_it = lost.size() == 0 ? one->change : lost + one->change;
-      const double change = with_it.size() > 0 ? with_it.cwiseAbs().maxCoeff() : 0;
-      if (!(change <= kInHand * tolerance)) continue;
-      kept = kept.without(one->effect);
-      lost = with_it;
-      again = true;
+      if (!(scope.without(active, estimate->effect) == active.without(estimate->effect))) continue;
+      const Eigen::VectorXd trial_change = total_change.size() == 0 ? estimate->change : total_change + estimate->change;
+      const double change = trial_change.size() > 0 ? trial_change.cwiseAbs().maxCoeff() : 0;
+      if (!(change <= kSafetyFactor * tolerance)) continue;
+      active = active.without(estimate->effect);
+      total_change = trial_change;
+      removed = true;
     }
   }
-  return kept;
+  return active;
 }
 
 }  // namespace trammel

@@ -50,22 +50,22 @@ struct EffectEstimates {
 /// @param poses  the full model at one pose or more, of the same parts
 /// @param admitted  the effects to estimate
 [[nodiscard]] EffectEstimates estimate_static_effects(const std::vector<Model>& poses,
-                                                      Effects admitted);
+                                                      Effects applicable);
 /// @param count  modes, from the lowest
 [[nodiscard]] EffectEstimates estimate_modal_effects(const std::vector<Model>& poses,
-                                                     Effects admitted, Index count);
+                                                     Effects applicable, Index count);
 
 /// Whether the members, if they did not stretch, would be held more than once along themselves, as
 /// a beam between two walls: their forces are then not determined, and the geometrically exact tier
 /// has no solution, for a beam that bends between walls must stretch.
-[[nodiscard]] bool would_be_overheld(const Model& model);
+[[nodiscard]] bool is_axially_overconstrained(const Model& model);
 
 /// What an analysis can do with, and what it cannot do without.
 struct EffectScope {
-  Effects admitted;
+  Effects applicable;
   Effects required;
   /// By effect: those that are nothing without it, as the mass of links in statics without gravity.
-  std::array<Effects, effect_count> carries{};
+  std::array<Effects, kEffectCount> dependents{};
 
   /// The set less the effect and all that it carries.
   [[nodiscard]] Effects without(Effects set, Effect effect) const;

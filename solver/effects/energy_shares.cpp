@@ -81,13 +81,13 @@ double EnergyShares::kinetic(bool rotary_only) const {
   return energy;
 }
 
-double softer(double share) {
+double frequency_change_without_stiffness(double share) {
   return std::sqrt(std::max(0.0, 1 - share)) - 1;
 }
 
-double faster(double share) {
-  constexpr double kMost = 1 - 1e-12;
-  return 1 / std::sqrt(1 - std::min(share, kMost)) - 1;
+double frequency_change_without_inertia(double share) {
+  constexpr double kMaxShare = 1 - 1e-12;
+  return 1 / std::sqrt(1 - std::min(share, kMaxShare)) - 1;
 }
 
 }  // namespace trammel

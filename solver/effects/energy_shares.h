@@ -30,8 +30,8 @@ class EnergyShares {
 };
 
 /// The relative change of a frequency whose square loses the share (a stiffness left out) ...
-[[nodiscard]] double softer(double share);
+[[nodiscard]] double frequency_change_without_stiffness(double share);
 /// ... or whose inverse square does (a flexibility or an inertia left out).
-[[nodiscard]] double faster(double share);
+[[nodiscard]] double frequency_change_without_inertia(double share);
 
 }  // namespace trammel

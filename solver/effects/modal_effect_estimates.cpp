@@ -14,7 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// K_G of first-order forces.
-SparseMatrix turning_stiffness(const System& system, Counters& counters) {
+SparseMatrix first_order_geometric_stiffness(const System& system, Counters& counters) {
   const StaticSolution solution = solve_statics(system);
   counters.factorizations += solution.counters.factorizations;
   counters.solves += solution.counters.solves;
@@ -27,16 +27,16 @@ SparseMatrix turning_stiffness(const System& system, Counters& counters) {
 
 class ModalPose {
  public:
-  ModalPose(const Model& model, Effects admitted, Index count)
-      : system_(assemble(model, admitted)) {
-    const ModesOptions options{count, EigenPath::automatic};
-    const bool loaded = admitted.has(Effect::geometric_stiffening);
+  ModalPose(const Model& model, Effects applicable, Index count)
+      : system_(assemble(model, applicable)) {
+    const ModesOptions options{count, EigenMethod::automatic};
+    const bool loaded = applicable.has(Effect::geometric_stiffening);
     modes =
         loaded ? solve_prestressed_modes(system_, options).modes : solve_modes(system_, options);
-    if (!modes.outcome.solved() || !loaded || !admitted.has(Effect::gravity)) return;
+    if (!modes.outcome.solved() || !loaded || !applicable.has(Effect::gravity)) return;
     Model light = model;
     light.gravity.setZero();
-    K_G_loads_ = turning_stiffness(assemble(light, admitted), modes.counters);
+    K_G_loads_ = first_order_geometric_stiffness(assemble(light, applicable), modes.counters);
   }
 
   /// The change of every frequency; `number` becomes the largest share.
@@ -47,7 +47,7 @@ class ModalPose {
       if (w == 0) continue;  // a rigid motion stays one
       const double share = share_of(effect, modes.shape.col(i), w * w);
       const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gravity;
-      change[i] = stiffness ? softer(share) : faster(share);
+      change[i] = stiffness ? frequency_change_without_stiffness(share) : frequency_change_without_inertia(share);
       if (std::abs(share) > std::abs(number)) number = share;
     }
     return change;
@@ -83,20 +83,20 @@ class ModalPose {
 
 }  // namespace
 
-EffectEstimates estimate_modal_effects(const std::vector<Model>& poses, Effects admitted,
+EffectEstimates estimate_modal_effects(const std::vector<Model>& poses, Effects applicable,
                                        Index count) {
   EffectEstimates estimates;
-  for (const Effect effect : admitted.list()) estimates.effects.push_back({effect, 0, {}});
+  for (const Effect effect : applicable.list()) estimates.effects.push_back({effect, 0, {}});
   for (const Model& model : poses) {
-    const ModalPose pose(model, admitted, count);
+    const ModalPose pose(model, applicable, count);
     estimates.counters += pose.modes.counters;
     estimates.outcome = pose.modes.outcome;
     if (!pose.modes.outcome.solved()) return estimates;
-    for (EffectEstimate& one : estimates.effects) {
-      const VectorXd change = pose.without(one.effect, one.number);
-      VectorXd joined(one.change.size() + change.size());
-      joined << one.change, change;
-      one.change = joined;
+    for (EffectEstimate& estimate : estimates.effects) {
+      const VectorXd change = pose.without(estimate.effect, estimate.number);
+      VectorXd joined(estimate.change.size() + change.size());
+      joined << estimate.change, change;
+      estimate.change = joined;
     }
   }
   return estimates;

@@ -14,15 +14,15 @@ using Eigen::VectorXd;
 /// One mode of the rotating frame, |x| = 1, as its two real parts.
 class RotatingMode {
  public:
-  RotatingMode(const System& system, const SparseMatrix& coriolis, const SparseMatrix& softening,
+  RotatingMode(const System& system, const SparseMatrix& gyroscopic, const SparseMatrix& softening,
                const Eigen::VectorXcd& x, double omega)
       : system_(system), re_(x.real()), im_(x.imag()), omega_(omega) {
-    mass_ = twice([&](const VectorXd& a) { return a.dot(system.M * a); });
+    mass_ = sum_over_parts([&](const VectorXd& a) { return a.dot(system.M * a); });
     // x^H (i C) x of the skew C.
-    coupling_ = 2 * im_.dot(coriolis * re_);
-    const double softened = twice([&](const VectorXd& a) { return a.dot(softening * a); });
+    coupling_ = 2 * im_.dot(gyroscopic * re_);
+    const double softened = sum_over_parts([&](const VectorXd& a) { return a.dot(softening * a); });
     const double strain =
-        twice([&](const VectorXd& a) { return strain_products(system_, system_.T * a)(0, 0); });
+        sum_over_parts([&](const VectorXd& a) { return strain_products(system_, system_.T * a)(0, 0); });
     stiffened_ = omega * omega * mass_ - omega * coupling_ - strain + softened;
   }
 
@@ -42,18 +42,18 @@ class RotatingMode {
       case Effect::rotary_inertia:
         return kinetic(true) * omega_ * omega_ / scale();
       default:
-        return twice(
+        return sum_over_parts(
             [&](const VectorXd& a) { return EnergyShares(system_, a, scale()).elastic(effect); });
     }
   }
 
  private:
-  template <class Of>
-  [[nodiscard]] double twice(const Of& of) const {
-    return of(re_) + of(im_);
+  template <class Form>
+  [[nodiscard]] double sum_over_parts(const Form& form) const {
+    return form(re_) + form(im_);
   }
   [[nodiscard]] double kinetic(bool rotary_only) const {
-    return twice(
+    return sum_over_parts(
         [&](const VectorXd& a) { return EnergyShares(system_, a, 1).kinetic(rotary_only); });
   }
 
@@ -64,23 +64,23 @@ class RotatingMode {
 
 double change_of(Effect effect, double share) {
   const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gyroscopic;
-  return stiffness ? softer(share) : faster(share);
+  return stiffness ? frequency_change_without_stiffness(share) : frequency_change_without_inertia(share);
 }
 
 }  // namespace
 
-EffectEstimates estimate_rotating_effects(const Model& model, Effects admitted,
+EffectEstimates estimate_rotating_effects(const Model& model, Effects applicable,
                                           const RotatingOptions& options,
                                           const std::vector<double>& speeds) {
   EffectEstimates estimates;
   const System system = assemble(model);
-  const SparseMatrix G = coriolis_matrix(system);
-  const SparseMatrix S = spin_softening(system, options.spin.axis);
-  for (const Effect effect : admitted.list()) estimates.effects.push_back({effect, 0, {}});
+  const SparseMatrix G = gyroscopic_matrix(system);
+  const SparseMatrix S = centrifugal_softening(system, options.frame.axis);
+  for (const Effect effect : applicable.list()) estimates.effects.push_back({effect, 0, {}});
   for (const double speed : speeds) {
-    RotatingOptions at = options;
-    at.spin.speed = speed;
-    const RotatingModes modes = solve_rotating_modes(system, at);
+    RotatingOptions at_speed = options;
+    at_speed.frame.speed = speed;
+    const RotatingModes modes = solve_rotating_modes(system, at_speed);
     estimates.counters += modes.counters;
     estimates.outcome = modes.outcome;
     if (!modes.outcome.solved()) return estimates;
@@ -88,22 +88,22 @@ EffectEstimates estimate_rotating_effects(const Model& model, Effects admitted,
       estimates.outcome = {Status::not_converged, "a motion of the rotating frame grows"};
       return estimates;
     }
-    const bool turns = at.coriolis && at.spin.axis == SpinAxis::normal;
-    const SparseMatrix C = (turns ? 2 * speed : 0.0) * G;
+    const bool has_gyroscopic_forces = at_speed.gyroscopic && at_speed.frame.axis == RotationAxis::normal;
+    const SparseMatrix C = (has_gyroscopic_forces ? 2 * speed : 0.0) * G;
     const SparseMatrix softening = speed * speed * S;
-    for (EffectEstimate& one : estimates.effects) {
+    for (EffectEstimate& estimate : estimates.effects) {
       VectorXd change = VectorXd::Zero(modes.frequency.size());
       for (Index i = 0; i < change.size(); ++i) {
         if (!(modes.frequency[i] > 0)) continue;
         const RotatingMode mode(system, C, softening, modes.shape.col(i),
                                 2 * std::numbers::pi * modes.frequency[i]);
-        const double share = mode.share(one.effect);
-        change[i] = change_of(one.effect, share);
-        if (std::abs(share) > std::abs(one.number)) one.number = share;
+        const double share = mode.share(estimate.effect);
+        change[i] = change_of(estimate.effect, share);
+        if (std::abs(share) > std::abs(estimate.number)) estimate.number = share;
       }
-      VectorXd joined(one.change.size() + change.size());
-      joined << one.change, change;
-      one.change = joined;
+      VectorXd joined(estimate.change.size() + change.size());
+      joined << estimate.change, change;
+      estimate.change = joined;
     }
   }
   return estimates;

@@ -8,7 +8,7 @@
 #include "solver/statics/postprocessing.h"
 #include "solver/statics/statics.h"
 #include "solver/elements/triangle_interpolation.h"
-#include "solver/assembly/reduced_model.h"
+#include "solver/assembly/restrict_model_effects.h"
 #include "solver/model/numbers.h"
 
 namespace trammel {
@@ -17,19 +17,19 @@ namespace {
 using Eigen::VectorXd;
 
 /// What a solution says, by kind: each kind is measured by its largest.
-struct Readings {
-  static constexpr std::size_t kinds = 4;  ///< displacement, rotation, force, moment
-  std::array<std::vector<double>, kinds> of;
+struct StateResults {
+  static constexpr std::size_t kKinds = 4;  ///< displacement, rotation, force, moment
+  std::array<std::vector<double>, kKinds> values;
 
-  void append(const Readings& more) {
-    for (std::size_t k = 0; k < kinds; ++k) {
-      of[k].insert(of[k].end(), more.of[k].begin(), more.of[k].end());
+  void append(const StateResults& other) {
+    for (std::size_t k = 0; k < kKinds; ++k) {
+      values[k].insert(values[k].end(), other.values[k].begin(), other.values[k].end());
     }
   }
   [[nodiscard]] double largest(std::size_t kind) const {
-    double most = 0;
-    for (const double value : of[kind]) most = std::max(most, std::abs(value));
-    return most;
+    double largest_value = 0;
+    for (const double value : values[kind]) largest_value = std::max(largest_value, std::abs(value));
+    return largest_value;
   }
 };
 
@@ -37,15 +37,15 @@ struct Readings {
 struct Change {
   VectorXd u;
   std::vector<Vector6d> force;
-  double beside = 0;        ///< a further displacement, of unknown direction [m]
-  double undetermined = 0;  ///< a force that is lost [N]
+  double undirected_displacement = 0;        ///< a further displacement, of unknown direction [m]
+  double indeterminate_force = 0;  ///< a force that is lost [N]
 };
 
 /// The linear solution of a model, and how small loads change it.
 class LinearState {
  public:
-  LinearState(const Model& model, Effects admitted)
-      : system(assemble(model, admitted.without(Effect::inertia))),
+  LinearState(const Model& model, Effects applicable)
+      : system(assemble(model, applicable.without(Effect::inertia))),
         solution(solve_statics(system)) {
     counters = solution.counters;
     if (!solution.outcome.solved()) return;
@@ -61,8 +61,8 @@ class LinearState {
       const Member& member = member_of(element);
       base[e] -=
           local_load(element, member.load + element.section.mass_per_length * system.model.gravity);
-      base[e] += turning(element, forces.axial[static_cast<Index>(e)],
-                         forces.growth[static_cast<Index>(e)], u);
+      base[e] += geometric_forces(element, forces.axial[static_cast<Index>(e)],
+                         forces.axial_variation[static_cast<Index>(e)], u);
     }
   }
 
@@ -77,14 +77,14 @@ class LinearState {
   [[nodiscard]] static Vector6d local_load(const FrameElement& e, const Vector2d& load) {
     return frame_rotation(e.direction) * element_load(e, load);
   }
-  [[nodiscard]] Vector6d turning(const FrameElement& e, double axial, double growth,
+  [[nodiscard]] Vector6d geometric_forces(const FrameElement& e, double axial, double axial_variation,
                                  const VectorXd& motion) const {
-    return turning_forces(e, member_of(e).theory, axial, growth,
+    return geometric_stiffness_forces(e, member_of(e).theory, axial, axial_variation,
                           detail::gather(e.coordinates, motion));
   }
 
   /// K^-1 of a load on the unconstrained coordinates.
-  [[nodiscard]] VectorXd answer(const VectorXd& load) {
+  [[nodiscard]] VectorXd solve(const VectorXd& load) {
     ++counters.solves;
     return system.T * factorization_.solve(system.T.transpose() * load);
   }
@@ -103,7 +103,7 @@ class LinearState {
     return frame_deformation<double>(Vector2d::UnitX(), e.length).transpose() * of_deformations;
   }
   [[nodiscard]] double energy() const { return u.dot(internal_forces(system, u)); }
-  [[nodiscard]] Readings read(const VectorXd& motion, const std::vector<Vector6d>& force) const;
+  [[nodiscard]] StateResults results_of(const VectorXd& motion, const std::vector<Vector6d>& force) const;
 
   System system;
   StaticSolution solution;
@@ -116,17 +116,17 @@ class LinearState {
   Factorization factorization_;
 };
 
-Readings LinearState::read(const VectorXd& motion, const std::vector<Vector6d>& force) const {
-  Readings readings;
+StateResults LinearState::results_of(const VectorXd& motion, const std::vector<Vector6d>& force) const {
+  StateResults results;
   for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
     if (system.model.nodes[i].name.empty()) continue;
     const auto& node = system.coordinates.node[i];
-    readings.of[0].insert(readings.of[0].end(), {motion[node[0]], motion[node[1]]});
-    if (node[2] >= 0) readings.of[1].push_back(motion[node[2]]);
+    results.values[0].insert(results.values[0].end(), {motion[node[0]], motion[node[1]]});
+    if (node[2] >= 0) results.values[1].push_back(motion[node[2]]);
   }
   for (const auto& ends : system.coordinates.member_end) {
     for (const Index rotation : ends) {
-      if (rotation >= 0) readings.of[1].push_back(motion[rotation]);
+      if (rotation >= 0) results.values[1].push_back(motion[rotation]);
     }
   }
   const auto& frame = system.mesh.frame;
@@ -135,11 +135,11 @@ Readings LinearState::read(const VectorXd& motion, const std::vector<Vector6d>& 
     const bool last = e + 1 == frame.size() || frame[e + 1].member != frame[e].member;
     for (const Index end : {Index{0}, Index{3}}) {
       if (!(end == 0 ? first : last)) continue;
-      readings.of[2].insert(readings.of[2].end(), {force[e][end], force[e][end + 1]});
-      readings.of[3].push_back(force[e][end + 2]);
+      results.values[2].insert(results.values[2].end(), {force[e][end], force[e][end + 1]});
+      results.values[3].push_back(force[e][end + 2]);
     }
   }
-  return readings;
+  return results;
 }
 
 /// How much of each of an element's three deformations is the effect's.
@@ -185,11 +185,11 @@ VectorXd part_forces(const LinearState& state, Effect effect) {
   return force;
 }
 
-Change without_flexibility(LinearState& state, Effect effect, double& share) {
+Change change_without_flexibility(LinearState& state, Effect effect, double& share) {
   const VectorXd part = part_forces(state, effect);
   const double energy = state.energy();
   share = energy > 0 ? part.dot(state.u) / energy : 0;
-  Change change{-state.answer(part), {}};
+  Change change{-state.solve(part), {}};
   change.force = state.elastic(change.u);
   for (std::size_t e = 0; e < change.force.size(); ++e) {
     const FrameElement& element = state.system.mesh.frame[e];
@@ -203,13 +203,13 @@ Change without_flexibility(LinearState& state, Effect effect, double& share) {
 }
 
 /// Of the turning of forces with what they act in.
-Change with_turning(LinearState& state, const Prestress& forces) {
-  Change change{-state.answer(turning_forces(state.system, forces, state.u)), {}};
+Change change_by_geometric_stiffness(LinearState& state, const Prestress& forces) {
+  Change change{-state.solve(geometric_stiffness_forces(state.system, forces, state.u)), {}};
   change.force = state.elastic(change.u);
   for (std::size_t e = 0; e < change.force.size(); ++e) {
     const auto i = static_cast<Index>(e);
     change.force[e] +=
-        state.turning(state.system.mesh.frame[e], forces.axial[i], forces.growth[i], state.u);
+        state.geometric_forces(state.system.mesh.frame[e], forces.axial[i], forces.axial_variation[i], state.u);
   }
   return change;
 }
@@ -219,15 +219,15 @@ void negate(Change& change) {
   for (Vector6d& force : change.force) force = -force;
 }
 
-void add(Change& to, const Change& more) {
-  to.u += more.u;
-  for (std::size_t e = 0; e < to.force.size(); ++e) to.force[e] += more.force[e];
+void add(Change& to, const Change& other) {
+  to.u += other.u;
+  for (std::size_t e = 0; e < to.force.size(); ++e) to.force[e] += other.force[e];
 }
 
 /// integral v'^2 / 2 dx of an element.
-double shortening(const LinearState& state, const FrameElement& e) {
+double chord_shortening(const LinearState& state, const FrameElement& e) {
   const Vector6d local = frame_rotation(e.direction) * detail::gather(e.coordinates, state.u);
-  return state.turning(e, 1, 0, state.u).dot(local) / 2;
+  return state.geometric_forces(e, 1, 0, state.u).dot(local) / 2;
 }
 
 /// B^T c of the strains H^T H / 2 of a three-node triangle.
@@ -235,7 +235,7 @@ void add_plate_strains(const LinearState& state, VectorXd& force) {
   const Model& model = state.system.model;
   for (const Triangle& triangle : model.triangles) {
     if (triangle.quadratic()) continue;
-    const auto coordinates = state.system.coordinates.of<6>(triangle);
+    const auto coordinates = state.system.coordinates.of_triangle<6>(triangle);
     const auto local = detail::gather(coordinates, state.u);
     const TriangleInterpolation point = interpolate(model, triangle, Vector3d::Constant(1 / 3.0));
     Vector2d along_x = Vector2d::Zero(), along_y = Vector2d::Zero();
@@ -259,11 +259,11 @@ void add_plate_strains(const LinearState& state, VectorXd& force) {
 double end_rotation(const LinearState& state, const FrameElement& e, Index end) {
   const Index rotation = e.coordinates[to_size(end + 2)];
   if (rotation >= 0) return state.u[rotation];
-  return (frame_turning(e.direction, e.length) * detail::gather(e.coordinates, state.u))[0];
+  return (frame_chord_rotation_and_bending(e.direction, e.length) * detail::gather(e.coordinates, state.u))[0];
 }
 
 /// The farthest that second-order turning moves a point of a rigid body beside its arm's end.
-double rigid_turning(const LinearState& state) {
+double second_order_body_displacement(const LinearState& state) {
   double farthest = 0;
   for (const RigidBody& body : state.system.model.rigid_bodies) {
     const double turn = state.u[state.system.coordinates.node[to_size(body.reference)][2]];
@@ -277,12 +277,12 @@ double rigid_turning(const LinearState& state) {
   return farthest;
 }
 
-Change with_large_displacement(LinearState& state, double& largest_rotation) {
+Change change_by_large_displacement(LinearState& state, double& largest_rotation) {
   const auto& frame = state.system.mesh.frame;
   VectorXd strained = VectorXd::Zero(state.u.size());
   VectorXd force(static_cast<Index>(frame.size()));
   for (std::size_t e = 0; e < frame.size(); ++e) {
-    force[static_cast<Index>(e)] = state.rigidity(frame[e])[0] * shortening(state, frame[e]);
+    force[static_cast<Index>(e)] = state.rigidity(frame[e])[0] * chord_shortening(state, frame[e]);
     const auto B = frame_deformation(frame[e].direction, frame[e].length);
     const Vector6d f = B.row(0).transpose() * force[static_cast<Index>(e)];
     for (std::size_t k = 0; k < 6; ++k) {
@@ -291,20 +291,20 @@ Change with_large_displacement(LinearState& state, double& largest_rotation) {
     }
   }
   add_plate_strains(state, strained);
-  Change change{-state.answer(strained), {}};
+  Change change{-state.solve(strained), {}};
   change.force = state.elastic(change.u);
-  Prestress called{state.forces};
-  called.growth.setZero();
-  called.stress.setZero();
-  called.arm.setZero();
-  called.offset.setZero();
+  Prestress induced{state.forces};
+  induced.axial_variation.setZero();
+  induced.stress.setZero();
+  induced.arm_moment.setZero();
+  induced.offset_moment.setZero();
   largest_rotation = 0;
   for (std::size_t e = 0; e < frame.size(); ++e) {
     const auto i = static_cast<Index>(e);
     change.force[e] += LinearState::end_forces(frame[e], Vector3d(force[i], 0, 0));
-    called.axial[i] = change.force[e][3];
+    induced.axial[i] = change.force[e][3];
   }
-  add(change, with_turning(state, called));
+  add(change, change_by_geometric_stiffness(state, induced));
   for (std::size_t e = 0; e < frame.size(); ++e) {
     for (const Index end : {Index{0}, Index{3}}) {
       const double turn = end_rotation(state, frame[e], end);
@@ -313,12 +313,12 @@ Change with_large_displacement(LinearState& state, double& largest_rotation) {
       change.force[e].segment<2>(end) += turn * Vector2d(f.y(), -f.x());
     }
   }
-  change.beside = rigid_turning(state);
+  change.undirected_displacement = second_order_body_displacement(state);
   return change;
 }
 
 /// Weights of the members, and of everything else.
-Change without_weight(LinearState& state, bool of_members, double& share) {
+Change change_without_weight(LinearState& state, bool of_members, double& share) {
   const System& system = state.system;
   VectorXd load = VectorXd::Zero(state.u.size());
   std::vector<Vector6d> own(system.mesh.frame.size(), Vector6d::Zero());
@@ -338,7 +338,7 @@ Change without_weight(LinearState& state, bool of_members, double& share) {
     state.counters += without.counters;
     load = system.load - without.load - load;
   }
-  Change change{-state.answer(load), {}};
+  Change change{-state.solve(load), {}};
   const double all = state.energy();
   share = all > 0 ? std::sqrt(std::abs(load.dot(change.u)) / all) : 0;
   change.force = state.elastic(change.u);
@@ -352,51 +352,51 @@ double span(const Model& model, const Member& member) {
 }
 
 double axial_slenderness(const LinearState& state) {
-  double most = 0;
+  double largest_value = 0;
   for (const Member& member : state.system.model.members) {
     const double length = span(state.system.model, member);
-    most = std::max(most, member.section.EI / (member.section.EA * length * length));
+    largest_value = std::max(largest_value, member.section.EI / (member.section.EA * length * length));
   }
-  return most;
+  return largest_value;
 }
 
 double largest_shear_ratio(const LinearState& state) {
-  double most = 0;
+  double largest_value = 0;
   for (const Member& member : state.system.model.members) {
     const double length = span(state.system.model, member);
     if (member.section.EI > 0) {
-      most = std::max(most, shear_ratio(member.section, member.theory, length));
+      largest_value = std::max(largest_value, shear_ratio(member.section, member.theory, length));
     }
   }
-  return most;
+  return largest_value;
 }
 
-Change without(LinearState& state, Effect effect, double& number) {
+Change change_without(LinearState& state, Effect effect, double& number) {
   Change change;
   switch (effect) {
     case Effect::geometric_stiffening: {
-      change = with_turning(state, state.forces);
+      change = change_by_geometric_stiffness(state, state.forces);
       const double energy = state.energy();
       number = energy > 0
-                   ? turning_forces(state.system, state.forces, state.u).dot(state.u) / energy
+                   ? geometric_stiffness_forces(state.system, state.forces, state.u).dot(state.u) / energy
                    : 0;
       negate(change);
       return change;
     }
     case Effect::large_displacement:
-      change = with_large_displacement(state, number);
+      change = change_by_large_displacement(state, number);
       negate(change);
       return change;
     case Effect::gravity:
-      return without_weight(state, false, number);
+      return change_without_weight(state, false, number);
     case Effect::link_mass:
-      return without_weight(state, true, number);
+      return change_without_weight(state, true, number);
     default:
-      change = without_flexibility(state, effect, number);
+      change = change_without_flexibility(state, effect, number);
       if (effect == Effect::axial_flexibility) {
         number = axial_slenderness(state);
-        const bool lost = would_be_overheld(state.system.model);
-        if (lost) change.undetermined = state.forces.axial.cwiseAbs().maxCoeff();
+        const bool lost = is_axially_overconstrained(state.system.model);
+        if (lost) change.indeterminate_force = state.forces.axial.cwiseAbs().maxCoeff();
       }
       if (effect == Effect::shear) number = largest_shear_ratio(state);
       return change;
@@ -405,35 +405,35 @@ Change without(LinearState& state, Effect effect, double& number) {
 
 /// What every kind of reading is measured by: its largest, but not round-off. Moments and rotations
 /// are compared with forces and displacements over the size of the model.
-std::array<double, Readings::kinds> scales_of(const Readings& base, const Model& model) {
-  constexpr double kNothing = 1e-9;
+std::array<double, StateResults::kKinds> scales_of(const StateResults& base, const Model& model) {
+  constexpr double kRoundoff = 1e-9;
   Vector2d low = model.nodes.front().position, high = low;
   for (const Node& node : model.nodes) {
     low = low.cwiseMin(node.position);
     high = high.cwiseMax(node.position);
   }
   const double size = (high - low).norm();
-  const double u = std::max(base.largest(0), kNothing * size * base.largest(1));
-  const double f = std::max(base.largest(2), kNothing * base.largest(3) / size);
-  return {u, std::max(base.largest(1), kNothing * u / size), f,
-          std::max(base.largest(3), kNothing * f * size)};
+  const double u = std::max(base.largest(0), kRoundoff * size * base.largest(1));
+  const double f = std::max(base.largest(2), kRoundoff * base.largest(3) / size);
+  return {u, std::max(base.largest(1), kRoundoff * u / size), f,
+          std::max(base.largest(3), kRoundoff * f * size)};
 }
 
-VectorXd scaled(const Readings& change, double beside, double undetermined,
-                const std::array<double, Readings::kinds>& scale) {
+VectorXd scaled(const StateResults& change, double undirected_displacement, double indeterminate_force,
+                const std::array<double, StateResults::kKinds>& scale) {
   std::vector<double> all;
-  for (std::size_t k = 0; k < Readings::kinds; ++k) {
-    for (const double value : change.of[k]) all.push_back(scale[k] > 0 ? value / scale[k] : 0);
+  for (std::size_t k = 0; k < StateResults::kKinds; ++k) {
+    for (const double value : change.values[k]) all.push_back(scale[k] > 0 ? value / scale[k] : 0);
   }
-  all.push_back(scale[0] > 0 ? beside / scale[0] : 0);
-  all.push_back(scale[2] > 0 ? undetermined / scale[2] : 0);
+  all.push_back(scale[0] > 0 ? undirected_displacement / scale[0] : 0);
+  all.push_back(scale[2] > 0 ? indeterminate_force / scale[2] : 0);
   return Eigen::Map<const VectorXd>(all.data(), static_cast<Index>(all.size()));
 }
 
 }  // namespace
 
-bool would_be_overheld(const Model& model) {
-  const Model stiff = reduced(model, Effects::all().without(Effect::axial_flexibility));
+bool is_axially_overconstrained(const Model& model) {
+  const Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
   const Constraints constraints = constrain(stiff, discretise(stiff));
   for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
     const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;
@@ -442,28 +442,28 @@ bool would_be_overheld(const Model& model) {
   return false;
 }
 
-EffectEstimates estimate_static_effects(const std::vector<Model>& poses, Effects admitted) {
+EffectEstimates estimate_static_effects(const std::vector<Model>& poses, Effects applicable) {
   struct Sum {
-    double number = 0, beside = 0, undetermined = 0;
-    Readings change;
+    double number = 0, undirected_displacement = 0, indeterminate_force = 0;
+    StateResults change;
   };
   EffectEstimates estimates;
-  Readings base;
+  StateResults base;
   std::map<Effect, Sum> sums;
   for (const Model& model : poses) {
-    LinearState state(model, admitted);
+    LinearState state(model, applicable);
     if (!state.solution.outcome.solved()) {
       estimates.outcome = state.solution.outcome;
       return estimates;
     }
-    base.append(state.read(state.u, state.base));
-    for (const Effect effect : admitted.list()) {
+    base.append(state.results_of(state.u, state.base));
+    for (const Effect effect : applicable.list()) {
       double number = 0;
-      const Change change = without(state, effect, number);
+      const Change change = change_without(state, effect, number);
       Sum& sum = sums[effect];
-      sum.change.append(state.read(change.u, change.force));
-      sum.beside = std::max(sum.beside, change.beside);
-      sum.undetermined = std::max(sum.undetermined, change.undetermined);
+      sum.change.append(state.results_of(change.u, change.force));
+      sum.undirected_displacement = std::max(sum.undirected_displacement, change.undirected_displacement);
+      sum.indeterminate_force = std::max(sum.indeterminate_force, change.indeterminate_force);
       if (std::abs(number) > std::abs(sum.number)) sum.number = number;
     }
     estimates.counters += state.counters;
@@ -471,7 +471,7 @@ EffectEstimates estimate_static_effects(const std::vector<Model>& poses, Effects
   const auto scales = scales_of(base, poses.front());
   for (const auto& [effect, sum] : sums) {
     estimates.effects.push_back(
-        {effect, sum.number, scaled(sum.change, sum.beside, sum.undetermined, scales)});
+        {effect, sum.number, scaled(sum.change, sum.undirected_displacement, sum.indeterminate_force, scales)});
   }
   return estimates;
 }

@@ -14,7 +14,7 @@ std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load) {
   const double thickness = model.plates[static_cast<std::size_t>(load.plate)].thickness;
   std::array<Vector2d, 3> forces = {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
   for (const LineQuadraturePoint& point : line_quadrature()) {
-    const double s = point.at;
+    const double s = point.xi;
     std::array<double, 3> N = {1 - s, s, 0};
     std::array<double, 3> dN = {-1, 1, 0};
     if (quadratic) {

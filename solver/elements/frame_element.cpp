@@ -52,7 +52,7 @@ Section interpolate_geometric(const Section& first, const Section& second, doubl
 template <Real T>
 T shear_ratio(const SectionOf<T>& section, BeamTheory theory,
               const std::type_identity_t<T>& length) {
-  if (!shears(theory)) return T(0);
+  if (!has_shear_deformation(theory)) return T(0);
   return 12.0 * section.EI / (section.kappa_GA * length * length);
 }
 

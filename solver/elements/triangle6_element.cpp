@@ -10,7 +10,7 @@ namespace trammel {
 namespace {
 
 struct Point {
-  Eigen::Vector3d at;
+  Eigen::Vector3d area_coordinates;
   double weight;
 };
 
@@ -50,7 +50,7 @@ Triangle6Stiffness triangle6_stiffness(const Model& model, const Triangle& trian
   Triangle6Stiffness k;
   Index row = 0;
   for (const Point& point : rule) {
-    const TriangleInterpolation at = interpolate(model, triangle, point.at);
+    const TriangleInterpolation at = interpolate(model, triangle, point.area_coordinates);
     k.deformation.middleRows<3>(row) = deformation_of(at);
     k.rigidity.segment<3>(row) =
         membrane_rigidity(plate.material, point.weight * at.area * plate.thickness);
@@ -63,7 +63,7 @@ Matrix12d triangle6_mass(const Model& model, const Triangle& triangle) {
   const Plate& plate = plate_of(model, triangle);
   Matrix12d M = Matrix12d::Zero();
   for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-    const TriangleInterpolation at = interpolate(model, triangle, point.at);
+    const TriangleInterpolation at = interpolate(model, triangle, point.area_coordinates);
     const double dm = plate.material.rho * plate.thickness * at.area * point.weight;
     for (Index i = 0; i < 6; ++i) {
       for (Index j = 0; j < 6; ++j) {

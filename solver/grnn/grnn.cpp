@@ -71,7 +71,7 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
   for (Index first = 0; first < queries.rows(); first += kBlock) {
     const Index count = std::min(kBlock, queries.rows() - first);
     for (Index k = 0; k < count; ++k) {
-      const Eigen::ArrayXd& e = excess.of(scaled.col(first + k));
+      const Eigen::ArrayXd& e = excess.compute(scaled.col(first + k));
       kernel_weights(e, network.sigma, weights.col(k));
       weights.col(k) /= weights.col(k).sum();
     }

@@ -47,15 +47,15 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
   const Index folds = validation.folds == 0 ? samples : validation.folds;
   require(folds >= 2, "cross-validation needs at least two folds");
   require(samples >= folds, "cross-validation needs at least one sample in each fold");
-  std::vector<Index> place(static_cast<std::size_t>(samples));
-  std::iota(place.begin(), place.end(), Index{0});
-  if (validation.order == FoldOrder::shuffled) shuffle(place, validation.seed);
+  std::vector<Index> fold(static_cast<std::size_t>(samples));
+  std::iota(fold.begin(), fold.end(), Index{0});
+  if (validation.order == FoldOrder::shuffled) shuffle(fold, validation.seed);
   const bool blocks = validation.order == FoldOrder::blocks;
-  for (Index& p : place) p = blocks ? p * folds / samples : p % folds;
-  return place;
+  for (Index& p : fold) p = blocks ? p * folds / samples : p % folds;
+  return fold;
 }
 
-std::vector<bool> training_part(Index samples, Index train, Split split, std::uint64_t seed) {
+std::vector<bool> training_mask(Index samples, Index train, Split split, std::uint64_t seed) {
   require(train >= 1 && train <= samples, "expected to train with at least one and at most all");
   std::vector<Index> order(static_cast<std::size_t>(samples));
   std::iota(order.begin(), order.end(), Index{0});
@@ -63,8 +63,8 @@ std::vector<bool> training_part(Index samples, Index train, Split split, std::ui
   std::vector<bool> trains(order.size(), false);
   for (Index k = 0; k < train; ++k) {
     // The middle of the k-th of `train` equal pieces.
-    const Index place = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
-    trains[static_cast<std::size_t>(order[static_cast<std::size_t>(place)])] = true;
+    const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
+    trains[static_cast<std::size_t>(order[static_cast<std::size_t>(rank)])] = true;
   }
   return trains;
 }
@@ -87,7 +87,7 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   for (Index i = 0; i < n; ++i) {
     own = folds == folds(i);
     query = samples.row(i).transpose();
-    const Eigen::ArrayXd& e = excess.of(query, &own);
+    const Eigen::ArrayXd& e = excess.compute(query, &own);
     for (Index s = 0; s < sigmas.size(); ++s) {
       kernel_weights(e, sigmas(s), weights);
       miss.noalias() = weights.transpose() * network.outputs;
@@ -110,12 +110,12 @@ Eigen::VectorXd default_grid(const Grnn& network, Index count) {
   if (extent == 0) return logarithmic_grid(0.1, 10, count);  // all samples at one place
   std::vector<double> nearest;
   for (Index i = 0; i < samples.rows(); ++i) {
-    double least = extent;
+    double min_distance = extent;
     for (Index j = 0; j < samples.rows(); ++j) {
       const double distance = (samples.row(i) - samples.row(j)).norm();
-      if (distance > 0) least = std::min(least, distance);
+      if (distance > 0) min_distance = std::min(min_distance, distance);
     }
-    nearest.push_back(least);
+    nearest.push_back(min_distance);
   }
   const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
   std::nth_element(nearest.begin(), middle, nearest.end());

@@ -32,7 +32,7 @@ enum class Split {
 
 /// @return  for each sample whether it trains, `train` of them
 /// @throws ModelError  unless 1 <= train <= samples.
-[[nodiscard]] std::vector<bool> training_part(Index samples, Index train, Split split,
+[[nodiscard]] std::vector<bool> training_mask(Index samples, Index train, Split split,
                                               std::uint64_t seed = 1);
 
 /// Root mean square of what the network without a sample's fold predicts wrongly for it, one row a

@@ -15,7 +15,7 @@ class ExcessDistances {
 
   /// @param query  scaled
   /// @param skip   samples to leave out (their excess is infinite), or null
-  const Eigen::ArrayXd& of(const Eigen::Ref<const Eigen::VectorXd>& query,
+  const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query,
                            const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     squared_.setZero();

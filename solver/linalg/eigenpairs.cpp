@@ -19,8 +19,8 @@ using Eigen::VectorXd;
 constexpr const char* kIllConditioned =
     "the stiffness matrix is too ill-conditioned for double precision";
 constexpr Index kDenseSize = 64;    // free coordinates; above, Lanczos is faster for a few modes
-constexpr double kSettled = 1e-11;  // relative change of an eigenvalue in one inverse iteration
-constexpr double kClearGap = 1e-3;  // between neighbours that are certainly not copies
+constexpr double kConvergenceTolerance = 1e-11;  // relative change of an eigenvalue in one inverse iteration
+constexpr double kClusterGap = 1e-3;  // between neighbours that are certainly not copies
 
 /// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
 class LanczosOperator {
@@ -51,38 +51,38 @@ class LanczosOperator {
   Counters& counters_;
 };
 
-/// The search for the largest mu, dense or by Lanczos; more can be asked for, again and again.
-class Search {
+/// Provides the eigenvectors of the largest mu, dense or by Lanczos; more can be asked for, again and again.
+class EigenpairProvider {
  public:
-  Search(const Pencil& pencil, bool dense, Counters& counters)
+  EigenpairProvider(const Pencil& pencil, bool dense, Counters& counters)
       : pencil_(pencil), dense_(dense), counters_(counters) {}
 
   /// Vectors of the `count` largest mu > 0 beyond the null vectors, or of all there are; fewer
   /// where Lanczos gave up.
-  MatrixXd first(const Factorization& factorization, Index count, const MatrixXd& null) {
+  MatrixXd first_block(const Factorization& factorization, Index count, const MatrixXd& null) {
     if (!dense_) return lanczos(factorization, count, null);
     all_ = dense_vectors();
-    given_ = std::min(null.cols(), all_.cols());  // their mu is the largest
-    return next(count);
+    taken_ = std::min(null.cols(), all_.cols());  // their mu is the largest
+    return take_dense(count);
   }
 
   /// About `count` more in the complement of X, whose columns are orthogonal in K - s B.
-  MatrixXd more(const Factorization& factorization, Index count, const MatrixXd& X) {
-    return dense_ ? next(count) : lanczos(factorization, count, X);
+  MatrixXd next_block(const Factorization& factorization, Index count, const MatrixXd& X) {
+    return dense_ ? take_dense(count) : lanczos(factorization, count, X);
   }
 
  private:
   [[nodiscard]] Index size() const { return pencil_.K->rows(); }
 
-  MatrixXd next(Index count) {
-    const Index kept = std::min(count, all_.cols() - given_);
-    given_ += kept;
-    return all_.middleCols(given_ - kept, kept);
+  MatrixXd take_dense(Index count) {
+    const Index kept = std::min(count, all_.cols() - taken_);
+    taken_ += kept;
+    return all_.middleCols(taken_ - kept, kept);
   }
 
   /// All with mu > 0, the largest first.
   [[nodiscard]] MatrixXd dense_vectors() const {
-    const MatrixXd A = MatrixXd(*pencil_.K) - pencil_.s * MatrixXd(*pencil_.B);
+    const MatrixXd A = MatrixXd(*pencil_.K) - pencil_.shift * MatrixXd(*pencil_.B);
     const VectorXd scale = A.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
     const MatrixXd scaled_A = scale.asDiagonal() * A * scale.asDiagonal();
     const MatrixXd scaled_B = scale.asDiagonal() * MatrixXd(*pencil_.B) * scale.asDiagonal();
@@ -95,20 +95,20 @@ class Search {
   }
 
   MatrixXd lanczos(const Factorization& factorization, Index count, const MatrixXd& X) {
-    const Index room = size() - X.cols();
-    const Index wanted = std::min(count, room - 1);
+    const Index dimension = size() - X.cols();
+    const Index wanted = std::min(count, dimension - 1);
     if (wanted < 1 || pencil_.B->norm() == 0) return MatrixXd(size(), 0);
     MatrixXd known(size(), X.cols());  // in Lanczos' coordinates y = F^T x, where they are F^-1 A x
     for (Index j = 0; j < X.cols(); ++j) {
       known.col(j) =
-          factorization.solve_half(*pencil_.K * X.col(j) - pencil_.s * (*pencil_.B * X.col(j)));
-      for (int twice = 0; twice < 2; ++twice) {
+          factorization.solve_half(*pencil_.K * X.col(j) - pencil_.shift * (*pencil_.B * X.col(j)));
+      for (int pass = 0; pass < 2; ++pass) {
         known.col(j) -= known.leftCols(j) * (known.leftCols(j).transpose() * known.col(j));
       }
       known.col(j).normalize();
     }
     LanczosOperator op(*pencil_.B, factorization, known, counters_);
-    const Index subspace = std::min(room, std::max(2 * wanted + 1, wanted + 20));
+    const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
     Spectra::SymEigsSolver<LanczosOperator> solver(op, wanted, subspace);
     std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(X.cols()));
     VectorXd start = VectorXd::NullaryExpr(
@@ -132,39 +132,39 @@ class Search {
   bool dense_;
   Counters& counters_;
   MatrixXd all_;     // dense: every vector
-  Index given_ = 0;  // dense: how many have been handed out
+  Index taken_ = 0;  // dense: how many have been handed out
 };
 
 class Solver {
  public:
-  Solver(const Pencil& pencil, const MatrixXd& null, Index count, EigenPath path,
+  Solver(const Pencil& pencil, const MatrixXd& null, Index count, EigenMethod method,
          Factorization& factorization, Counters& counters)
       : pencil_(pencil),
         null_(null),
         count_(count),
         counters_(counters),
-        search_(pencil,
-                path == EigenPath::dense ||
-                    (path == EigenPath::automatic && pencil.K->rows() <= kDenseSize) ||
+        provider_(pencil,
+                method == EigenMethod::dense ||
+                    (method == EigenMethod::automatic && pencil.K->rows() <= kDenseSize) ||
                     pencil.K->rows() < 4,
                 counters),
         factorization_(factorization) {}
 
   Eigenpairs run() {
     constexpr int kRounds = 40;
-    if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return nothing();
+    if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return no_eigenpairs();
     const Index guard = 3 + count_ / 4;
-    add(search_.first(factorization_, count_ + guard, null_));
+    add(provider_.first_block(factorization_, count_ + guard, null_));
     for (int round = 0; round < kRounds; ++round) {
-      improve_until_settled();
-      if (lost_) return nothing();
-      const Index expected = check();
+      iterate_to_convergence();
+      if (inverse_iteration_failed_) return no_eigenpairs();
+      const Index expected = sturm_check();
       if (expected == checked_) break;
-      if (expected < checked_ || round + 1 == kRounds) return give_up(expected);
+      if (expected < checked_ || round + 1 == kRounds) return report_missing_eigenpairs(expected);
       factor();
       const Index before = X_.cols();
-      add(search_.more(factorization_, expected - checked_ + 2, with_null()));
-      if (X_.cols() == before) return give_up(expected);
+      add(provider_.next_block(factorization_, expected - checked_ + 2, with_null()));
+      if (X_.cols() == before) return report_missing_eigenpairs(expected);
     }
     finish();
     return pairs_;
@@ -172,13 +172,13 @@ class Solver {
 
  private:
   void factor() {
-    factorization_.compute(shifted(*pencil_.K, *pencil_.B, pencil_.s));
+    factorization_.compute(shifted(*pencil_.K, *pencil_.B, pencil_.shift));
     ++counters_.factorizations;
   }
 
   [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     VectorXd y = pencil_.K_times(x);
-    if (pencil_.s != 0) y -= pencil_.s * (*pencil_.B * x);
+    if (pencil_.shift != 0) y -= pencil_.shift * (*pencil_.B * x);
     return y;
   }
 
@@ -203,39 +203,39 @@ class Solver {
 
   /// Repeats until the wanted values stand still. What a step changes, the next one would change
   /// by the square of the ratio to the last value of the block: that is the error left.
-  void improve_until_settled() {
+  void iterate_to_convergence() {
     constexpr int kSteps = 4;
     values();
     if (X_.cols() == 0) return;  // rigid motions and massless coordinates only
     for (int step = 0; step < kSteps; ++step) {
       const VectorXd before = pairs_.value;
-      improve();
+      inverse_iteration();
       const VectorXd& now = pairs_.value;
       const VectorXd change = (now - before).cwiseAbs().cwiseQuotient(now.cwiseAbs());
       const VectorXd ratio = now / now[now.size() - 1];
       pairs_.error = change.cwiseProduct(ratio.cwiseAbs2());
       const Index wanted = std::min(count_, now.size());  // none when rigid motions are all
-      if (wanted == 0 || change.head(wanted).maxCoeff() < kSettled) return;
+      if (wanted == 0 || change.head(wanted).maxCoeff() < kConvergenceTolerance) return;
     }
   }
 
   /// One inverse iteration of the whole block with refined solutions, then Rayleigh-Ritz with K's
   /// exact products, in the form (K - s B)^-1 B so that the lowest values keep all their digits.
-  void improve() {
+  void inverse_iteration() {
     const Index p = X_.cols();
     MatrixXd Y(X_.rows(), p);
     for (Index j = 0; j < p; ++j) {
-      const Refined y = refined_solve([this](const VectorXd& x) { return apply(x); },
+      const RefinedSolution y = refined_solve([this](const VectorXd& x) { return apply(x); },
                                       factorization_, *pencil_.B * X_.col(j),
-                                      X_.col(j) / (pairs_.value[j] - pencil_.s), counters_);
-      lost_ = lost_ || !(y.correction < 0.1);
+                                      X_.col(j) / (pairs_.value[j] - pencil_.shift), counters_);
+      inverse_iteration_failed_ = inverse_iteration_failed_ || !(y.correction < 0.1);
       Y.col(j) = y.x;
       remove_null(Y.col(j));
-      for (int twice = 0; twice < 2; ++twice) orthogonalise(Y, j);
+      for (int pass = 0; pass < 2; ++pass) orthogonalise(Y, j);
     }
     MatrixXd A = pencil_.K_products(Y);
     const MatrixXd B = Y.transpose() * (*pencil_.B * Y);
-    if (pencil_.s != 0) A -= pencil_.s * B;
+    if (pencil_.shift != 0) A -= pencil_.shift * B;
     const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(
         scale.asDiagonal() * B * scale.asDiagonal(), scale.asDiagonal() * A * scale.asDiagonal());
@@ -245,9 +245,9 @@ class Solver {
 
   /// In K - s B, against the columns before it; normalised.
   void orthogonalise(MatrixXd& Y, Index j) const {
-    const VectorXd image = *pencil_.K * Y.col(j) - pencil_.s * (*pencil_.B * Y.col(j));
+    const VectorXd image = *pencil_.K * Y.col(j) - pencil_.shift * (*pencil_.B * Y.col(j));
     Y.col(j) -= Y.leftCols(j) * (Y.leftCols(j).transpose() * image);
-    const VectorXd again = *pencil_.K * Y.col(j) - pencil_.s * (*pencil_.B * Y.col(j));
+    const VectorXd again = *pencil_.K * Y.col(j) - pencil_.shift * (*pencil_.B * Y.col(j));
     Y.col(j) /= std::sqrt(std::abs(Y.col(j).dot(again)));
   }
 
@@ -275,18 +275,18 @@ class Solver {
   }
 
   /// How many eigenvalues there are below a shift that cuts no cluster; `checked_` were found.
-  Index check() {
+  Index sturm_check() {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
-    const Index cut = clear_cut();
+    const Index cut = cluster_boundary();
     checked_ = cut + null_.cols();
-    for (const double place : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
+    for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
       if (p == 0) {
-        pairs_.check_shift = -pencil_.s * place;
+        pairs_.check_shift = -pencil_.shift * fraction;
       } else if (cut == p) {
-        pairs_.check_shift = v[p - 1] * (1 + 2e-6 * place);
+        pairs_.check_shift = v[p - 1] * (1 + 2e-6 * fraction);
       } else {
-        pairs_.check_shift = v[cut - 1] + place * (v[cut] - v[cut - 1]);
+        pairs_.check_shift = v[cut - 1] + fraction * (v[cut] - v[cut - 1]);
       }
       factorization_.compute(shifted(*pencil_.K, *pencil_.B, pairs_.check_shift));
       ++counters_.factorizations;
@@ -297,27 +297,27 @@ class Solver {
   }
 
   /// Number of found values below a gap: the first clear one at or after the wanted, or the widest.
-  [[nodiscard]] Index clear_cut() const {
+  [[nodiscard]] Index cluster_boundary() const {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
     const auto gap = [&v](Index k) { return (v[k] - v[k - 1]) / v[k]; };
     Index cut = p;
     for (Index k = std::max<Index>(std::min(count_, p), 1); k < p; ++k) {
       if (cut == p || gap(k) > gap(cut)) cut = k;
-      if (gap(k) > kClearGap) break;
+      if (gap(k) > kClusterGap) break;
     }
     return cut < p && gap(cut) < 1e-7 ? p : cut;
   }
 
   /// No pair at all, also where values stood already.
-  Eigenpairs nothing() {
+  Eigenpairs no_eigenpairs() {
     pairs_ = {};
     pairs_.outcome = {Status::not_converged, kIllConditioned};
     pairs_.vector.resize(pencil_.K->rows(), 0);
     return pairs_;
   }
 
-  Eigenpairs give_up(Index expected) {
+  Eigenpairs report_missing_eigenpairs(Index expected) {
     pairs_.outcome = {Status::not_converged, std::to_string(checked_) +
                                                  " eigenvalues were found where the inertia of the "
                                                  "matrices counts " +
@@ -337,19 +337,19 @@ class Solver {
   const MatrixXd& null_;
   Index count_;
   Counters& counters_;
-  Search search_;
+  EigenpairProvider provider_;
   Factorization& factorization_;
   MatrixXd X_;
   Index checked_ = 0;
-  bool lost_ = false;  // an inverse iteration that does not converge
+  bool inverse_iteration_failed_ = false;  // an inverse iteration that does not converge
   Eigenpairs pairs_;
 };
 
 }  // namespace
 
 Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null, Index count,
-                             EigenPath path, Factorization& factorization, Counters& counters) {
-  return Solver(pencil, null, count, path, factorization, counters).run();
+                             EigenMethod method, Factorization& factorization, Counters& counters) {
+  return Solver(pencil, null, count, method, factorization, counters).run();
 }
 
 SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {

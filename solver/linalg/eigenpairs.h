@@ -11,14 +11,14 @@
 
 namespace trammel {
 
-enum class EigenPath { automatic, dense, sparse };
+enum class EigenMethod { automatic, dense, sparse };
 
 /// The pencil K x = lambda B x with K - s B positive definite, s <= 0; B is symmetric and may be
 /// semi-definite (massless coordinates) or indefinite (buckling).
 struct Pencil {
   const SparseMatrix* K = nullptr;
   const SparseMatrix* B = nullptr;
-  double s = 0;
+  double shift = 0;
   Operator K_times;  ///< x -> K x, more exact than the assembled K
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;  ///< X -> X^T K X, the same
 };
@@ -43,7 +43,7 @@ struct Eigenpairs {
 ///              as the first eigenvalues, 0, and are not among those returned.
 /// @param factorization  has `shifted(K, B, s)` factored; used up.
 [[nodiscard]] Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null,
-                                           Index count, EigenPath path,
+                                           Index count, EigenMethod method,
                                            Factorization& factorization, Counters& counters);
 
 /// K - t B, with the pattern of both whatever t is.

@@ -63,7 +63,7 @@ Index Factorization::negative_pivots() const {
   return (ldlt_.vectorD().array() < 0).count();
 }
 
-double Factorization::growth() const {
+double Factorization::element_growth() const {
   const auto& L = ldlt_.matrixL().nestedExpression();
   double largest = 0;
   for (Index j = 0; j < L.outerSize(); ++j) {

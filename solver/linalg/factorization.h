@@ -29,9 +29,9 @@ class Factorization {
   /// Sylvester: the number of negative eigenvalues.
   [[nodiscard]] Eigen::Index negative_pivots() const;
   /// Largest |L|: above about 1e8 an indefinite matrix without row exchanges has lost its digits.
-  [[nodiscard]] double growth() const;
+  [[nodiscard]] double element_growth() const;
   /// Whether the signs of the pivots can be believed.
-  [[nodiscard]] bool is_reliable() const { return exists_ && growth() < 1e8; }
+  [[nodiscard]] bool is_reliable() const { return exists_ && element_growth() < 1e8; }
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// x = F^-T y, y = F^-1 b with F F^T = A, for a positive definite A.

@@ -24,7 +24,7 @@ using Complex = std::complex<double>;
 
 /// R with R^T R = M; rows only for the coordinates that have mass. A singular M (a point mass off
 /// its node) is helped by 1e-14 of its diagonal.
-SparseMatrix root_of_mass(const SparseMatrix& M) {
+SparseMatrix mass_square_root(const SparseMatrix& M) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Index> number(static_cast<std::size_t>(M.rows()), -1);
   std::vector<Index> massive;
@@ -48,7 +48,7 @@ SparseMatrix root_of_mass(const SparseMatrix& M) {
   Eigen::SimplicialLDLT<SparseMatrix> ldlt(compact);
   const VectorXd d = ldlt.vectorD().cwiseMax(0).cwiseSqrt();
   const SparseMatrix U = d.asDiagonal() * SparseMatrix(ldlt.matrixU());
-  const auto& place = ldlt.permutationP().indices();  // massive -> row of the factor
+  const auto& row_of = ldlt.permutationP().indices();  // massive -> row of the factor
   entries.clear();
   for (Index j = 0; j < U.outerSize(); ++j) {
     for (SparseMatrix::InnerIterator it(U, j); it; ++it) {
@@ -57,7 +57,7 @@ SparseMatrix root_of_mass(const SparseMatrix& M) {
   }
   std::vector<Index> coordinate(massive.size());
   for (std::size_t i = 0; i < massive.size(); ++i) {
-    coordinate[static_cast<std::size_t>(place[static_cast<Index>(i)])] = massive[i];
+    coordinate[static_cast<std::size_t>(row_of[static_cast<Index>(i)])] = massive[i];
   }
   for (auto& e : entries) {
     e = {static_cast<int>(e.row()), static_cast<int>(coordinate[static_cast<std::size_t>(e.col())]),
@@ -73,7 +73,7 @@ class SkewOperator {
  public:
   using Scalar = double;
   SkewOperator(const GyroscopicPencil& pencil, const Factorization& K, Counters& counters)
-      : C_(pencil.C), R_(root_of_mass(pencil.M)), K_(K), counters_(counters) {}
+      : C_(pencil.C), R_(mass_square_root(pencil.M)), K_(K), counters_(counters) {}
 
   [[nodiscard]] Index rows() const { return C_.rows() + R_.rows(); }
   [[nodiscard]] Index cols() const { return rows(); }
@@ -115,11 +115,11 @@ class SkewOperator {
 void extend(MatrixXd& basis, const MatrixXd& columns) {
   for (Index j = 0; j < columns.cols(); ++j) {
     VectorXd v = columns.col(j).normalized();
-    for (int twice = 0; twice < 2; ++twice) v -= basis * (basis.transpose() * v);
-    const double left = v.norm();
-    if (left < 1e-8) continue;
+    for (int pass = 0; pass < 2; ++pass) v -= basis * (basis.transpose() * v);
+    const double remainder = v.norm();
+    if (remainder < 1e-8) continue;
     basis.conservativeResize(columns.rows(), basis.cols() + 1);
-    basis.rightCols<1>() = v / left;
+    basis.rightCols<1>() = v / remainder;
     VectorXd again = basis.rightCols<1>();
     again -=
         basis.leftCols(basis.cols() - 1) * (basis.leftCols(basis.cols() - 1).transpose() * again);
@@ -138,11 +138,11 @@ MatrixXd dense_space(const SkewOperator& op, Index pairs) {
 }
 
 MatrixXd lanczos_space(const SkewOperator& op, Index pairs) {
-  const Index room = op.rows() - op.known.cols();
-  const Index wanted = std::min(2 * pairs, room - 1);
+  const Index dimension = op.rows() - op.known.cols();
+  const Index wanted = std::min(2 * pairs, dimension - 1);
   if (wanted < 1) return MatrixXd(op.rows(), 0);
   Spectra::SymEigsSolver<SkewOperator> solver(const_cast<SkewOperator&>(op), wanted,
-                                              std::min(room, 2 * wanted + 20));
+                                              std::min(dimension, 2 * wanted + 20));
   std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(op.known.cols()));
   VectorXd start = VectorXd::NullaryExpr(
       op.rows(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
@@ -186,12 +186,12 @@ void ritz(const GyroscopicPencil& pencil, const SkewOperator& op, GyroscopicMode
 }
 
 /// A shift between two clearly different frequencies at or behind the wanted ones.
-struct Cut {
+struct SeparatingShift {
   Index found;
   double omega;
 };
 
-Cut choose_cut(const VectorXd& omega, Index count) {
+SeparatingShift choose_separating_shift(const VectorXd& omega, Index count) {
   const Index p = omega.size();
   if (p == 0) return {0, 0};
   for (Index k = std::min(count, p); k < p; ++k) {
@@ -200,16 +200,16 @@ Cut choose_cut(const VectorXd& omega, Index count) {
   return {p, omega[p - 1] * (1 + 1e-6)};
 }
 
-void shorten(GyroscopicModes& modes, Index count) {
+void truncate(GyroscopicModes& modes, Index count) {
   const Index kept = std::min(count, modes.omega.size());
   modes.omega.conservativeResize(kept);
   modes.shape.conservativeResize(Eigen::NoChange, kept);
-  modes.growth.setZero(kept);
+  modes.growth_rate.setZero(kept);
 }
 
 }  // namespace
 
-Index gyroscopic_count(const GyroscopicPencil& pencil, double omega) {
+Index gyroscopic_sturm_count(const GyroscopicPencil& pencil, double omega) {
   using ComplexMatrix = Eigen::SparseMatrix<Complex>;
   const ComplexMatrix H = (pencil.K - omega * omega * pencil.M).cast<Complex>() +
                           Complex(0, omega) * pencil.C.cast<Complex>();
@@ -219,12 +219,12 @@ Index gyroscopic_count(const GyroscopicPencil& pencil, double omega) {
 }
 
 GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Factorization& K,
-                                        Index count, EigenPath path, Counters& counters) {
+                                        Index count, EigenMethod method, Counters& counters) {
   constexpr Index kDenseSize = 150;
   constexpr int kRounds = 20;
   SkewOperator op(pencil, K, counters);
-  const bool dense = path == EigenPath::dense || op.rows() < 12 ||
-                     (path == EigenPath::automatic && pencil.K.rows() <= kDenseSize);
+  const bool dense = method == EigenMethod::dense || op.rows() < 12 ||
+                     (method == EigenMethod::automatic && pencil.K.rows() <= kDenseSize);
   GyroscopicModes modes;
   op.known.resize(op.rows(), 0);
   Index wanted = count + 2;
@@ -236,19 +236,19 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Fa
     for (Index j = 0; j < found.cols(); ++j) found.col(j) = op.apply(found.col(j));
     extend(op.known, found);  // its partner, W times it
     ritz(pencil, op, modes);
-    const Cut cut = choose_cut(modes.omega, count);
-    modes.inertia_count = cut.found == 0 ? 0 : gyroscopic_count(pencil, cut.omega);
+    const SeparatingShift shift = choose_separating_shift(modes.omega, count);
+    modes.inertia_count = shift.found == 0 ? 0 : gyroscopic_sturm_count(pencil, shift.omega);
     ++counters.factorizations;
-    if (modes.inertia_count == cut.found) break;
-    if (op.known.cols() == before || round + 1 == kRounds || modes.inertia_count < cut.found) {
+    if (modes.inertia_count == shift.found) break;
+    if (op.known.cols() == before || round + 1 == kRounds || modes.inertia_count < shift.found) {
       modes.outcome = {Status::not_converged,
-                       std::to_string(cut.found) + " frequencies were found where the inertia of " +
+                       std::to_string(shift.found) + " frequencies were found where the inertia of " +
                            "the matrices counts " + std::to_string(modes.inertia_count)};
       break;
     }
-    wanted = dense ? 2 * wanted : modes.inertia_count - cut.found + 1;
+    wanted = dense ? 2 * wanted : modes.inertia_count - shift.found + 1;
   }
-  shorten(modes, count);
+  truncate(modes, count);
   return modes;
 }
 
@@ -276,7 +276,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
     return modes;
   }
   struct Root {
-    double omega, growth;
+    double omega, growth_rate;
     Index column;
   };
   std::vector<Root> roots;
@@ -294,12 +294,12 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
                    [](const Root& a, const Root& b) { return a.omega < b.omega; });
   const auto count = static_cast<Index>(roots.size());
   modes.omega.resize(count);
-  modes.growth.resize(count);
+  modes.growth_rate.resize(count);
   modes.shape.resize(n, count);
   for (Index j = 0; j < count; ++j) {
     const Root& root = roots[static_cast<std::size_t>(j)];
     modes.omega[j] = root.omega;
-    modes.growth[j] = root.growth;
+    modes.growth_rate[j] = root.growth_rate;
     const VectorXcd x = scale.asDiagonal() * solver.eigenvectors().col(root.column).head(n);
     modes.shape.col(j) = x.normalized();
   }

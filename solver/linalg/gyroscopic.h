@@ -20,7 +20,7 @@ struct GyroscopicPencil {
 struct GyroscopicModes {
   Outcome outcome;
   Eigen::VectorXd omega;   ///< ascending, > 0 [rad/s]
-  Eigen::VectorXd growth;  ///< [1/s]
+  Eigen::VectorXd growth_rate;  ///< [1/s]
   Eigen::MatrixXcd shape;  ///< column norm 1
   Index inertia_count = 0;
 };
@@ -31,13 +31,13 @@ struct GyroscopicModes {
 /// i W. Source: Meirovitch (1974), in the inverse form, which lets M be singular.
 [[nodiscard]] GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil,
                                                       const Factorization& K, Index count,
-                                                      EigenPath path, Counters& counters);
+                                                      EigenMethod method, Counters& counters);
 
 /// All of them for any K, by the dense companion matrix in 1 / lambda; each pair once.
 [[nodiscard]] GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil);
 
 /// Negative eigenvalues of K + i w C - w^2 M: for a positive definite K, the number of
 /// frequencies below w. -1 where the factorization fails.
-[[nodiscard]] Index gyroscopic_count(const GyroscopicPencil& pencil, double omega);
+[[nodiscard]] Index gyroscopic_sturm_count(const GyroscopicPencil& pencil, double omega);
 
 }  // namespace trammel

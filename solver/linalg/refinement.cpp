@@ -2,20 +2,20 @@
 
 namespace trammel {
 
-Refined refined_solve(const Operator& A, const Factorization& factorization,
+RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
                       const Eigen::VectorXd& b, Counters& counters) {
   const Eigen::VectorXd x = factorization.solve(b);
   ++counters.solves;
   return refined_solve(A, factorization, b, x, counters);
 }
 
-Refined refined_solve(const Operator& A, const Factorization& factorization,
+RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
                       const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Counters& counters) {
-  constexpr int kMostSteps = 8;
+  constexpr int kMaxSteps = 8;
   constexpr double kSmall = 1e-10;  // a correction whose own error no longer counts
-  Refined result{guess, 0};
+  RefinedSolution result{guess, 0};
   double last = guess.norm();
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::VectorXd correction = factorization.solve(b - A(result.x));
     ++counters.solves;
     const double size = correction.norm();

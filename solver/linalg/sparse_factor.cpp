@@ -24,15 +24,15 @@ SparseFactor::SparseFactor(const SparseMatrix& pattern) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(pattern.selfadjointView<Eigen::Upper>(), order);
   // AMDOrdering gives the inverse permutation: its entry k is the coordinate eliminated k-th.
-  place_.resize(static_cast<std::size_t>(n));
+  permutation_.resize(static_cast<std::size_t>(n));
   for (Index k = 0; k < n; ++k) {
-    place_[static_cast<std::size_t>(order.indices()[k])] = static_cast<int>(k);
+    permutation_[static_cast<std::size_t>(order.indices()[k])] = static_cast<int>(k);
   }
   std::vector<Eigen::Triplet<double>> triplets;
   for (Index column = 0; column < n; ++column) {
     for (SparseMatrix::InnerIterator it(pattern, column); it; ++it) {
-      const int i = place_[static_cast<std::size_t>(it.row())];
-      const int j = place_[static_cast<std::size_t>(column)];
+      const int i = permutation_[static_cast<std::size_t>(it.row())];
+      const int j = permutation_[static_cast<std::size_t>(column)];
       if (i <= j) triplets.emplace_back(i, j, 1.0);
     }
   }
@@ -73,10 +73,10 @@ double SparseFactor::pivot_ratio() const {
 }
 
 void SparseFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  for (Index i = 0; i < b.size(); ++i) ordered_[place_[static_cast<std::size_t>(i)]] = b[i];
+  for (Index i = 0; i < b.size(); ++i) ordered_[permutation_[static_cast<std::size_t>(i)]] = b[i];
   solved_ = ldlt_.solve(ordered_);
   x.resize(b.size());
-  for (Index i = 0; i < b.size(); ++i) x[i] = solved_[place_[static_cast<std::size_t>(i)]];
+  for (Index i = 0; i < b.size(); ++i) x[i] = solved_[permutation_[static_cast<std::size_t>(i)]];
 }
 
 }  // namespace trammel

@@ -26,7 +26,7 @@ class SparseFactor {
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
  private:
-  std::vector<int> place_;            ///< coordinate -> its place in the order of elimination
+  std::vector<int> permutation_;            ///< coordinate -> its place in the order of elimination
   SparseMatrix upper_;                ///< upper triangle in that order
   std::vector<Index> from_, mirror_;  ///< entry of upper_ -> the two entries of A it averages
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt_;

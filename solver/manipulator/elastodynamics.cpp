@@ -28,24 +28,24 @@ Model loaded_model(const ElastodynamicsOptions& options) {
 
 /// The system on its way along the path. Poses are evaluated once for each time, and only once for
 /// a platform that stands still.
-class Journey {
+class PathFollower {
  public:
-  explicit Journey(const ElastodynamicsOptions& options)
+  explicit PathFollower(const ElastodynamicsOptions& options)
       : options_(options),
         stands_still_(trammel::stands_still(options.path)),
         rigid_(rigid_manipulator(options.design)),
-        moving_(loaded_model(options), options.convective, options.elastic_inertia),
+        moving_(loaded_model(options), options.gyroscopic, options.elastic_inertia),
         stiffness_(moving_.K()) {
     rigid_.gravity = options.gravity;
     const TrajectoryPoint first = at(options.path, options.time.start);
     start_ = inverse_dynamics(rigid_, first, options.wrench).q;
   }
 
-  bool go_to(double time) {
+  bool advance_to(double time) {
     if (time == time_) return outcome_.solved();
-    const bool been_here = stands_still_ && !std::isnan(time_);
+    const bool is_evaluated = stands_still_ && !std::isnan(time_);
     time_ = time;
-    if (been_here) {
+    if (is_evaluated) {
       point_.time = time;
       return outcome_.solved();
     }
@@ -78,7 +78,7 @@ class Journey {
 
   /// (f^T K^-1 f)^(1/2), twice the energy that the load f alone would store [J^(1/2)]; NaN where K
   /// is singular.
-  double size(const VectorXd& f) {
+  double energy_norm(const VectorXd& f) {
     return solve_statically(f, static_) ? std::sqrt(std::max(0.0, f.dot(static_))) : kNaN;
   }
 
@@ -99,13 +99,13 @@ class Journey {
       C.coeffs() =
           options_.damping.mass * M.coeffs() + options_.damping.stiffness * moving_.K().coeffs();
       counters_.count(Effect::damping, 1);
-    } else if (options_.convective) {
-      C.coeffs() = moving_.convective_damping().coeffs();
+    } else if (options_.gyroscopic) {
+      C.coeffs() = moving_.gyroscopic_matrix().coeffs();
     }
-    if (!options_.convective) return;
+    if (!options_.gyroscopic) return;
     counters_.count(Effect::gyroscopic, 1);
-    if (damped()) C.coeffs() += moving_.convective_damping().coeffs();
-    K.coeffs() += moving_.convective_stiffness().coeffs();
+    if (damped()) C.coeffs() += moving_.gyroscopic_matrix().coeffs();
+    K.coeffs() += moving_.centrifugal_and_euler_matrix().coeffs();
   }
 
   /// Torques of rigid links under the same loads and, where it is on, the same inertia.
@@ -127,7 +127,7 @@ class Journey {
     Counters all = counters_;
     all.element_evaluations += moving_.element_evaluations();
     all.effects = moving_.start().counters.effects;
-    for (std::size_t i = 0; i < effect_count; ++i) all.effects[i] += counters_.effects[i];
+    for (std::size_t i = 0; i < kEffectCount; ++i) all.effects[i] += counters_.effects[i];
     if (!options_.gravity.isZero(0)) all.count(Effect::gravity, 1);
     return all;
   }
@@ -149,9 +149,9 @@ class Journey {
 };
 
 /// What a motion means at one pose, as `solve_statics` puts it.
-class Recovery {
+class MotionPostprocessor {
  public:
-  Recovery(const MovingSystem& moving, const VectorXd& q, const MovingSystem::Forces& forces)
+  MotionPostprocessor(const MovingSystem& moving, const VectorXd& q, const MovingSystem::Forces& forces)
       : moving_(moving),
         system_(moving.start()),
         model_(system_.model),
@@ -259,14 +259,14 @@ class Recovery {
     const auto nodes = static_cast<Index>(system_.coordinates.node.size());
     for (Index node = 0; node < nodes; ++node) {
       const auto& c = system_.coordinates.node[static_cast<std::size_t>(node)];
-      add(moving_.position(node), {forces_.outside[c[0]], forces_.outside[c[1]]},
-          c[2] < 0 ? 0 : forces_.outside[c[2]]);
+      add(moving_.position(node), {forces_.external[c[0]], forces_.external[c[1]]},
+          c[2] < 0 ? 0 : forces_.external[c[2]]);
     }
     for (std::size_t i = 0; i < model_.members.size(); ++i) {
       for (std::size_t end = 0; end < 2; ++end) {
         const Index own = system_.coordinates.member_end[i][end];
         const auto node = static_cast<std::size_t>(model_.members[i].nodes[end]);
-        if (own >= 0 && own != system_.coordinates.node[node][2]) moment += forces_.outside[own];
+        if (own >= 0 && own != system_.coordinates.node[node][2]) moment += forces_.external[own];
       }
     }
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {
@@ -308,20 +308,20 @@ double mean_rotation(const Model& model, const MovingSystem& moving,
 
 class Recorder {
  public:
-  Recorder(const ElastodynamicsOptions& options, Journey& journey, ElastodynamicsSolution& solution)
-      : options_(options), journey_(journey), solution_(solution) {}
+  Recorder(const ElastodynamicsOptions& options, PathFollower& follower, ElastodynamicsSolution& solution)
+      : options_(options), follower_(follower), solution_(solution) {}
 
-  void take(double time, const VectorXd& q, const VectorXd& v, const VectorXd& a,
+  void record(double time, const VectorXd& q, const VectorXd& v, const VectorXd& a,
             const MotionEnergy& energy) {
-    if (!journey_.go_to(time)) return;
-    const MovingSystem& moving = journey_.system();
+    if (!follower_.advance_to(time)) return;
+    const MovingSystem& moving = follower_.system();
     const Model& model = moving.start().model;
     const MovingSystem::Forces forces = moving.forces(
         q, v, a, options_.damping.mass, options_.damping.stiffness, options_.nominal_inertia);
     solution_.time.push_back(time);
-    solution_.nominal.push_back(journey_.point());
+    solution_.nominal.push_back(follower_.point());
     solution_.energy.push_back(energy);
-    solution_.state.push_back(Recovery(moving, q, forces).run());
+    solution_.state.push_back(MotionPostprocessor(moving, q, forces).run());
     const StaticSolution& state = solution_.state.back();
     rotation_.push_back(mean_rotation(model, moving, state.displacement));
     const Index P = model.find_node("P");
@@ -329,8 +329,8 @@ class Recorder {
     quasi_static_.push_back(options_.elastic_inertia ? quasi_static_displacement(moving, P)
                                                      : deflection_.back());
     torque_.emplace_back(state.reaction.col(2));
-    rigid_torque_.push_back(journey_.rigid_torque());
-    follow(moving);
+    rigid_torque_.push_back(follower_.rigid_torque());
+    update_effect_numbers(moving);
   }
 
   void finish() {
@@ -357,41 +357,41 @@ class Recorder {
     }
     ElastodynamicsEffects& effects = solution_.effects;
     const double first = 2 * std::numbers::pi * effects.first_frequency;
-    const double path = fastest_ > 0 ? hardest_ / fastest_ : 0;
+    const double path = max_velocity_ > 0 ? max_acceleration_ / max_velocity_ : 0;
     effects.nominal_inertia = inertia_;
     effects.elastic_inertia = path * path / (first * first);
-    effects.convective = 2 * turning_ / first;
+    effects.gyroscopic = 2 * max_angular_velocity_ / first;
   }
 
  private:
   Vector2d quasi_static_displacement(const MovingSystem& moving, Index node) {
-    journey_.load(load_);
-    if (!journey_.solve_statically(load_, static_)) return Vector2d::Constant(kNaN);
+    follower_.load(load_);
+    if (!follower_.solve_statically(load_, static_)) return Vector2d::Constant(kNaN);
     const auto& c = moving.start().coordinates.node[static_cast<std::size_t>(node)];
     const auto& T = moving.constraints().T;
     return {T.row(c[0]).dot(static_), T.row(c[1]).dot(static_)};
   }
 
-  void follow(const MovingSystem& moving) {
-    const double inertia = journey_.size(moving.inertia_load());
-    const double share = inertia == 0 ? 0 : inertia / journey_.size(moving.load());
+  void update_effect_numbers(const MovingSystem& moving) {
+    const double inertia = follower_.energy_norm(moving.inertia_load());
+    const double share = inertia == 0 ? 0 : inertia / follower_.energy_norm(moving.load());
     inertia_ = nan_max(inertia_, share);
     const NominalMotion& motion = moving.motion();
     for (const auto* parts : {&motion.member, &motion.plate, &motion.rigid_body}) {
-      for (const PartMotion& part : *parts) turning_ = std::max(turning_, std::abs(part.rate));
+      for (const PartMotion& part : *parts) max_angular_velocity_ = std::max(max_angular_velocity_, std::abs(part.rate));
     }
-    fastest_ = std::max(fastest_, journey_.point().velocity.norm());
-    hardest_ = std::max(hardest_, journey_.point().acceleration.norm());
+    max_velocity_ = std::max(max_velocity_, follower_.point().velocity.norm());
+    max_acceleration_ = std::max(max_acceleration_, follower_.point().acceleration.norm());
   }
 
   const ElastodynamicsOptions& options_;
-  Journey& journey_;
+  PathFollower& follower_;
   ElastodynamicsSolution& solution_;
   std::vector<double> rotation_;
   std::vector<Vector2d> deflection_, quasi_static_;
   VectorXd load_, static_;
   std::vector<Vector3d> torque_, rigid_torque_;
-  double inertia_ = 0, turning_ = 0, fastest_ = 0, hardest_ = 0;
+  double inertia_ = 0, max_angular_velocity_ = 0, max_velocity_ = 0, max_acceleration_ = 0;
 };
 
 std::vector<double> sample_times(const TransientOptions& options) {
@@ -400,55 +400,55 @@ std::vector<double> sample_times(const TransientOptions& options) {
     throw ModelError("a motion ends after it starts, and its step is positive");
   }
   std::vector<double> times;
-  const double whole = std::ceil((options.end - options.start) / options.step - 1e-9);
-  for (Index i = 0; i <= static_cast<Index>(whole); ++i) {
+  const double step_count = std::ceil((options.end - options.start) / options.step - 1e-9);
+  for (Index i = 0; i <= static_cast<Index>(step_count); ++i) {
     times.push_back(std::min(options.end, options.start + static_cast<double>(i) * options.step));
   }
   return times;
 }
 
 /// K q = F + f at every sample.
-void follow_quasi_statically(const ElastodynamicsOptions& options, Journey& journey,
+void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& follower,
                              Recorder& recorder, ElastodynamicsSolution& solution) {
   const std::vector<double> times = sample_times(options.time);
   VectorXd f;
   VectorXd q;
-  const VectorXd still = VectorXd::Zero(journey.system().K().rows());
+  const VectorXd still = VectorXd::Zero(follower.system().K().rows());
   for (const double time : times) {
-    if (!journey.go_to(time)) return;
-    journey.load(f);
-    if (!journey.solve_statically(f, q)) {
+    if (!follower.advance_to(time)) return;
+    follower.load(f);
+    if (!follower.solve_statically(f, q)) {
       solution.outcome = {Status::singular,
                           "the stiffness is singular: free joints have no quasi-static position"};
       return;
     }
     MotionEnergy energy;
-    energy.strain = q.dot(journey.system().K() * q) / 2;
-    recorder.take(time, q, still, still, energy);
+    energy.strain = q.dot(follower.system().K() * q) / 2;
+    recorder.record(time, q, still, still, energy);
     solution.summary.time = time;
   }
 }
 
 /// All modes at every sample, each by its closed form.
-void superpose_modes(const ElastodynamicsOptions& options, Journey& journey, Recorder& recorder,
+void superpose_modes(const ElastodynamicsOptions& options, PathFollower& follower, Recorder& recorder,
                      ElastodynamicsSolution& solution) {
   const std::vector<double> times = sample_times(options.time);
-  if (!journey.stands_still()) {
+  if (!follower.stands_still()) {
     throw ModelError("modes are superposed where the matrices are constant: the platform moves");
   }
-  if (options.convective) throw ModelError("a platform that stands still has no convective terms");
-  const SparseMatrix& M = journey.system().M();
-  const SparseMatrix& K = journey.system().K();
+  if (options.gyroscopic) throw ModelError("a platform that stands still has no convective terms");
+  const SparseMatrix& M = follower.system().M();
+  const SparseMatrix& K = follower.system().K();
   VectorXd f;
-  journey.load(f);
+  follower.load(f);
   VectorXd q0 = VectorXd::Zero(f.size());
-  if (options.time.quasi_static_start && !journey.solve_statically(f, q0)) {
+  if (options.time.quasi_static_start && !follower.solve_statically(f, q0)) {
     solution.outcome = {Status::singular, "the stiffness is singular: no quasi-static start"};
     return;
   }
   std::vector<double> from_start = {options.time.start};
   from_start.insert(from_start.end(), times.begin(), times.end());
-  const ModalBasis basis = every_mode(M, K);
+  const ModalBasis basis = all_modes(M, K);
   const ModalResponse response =
       superpose(basis, decay_rates(options.damping, basis.omega), M,
                 step_load(f, options.time.start), from_start, q0, VectorXd::Zero(f.size()));
@@ -464,7 +464,7 @@ void superpose_modes(const ElastodynamicsOptions& options, Journey& journey, Rec
     // What is missing has been dissipated; without damping it shows the round-off.
     const bool damped = options.damping.mass != 0 || options.damping.stiffness != 0;
     if (damped) energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
-    recorder.take(times[i], q, v, response.a.col(column), energy);
+    recorder.record(times[i], q, v, response.a.col(column), energy);
     solution.summary.time = times[i];
   }
 }
@@ -480,27 +480,27 @@ void find_first_frequency(const ElastodynamicsOptions& options, const System& st
 }
 
 /// By a scheme; the matrices are evaluated at every step unless the platform stands still.
-void integrate(const ElastodynamicsOptions& options, Journey& journey, Recorder& recorder,
+void integrate(const ElastodynamicsOptions& options, PathFollower& follower, Recorder& recorder,
                ElastodynamicsSolution& solution) {
   EquationOfMotion equation;
-  equation.M = equation.K = journey.system().K();
-  if (journey.damped() || options.convective) equation.C = journey.system().K();
-  journey.matrices(equation.M, equation.C, equation.K);
+  equation.M = equation.K = follower.system().K();
+  if (follower.damped() || options.gyroscopic) equation.C = follower.system().K();
+  follower.matrices(equation.M, equation.C, equation.K);
   // Where there is no pose the numbers end, and with them the integration.
-  equation.load = [&journey](double time, VectorXd& f) {
-    if (journey.go_to(time)) {
-      journey.load(f);
+  equation.load = [&follower](double time, VectorXd& f) {
+    if (follower.advance_to(time)) {
+      follower.load(f);
     } else {
       f.setConstant(kNaN);
     }
   };
-  if (!journey.stands_still()) {
-    equation.update = [&journey](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
-      if (journey.go_to(time)) journey.matrices(M, C, K);
+  if (!follower.stands_still()) {
+    equation.update = [&follower](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
+      if (follower.advance_to(time)) follower.matrices(M, C, K);
     };
   }
   solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
-    recorder.take(sample.time, sample.q, sample.v, sample.a, sample.energy);
+    recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy);
   });
   solution.outcome = solution.summary.outcome;
 }
@@ -530,46 +530,46 @@ NominalMotion nominal_motion(const ManipulatorDesign& design, const Model& model
     const double rate = dynamics.q_dot[i];
     motion.position.row(i) = A;
     motion.position.row(3 + i) = A + arm;
-    motion.acceleration.row(3 + i) = dynamics.q_ddot[i] * quarter_turn(arm) - rate * rate * arm;
+    motion.acceleration.row(3 + i) = dynamics.q_ddot[i] * perpendicular(arm) - rate * rate * arm;
   }
   // C1 C2 C3, P and the nodes of a plate turn with the platform.
   const Vector2d P = from.segment<2>(6);
   const Vector2d now(point.pose.x, point.pose.y);
   for (Index i = 6; i < nodes; ++i) {
     const Vector2d arm =
-        turned(model.nodes[static_cast<std::size_t>(i)].position - P, platform.turn);
+        rotated(model.nodes[static_cast<std::size_t>(i)].position - P, platform.angle);
     motion.position.row(i) = now + arm;
     motion.acceleration.row(i) = point.acceleration.head<2>() +
-                                 platform.acceleration * quarter_turn(arm) -
+                                 platform.acceleration * perpendicular(arm) -
                                  platform.rate * platform.rate * arm;
   }
   return motion;
 }
 
 ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options) {
-  if (options.convective && !options.elastic_inertia) {
+  if (options.gyroscopic && !options.elastic_inertia) {
     throw ModelError(
         "convective terms are inertia of the elastic motion: without it there are none");
   }
   ElastodynamicsSolution solution;
-  Journey journey(options);
-  Recorder recorder(options, journey, solution);
-  if (!journey.go_to(options.time.start)) {
-    solution.outcome = journey.outcome();
+  PathFollower follower(options);
+  Recorder recorder(options, follower, solution);
+  if (!follower.advance_to(options.time.start)) {
+    solution.outcome = follower.outcome();
     return solution;
   }
   if (options.elastic_inertia) {
-    find_first_frequency(options, journey.system().start(), solution.effects);
+    find_first_frequency(options, follower.system().start(), solution.effects);
   }
   if (!options.elastic_inertia) {
-    follow_quasi_statically(options, journey, recorder, solution);
+    solve_quasi_statically(options, follower, recorder, solution);
   } else if (options.modal_superposition) {
-    superpose_modes(options, journey, recorder, solution);
+    superpose_modes(options, follower, recorder, solution);
   } else {
-    integrate(options, journey, recorder, solution);
+    integrate(options, follower, recorder, solution);
   }
-  if (!journey.outcome().solved()) solution.outcome = journey.outcome();
-  solution.summary.counters += journey.counters();
+  if (!follower.outcome().solved()) solution.outcome = follower.outcome();
+  solution.summary.counters += follower.counters();
   recorder.finish();
   return solution;
 }

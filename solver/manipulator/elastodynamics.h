@@ -28,7 +28,7 @@ struct ElastodynamicsOptions {
 
   bool nominal_inertia = true;  ///< f, Eq. 14-17
   bool elastic_inertia = true;  ///< M q.., and with it damping; off: quasi-static, K q = F + f
-  bool convective = false;      ///< G and S; a part of elastic inertia, without which it is refused
+  bool gyroscopic = false;      ///< G and S; a part of elastic inertia, without which it is refused
 
   /// start, end, step, scheme, error control, samples; `quasi_static_start` or at rest.
   TransientOptions time;
@@ -40,13 +40,13 @@ struct ElastodynamicsOptions {
 /// Numbers without dimension that say when an effect matters; the largest over the samples. NaN
 /// where there is no such number: no elastic mode was found, or the stiffness is singular.
 struct ElastodynamicsEffects {
-  double first_frequency = kUnknown;  ///< at the start [Hz]
-  double damping_ratio = kUnknown;    ///< of that mode
+  double first_frequency = kNaN;  ///< at the start [Hz]
+  double damping_ratio = kNaN;    ///< of that mode
   double nominal_inertia = 0;  ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
   double elastic_inertia = 0;  ///< path frequency over the first frequency, squared
-  double convective = 0;       ///< twice the fastest turning of a part over the first frequency
+  double gyroscopic = 0;       ///< twice the fastest turning of a part over the first frequency
 
-  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One entry a sample, as many as `time`.

@@ -50,7 +50,7 @@ class Integrator {
   /// Goes on to the time `end`; the last step is shortened to meet it.
   void advance(double end) {
     while (result.outcome.solved() && t_ < end) {
-      if (result.steps + result.rejected >= options_.most_steps) {
+      if (result.steps + result.rejected >= options_.max_steps) {
         stop(Status::not_converged, "too many steps");
         return;
       }

@@ -23,7 +23,7 @@ struct PlatformAcceleration {
 struct ForwardOptions {
   double tolerance = 1e-10;   ///< local error a step, relative to the largest of the six states
                               ///< and the platform's radius (positions) or radius / s (velocities)
-  Index most_steps = 100000;  ///< taken and rejected
+  Index max_steps = 100000;  ///< taken and rejected
 };
 
 struct ForwardDynamics {

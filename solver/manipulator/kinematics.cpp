@@ -134,7 +134,7 @@ Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
   Posture posture;
   const Vector2d P(pose.x, pose.y);
   for (std::size_t i = 0; i < 3; ++i) {
-    posture.C[i] = P + turned(g.platform[i], pose.phi);
+    posture.C[i] = P + rotated(g.platform[i], pose.phi);
     const Vector2d p_AC = posture.C[i] - g.base[i];
     const double r = std::hypot(p_AC.x(), p_AC.y());
     const std::string why = out_of_reach(i, g.proximal[i], g.distal[i], r);
@@ -188,7 +188,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     result.closure_error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<Index>(i);
-      const Vector2d c = turned(g.platform[i], result.pose.phi);
+      const Vector2d c = rotated(g.platform[i], result.pose.phi);
       const Vector2d B = g.base[i] + g.proximal[i] * unit(active[i]);
       const Vector2d d = Vector2d(result.pose.x, result.pose.y) + c - B;
       const double gap = std::hypot(d.x(), d.y()) - g.distal[i];

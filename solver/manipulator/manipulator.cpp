@@ -172,8 +172,8 @@ void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index 
   const auto weights = pin_weights(mesh, mesh.nodes[vertex], radius);
   // A link's stiffness at C couples every node under its pin with every other: n^2 entries. P holds
   // nothing but loads.
-  constexpr std::size_t kMostNodes = 500;
-  require(pin == kP || weights.size() <= kMostNodes,
+  constexpr std::size_t kMaxNodes = 500;
+  require(pin == kP || weights.size() <= kMaxNodes,
           "the pin at C" + std::to_string(pin - kC + 1) + " covers " +
               std::to_string(weights.size()) +
               " nodes of the platform and couples each with each: at most 500, so choose a smaller "

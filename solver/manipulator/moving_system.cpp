@@ -35,13 +35,13 @@ Matrix6d generator6() {
 
 /// The vector's derivative in time, of order 0, 1 or 2, when it turns with a part.
 Vector2d derivative(const Vector2d& at_start, const PartMotion& part, int order) {
-  const Vector2d now = turned(at_start, part.turn);
+  const Vector2d now = rotated(at_start, part.angle);
   if (order == 0) return now;
-  if (order == 1) return part.rate * quarter_turn(now);
-  return part.acceleration * quarter_turn(now) - part.rate * part.rate * now;
+  if (order == 1) return part.rate * perpendicular(now);
+  return part.acceleration * perpendicular(now) - part.rate * part.rate * now;
 }
 
-struct Turning {
+struct RotationDerivatives {
   Matrix6d first = Matrix6d::Zero(), second = Matrix6d::Zero();
 
   /// Adds int rho N^T X and int rho N^T (J X - X J6), with X = J N - N J6 the derivative of
@@ -55,8 +55,8 @@ struct Turning {
   }
 };
 
-Turning turning_of(const FrameElement& e, const Member& member) {
-  Turning result;
+RotationDerivatives rotation_derivatives(const FrameElement& e, const Member& member) {
+  RotationDerivatives result;
   if (e.is_bar() || member.mass == MassMatrix::lumped) return result;  // W does not turn
   const double phi = shear_ratio(e.section, member.theory, e.length);
   const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
@@ -64,7 +64,7 @@ Turning turning_of(const FrameElement& e, const Member& member) {
   for (const LineQuadraturePoint& point : line_quadrature()) {
     const double w = point.weight * e.length;
     const Eigen::Matrix<double, 3, 6> N =
-        T.topLeftCorner<3, 3>().transpose() * frame_interpolation(phi, e.length, point.at) * T;
+        T.topLeftCorner<3, 3>().transpose() * frame_interpolation(phi, e.length, point.xi) * T;
     result.add(N, w * Vector3d(e.section.mass_per_length, e.section.mass_per_length, rotary));
   }
   return result;
@@ -72,14 +72,14 @@ Turning turning_of(const FrameElement& e, const Member& member) {
 
 }  // namespace
 
-MovingSystem::MovingSystem(const Model& model, bool convective, bool inertia)
+MovingSystem::MovingSystem(const Model& model, bool gyroscopic, bool inertia)
     : start_(assemble(model, inertia ? Effects::all() : Effects::all().without(Effect::inertia))),
       constraints_(start_.constraints),
-      convective_(convective),
+      gyroscopic_(gyroscopic),
       inertia_(inertia) {
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
     const auto source = constraints_.rows[r].source;
-    variable_ = variable_ ||
+    T_is_variable_ = T_is_variable_ ||
                 (constraints_.pivot[r] >= 0 && (source == ConstraintRow::Source::rigid_body ||
                                                 source == ConstraintRow::Source::inextensible));
   }
@@ -91,10 +91,10 @@ MovingSystem::MovingSystem(const Model& model, bool convective, bool inertia)
   motion_.member.resize(model.members.size());
   motion_.plate.resize(model.plates.size());
   motion_.rigid_body.resize(model.rigid_bodies.size());
-  if (variable_) widen_constraints();
+  if (T_is_variable_) extend_constraint_pattern();
   make_frames();
   make_triangles();
-  make_lumps();
+  make_point_masses();
   make_springs();
   make_pattern();
   make_spans();
@@ -120,9 +120,9 @@ void MovingSystem::make_frames() {
     const FrameDeformation B = frame_deformation(e.direction, e.length);
     element.k = B.transpose() * c.asDiagonal() * B;
     element.m = world_mass(e, member);
-    const Turning turning = turning_of(e, member);
-    element.turning = turning.first;
-    element.spinning = turning.second;
+    const RotationDerivatives derivatives = rotation_derivatives(e, member);
+    element.first_derivative = derivatives.first;
+    element.second_derivative = derivatives.second;
     element_evaluations_ += 2;
     elements_.push_back(element);
   }
@@ -136,7 +136,7 @@ void MovingSystem::make_triangles() {
     element.part_index = static_cast<std::size_t>(triangle.plate);
     if (triangle.quadratic()) throw ModelError("triangles of six nodes do not move yet");
     const TrianglePoints points = corners(start_.model, triangle);
-    element.coordinates = start_.coordinates.of<6>(triangle);
+    element.coordinates = start_.coordinates.of_triangle<6>(triangle);
     const Plate& plate = start_.model.plates[element.part_index];
     element.k = triangle_stiffness(points, plate);
     element.m = triangle_mass(points, plate);  // the interpolation is isotropic: W does not turn
@@ -145,31 +145,31 @@ void MovingSystem::make_triangles() {
   }
 }
 
-void MovingSystem::make_lumps() {
+void MovingSystem::make_point_masses() {
   const Model& model = start_.model;
-  for (const PointMass& lump : model.masses) {
+  for (const PointMass& point_mass : model.masses) {
     Element element;
-    element.layout = Layout::lump;
-    const auto& node = start_.coordinates.node[static_cast<std::size_t>(lump.node)];
+    element.layout = Layout::point_mass;
+    const auto& node = start_.coordinates.node[static_cast<std::size_t>(point_mass.node)];
     std::copy(node.begin(), node.end(), element.coordinates.begin());
     for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
       const RigidBody& body = model.rigid_bodies[b];
-      const bool holds = body.reference == lump.node ||
-                         std::count(body.attached.begin(), body.attached.end(), lump.node) > 0;
+      const bool holds = body.reference == point_mass.node ||
+                         std::count(body.attached.begin(), body.attached.end(), point_mass.node) > 0;
       if (!holds) continue;
       element.part = &NominalMotion::rigid_body;
       element.part_index = b;
     }
-    element.m.topLeftCorner<3, 3>() = point_inertia(lump.mass, lump.inertia, lump.offset);
-    element.first_moment = lump.mass * lump.offset;
+    element.m.topLeftCorner<3, 3>() = point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset);
+    element.first_moment = point_mass.mass * point_mass.offset;
     Eigen::Matrix<double, 3, 6> N = Eigen::Matrix<double, 3, 6>::Zero();
     N(0, 0) = N(1, 1) = N(2, 2) = 1;
-    N(0, 2) = -lump.offset.y();
-    N(1, 2) = lump.offset.x();
-    Turning turning;
-    turning.add(N, {lump.mass, lump.mass, lump.inertia});
-    element.turning = turning.first;
-    element.spinning = turning.second;
+    N(0, 2) = -point_mass.offset.y();
+    N(1, 2) = point_mass.offset.x();
+    RotationDerivatives derivatives;
+    derivatives.add(N, {point_mass.mass, point_mass.mass, point_mass.inertia});
+    element.first_derivative = derivatives.first;
+    element.second_derivative = derivatives.second;
     elements_.push_back(element);
   }
 }
@@ -206,27 +206,27 @@ void MovingSystem::make_springs() {
 /// Rows that T is solved from, and T with every entry that some pose needs: those that do not
 /// vanish at three turns of the parts in general position. Of the pattern alone, each node of an
 /// inextensible member would follow all before it; in numbers what they add cancels.
-void MovingSystem::widen_constraints() {
+void MovingSystem::extend_constraint_pattern() {
   auto& T = constraints_.T;
-  kept_number_.assign(static_cast<std::size_t>(T.rows()), -1);
+  dependent_row_of_.assign(static_cast<std::size_t>(T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
     if (constraints_.pivot[r] < 0 ||
         constraints_.rows[r].source == ConstraintRow::Source::support) {
       continue;
     }
-    kept_number_[static_cast<std::size_t>(constraints_.pivot[r])] =
-        static_cast<Index>(kept_.size());
-    kept_.push_back(r);
+    dependent_row_of_[static_cast<std::size_t>(constraints_.pivot[r])] =
+        static_cast<Index>(dependent_rows_.size());
+    dependent_rows_.push_back(r);
   }
-  Eigen::ArrayXX<bool> needed(static_cast<Index>(kept_.size()), T.cols());
+  Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
   needed.setConstant(false);
   NominalMotion general = motion_;
   double turn = 1;
   for (int found = 0, trial = 0; found < 3 && trial < 100; ++trial) {
     for (auto* parts : {&general.member, &general.rigid_body}) {
-      for (PartMotion& part : *parts) part.turn = 0.4 * std::sin(turn += std::numbers::phi);
+      for (PartMotion& part : *parts) part.angle = 0.4 * std::sin(turn += std::numbers::phi);
     }
-    const MatrixXd X = follow(general).cwiseAbs();
+    const MatrixXd X = dependent_coordinates(general).cwiseAbs();
     if (!(X.allFinite() && X.maxCoeff() < kLargestT)) continue;
     ++found;
     for (Index i = 0; i < X.rows(); ++i) {
@@ -235,7 +235,7 @@ void MovingSystem::widen_constraints() {
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Index u = 0; u < T.rows(); ++u) {
-    const Index row = kept_number_[static_cast<std::size_t>(u)];
+    const Index row = dependent_row_of_[static_cast<std::size_t>(u)];
     const Index own = constraints_.free[static_cast<std::size_t>(u)];
     for (Index q = 0; q < T.cols(); ++q) {
       const bool enters = row >= 0 ? needed(row, q) : q == own;
@@ -255,7 +255,7 @@ void MovingSystem::make_pattern() {
   for (Index i = 0; i < n; ++i) places.emplace_back(static_cast<int>(i), static_cast<int>(i), 0.0);
   const auto visit = [&](auto&& visitor) {
     for (Element& element : elements_) {
-      element.first_term = terms_.size();
+      element.first_contribution = contributions_.size();
       for (int i = 0; i < 6; ++i) {
         const Index u = element.coordinates[static_cast<std::size_t>(i)];
         for (int j = 0; j < 6 && u >= 0; ++j) {
@@ -275,13 +275,13 @@ void MovingSystem::make_pattern() {
   K_.setFromTriplets(places.begin(), places.end());
   K_.makeCompressed();
   if (inertia_) M_ = K_;
-  if (convective_) C_convective_ = K_convective_ = K_;
-  terms_.reserve(places.size());
+  if (gyroscopic_) C_gyroscopic_ = K_centrifugal_euler_ = K_;
+  contributions_.reserve(places.size());
   visit([&](int local, int a, int b, int row, int column) {
     const int* const begin = K_.innerIndexPtr() + K_.outerIndexPtr()[column];
     const int* const end = K_.innerIndexPtr() + K_.outerIndexPtr()[column + 1];
     const auto place = std::lower_bound(begin, end, row) - K_.innerIndexPtr();
-    terms_.push_back({local, a, b, static_cast<int>(place)});
+    contributions_.push_back({local, a, b, static_cast<int>(place)});
   });
 }
 
@@ -337,8 +337,8 @@ double MovingSystem::coefficient(const ConstraintRow& row, std::size_t term,
 
 bool MovingSystem::constraints_move(const NominalMotion& motion) const {
   const auto moves = [this](const PartMotion& to, const PartMotion& from) {
-    return to.turn != from.turn ||
-           (convective_ && (to.rate != from.rate || to.acceleration != from.acceleration));
+    return to.angle != from.angle ||
+           (gyroscopic_ && (to.rate != from.rate || to.acceleration != from.acceleration));
   };
   for (const ConstraintRow& row : constraints_.rows) {
     if (row.source == ConstraintRow::Source::inextensible) {
@@ -354,33 +354,33 @@ bool MovingSystem::constraints_move(const NominalMotion& motion) const {
 }
 
 /// X of C_p X = - C_f: what the eliminated coordinates are of the free ones; kept row x q.
-MatrixXd MovingSystem::follow(const NominalMotion& motion) {
-  const auto k = static_cast<Index>(kept_.size());
+MatrixXd MovingSystem::dependent_coordinates(const NominalMotion& motion) {
+  const auto k = static_cast<Index>(dependent_rows_.size());
   MatrixXd pivots = MatrixXd::Zero(k, k);
-  MatrixXd rest = MatrixXd::Zero(k, constraints_.T.cols());
+  MatrixXd rhs = MatrixXd::Zero(k, constraints_.T.cols());
   for (Index i = 0; i < k; ++i) {
-    const ConstraintRow& row = constraints_.rows[kept_[static_cast<std::size_t>(i)]];
+    const ConstraintRow& row = constraints_.rows[dependent_rows_[static_cast<std::size_t>(i)]];
     for (std::size_t t = 0; t < row.terms.size(); ++t) {
       const auto u = static_cast<std::size_t>(row.terms[t].first);
       const double c = coefficient(row, t, motion, 0);
-      if (kept_number_[u] >= 0) pivots(i, kept_number_[u]) += c;
-      if (constraints_.free[u] >= 0) rest(i, constraints_.free[u]) -= c;
+      if (dependent_row_of_[u] >= 0) pivots(i, dependent_row_of_[u]) += c;
+      if (constraints_.free[u] >= 0) rhs(i, constraints_.free[u]) -= c;
     }
   }
   pivots_.compute(pivots);
-  return pivots_.solve(rest);
+  return pivots_.solve(rhs);
 }
 
 /// C T = 0 with the pivots of the start, and its derivatives: C_p X = - C_f,
 /// C_p X. = - C. T, C_p X.. = - C.. T - 2 C. T..
 Outcome MovingSystem::solve_constraints(const NominalMotion& motion) {
   auto& T = constraints_.T;
-  const MatrixXd X = follow(motion);
+  const MatrixXd X = dependent_coordinates(motion);
   if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,
             "the coordinates that the constraints eliminated at the start do not suit this pose"};
   }
-  for (const std::size_t r : kept_) {  // only now, so that what is refused leaves no trace
+  for (const std::size_t r : dependent_rows_) {  // only now, so that what is refused leaves no trace
     ConstraintRow& row = constraints_.rows[r];
     for (std::size_t t = 0; t < row.terms.size(); ++t) {
       row.terms[t].second = coefficient(row, t, motion, 0);
@@ -388,7 +388,7 @@ Outcome MovingSystem::solve_constraints(const NominalMotion& motion) {
   }
   const auto store = [&](const MatrixXd& values, RowMajorMatrix& target) {
     for (Index u = 0; u < target.rows(); ++u) {
-      const Index row = kept_number_[static_cast<std::size_t>(u)];
+      const Index row = dependent_row_of_[static_cast<std::size_t>(u)];
       if (row < 0) continue;
       for (RowMajorMatrix::InnerIterator it(target, u); it; ++it) {
         it.valueRef() = values(row, it.col());
@@ -396,14 +396,14 @@ Outcome MovingSystem::solve_constraints(const NominalMotion& motion) {
     }
   };
   store(X, T);
-  if (!convective_) return {};
-  const auto product = [&](int order, const RowMajorMatrix& of) {
+  if (!gyroscopic_) return {};
+  const auto product = [&](int order, const RowMajorMatrix& matrix) {
     MatrixXd sum = MatrixXd::Zero(X.rows(), X.cols());
     for (Index i = 0; i < X.rows(); ++i) {
-      const ConstraintRow& row = constraints_.rows[kept_[static_cast<std::size_t>(i)]];
+      const ConstraintRow& row = constraints_.rows[dependent_rows_[static_cast<std::size_t>(i)]];
       for (std::size_t t = 0; t < row.terms.size(); ++t) {
         const double c = coefficient(row, t, motion, order);
-        if (c != 0) sum.row(i) += c * of.row(row.terms[t].first);
+        if (c != 0) sum.row(i) += c * matrix.row(row.terms[t].first);
       }
     }
     return sum;
@@ -421,7 +421,7 @@ PartMotion MovingSystem::part_of(const Element& element) const {
 }
 
 /// Q A Q^T with Q the rotation of the element's coordinates.
-Matrix6d MovingSystem::turned_matrix(const Element& element, const Matrix6d& A, double turn) const {
+Matrix6d MovingSystem::rotated_matrix(const Element& element, const Matrix6d& A, double turn) const {
   if (turn == 0 || element.layout == Layout::scalar) return A;
   Matrix6d B = A;
   const double c = std::cos(turn);
@@ -480,15 +480,15 @@ Vector6d MovingSystem::weight(const Element& element, const Matrix6d& m) const {
 /// Load of nominal inertia on the element, with the centripetal part of a mass off its node.
 Vector6d MovingSystem::element_inertia_load(const Element& element, const Matrix6d& m) const {
   Vector6d f = -m * nominal_acceleration(element);
-  if (element.layout == Layout::lump) {
+  if (element.layout == Layout::point_mass) {
     const PartMotion part = part_of(element);
-    f.head<2>() += part.rate * part.rate * turned(element.first_moment, part.turn);
+    f.head<2>() += part.rate * part.rate * rotated(element.first_moment, part.angle);
   }
   return f;
 }
 
 Outcome MovingSystem::move_to(const NominalMotion& motion) {
-  if (variable_ && constraints_move(motion)) {
+  if (T_is_variable_ && constraints_move(motion)) {
     const Outcome outcome = solve_constraints(motion);
     if (!outcome.solved()) return outcome;
   }
@@ -496,25 +496,25 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
   const double* const T = constraints_.T.valuePtr();
   std::fill_n(K_.valuePtr(), K_.nonZeros(), 0.0);
   if (inertia_) std::fill_n(M_.valuePtr(), M_.nonZeros(), 0.0);
-  if (convective_) {
-    std::fill_n(C_convective_.valuePtr(), K_.nonZeros(), 0.0);
-    std::fill_n(K_convective_.valuePtr(), K_.nonZeros(), 0.0);
+  if (gyroscopic_) {
+    std::fill_n(C_gyroscopic_.valuePtr(), K_.nonZeros(), 0.0);
+    std::fill_n(K_centrifugal_euler_.valuePtr(), K_.nonZeros(), 0.0);
   }
   inertia_u_.setZero();
   load_u_ = start_.load;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const Element& element = elements_[e];
     const PartMotion part = part_of(element);
-    const Matrix6d k = turned_matrix(element, element.k, part.turn);
-    const Matrix6d m = turned_matrix(element, element.m, part.turn);
-    const std::size_t end = e + 1 < elements_.size() ? elements_[e + 1].first_term : terms_.size();
-    for (std::size_t t = element.first_term; t < end; ++t) {
-      const Term& term = terms_[t];
-      const double factor = T[term.a] * T[term.b];
-      K_.valuePtr()[term.destination] += factor * k(term.local);
-      if (inertia_) M_.valuePtr()[term.destination] += factor * m(term.local);
+    const Matrix6d k = rotated_matrix(element, element.k, part.angle);
+    const Matrix6d m = rotated_matrix(element, element.m, part.angle);
+    const std::size_t end = e + 1 < elements_.size() ? elements_[e + 1].first_contribution : contributions_.size();
+    for (std::size_t t = element.first_contribution; t < end; ++t) {
+      const Contribution& contribution = contributions_[t];
+      const double factor = T[contribution.a] * T[contribution.b];
+      K_.valuePtr()[contribution.destination] += factor * k(contribution.local);
+      if (inertia_) M_.valuePtr()[contribution.destination] += factor * m(contribution.local);
     }
-    if (convective_) add_convective(element, part, m, end);
+    if (gyroscopic_) add_gyroscopic(element, part, m, end);
     const Vector6d f = element_inertia_load(element, m);
     const Vector6d w = weight(element, m);
     for (Index i = 0; i < 6; ++i) {
@@ -529,23 +529,23 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
   return {};
 }
 
-void MovingSystem::add_convective(const Element& element, const PartMotion& part, const Matrix6d& m,
+void MovingSystem::add_gyroscopic(const Element& element, const PartMotion& part, const Matrix6d& m,
                                   std::size_t end) {
-  const Matrix6d turning = turned_matrix(element, element.turning, part.turn);
-  const Matrix6d spinning = turned_matrix(element, element.spinning, part.turn);
-  const Matrix6d c = 2 * part.rate * turning;
-  const Matrix6d s = part.acceleration * turning + part.rate * part.rate * spinning;
+  const Matrix6d first_derivative = rotated_matrix(element, element.first_derivative, part.angle);
+  const Matrix6d second_derivative = rotated_matrix(element, element.second_derivative, part.angle);
+  const Matrix6d c = 2 * part.rate * first_derivative;
+  const Matrix6d s = part.acceleration * first_derivative + part.rate * part.rate * second_derivative;
   const double* const T = constraints_.T.valuePtr();
-  for (std::size_t t = element.first_term; t < end; ++t) {
-    const Term& term = terms_[t];
-    const double a = T[term.a];
-    const double b = T[term.b];
-    const double b_dot = variable_ ? T_dot_.valuePtr()[term.b] : 0;
-    const double b_ddot = variable_ ? T_ddot_.valuePtr()[term.b] : 0;
-    C_convective_.valuePtr()[term.destination] +=
-        a * (2 * m(term.local) * b_dot + c(term.local) * b);
-    K_convective_.valuePtr()[term.destination] +=
-        a * (m(term.local) * b_ddot + c(term.local) * b_dot + s(term.local) * b);
+  for (std::size_t t = element.first_contribution; t < end; ++t) {
+    const Contribution& contribution = contributions_[t];
+    const double a = T[contribution.a];
+    const double b = T[contribution.b];
+    const double b_dot = T_is_variable_ ? T_dot_.valuePtr()[contribution.b] : 0;
+    const double b_ddot = T_is_variable_ ? T_ddot_.valuePtr()[contribution.b] : 0;
+    C_gyroscopic_.valuePtr()[contribution.destination] +=
+        a * (2 * m(contribution.local) * b_dot + c(contribution.local) * b);
+    K_centrifugal_euler_.valuePtr()[contribution.destination] +=
+        a * (m(contribution.local) * b_ddot + c(contribution.local) * b_dot + s(contribution.local) * b);
   }
 }
 
@@ -557,9 +557,9 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
   const VectorXd u_dot = T * v;
   VectorXd u_ddot = T * a + mass_damping * u_dot;
   VectorXd convected = VectorXd::Zero(u.size());  // the velocity that turns
-  if (convective_) {
+  if (gyroscopic_) {
     convected = u_dot;
-    if (variable_) {
+    if (T_is_variable_) {
       convected += T_dot_ * q;
       u_ddot += 2 * (T_dot_ * v) + T_ddot_ * q;
     }
@@ -567,35 +567,35 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
   Forces forces;
   forces.element.setZero(6, static_cast<Index>(start_.mesh.frame.size()));
   forces.total = -start_.load;
-  forces.outside = start_.load;
+  forces.external = start_.load;
   const VectorXd strained = u + stiffness_damping * u_dot;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const Element& element = elements_[e];
     const PartMotion part = part_of(element);
-    const Matrix6d m = turned_matrix(element, element.m, part.turn);
+    const Matrix6d m = rotated_matrix(element, element.m, part.angle);
     Vector6d inertia = m * detail::gather(element.coordinates, u_ddot);
-    if (convective_) {
-      const Matrix6d turning = turned_matrix(element, element.turning, part.turn);
-      const Matrix6d spinning = turned_matrix(element, element.spinning, part.turn);
+    if (gyroscopic_) {
+      const Matrix6d first_derivative = rotated_matrix(element, element.first_derivative, part.angle);
+      const Matrix6d second_derivative = rotated_matrix(element, element.second_derivative, part.angle);
       const Vector6d local = detail::gather(element.coordinates, u);
-      inertia += 2 * part.rate * (turning * detail::gather(element.coordinates, convected)) +
-                 part.acceleration * (turning * local) + part.rate * part.rate * (spinning * local);
+      inertia += 2 * part.rate * (first_derivative * detail::gather(element.coordinates, convected)) +
+                 part.acceleration * (first_derivative * local) + part.rate * part.rate * (second_derivative * local);
     }
     if (with_inertia) inertia -= element_inertia_load(element, m);
     inertia -= weight(element, m);
-    const Vector6d f = turned_matrix(element, element.k, part.turn) *
+    const Vector6d f = rotated_matrix(element, element.k, part.angle) *
                            detail::gather(element.coordinates, strained) +
                        inertia;
     for (Index i = 0; i < 6; ++i) {
       const Index c = element.coordinates[static_cast<std::size_t>(i)];
       if (c < 0) continue;
       forces.total[c] += f[i];
-      forces.outside[c] -= inertia[i];
+      forces.external[c] -= inertia[i];
     }
     if (element.layout != Layout::frame) continue;
     const FrameElement& frame = start_.mesh.frame[e];  // the frame elements come first
     forces.element.col(static_cast<Index>(e)) =
-        frame_rotation(turned(frame.direction, part.turn)) * f;
+        frame_rotation(rotated(frame.direction, part.angle)) * f;
   }
   return forces;
 }

@@ -13,7 +13,7 @@ namespace trammel {
 
 /// Rotation of a rigid part about the position in which the model was built.
 struct PartMotion {
-  double turn = 0;          ///< [rad]
+  double angle = 0;         ///< [rad]
   double rate = 0;          ///< [rad/s]
   double acceleration = 0;  ///< [rad/s^2]
 };
@@ -41,7 +41,7 @@ class MovingSystem {
  public:
   /// @param inertia  false: no M, and none of the start
   /// @throws ModelError  as `assemble`.
-  explicit MovingSystem(const Model& model, bool convective = false, bool inertia = true);
+  explicit MovingSystem(const Model& model, bool gyroscopic = false, bool inertia = true);
 
   /// singular: the coordinates that the constraints eliminate do not suit this pose.
   [[nodiscard]] Outcome move_to(const NominalMotion& motion);
@@ -49,8 +49,8 @@ class MovingSystem {
   // Free coordinates q, at the present pose; the matrices share one pattern.
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
-  [[nodiscard]] const SparseMatrix& convective_damping() const { return C_convective_; }
-  [[nodiscard]] const SparseMatrix& convective_stiffness() const { return K_convective_; }
+  [[nodiscard]] const SparseMatrix& gyroscopic_matrix() const { return C_gyroscopic_; }
+  [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const { return K_centrifugal_euler_; }
   /// - int rho W^T r.. dV, as a load [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
   /// Loads of the model, which keep their world axes, and weight.
@@ -67,7 +67,7 @@ class MovingSystem {
   struct Forces {
     Eigen::MatrixXd element;  ///< 6 x frame element: what its nodes do to it, element axes
     Eigen::VectorXd total;    ///< what constraints must give: the elements' needs less the loads
-    Eigen::VectorXd outside;  ///< loads and weight, less inertia and the damping by mass, on u
+    Eigen::VectorXd external;  ///< loads and weight, less inertia and the damping by mass, on u
   };
   /// @param q, v, a  free coordinates and their rates;
   /// @param mass_damping, stiffness_damping  Rayleigh's factors [1/s], [s]
@@ -80,56 +80,56 @@ class MovingSystem {
 
  private:
   using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  enum class Layout { frame, triangle, lump, scalar };  // what the coordinates are
+  enum class Layout { frame, triangle, point_mass, scalar };  // what the coordinates are
 
   /// Matrices in the axes of the part at the start.
   struct Element {
     Layout layout = Layout::frame;
     std::array<Index, 6> coordinates{-1, -1, -1, -1, -1, -1};
     Matrix6d k = Matrix6d::Zero(), m = Matrix6d::Zero();
-    Matrix6d turning = Matrix6d::Zero();                           // int rho N^T dN/dangle
-    Matrix6d spinning = Matrix6d::Zero();                          // int rho N^T d2N/dangle2
+    Matrix6d first_derivative = Matrix6d::Zero();                           // int rho N^T dN/dangle
+    Matrix6d second_derivative = Matrix6d::Zero();                          // int rho N^T d2N/dangle2
     const std::vector<PartMotion> NominalMotion::*part = nullptr;  // null: does not turn
     std::size_t part_index = 0;
     Vector2d first_moment = Vector2d::Zero();  // lump: mass * offset
-    std::size_t first_term = 0;                // of its terms
+    std::size_t first_contribution = 0;                // of its terms
   };
   /// value(destination) += T(a) * element(local) * T(b)
-  struct Term {
+  struct Contribution {
     int local, a, b, destination;
   };
 
   void make_frames();
   void make_triangles();
-  void make_lumps();
+  void make_point_masses();
   void make_springs();
-  void widen_constraints();
+  void extend_constraint_pattern();
   void make_pattern();
   void make_spans();
   [[nodiscard]] double coefficient(const ConstraintRow& row, std::size_t term,
                                    const NominalMotion& motion, int order) const;
   [[nodiscard]] bool constraints_move(const NominalMotion& motion) const;
-  [[nodiscard]] Eigen::MatrixXd follow(const NominalMotion& motion);
+  [[nodiscard]] Eigen::MatrixXd dependent_coordinates(const NominalMotion& motion);
   [[nodiscard]] Outcome solve_constraints(const NominalMotion& motion);
   [[nodiscard]] PartMotion part_of(const Element& element) const;
-  [[nodiscard]] Matrix6d turned_matrix(const Element& element, const Matrix6d& A,
+  [[nodiscard]] Matrix6d rotated_matrix(const Element& element, const Matrix6d& A,
                                        double turn) const;
   [[nodiscard]] Vector6d nominal_acceleration(const Element& element) const;
   [[nodiscard]] Vector6d weight(const Element& element, const Matrix6d& m) const;
   [[nodiscard]] Vector6d element_inertia_load(const Element& element, const Matrix6d& m) const;
-  void add_convective(const Element& element, const PartMotion& part, const Matrix6d& m,
+  void add_gyroscopic(const Element& element, const PartMotion& part, const Matrix6d& m,
                       std::size_t end);
 
   System start_;
   Constraints constraints_;  // of the present pose
-  bool convective_, inertia_;
-  bool variable_ = false;  // T changes with the pose
+  bool gyroscopic_, inertia_;
+  bool T_is_variable_ = false;  // T changes with the pose
   std::vector<Element> elements_;
-  std::vector<Term> terms_;
-  SparseMatrix K_, M_, C_convective_, K_convective_;
+  std::vector<Contribution> contributions_;
+  SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_;
   RowMajorMatrix T_dot_, T_ddot_;   // pattern of T
-  std::vector<std::size_t> kept_;   // rows of C beside supports ...
-  std::vector<Index> kept_number_;  // ... and of each coordinate that they eliminate, or -1
+  std::vector<std::size_t> dependent_rows_;   // rows of C beside supports ...
+  std::vector<Index> dependent_row_of_;  // ... and of each coordinate that they eliminate, or -1
   Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
   std::vector<std::array<Index, 2>> span_;  // mesh node -> ends of its member ...
   std::vector<double> fraction_;            // ... and where it lies between them

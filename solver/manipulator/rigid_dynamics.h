@@ -78,7 +78,7 @@ struct PropertyResiduals {
   /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch, with Mh. by complex step, which knows nothing
   /// of C; 0 at a standstill [-]
   double skewness = 0;
-  double least_eigenvalue = 0;  ///< of Mh [kg m^2]
+  double min_eigenvalue = 0;  ///< of Mh [kg m^2]
 };
 
 /// @pre terms.outcome.solved()

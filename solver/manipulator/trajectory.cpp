@@ -39,12 +39,12 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
 
 /// from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
-  const Vector3d way = as_vector(to) - as_vector(from);
-  require(way.allFinite(), "the ends of the path are not finite");
+  const Vector3d line = as_vector(to) - as_vector(from);
+  require(line.allFinite(), "the ends of the path are not finite");
   TrajectoryPoint point;
-  point.pose = as_pose(as_vector(from) + s * way);
-  point.velocity = ds * way;
-  point.acceleration = dds * way;
+  point.pose = as_pose(as_vector(from) + s * line);
+  point.velocity = ds * line;
+  point.acceleration = dds * line;
   return point;
 }
 
@@ -99,8 +99,8 @@ bool is_still(const Spline& spline) {
 
 /// A line, or from rest to rest.
 template <class Way>
-bool is_still(const Way& way) {
-  return as_vector(way.from) == as_vector(way.to);
+bool is_still(const Way& line) {
+  return as_vector(line.from) == as_vector(line.to);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace trammel {
 namespace {
 
 /// How far apart nodes of one place may be.
-double nearness(const std::vector<Vector2d>& points) {
+double merge_tolerance(const std::vector<Vector2d>& points) {
   Vector2d low = points.front();
   Vector2d high = low;
   for (const Vector2d& p : points) {
@@ -23,7 +23,7 @@ double nearness(const std::vector<Vector2d>& points) {
 /// Finds the nodes that a model has so far by their place.
 class NodeFinder {
  public:
-  NodeFinder(const Model& model, double near) : near_(near) {
+  NodeFinder(const Model& model, double near) : tolerance_(near) {
     for (const Node& node : model.nodes) {
       by_x_.emplace(node.position.x(), Place{static_cast<Index>(by_x_.size()), node.position});
     }
@@ -32,10 +32,10 @@ class NodeFinder {
   /// The first node there, or -1.
   [[nodiscard]] Index find(const Vector2d& position) const {
     Index first = -1;
-    auto at = by_x_.lower_bound(position.x() - near_);
-    for (; at != by_x_.end() && at->first <= position.x() + near_; ++at) {
+    auto at = by_x_.lower_bound(position.x() - tolerance_);
+    for (; at != by_x_.end() && at->first <= position.x() + tolerance_; ++at) {
       const auto& [node, place] = at->second;
-      if ((place - position).norm() < near_ && (first < 0 || node < first)) first = node;
+      if ((place - position).norm() < tolerance_ && (first < 0 || node < first)) first = node;
     }
     return first;
   }
@@ -43,7 +43,7 @@ class NodeFinder {
  private:
   using Place = std::pair<Index, Vector2d>;
   std::multimap<double, Place> by_x_;
-  double near_;
+  double tolerance_;
 };
 
 /// A side as a curve over 0 <= s <= 1.
@@ -83,14 +83,14 @@ class Side {
 };
 
 /// Parameters of 2 n + 1 lines, or n + 1; the middle ones half-way between their neighbours.
-std::vector<double> lines(Index cells, double grading, bool with_middles) {
+std::vector<double> lines(Index cells, double grading, bool with_mid_side_nodes) {
   const double q = cells > 1 ? std::pow(grading, 1.0 / static_cast<double>(cells - 1)) : 1;
   std::vector<double> at = {0};
   double step = 1;
   for (Index i = 0; i < cells; ++i, step *= q) at.push_back(at.back() + step);
   for (double& s : at) s /= at.back();
   at.back() = 1;
-  if (!with_middles) return at;
+  if (!with_mid_side_nodes) return at;
   std::vector<double> all = {0};
   for (std::size_t i = 1; i < at.size(); ++i) {
     all.push_back((at[i - 1] + at[i]) / 2);
@@ -107,7 +107,7 @@ class Mesher {
     for (const Block& block : blocks) {
       corners.insert(corners.end(), block.corners.begin(), block.corners.end());
     }
-    near_ = nearness(corners);
+    tolerance_ = merge_tolerance(corners);
   }
 
   BlockMesh run() {
@@ -119,7 +119,7 @@ class Mesher {
   /// A node on a block's side, which may be another block's as well.
   Index shared_node(const Vector2d& position) {
     for (const Index node : outer_) {
-      if ((mesh_.positions[static_cast<std::size_t>(node)] - position).norm() < near_) return node;
+      if ((mesh_.positions[static_cast<std::size_t>(node)] - position).norm() < tolerance_) return node;
     }
     mesh_.positions.push_back(position);
     outer_.push_back(static_cast<Index>(mesh_.positions.size()) - 1);
@@ -204,7 +204,7 @@ class Mesher {
 
   const std::vector<Block>& blocks_;
   BlockMesh mesh_;
-  double near_ = 0;
+  double tolerance_ = 0;
   std::vector<Index> outer_;  // nodes on the sides so far
   std::vector<Index> grid_;   // nodes of the current block, row by row
   std::size_t width_ = 0;
@@ -218,7 +218,7 @@ BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
 }
 
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh) {
-  const NodeFinder finder(model, nearness(mesh.positions));
+  const NodeFinder finder(model, merge_tolerance(mesh.positions));
   std::vector<Index> nodes;
   nodes.reserve(mesh.positions.size());
   for (const Vector2d& position : mesh.positions) {

@@ -2,12 +2,12 @@
 
 namespace trammel {
 
-Counters& Counters::operator+=(const Counters& more) {
-  element_evaluations += more.element_evaluations;
-  factorizations += more.factorizations;
-  solves += more.solves;
-  steps += more.steps;
-  for (std::size_t i = 0; i < effect_count; ++i) effects[i] += more.effects[i];
+Counters& Counters::operator+=(const Counters& other) {
+  element_evaluations += other.element_evaluations;
+  factorizations += other.factorizations;
+  solves += other.solves;
+  steps += other.steps;
+  for (std::size_t i = 0; i < kEffectCount; ++i) effects[i] += other.effects[i];
   return *this;
 }
 

@@ -20,10 +20,10 @@ struct Counters {
   void count(Effect effect, std::int64_t evaluations) {
     effects[static_cast<std::size_t>(effect)] += evaluations;
   }
-  [[nodiscard]] std::int64_t of(Effect effect) const {
+  [[nodiscard]] std::int64_t evaluations(Effect effect) const {
     return effects[static_cast<std::size_t>(effect)];
   }
-  Counters& operator+=(const Counters& more);
+  Counters& operator+=(const Counters& other);
 };
 
 }  // namespace trammel

@@ -17,7 +17,7 @@ namespace trammel {
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 using Complex = std::complex<double>;
 /// h, in the parameter's unit: h^2 is below the round-off of any number that a design holds.
-inline constexpr double complex_step = 1e-30;
+inline constexpr double kComplexStep = 1e-30;
 
 template <class T>
 concept Real = std::same_as<T, double> || std::same_as<T, Dual> || std::same_as<T, Complex>;
@@ -31,20 +31,20 @@ concept Real = std::same_as<T, double> || std::same_as<T, Dual> || std::same_as<
 [[nodiscard]] inline double value(const Complex& x) {
   return x.real();
 }
-[[nodiscard]] inline double slope(const Dual& x) {
+[[nodiscard]] inline double derivative(const Dual& x) {
   return x.derivatives()[0];
 }
-[[nodiscard]] inline double slope(const Complex& x) {
-  return x.imag() / complex_step;
+[[nodiscard]] inline double derivative(const Complex& x) {
+  return x.imag() / kComplexStep;
 }
 
-/// A number with d/dp = `slope`: the parameter itself has 1.
+/// A number with d/dp = `derivative`: the parameter itself has 1.
 template <Real T>
-[[nodiscard]] T with_slope(double value, double slope) {
+[[nodiscard]] T with_derivative(double value, double derivative) {
   if constexpr (std::same_as<T, Dual>) {
-    return {value, Eigen::Matrix<double, 1, 1>(slope)};
+    return {value, Eigen::Matrix<double, 1, 1>(derivative)};
   } else {
-    return {value, slope * complex_step};
+    return {value, derivative * kComplexStep};
   }
 }
 

@@ -5,7 +5,7 @@
 namespace trammel {
 namespace {
 
-constexpr std::array<std::string_view, effect_count> kNames = {"axial-flexibility",
+constexpr std::array<std::string_view, kEffectCount> kNames = {"axial-flexibility",
                                                                "shear",
                                                                "rotary-inertia",
                                                                "platform-flexibility",
@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, effect_count> kNames = {"axial-flexibilit
 
 std::vector<Effect> Effects::list() const {
   std::vector<Effect> effects;
-  for (std::size_t i = 0; i < effect_count; ++i) {
+  for (std::size_t i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     if (has(effect)) effects.push_back(effect);
   }

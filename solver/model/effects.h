@@ -25,21 +25,21 @@ enum class Effect : std::uint8_t {
   geometric_stiffening,  ///< forces turn with what they act in: second-order theory
   large_displacement,    ///< equilibrium in the place where it is: the geometrically exact tier
 };
-inline constexpr std::size_t effect_count = 12;
+inline constexpr std::size_t kEffectCount = 12;
 
 /// A set of effects.
 class Effects {
  public:
   constexpr Effects() = default;
-  [[nodiscard]] static constexpr Effects all() { return Effects((1U << effect_count) - 1); }
+  [[nodiscard]] static constexpr Effects all() { return Effects((1U << kEffectCount) - 1); }
 
   [[nodiscard]] constexpr bool has(Effect effect) const { return (bits_ & bit(effect)) != 0; }
   [[nodiscard]] constexpr Effects with(Effect effect) const { return Effects(bits_ | bit(effect)); }
   [[nodiscard]] constexpr Effects without(Effect effect) const {
     return Effects(bits_ & ~bit(effect));
   }
-  [[nodiscard]] constexpr Effects without(Effects others) const {
-    return Effects(bits_ & ~others.bits_);
+  [[nodiscard]] constexpr Effects without(Effects removed) const {
+    return Effects(bits_ & ~removed.bits_);
   }
   [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
   [[nodiscard]] std::vector<Effect> list() const;  ///< in the order of the enumeration
@@ -56,6 +56,6 @@ class Effects {
 [[nodiscard]] std::optional<Effect> effect_named(std::string_view name);
 
 /// Evaluations that effects have caused: element matrices, loads of elements, springs.
-using EffectCounts = std::array<std::int64_t, effect_count>;
+using EffectCounts = std::array<std::int64_t, kEffectCount>;
 
 }  // namespace trammel

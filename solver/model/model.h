@@ -43,7 +43,7 @@ using Section = SectionOf<double>;
 /// are those of S. M. Han, H. Benaroya, T. Wei, Journal of Sound and Vibration 225 (1999).
 enum class BeamTheory { euler_bernoulli, rayleigh, shear, timoshenko };
 
-[[nodiscard]] constexpr bool shears(BeamTheory theory) {
+[[nodiscard]] constexpr bool has_shear_deformation(BeamTheory theory) {
   return theory == BeamTheory::shear || theory == BeamTheory::timoshenko;
 }
 [[nodiscard]] constexpr bool has_rotary_inertia(BeamTheory theory) {

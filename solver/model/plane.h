@@ -14,12 +14,12 @@ namespace trammel {
 }
 
 /// The vector turned by 90 degrees to the left.
-[[nodiscard]] inline Vector2d quarter_turn(const Vector2d& v) {
+[[nodiscard]] inline Vector2d perpendicular(const Vector2d& v) {
   return {-v.y(), v.x()};
 }
 
 /// The vector turned counterclockwise.   @param angle  [rad]
-[[nodiscard]] inline Vector2d turned(const Vector2d& v, double angle) {
+[[nodiscard]] inline Vector2d rotated(const Vector2d& v, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};

@@ -22,8 +22,8 @@ std::array<TriangleQuadraturePoint, 25> conical_product() {
   std::size_t k = 0;
   for (const LineQuadraturePoint& a : line_quadrature()) {
     for (const LineQuadraturePoint& b : line_quadrature()) {
-      const double rest = 1 - a.at;
-      points[k++] = {{a.at, rest * b.at, rest * (1 - b.at)}, 2 * rest * a.weight * b.weight};
+      const double remainder = 1 - a.xi;
+      points[k++] = {{a.xi, remainder * b.xi, remainder * (1 - b.xi)}, 2 * remainder * a.weight * b.weight};
     }
   }
   return points;

@@ -8,7 +8,7 @@
 namespace trammel {
 
 struct LineQuadraturePoint {
-  double at = 0;      ///< fraction of the length
+  double xi = 0;      ///< fraction of the length
   double weight = 0;  ///< the weights add up to 1
 };
 
@@ -16,7 +16,7 @@ struct LineQuadraturePoint {
 [[nodiscard]] const std::array<LineQuadraturePoint, 5>& line_quadrature();
 
 struct TriangleQuadraturePoint {
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< area coordinates of the corners
+  Eigen::Vector3d area_coordinates = Eigen::Vector3d::Zero();  ///< area coordinates of the corners
   double weight = 0;                             ///< the weights add up to 1
 };
 

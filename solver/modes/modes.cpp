@@ -37,11 +37,11 @@ VectorXd random_vector(Index size) {
 }
 
 /// Whether a motion beyond the free ones moves mass: otherwise there is nothing that swings.
-bool swings(const SparseMatrix& M, const MatrixXd& Z) {
+bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
   VectorXd x = random_vector(M.rows());
-  const double whole = x.dot(M * x);
-  for (int twice = 0; twice < 2; ++twice) x -= Z * (Z.transpose() * (M * x));
-  return x.dot(M * x) > 1e-24 * whole;  // rounding of a motion squared: 1e-32
+  const double total = x.dot(M * x);
+  for (int pass = 0; pass < 2; ++pass) x -= Z * (Z.transpose() * (M * x));
+  return x.dot(M * x) > 1e-24 * total;  // rounding of a motion squared: 1e-32
 }
 
 /// A shift s < 0 of the size of the lowest elastic eigenvalue, for models that float: K - s M is
@@ -100,15 +100,15 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   Factorization factorization;
   factorization.compute(shifted(system.K, system.M, 0));
   ++counters.factorizations;
-  FreeMotions free = find_free_motions(system, factorization, counters);
-  solution.rigid_motions = free.count();
-  solution.rigid_motion_words = describe_free_motions(system, free);
+  ZeroEnergyModes free = find_zero_energy_modes(system, factorization, counters);
+  solution.zero_energy_mode_count = free.count();
+  solution.zero_energy_mode_text = describe_mechanism(system, free);
   if (!orthonormalise(system.M, free.basis)) {
     solution.outcome = {Status::singular,
-                        "a part without mass moves freely: " + solution.rigid_motion_words};
+                        "a part without mass moves freely: " + solution.zero_energy_mode_text};
     return solution;
   }
-  if (free.count() > 0 && !swings(system.M, free.basis)) {
+  if (free.count() > 0 && !has_elastic_inertia(system.M, free.basis)) {
     solution.inertia_count = free.count();
     fill(system, {}, free.basis, options.count, solution);
     return solution;
@@ -117,8 +117,8 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   pencil.K = &system.K;
   pencil.B = &system.M;
   if (free.count() > 0) {
-    pencil.s = floating_shift(system, free.basis, counters);
-    factorization.compute(shifted(system.K, system.M, pencil.s));
+    pencil.shift = floating_shift(system, free.basis, counters);
+    factorization.compute(shifted(system.K, system.M, pencil.shift));
     ++counters.factorizations;
   }
   pencil.K_times = stiffness_operator(system);
@@ -127,14 +127,14 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   };
   const Index elastic = std::max<Index>(0, options.count - free.count());
   const Eigenpairs pairs =
-      lowest_eigenpairs(pencil, free.basis, elastic, options.path, factorization, counters);
+      lowest_eigenpairs(pencil, free.basis, elastic, options.method, factorization, counters);
   solution.outcome = pairs.outcome;
   solution.inertia_count = pairs.inertia_count;
   fill(system, pairs, free.basis, options.count, solution);
   return solution;
 }
 
-std::optional<Index> count_modes_below(const System& system, double frequency) {
+std::optional<Index> sturm_count(const System& system, double frequency) {
   const double w = 2 * std::numbers::pi * frequency;
   Factorization factorization;
   factorization.compute(system.K - w * w * system.M);

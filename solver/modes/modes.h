@@ -12,7 +12,7 @@ namespace trammel {
 
 struct ModesOptions {
   Index count = 6;
-  EigenPath path = EigenPath::automatic;  ///< automatic: dense below a few hundred free coordinates
+  EigenMethod method = EigenMethod::automatic;  ///< automatic: dense below a few hundred free coordinates
 };
 
 /// Free vibration K x = w^2 M x (paper Eq. 28, 29), x^T M x = 1 (Eq. 33).
@@ -32,8 +32,8 @@ struct ModalSolution {
   /// by the residual.
   Eigen::VectorXd roundoff;
   Eigen::MatrixXd shape;           ///< free coordinate x mode; use node_motion, mesh_motion
-  Index rigid_motions = 0;         ///< how many leading frequencies are zero
-  std::string rigid_motion_words;  ///< what they are, in words
+  Index zero_energy_mode_count = 0;         ///< how many leading frequencies are zero
+  std::string zero_energy_mode_text;  ///< what they are, in words
   Index inertia_count = 0;         ///< eigenvalues below the check shift, by sparse LDL^T
   Counters counters;
 };
@@ -43,6 +43,6 @@ struct ModalSolution {
 /// Natural frequencies below `frequency` [Hz], copies of repeated ones and rigid motions included,
 /// by the negative pivots of K - (2 pi f)^2 M (Sylvester); nothing where the factorization loses
 /// its digits, as on a natural frequency.
-[[nodiscard]] std::optional<Index> count_modes_below(const System& system, double frequency);
+[[nodiscard]] std::optional<Index> sturm_count(const System& system, double frequency);
 
 }  // namespace trammel

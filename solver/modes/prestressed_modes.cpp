@@ -34,7 +34,7 @@ ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
     return strain_products(system, system.T * X) + X.transpose() * (K_G * X);
   };
   const MatrixXd no_null(K.rows(), 0);
-  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.path,
+  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.method,
                                              factorization, solution.counters);
   solution.outcome = pairs.outcome;
   solution.inertia_count = pairs.inertia_count;

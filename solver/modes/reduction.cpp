@@ -14,20 +14,20 @@ using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Free coordinates of the nodes that cut the members.
-std::vector<bool> inside_members(const System& system) {
-  std::vector<bool> inside(static_cast<std::size_t>(system.K.rows()), false);
+std::vector<bool> interior_coordinates(const System& system) {
+  std::vector<bool> interior(static_cast<std::size_t>(system.K.rows()), false);
   for (std::size_t n = system.model.nodes.size(); n < system.coordinates.node.size(); ++n) {
     for (const Index u : system.coordinates.node[n]) {
       const Index q = u < 0 ? -1 : system.constraints.free[static_cast<std::size_t>(u)];
-      if (q >= 0) inside[static_cast<std::size_t>(q)] = true;
+      if (q >= 0) interior[static_cast<std::size_t>(q)] = true;
     }
   }
-  return inside;
+  return interior;
 }
 
 /// The inside coordinates in sets that nothing couples: a member's each.
-std::vector<std::vector<Index>> components(const System& system, const std::vector<bool>& inside) {
-  std::vector<Index> root(inside.size());
+std::vector<std::vector<Index>> components(const System& system, const std::vector<bool>& interior) {
+  std::vector<Index> root(interior.size());
   std::iota(root.begin(), root.end(), Index{0});
   const auto find = [&](Index i) {
     while (root[static_cast<std::size_t>(i)] != i) {
@@ -38,10 +38,10 @@ std::vector<std::vector<Index>> components(const System& system, const std::vect
   };
   for (const SparseMatrix* matrix : {&system.K, &system.M}) {
     for (Index j = 0; j < matrix->outerSize(); ++j) {
-      if (!inside[static_cast<std::size_t>(j)]) continue;
+      if (!interior[static_cast<std::size_t>(j)]) continue;
       for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) {
         const Index i = entry.row();
-        if (inside[static_cast<std::size_t>(i)]) root[static_cast<std::size_t>(find(i))] = find(j);
+        if (interior[static_cast<std::size_t>(i)]) root[static_cast<std::size_t>(find(i))] = find(j);
       }
     }
   }
@@ -50,16 +50,16 @@ std::vector<std::vector<Index>> components(const System& system, const std::vect
   for (const FrameElement& element : system.mesh.frame) {
     for (const Index u : element.coordinates) {
       const Index q = u < 0 ? -1 : system.constraints.free[static_cast<std::size_t>(u)];
-      if (q < 0 || !inside[static_cast<std::size_t>(q)]) continue;
+      if (q < 0 || !interior[static_cast<std::size_t>(q)]) continue;
       Index& own = first[static_cast<std::size_t>(element.member)];
       if (own < 0) own = q;
       root[static_cast<std::size_t>(find(q))] = find(own);
     }
   }
   std::vector<std::vector<Index>> sets;
-  std::vector<Index> set_of(inside.size(), -1);
-  for (std::size_t q = 0; q < inside.size(); ++q) {
-    if (!inside[q]) continue;
+  std::vector<Index> set_of(interior.size(), -1);
+  for (std::size_t q = 0; q < interior.size(); ++q) {
+    if (!interior[q]) continue;
     const auto r = static_cast<std::size_t>(find(static_cast<Index>(q)));
     if (set_of[r] < 0) {
       set_of[r] = static_cast<Index>(sets.size());
@@ -71,23 +71,23 @@ std::vector<std::vector<Index>> components(const System& system, const std::vect
 }
 
 /// Rows and columns of a matrix.
-class Part {
+class IndexSubset {
  public:
-  Part(Index size, const std::vector<Index>& chosen) : place_(static_cast<std::size_t>(size), -1) {
+  IndexSubset(Index size, const std::vector<Index>& chosen) : local_index_(static_cast<std::size_t>(size), -1) {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      place_[static_cast<std::size_t>(chosen[i])] = static_cast<Index>(i);
+      local_index_[static_cast<std::size_t>(chosen[i])] = static_cast<Index>(i);
     }
     count_ = static_cast<Index>(chosen.size());
   }
-  [[nodiscard]] Index place(Index q) const { return place_[static_cast<std::size_t>(q)]; }
+  [[nodiscard]] Index local_index(Index q) const { return local_index_[static_cast<std::size_t>(q)]; }
 
-  [[nodiscard]] SparseMatrix square(const SparseMatrix& matrix,
+  [[nodiscard]] SparseMatrix submatrix(const SparseMatrix& matrix,
                                     const std::vector<Index>& chosen) const {
     Triplets entries;
     for (const Index j : chosen) {
       for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
-        if (place(entry.row()) >= 0) {
-          entries.emplace_back(place(entry.row()), place(j), entry.value());
+        if (local_index(entry.row()) >= 0) {
+          entries.emplace_back(local_index(entry.row()), local_index(j), entry.value());
         }
       }
     }
@@ -97,17 +97,17 @@ class Part {
   }
 
  private:
-  std::vector<Index> place_;
+  std::vector<Index> local_index_;
   Index count_ = 0;
 };
 
 /// Boundary coordinates that K couples with the set, each once.
 std::vector<Index> neighbours(const SparseMatrix& K, const std::vector<Index>& set,
-                              const Part& part) {
+                              const IndexSubset& part) {
   std::vector<Index> found;
   for (const Index j : set) {
     for (SparseMatrix::InnerIterator entry(K, j); entry; ++entry) {
-      if (part.place(entry.row()) < 0) found.push_back(entry.row());
+      if (part.local_index(entry.row()) < 0) found.push_back(entry.row());
     }
   }
   std::sort(found.begin(), found.end());
@@ -117,16 +117,16 @@ std::vector<Index> neighbours(const SparseMatrix& K, const std::vector<Index>& s
 
 /// Column of K at a boundary coordinate, its rows in the set.
 VectorXd coupling(const SparseMatrix& K, Index boundary, const std::vector<Index>& set,
-                  const Part& part) {
+                  const IndexSubset& part) {
   VectorXd column = VectorXd::Zero(static_cast<Index>(set.size()));
   for (SparseMatrix::InnerIterator entry(K, boundary); entry; ++entry) {
-    if (part.place(entry.row()) >= 0) column[part.place(entry.row())] = entry.value();
+    if (part.local_index(entry.row()) >= 0) column[part.local_index(entry.row())] = entry.value();
   }
   return column;
 }
 
 /// The lowest modes with the boundary held.
-MatrixXd held_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
+MatrixXd fixed_interface_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
                     Factorization& factorization, Counters& counters) {
   Pencil pencil;
   pencil.K = &K;
@@ -134,7 +134,7 @@ MatrixXd held_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
   pencil.K_times = [&K](const VectorXd& x) -> VectorXd { return K * x; };
   pencil.K_products = [&K](const MatrixXd& X) -> MatrixXd { return X.transpose() * (K * X); };
   const MatrixXd no_null(K.rows(), 0);
-  return lowest_eigenpairs(pencil, no_null, modes, EigenPath::automatic, factorization, counters)
+  return lowest_eigenpairs(pencil, no_null, modes, EigenMethod::automatic, factorization, counters)
       .vector;
 }
 
@@ -148,25 +148,25 @@ void add_column(const VectorXd& values, const std::vector<Index>& set, Index col
 
 /// R in q = R p.
 SparseMatrix reduction(const System& system, Index modes, Counters& counters) {
-  const std::vector<bool> inside = inside_members(system);
-  const std::vector<std::vector<Index>> sets = components(system, inside);
+  const std::vector<bool> interior = interior_coordinates(system);
+  const std::vector<std::vector<Index>> sets = components(system, interior);
   const Index size = system.K.rows();
-  std::vector<Index> kept(inside.size(), -1);
+  std::vector<Index> kept(interior.size(), -1);
   Index columns = 0;
-  for (std::size_t q = 0; q < inside.size(); ++q) {
-    if (!inside[q]) kept[q] = columns++;
+  for (std::size_t q = 0; q < interior.size(); ++q) {
+    if (!interior[q]) kept[q] = columns++;
   }
   Triplets entries;
-  for (std::size_t q = 0; q < inside.size(); ++q) {
-    if (!inside[q]) entries.emplace_back(static_cast<Index>(q), kept[q], 1.0);
+  for (std::size_t q = 0; q < interior.size(); ++q) {
+    if (!interior[q]) entries.emplace_back(static_cast<Index>(q), kept[q], 1.0);
   }
   for (const std::vector<Index>& set : sets) {
     if (modes >= static_cast<Index>(set.size())) {
       for (const Index q : set) entries.emplace_back(q, columns++, 1.0);
       continue;
     }
-    const Part part(size, set);
-    const SparseMatrix K = part.square(system.K, set), M = part.square(system.M, set);
+    const IndexSubset part(size, set);
+    const SparseMatrix K = part.submatrix(system.K, set), M = part.submatrix(system.M, set);
     Factorization factorization;
     factorization.compute(shifted(K, M, 0));
     ++counters.factorizations;
@@ -176,7 +176,7 @@ SparseMatrix reduction(const System& system, Index modes, Counters& counters) {
       add_column(follows, set, kept[static_cast<std::size_t>(boundary)], entries);
     }
     if (modes == 0) continue;
-    const MatrixXd shapes = held_modes(K, M, modes, factorization, counters);
+    const MatrixXd shapes = fixed_interface_modes(K, M, modes, factorization, counters);
     for (Index j = 0; j < shapes.cols(); ++j) add_column(shapes.col(j), set, columns++, entries);
   }
   SparseMatrix R(size, columns);

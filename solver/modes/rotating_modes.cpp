@@ -19,32 +19,32 @@ class SteadyState {
  public:
   SteadyState(const System& system, const RotatingOptions& options, Counters& counters)
       : system_(system),
-        spin_(options.spin),
-        deformed_(options.deformed_tension),
-        stiffens_(options.stiffening),
+        frame_(options.frame),
+        prestress_at_steady_state_(options.prestress_at_steady_state),
+        geometric_stiffening_(options.stiffening),
         counters_(counters),
-        body_(body_forces(system, spin_)),
-        softening_(-spin_.speed * spin_.speed * spin_softening(system, spin_.axis)),
+        body_(body_forces(system, frame_)),
+        softening_(-frame_.speed * frame_.speed * centrifugal_softening(system, frame_.axis)),
         elastic_(stiffness_operator(system)),
         q(VectorXd::Zero(system.K.rows())) {}
 
   /// False where the forces do not settle or the state does not exist.
   bool run() {
     constexpr int kSteps = 50;
-    const VectorXd right =
+    const VectorXd rhs =
         system_.f + system_.T.transpose() *
-                        centrifugal_forces(system_, spin_, VectorXd::Zero(system_.T.rows()));
+                        centrifugal_forces(system_, frame_, VectorXd::Zero(system_.T.rows()));
     added_ = softening_;
-    if (!stiffens_) return solve(added_, right);
-    if (!deformed_) {
-      if (!solve(SparseMatrix(system_.K.rows(), system_.K.rows()), right)) return false;
+    if (!geometric_stiffening_) return solve(added_, rhs);
+    if (!prestress_at_steady_state_) {
+      if (!solve(SparseMatrix(system_.K.rows(), system_.K.rows()), rhs)) return false;
       update(VectorXd::Zero(system_.T.rows()));
-      return solve(added_, right);
+      return solve(added_, rhs);
     }
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kSteps; ++step) {
       const VectorXd before = q;
-      if (!solve(added_, right)) return false;
+      if (!solve(added_, rhs)) return false;
       const double change = (q - before).norm();
       const bool settled =
           change <= 1e-13 * q.norm() || (change <= 1e-8 * q.norm() && change >= 0.5 * last);
@@ -65,12 +65,12 @@ class SteadyState {
 
  private:
   /// (K + added) q = right.
-  bool solve(const SparseMatrix& added, const VectorXd& right) {
+  bool solve(const SparseMatrix& added, const VectorXd& rhs) {
     factorization.compute(shifted(system_.K, added, -1));
     ++counters_.factorizations;
     if (!factorization.exists()) return false;
     const Operator A = [&](const VectorXd& x) -> VectorXd { return elastic_(x) + added * x; };
-    const Refined refined = refined_solve(A, factorization, right, counters_);
+    const RefinedSolution refined = refined_solve(A, factorization, rhs, counters_);
     q = refined.x;
     return refined.converged();
   }
@@ -79,16 +79,16 @@ class SteadyState {
   void update(const VectorXd& shape) {
     const VectorXd u = system_.T * q;
     VectorXd force =
-        internal_forces(system_, u) - system_.load - centrifugal_forces(system_, spin_, shape);
-    if (geometric_.axial.size() > 0) force += turning_forces(system_, geometric_, u);
+        internal_forces(system_, u) - system_.load - centrifugal_forces(system_, frame_, shape);
+    if (geometric_.axial.size() > 0) force += geometric_stiffness_forces(system_, geometric_, u);
     counters_.count(Effect::geometric_stiffening, 1);
     geometric_ = prestress(system_, u, system_.constraints.multipliers(force), body_);
     added_ = softening_ + geometric_stiffness(system_, geometric_);
   }
 
   const System& system_;
-  Spin spin_;
-  bool deformed_, stiffens_;
+  RotatingFrame frame_;
+  bool prestress_at_steady_state_, geometric_stiffening_;
   Counters& counters_;
   BodyForces body_;
   SparseMatrix softening_;
@@ -112,9 +112,9 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
     Factorization K;
     K.compute(system.K);
     ++result.counters.factorizations;
-    const FreeMotions free = find_free_motions(system, K, result.counters);
+    const ZeroEnergyModes free = find_zero_energy_modes(system, K, result.counters);
     if (free.count() > 0) {
-      result.outcome = {Status::singular, describe_free_motions(system, free)};
+      result.outcome = {Status::singular, describe_mechanism(system, free)};
       return result;
     }
   }
@@ -124,10 +124,10 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
     return result;
   }
   result.q = steady.q;
-  const bool turns = options.coriolis && options.spin.axis == SpinAxis::normal;
+  const bool has_gyroscopic_forces = options.gyroscopic && options.frame.axis == RotationAxis::normal;
   SparseMatrix C(system.K.rows(), system.K.cols());
-  if (turns) {
-    C = 2 * options.spin.speed * coriolis_matrix(system);
+  if (has_gyroscopic_forces) {
+    C = 2 * options.frame.speed * gyroscopic_matrix(system);
     result.counters.count(Effect::gyroscopic, 1);
   }
   const GyroscopicPencil pencil{steady.tangent(), C, system.M,
@@ -135,7 +135,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   GyroscopicModes modes;
   if (system.M.coeffs().isZero(0)) return result;  // nothing swings
   if (steady.factorization.smallest_pivot() > 0) {
-    modes = stable_gyroscopic_modes(pencil, steady.factorization, options.count, options.path,
+    modes = stable_gyroscopic_modes(pencil, steady.factorization, options.count, options.method,
                                     result.counters);
   } else if (system.K.rows() <= kLargestUnstable) {
     modes = all_gyroscopic_modes(pencil);
@@ -148,9 +148,9 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   result.inertia_count = modes.inertia_count;
   const Index kept = std::min(options.count, modes.omega.size());
   result.frequency = modes.omega.head(kept) / (2 * std::numbers::pi);
-  result.growth_rate = modes.growth.head(kept);
+  result.growth_rate = modes.growth_rate.head(kept);
   result.shape = modes.shape.leftCols(kept);
-  result.stable = modes.growth.size() == 0 || modes.growth.maxCoeff() <= 0;
+  result.stable = modes.growth_rate.size() == 0 || modes.growth_rate.maxCoeff() <= 0;
   return result;
 }
 

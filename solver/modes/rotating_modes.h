@@ -10,20 +10,20 @@
 namespace trammel {
 
 struct RotatingOptions {
-  Spin spin;
+  RotatingFrame frame;
   Index count = 6;
-  EigenPath path = EigenPath::automatic;  ///< of a stable state; an unstable one is always dense
-  bool coriolis = true;                   ///< false: leaves G out
+  EigenMethod method = EigenMethod::automatic;  ///< of a stable state; an unstable one is always dense
+  bool gyroscopic = true;                 ///< false: leaves G out
   bool stiffening = true;                 ///< false: leaves K_G out
   /// K_G from the forces in the steady state; false: from those of linear statics under the
   /// centrifugal forces on the undeformed frame, as the classical equations of blades have it.
-  bool deformed_tension = true;
+  bool prestress_at_steady_state = true;
 };
 
 /// Small vibration of a frame that rotates steadily, seen from it, about its steady state:
 ///   (K + K_G - W^2 S) q = f + W^2 f_c,   and with that K_G
 ///   (K + K_G - W^2 S + i w 2 W G - w^2 M) x = 0
-/// (spin.h for S, G, f_c). The supports rotate with the frame; the geometry is the undeformed one.
+/// (rotating_frame.h for S, G, f_c). The supports rotate with the frame; the geometry is the undeformed one.
 ///
 /// Stable states have real w: a Hermitian problem in 1 / w, of which none is missed, for the matrix
 /// above at a w just beyond the last has as many negative pivots as there are below it.

@@ -23,8 +23,8 @@ constexpr int kIterations = 2;  // the first mends the mode's round-off, the sec
 
 /// d/dp of an element matrix, whose numbers carry a complex step.
 template <class Matrix>
-auto slopes(const Matrix& matrix) {
-  return (matrix.imag() / complex_step).eval();
+auto derivatives(const Matrix& matrix) {
+  return (matrix.imag() / kComplexStep).eval();
 }
 
 /// K and M at p + ih.
@@ -45,26 +45,26 @@ SteppedSystem stepped(const System& system, const SeededDesign<Complex>& design,
     const Matrix6<Complex> R = frame_rotation(link.direction);
     const Matrix6<Complex> m = frame_mass(link.section, member.theory, member.mass, length);
     const Matrix6<Complex> k = B.transpose() * c.asDiagonal() * B;
-    const Matrix6<Complex> turned = R.transpose() * m * R;
-    into_K.add(e.coordinates, slopes(k));
-    into_M.add(e.coordinates, slopes(turned));
+    const Matrix6<Complex> rotated = R.transpose() * m * R;
+    into_K.add(e.coordinates, derivatives(k));
+    into_M.add(e.coordinates, derivatives(rotated));
     counters.element_evaluations += 2;
   }
   for (const PointMass& lump : system.model.masses) {
     const Eigen::Matrix3cd m =
         point_inertia(design.mass().mass, design.mass().inertia, lump.offset);
-    into_M.add(system.coordinates.node[static_cast<std::size_t>(lump.node)], slopes(m));
+    into_M.add(system.coordinates.node[static_cast<std::size_t>(lump.node)], derivatives(m));
   }
   for (const Triangle& triangle : system.model.triangles) {
     const TrianglePoints points = corners(system.model, triangle);
     const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
-    const auto coordinates = system.coordinates.of<6>(triangle);
+    const auto coordinates = system.coordinates.of_triangle<6>(triangle);
     const Matrix6d k = design.stiffness_rate() * triangle_stiffness(points, plate);
     const Matrix6d m = design.mass_rate() * triangle_mass(points, plate);
     into_K.add(coordinates, k);
     into_M.add(coordinates, m);
   }
-  const Complex step(0, complex_step);
+  const Complex step(0, kComplexStep);
   return {system.K.cast<Complex>() + step * K.build().cast<Complex>(),
           system.M.cast<Complex>() + step * M.build().cast<Complex>()};
 }
@@ -90,7 +90,7 @@ ComplexMatrix bordered(const SteppedSystem& at, const Complex& lambda, const Vec
 }
 
 /// d lambda / dp of one mode; NaN where it cannot be told from its neighbours.
-double eigenvalue_slope(const SteppedSystem& at, const VectorXd& shape, double lambda,
+double eigenvalue_derivative(const SteppedSystem& at, const VectorXd& shape, double lambda,
                         Counters& counters) {
   VectorXcd x = shape.cast<Complex>();
   Complex root = lambda;
@@ -108,12 +108,12 @@ double eigenvalue_slope(const SteppedSystem& at, const VectorXd& shape, double l
     x -= change.head(x.size());
     root -= change[x.size()];
   }
-  return slope(root);
+  return derivative(root);
 }
 
 }  // namespace
 
-FrequencyComplexStep step_frequencies(const ManipulatorDesign& design, const Pose& pose,
+FrequencyComplexStep differentiate_by_complex_step(const ManipulatorDesign& design, const Pose& pose,
                                       const std::vector<DesignParameter>& parameters, Index count) {
   const System system = assemble(build_manipulator(design, pose));
   const bool stretch = std::all_of(system.model.members.begin(), system.model.members.end(),
@@ -144,7 +144,7 @@ FrequencyComplexStep step_frequencies(const ManipulatorDesign& design, const Pos
       if (modes.frequency[n] == 0) continue;
       const double omega = 2 * std::numbers::pi * modes.frequency[n];
       result.derivative(n, p) =
-          eigenvalue_slope(at, modes.shape.col(n), omega * omega, result.counters) /
+          eigenvalue_derivative(at, modes.shape.col(n), omega * omega, result.counters) /
           (4 * std::numbers::pi * omega);
     }
   }

@@ -18,7 +18,7 @@ struct FrequencyComplexStep {
 /// near the real one by Newton's method in complex arithmetic: d lambda / dp = Im lambda / h. One
 /// factorization a mode and parameter; transposed, never conjugated, so that all stays analytic.
 /// @throws ModelError  as `build_manipulator`, and for inextensible links, whose constraints move.
-[[nodiscard]] FrequencyComplexStep step_frequencies(const ManipulatorDesign& design,
+[[nodiscard]] FrequencyComplexStep differentiate_by_complex_step(const ManipulatorDesign& design,
                                                     const Pose& pose,
                                                     const std::vector<DesignParameter>& parameters,
                                                     Index count);

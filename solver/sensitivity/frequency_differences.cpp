@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
 /// Modes beyond those asked for, so that a set of equal frequencies is whole.
-constexpr Index kBeyond = 3;
+constexpr Index kExtraModes = 3;
 /// Share of the way to the nearest other frequency that a step may take.
 constexpr double kShareOfGap = 0.1;
 
@@ -31,11 +31,11 @@ class Differences {
     return result_;
   }
 
-  FrequencyDifferences once(double relative_step, bool both) {
+  FrequencyDifferences single_quotient(double relative_step, bool is_central) {
     const VectorXd all = begin();
     if (!result_.outcome.solved()) return result_;
     result_.step = relative_step * parameter_value(design_, parameter_);
-    if (both) {
+    if (is_central) {
       result_.derivative = central(result_.step);
     } else {
       const VectorXd above = frequencies(result_.step);
@@ -52,22 +52,22 @@ class Differences {
     result_.frequency = all.head(std::min(count_, all.size()));
     count_ = result_.frequency.size();
     result_.derivative = VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
-    result_.doubt = VectorXd::Constant(count_, std::numeric_limits<double>::infinity());
+    result_.error_estimate = VectorXd::Constant(count_, std::numeric_limits<double>::infinity());
     if (result_.outcome.solved()) sets_ = equal_frequencies(all);
     return all;
   }
 
   VectorXd frequencies(double change) {
-    const ManipulatorDesign design = changed(design_, parameter_, change);
+    const ManipulatorDesign design = perturbed(design_, parameter_, change);
     const ModalSolution modes =
-        solve_modes(assemble(build_manipulator(design, pose_)), {.count = count_ + kBeyond});
+        solve_modes(assemble(build_manipulator(design, pose_)), {.count = count_ + kExtraModes});
     result_.counters += modes.counters;
     if (!modes.outcome.solved()) result_.outcome = modes.outcome;
     return modes.frequency;
   }
 
   [[nodiscard]] bool within_reach(double change) const {
-    const ManipulatorDesign design = changed(design_, parameter_, change);
+    const ManipulatorDesign design = perturbed(design_, parameter_, change);
     return inverse_kinematics(design.geometry, pose_).outcome.solved();
   }
 
@@ -115,9 +115,9 @@ class Differences {
 
   void keep(const VectorXd& next, const VectorXd& fine, const VectorXd& coarse) {
     for (Index n = 0; n < count_; ++n) {
-      const double doubt = std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
-      if (!(doubt < result_.doubt[n])) continue;
-      result_.doubt[n] = doubt;
+      const double error_estimate = std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
+      if (!(error_estimate < result_.error_estimate[n])) continue;
+      result_.error_estimate[n] = error_estimate;
       result_.derivative[n] = next[n];
     }
   }
@@ -141,7 +141,7 @@ FrequencyDifferences differentiate_frequencies(const ManipulatorDesign& design, 
 FrequencyDifferences difference_quotient(const ManipulatorDesign& design, const Pose& pose,
                                          const DesignParameter& parameter, Index count,
                                          double relative_step, bool central) {
-  return Differences(design, pose, parameter, count).once(relative_step, central);
+  return Differences(design, pose, parameter, count).single_quotient(relative_step, central);
 }
 
 }  // namespace trammel

@@ -10,7 +10,7 @@ struct FrequencyDifferences {
   Outcome outcome;             ///< as the modes of the design and of the changed ones
   Eigen::VectorXd frequency;   ///< ascending [Hz]
   Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
-  Eigen::VectorXd doubt;       ///< what the extrapolation itself says of its error [Hz / unit]
+  Eigen::VectorXd error_estimate;       ///< what the extrapolation itself says of its error [Hz / unit]
   double step = 0;             ///< the largest [unit]
   Counters counters;
 };
@@ -28,7 +28,7 @@ struct FrequencyDifferences {
                                                              double relative_step = 5e-3);
 
 /// One difference quotient, as it is: central over 2 h or forward over h.
-/// @param relative_step  h over the value of the parameter, > 0; `doubt` stays infinite
+/// @param relative_step  h over the value of the parameter, > 0; `error_estimate` stays infinite
 /// @throws ModelError  as `build_manipulator`, so also where the step leads out of reach.
 [[nodiscard]] FrequencyDifferences difference_quotient(const ManipulatorDesign& design,
                                                        const Pose& pose,

@@ -67,7 +67,7 @@ template <Real T>
 
 template <Real T>
 void seed(T* x) {
-  if (x != nullptr) *x = with_slope<T>(value(*x), 1);
+  if (x != nullptr) *x = with_derivative<T>(value(*x), 1);
 }
 
 }  // namespace detail
@@ -96,13 +96,13 @@ class SeededDesign {
       LinkDesignOf<T> distal = detail::lifted<T>(design.distal[i]);
       if (parameter.proximal[i]) detail::seed(detail::link_number(proximal, parameter.quantity));
       if (parameter.distal[i]) detail::seed(detail::link_number(distal, parameter.quantity));
-      const T a = with_slope<T>(g.proximal[i], length && parameter.proximal[i] ? 1 : 0);
-      const T b = with_slope<T>(g.distal[i], length && parameter.distal[i] ? 1 : 0);
+      const T a = with_derivative<T>(g.proximal[i], length && parameter.proximal[i] ? 1 : 0);
+      const T b = with_derivative<T>(g.distal[i], length && parameter.distal[i] ? 1 : 0);
       const Eigen::Vector2<T> A = g.base[i].cast<T>();
       const Eigen::Vector2<T> C = posture.C[i].cast<T>();
       // Of a straight limb the angles change infinitely fast, but only with its own lengths.
       const Eigen::Vector2<T> B =
-          slope(a) == 0 && slope(b) == 0
+          derivative(a) == 0 && derivative(b) == 0
               ? Eigen::Vector2<T>(posture.B[i].cast<T>())
               : elbow_position(g.base[i], posture.C[i], a, b, g.working_mode[i]);
       links_[2 * i] = make(proximal, a, A, B);
@@ -118,12 +118,12 @@ class SeededDesign {
   /// The triangles' stiffness is in proportion to E t and their mass to the total: d ln / dp.
   [[nodiscard]] double stiffness_rate() const {
     const T product = platform_.material.E * platform_.thickness;
-    return slope(product) == 0 ? 0 : slope(product) / value(product);
+    return derivative(product) == 0 ? 0 : derivative(product) / value(product);
   }
   [[nodiscard]] double mass_rate() const {
-    return slope(platform_mass_.mass) == 0
+    return derivative(platform_mass_.mass) == 0
                ? 0
-               : slope(platform_mass_.mass) / value(platform_mass_.mass);
+               : derivative(platform_mass_.mass) / value(platform_mass_.mass);
   }
 
  private:

@@ -101,7 +101,7 @@ class SetDerivative {
         Dual inertia(0);
         for (Index n = 0; n < 3; ++n) strain += d(n, i) * s[n];
         for (Index n = 0; n < 6; ++n) inertia += v(n, i) * f[n];
-        sum(i, j) += slope(strain) - omega_squared_ * slope(inertia);
+        sum(i, j) += derivative(strain) - omega_squared_ * derivative(inertia);
       }
     }
   }
@@ -113,7 +113,7 @@ class SetDerivative {
       if (row.source != ConstraintRow::Source::inextensible) continue;
       const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(row.index)];
       const SeededLink<Dual>& link = design.link(e.member);
-      const Vector2d turn(slope(link.direction.x()), slope(link.direction.y()));
+      const Vector2d turn(derivative(link.direction.x()), derivative(link.direction.y()));
       const Eigen::Matrix<double, 6, Eigen::Dynamic> u = gather(e.coordinates);
       const Eigen::RowVectorXd gap = turn.transpose() * (u.middleRows<2>(3) - u.topRows<2>());
       const Eigen::RowVectorXd mu = multipliers_.row(static_cast<Index>(r));
@@ -129,14 +129,14 @@ class SetDerivative {
       const Eigen::Matrix3<Dual> m =
           point_inertia(design.mass().mass, design.mass().inertia, lump.offset);
       Eigen::Matrix3d dm;
-      for (Index i = 0; i < 9; ++i) dm(i) = slope(m(i));
+      for (Index i = 0; i < 9; ++i) dm(i) = derivative(m(i));
       const auto u = gather(system_.coordinates.node[static_cast<std::size_t>(lump.node)]);
       sum -= omega_squared_ * (u.transpose() * dm * u);
     }
     for (const Triangle& triangle : system_.model.triangles) {
       const TrianglePoints points = corners(system_.model, triangle);
       const Plate& plate = system_.model.plates[static_cast<std::size_t>(triangle.plate)];
-      const auto u = gather(system_.coordinates.of<6>(triangle));
+      const auto u = gather(system_.coordinates.of_triangle<6>(triangle));
       // From the strains, which stay small beside the rigid motion of a stiff plate.
       const double volume = plate.thickness * std::abs(signed_area(points));
       const Eigen::Vector3d c = membrane_rigidity(plate.material, volume);
@@ -155,9 +155,9 @@ class SetDerivative {
 
 /// Modes enough that the last set wanted is whole.
 ModalSolution whole_sets(const System& system, Index count) {
-  constexpr Index kBeyond = 3;
+  constexpr Index kExtraModes = 3;
   const Index all = system.K.rows();
-  Index wanted = std::min(all, count + kBeyond);
+  Index wanted = std::min(all, count + kExtraModes);
   for (;;) {
     ModalSolution modes = solve_modes(system, {.count = wanted});
     if (!modes.outcome.solved() || wanted == all || modes.frequency.size() <= count) return modes;
@@ -196,7 +196,7 @@ const char* unit(Quantity quantity) {
   return "m";
 }
 
-ManipulatorDesign changed(const ManipulatorDesign& design, const DesignParameter& parameter,
+ManipulatorDesign perturbed(const ManipulatorDesign& design, const DesignParameter& parameter,
                           double change) {
   ManipulatorDesign result = design;
   for_each_number(result, parameter, [change](double& x) { x += change; });

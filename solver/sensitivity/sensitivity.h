@@ -27,7 +27,7 @@ struct DesignParameter {
 [[nodiscard]] const char* unit(DesignParameter::Quantity quantity);
 
 /// The design with the parameter increased by `change` [unit of the parameter].
-[[nodiscard]] ManipulatorDesign changed(const ManipulatorDesign& design,
+[[nodiscard]] ManipulatorDesign perturbed(const ManipulatorDesign& design,
                                         const DesignParameter& parameter, double change);
 
 /// The parameter's value [its unit]: the largest of the numbers that it names.

@@ -14,14 +14,14 @@ namespace trammel {
 namespace {
 
 /// Positions of P that the limb reaches: between two circles about one centre.
-struct Ring {
+struct Annulus {
   Vector2d center;
   double inner = 0, outer = 0;
 };
 
-std::array<Ring, 3> rings(const ManipulatorGeometry& g, double phi) {
+std::array<Annulus, 3> reach_annuli(const ManipulatorGeometry& g, double phi) {
   const Eigen::Rotation2Dd turn(phi);
-  std::array<Ring, 3> all;
+  std::array<Annulus, 3> all;
   for (std::size_t i = 0; i < 3; ++i) {
     all[i] = {g.base[i] - turn * g.platform[i], std::abs(g.proximal[i] - g.distal[i]),
               g.proximal[i] + g.distal[i]};
@@ -29,7 +29,7 @@ std::array<Ring, 3> rings(const ManipulatorGeometry& g, double phi) {
   return all;
 }
 
-bool reached_by_others(const std::array<Ring, 3>& all, std::size_t own, const Vector2d& P) {
+bool reached_by_others(const std::array<Annulus, 3>& all, std::size_t own, const Vector2d& P) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (i == own) continue;
     const double r = (P - all[i].center).norm();
@@ -38,7 +38,7 @@ bool reached_by_others(const std::array<Ring, 3>& all, std::size_t own, const Ve
   return true;
 }
 
-void add_arcs(const std::array<Ring, 3>& all, std::size_t own, double radius, Index points,
+void add_arcs(const std::array<Annulus, 3>& all, std::size_t own, double radius, Index points,
               std::vector<Polyline>& arcs) {
   if (radius == 0) return;
   Polyline arc;
@@ -83,10 +83,10 @@ std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi
 
 }  // namespace
 
-std::vector<Polyline> reach_boundary(const ManipulatorGeometry& geometry, double phi,
+std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry, double phi,
                                      Index points) {
   check_geometry(geometry);
-  const std::array<Ring, 3> all = rings(geometry, phi);
+  const std::array<Annulus, 3> all = reach_annuli(geometry, phi);
   std::vector<Polyline> arcs;
   for (std::size_t i = 0; i < 3; ++i) {
     add_arcs(all, i, all[i].outer, points, arcs);

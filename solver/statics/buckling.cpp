@@ -33,7 +33,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   factorization.compute(shifted(system.K, softening, 0));
   ++solution.counters.factorizations;
   const Eigen::MatrixXd no_null(system.K.rows(), 0);
-  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.path,
+  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.method,
                                              factorization, solution.counters);
   solution.outcome = pairs.outcome;
   solution.load_factor = pairs.value;

@@ -10,7 +10,7 @@ namespace trammel {
 
 struct BucklingOptions {
   Index count = 3;
-  EigenPath path = EigenPath::automatic;
+  EigenMethod method = EigenMethod::automatic;
 };
 
 /// Linear buckling K x = -factor K_G x under all loads of the model growing together, K_G from the

@@ -48,9 +48,9 @@ Vector2d element_axes(const FrameElement& e, const Vector2d& world) {
   return {e.direction.dot(world), cross(e.direction, world)};
 }
 
-class Recovery {
+class Postprocessor {
  public:
-  Recovery(const System& system, const ElasticState& state, StaticSolution& solution)
+  Postprocessor(const System& system, const ElasticState& state, StaticSolution& solution)
       : system_(system),
         model_(system.model),
         state_(state),
@@ -142,7 +142,7 @@ class Recovery {
     Vector6d force = frame_deformation(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
     if (state_.prestress) {
       const Prestress& state = *state_.prestress;
-      force += turning_forces(e, member.theory, state.axial[index], state.growth[index], u);
+      force += geometric_stiffness_forces(e, member.theory, state.axial[index], state.axial_variation[index], u);
     }
     if (state_.acceleration.size() > 0) {
       const Vector6d a =
@@ -177,18 +177,18 @@ class Recovery {
   /// Both ends and, under a load across, the two places where |N|/A + |M|/W can be stationary.
   double largest_stress(const FrameElement& e, double from_start, const SectionForces& f) const {
     double largest = 0;
-    const auto look = [&](double x) {
+    const auto evaluate = [&](double x) {
       if (!(x >= 0 && x <= e.length)) return;
-      largest = larger(largest, stress(e, from_start, x, f.at(x, e.length)));
+      largest = nan_max(largest, stress(e, from_start, x, f.at(x, e.length)));
     };
-    look(0);
-    look(e.length);
+    evaluate(0);
+    evaluate(e.length);
     if (f.load.y() != 0) {
       const double lever =
           e.section.area > 0 ? f.load.x() * e.section.section_modulus / e.section.area : 0;
       const double slope = f.slope(e.length);  // dM/dx = slope + q_y x
-      look((-slope - lever) / f.load.y());
-      look((-slope + lever) / f.load.y());
+      evaluate((-slope - lever) / f.load.y());
+      evaluate((-slope + lever) / f.load.y());
     }
     return largest;
   }
@@ -207,7 +207,7 @@ class Recovery {
       if (first) solution_.resultant_start.row(e.member) = forces.start;
       solution_.resultant_end.row(e.member) = forces.end;
       double& largest = solution_.member_stress[e.member];
-      largest = larger(largest, largest_stress(e, from_start, forces));
+      largest = nan_max(largest, largest_stress(e, from_start, forces));
       from_start += e.length;
     }
   }
@@ -218,10 +218,10 @@ class Recovery {
     if (triangle.quadratic()) {
       return membrane_stress(material,
                              triangle6_deformation(model_, triangle, at) *
-                                 detail::gather(system_.coordinates.of<12>(triangle), u_));
+                                 detail::gather(system_.coordinates.of_triangle<12>(triangle), u_));
     }
     return membrane_stress(material, triangle_deformation(corners(model_, triangle)) *
-                                         detail::gather(system_.coordinates.of<6>(triangle), u_));
+                                         detail::gather(system_.coordinates.of_triangle<6>(triangle), u_));
   }
 
   void triangles() {
@@ -230,7 +230,7 @@ class Recovery {
     solution_.node_stress.setZero(nodes, 3);
     VectorXd area = VectorXd::Zero(nodes);
     const double h = 0.5;
-    const std::array<Vector3d, 6> places = {Vector3d(1, 0, 0), Vector3d(0, 1, 0),
+    const std::array<Vector3d, 6> points = {Vector3d(1, 0, 0), Vector3d(0, 1, 0),
                                             Vector3d(0, 0, 1), Vector3d(h, h, 0),
                                             Vector3d(0, h, h), Vector3d(h, 0, h)};
     for (std::size_t i = 0; i < model_.triangles.size(); ++i) {
@@ -239,7 +239,7 @@ class Recovery {
       solution_.triangle_stress.row(static_cast<Index>(i)) =
           plate_stress(triangle, Vector3d::Constant(1 / 3.0));
       for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {
-        solution_.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, places[k]);
+        solution_.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, points[k]);
         area[triangle.nodes[k]] += size;
       }
     }
@@ -290,18 +290,18 @@ class Recovery {
 
 VectorXd constraint_forces(const System& system, const ElasticState& state) {
   VectorXd force = internal_forces(system, state.u) - state.load_factor * system.load;
-  if (state.prestress) force += turning_forces(system, *state.prestress, state.u);
+  if (state.prestress) force += geometric_stiffness_forces(system, *state.prestress, state.u);
   return system.constraints.multipliers(force);
 }
 
 Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants(const System& system,
                                                             const ElasticState& state) {
   StaticSolution unused;
-  return Recovery(system, state, unused).element_resultants();
+  return Postprocessor(system, state, unused).element_resultants();
 }
 
-void recover(const System& system, const ElasticState& state, StaticSolution& solution) {
-  Recovery(system, state, solution).run();
+void postprocess(const System& system, const ElasticState& state, StaticSolution& solution) {
+  Postprocessor(system, state, solution).run();
 }
 
 }  // namespace trammel

@@ -26,6 +26,6 @@ struct ElasticState {
 
 /// Fills displacements, forces, stresses and residuals. With an acceleration, section forces hold
 /// the inertia of their element; reactions and residuals do not.
-void recover(const System& system, const ElasticState& state, StaticSolution& solution);
+void postprocess(const System& system, const ElasticState& state, StaticSolution& solution);
 
 }  // namespace trammel

@@ -15,20 +15,20 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// q and digits_left of K q = f, or the outcome that keeps them from being.
+/// q and estimated_correct_digits of K q = f, or the outcome that keeps them from being.
 void solve_linear(const System& system, StaticSolution& solution) {
   Factorization factorization;
   factorization.compute(system.K);
   ++solution.counters.factorizations;
-  const FreeMotions free = find_free_motions(system, factorization, solution.counters);
+  const ZeroEnergyModes free = find_zero_energy_modes(system, factorization, solution.counters);
   if (free.count() > 0) {
-    solution.outcome = {Status::singular, describe_free_motions(system, free)};
+    solution.outcome = {Status::singular, describe_mechanism(system, free)};
     return;
   }
   const bool definite = factorization.exists() && factorization.smallest_pivot() > 0;
-  const Refined refined = definite ? refined_solve(stiffness_operator(system), factorization,
+  const RefinedSolution refined = definite ? refined_solve(stiffness_operator(system), factorization,
                                                    system.f, solution.counters)
-                                   : Refined{solution.q, 1};
+                                   : RefinedSolution{solution.q, 1};
   if (!refined.converged()) {
     solution.outcome = {Status::not_converged,
                         "the stiffness matrix is too ill-conditioned for double precision"};
@@ -36,7 +36,7 @@ void solve_linear(const System& system, StaticSolution& solution) {
   }
   solution.q = refined.x;
   const double lost = factorization.condition() * std::numeric_limits<double>::epsilon();
-  solution.digits_left = std::max(0.0, -std::log10(lost));
+  solution.estimated_correct_digits = std::max(0.0, -std::log10(lost));
 }
 
 /// Goes on from the linear solution: K + K_G of the latest forces, until they repeat.
@@ -85,7 +85,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   StaticSolution solution;
   solution.counters = system.counters;
   solution.q.setZero(system.K.rows());
-  solution.digits_left = -std::log10(std::numeric_limits<double>::epsilon());
+  solution.estimated_correct_digits = -std::log10(std::numeric_limits<double>::epsilon());
   if (solution.q.size() > 0) solve_linear(system, solution);
   ElasticState state;
   Prestress forces;
@@ -98,7 +98,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
     return solution;
   }
   state.u = system.T * solution.q;
-  recover(system, state, solution);
+  postprocess(system, state, solution);
   return solution;
 }
 

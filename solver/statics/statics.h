@@ -21,7 +21,7 @@ struct StaticsOptions {
 struct StaticSolution {
   Outcome outcome;                ///< singular: the reason names the free motion in words
   Eigen::VectorXd q;              ///< free coordinates; draw them with mesh_motion
-  double digits_left = 0;         ///< about log10(1 / (condition number * eps)), never below 0
+  double estimated_correct_digits = 0;         ///< about log10(1 / (condition number * eps)), never below 0
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation
                                   ///< where a node has none
   Eigen::MatrixX2d end_rotation;  ///< member x (first, second end) [rad]

@@ -11,9 +11,9 @@ namespace trammel {
 namespace {
 
 constexpr double kShift = 1e-12;        // of the diagonal
-constexpr double kSuspicious = 1e-9;    // pivots below it make us look
+constexpr double kSmallPivot = 1e-9;    // pivots below it make us look
 constexpr double kDeformation = 1e-25;  // of the rounding level: below it, nothing deforms
-constexpr Index kMostMotions = 48;
+constexpr Index kMaxModes = 48;
 
 Eigen::MatrixXd random_block(Index rows, Index cols) {
   std::mt19937_64 engine(20170204);
@@ -75,12 +75,12 @@ class ShiftedIteration {
 
 }  // namespace
 
-FreeMotions find_free_motions(const System& system, const Factorization& K, Counters& counters) {
+ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K, Counters& counters) {
   const Index n = system.K.rows();
-  FreeMotions motions{Eigen::MatrixXd(n, 0), true};
-  if (n == 0 || (K.exists() && K.smallest_pivot() > kSuspicious)) return motions;
+  ZeroEnergyModes modes{Eigen::MatrixXd(n, 0), true};
+  if (n == 0 || (K.exists() && K.smallest_pivot() > kSmallPivot)) return modes;
   ShiftedIteration iteration(system, counters);
-  for (Index block = std::min<Index>(4, n);; block = std::min({3 * block, n, kMostMotions})) {
+  for (Index block = std::min<Index>(4, n);; block = std::min({3 * block, n, kMaxModes})) {
     const Eigen::MatrixXd X = iteration.run(block);
     Index count = 0;
     while (count < block) {
@@ -90,9 +90,9 @@ FreeMotions find_free_motions(const System& system, const Factorization& K, Coun
       if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
       ++count;
     }
-    motions.basis = X.leftCols(count);
-    motions.all_found = count < block || block == n;
-    if (motions.all_found || block == kMostMotions) return motions;
+    modes.basis = X.leftCols(count);
+    modes.all_found = count < block || block == n;
+    if (modes.all_found || block == kMaxModes) return modes;
   }
 }
 

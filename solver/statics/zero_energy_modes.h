@@ -9,7 +9,7 @@
 namespace trammel {
 
 /// Motions of the free coordinates that deform nothing: the null space of K.
-struct FreeMotions {
+struct ZeroEnergyModes {
   Eigen::MatrixXd basis;  ///< q x count
   bool all_found = true;  ///< false: there are more than were looked for
   [[nodiscard]] Eigen::Index count() const { return basis.cols(); }
@@ -19,10 +19,10 @@ struct FreeMotions {
 /// pivot), by inverse iteration with a slight shift. Whether a motion is free is judged by the
 /// elements' deformations (u^T K u against its own rounding), not by the size of a pivot: a long
 /// slender chain is ill-conditioned, but it is not a mechanism.
-[[nodiscard]] FreeMotions find_free_motions(const System& system, const Factorization& K,
+[[nodiscard]] ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
                                             Counters& counters);
 
 /// "rotation of the platform about (0.25, 0.144) m; node B turns freely".
-[[nodiscard]] std::string describe_free_motions(const System& system, const FreeMotions& motions);
+[[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
 }  // namespace trammel

@@ -20,10 +20,10 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kTwoPi = 2 * std::numbers::pi;
 
 /// (1 + i w stiffness) K + (i w mass - w^2) M; real without Rayleigh damping.
-VectorXcd solve_rest(const System& system, const RayleighDamping& damping, double omega,
+VectorXcd solve_direct(const System& system, const RayleighDamping& damping, double omega,
                      const VectorXd& f) {
   if (damping.mass == 0 && damping.stiffness == 0) {
     Factorization factorization;
@@ -48,7 +48,7 @@ VectorXcd solve_rest(const System& system, const RayleighDamping& damping, doubl
 }  // namespace
 
 HarmonicResponse::HarmonicResponse(const System& system, const HarmonicDamping& damping)
-    : system_(system), damping_(damping), rest_(system.f), counters_(system.counters) {
+    : system_(system), damping_(damping), unsuperposed_load_(system.f), counters_(system.counters) {
   for (const double ratio : damping.modal_ratio) {
     if (!(std::isfinite(ratio) && ratio >= 0)) {
       throw ModelError("a damping ratio must be a number that is not negative");
@@ -56,7 +56,7 @@ HarmonicResponse::HarmonicResponse(const System& system, const HarmonicDamping& 
   }
   const auto count = static_cast<Index>(damping.modal_ratio.size());
   if (count == 0) return;
-  modes_ = solve_modes(system, {count, EigenPath::automatic});
+  modes_ = solve_modes(system, {count, EigenMethod::automatic});
   counters_ = modes_.counters;
   outcome_ = modes_.outcome;
   if (!outcome_.solved()) return;
@@ -65,12 +65,12 @@ HarmonicResponse::HarmonicResponse(const System& system, const HarmonicDamping& 
                      std::to_string(modes_.frequency.size()) + " modes");
   }
   participation_ = modes_.shape.transpose() * system.f;
-  rest_ -= system.M * (modes_.shape * participation_);
+  unsuperposed_load_ -= system.M * (modes_.shape * participation_);
 }
 
 VectorXcd HarmonicResponse::at(double frequency) const {
-  const double omega = kTurn * frequency;
-  VectorXcd q = solve_rest(system_, damping_.rayleigh, omega, rest_);
+  const double omega = kTwoPi * frequency;
+  VectorXcd q = solve_direct(system_, damping_.rayleigh, omega, unsuperposed_load_);
   ++counters_.factorizations;
   ++counters_.solves;
   if (q.size() == 0) return q;
@@ -79,7 +79,7 @@ VectorXcd HarmonicResponse::at(double frequency) const {
     q -= modes_.shape * (modes_.shape.transpose() * image);
   }
   for (Index j = 0; j < participation_.size(); ++j) {
-    const double wj = kTurn * modes_.frequency[j];
+    const double wj = kTwoPi * modes_.frequency[j];
     const double decay = 2 * damping_.modal_ratio[static_cast<std::size_t>(j)] * wj +
                          damping_.rayleigh.mass + damping_.rayleigh.stiffness * wj * wj;
     const Complex amplitude = participation_[j] / Complex(wj * wj - omega * omega, omega * decay);
@@ -89,7 +89,7 @@ VectorXcd HarmonicResponse::at(double frequency) const {
 }
 
 HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q, double frequency) {
-  const double omega = kTurn * frequency;
+  const double omega = kTwoPi * frequency;
   ElasticState cosine;
   cosine.u = system.T * q.real();
   cosine.acceleration = -omega * omega * cosine.u;
@@ -103,8 +103,8 @@ HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q,
   HarmonicAmplitudes result;
   result.displacement = amplitude(node_motion(system, q.real()), node_motion(system, q.imag()));
   const Eigen::Matrix<double, Eigen::Dynamic, 6> in_phase = element_resultants(system, cosine);
-  const Eigen::Matrix<double, Eigen::Dynamic, 6> behind = element_resultants(system, sine);
-  const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, behind);
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature = element_resultants(system, sine);
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
   const auto members = static_cast<Index>(system.model.members.size());
   result.resultant_start.resize(members, 3);
   result.resultant_end.resize(members, 3);
@@ -117,13 +117,13 @@ HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q,
     if (last) result.resultant_end.row(e.member) = size.row(i).tail<3>();
     double& stress = result.member_stress[e.member];
     for (const Index end : {0, 3}) {
-      const Complex N(in_phase(i, end), behind(i, end));
-      const Complex M(in_phase(i, end + 2), behind(i, end + 2));
+      const Complex N(in_phase(i, end), quadrature(i, end));
+      const Complex M(in_phase(i, end + 2), quadrature(i, end + 2));
       const Complex axial = N == 0.0 ? N : N / e.section.area;
       const Complex bending = M == 0.0 ? M : M / e.section.section_modulus;
-      const double here = std::max(std::abs(axial + bending), std::abs(axial - bending));
+      const double stress_amplitude = std::max(std::abs(axial + bending), std::abs(axial - bending));
       stress =
-          std::isfinite(here) ? std::max(stress, here) : std::numeric_limits<double>::quiet_NaN();
+          std::isfinite(stress_amplitude) ? std::max(stress, stress_amplitude) : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return result;

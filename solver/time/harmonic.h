@@ -41,7 +41,7 @@ class HarmonicResponse {
   HarmonicDamping damping_;
   ModalSolution modes_;
   Eigen::VectorXd participation_;  // Phi^T f
-  Eigen::VectorXd rest_;           // f - M Phi Phi^T f
+  Eigen::VectorXd unsuperposed_load_;           // f - M Phi Phi^T f
   Outcome outcome_;
   mutable Counters counters_;
 };

@@ -62,7 +62,7 @@ void PiecewiseLinearLoad::at(double t, VectorXd& f) const {
   f.noalias() += pattern * factor.col(k) * s;
 }
 
-void PiecewiseLinearLoad::act_on(EquationOfMotion& equation) const {
+void PiecewiseLinearLoad::apply_to(EquationOfMotion& equation) const {
   check(*this);
   if (pattern.rows() != equation.M.rows()) {
     throw ModelError("the load has the size of the equation of motion");
@@ -77,7 +77,7 @@ PiecewiseLinearLoad step_load(const VectorXd& pattern, double start) {
           .factor = (Eigen::MatrixXd(1, 2) << 0, 1).finished()};
 }
 
-ModalBasis every_mode(const SparseMatrix& M, const SparseMatrix& K) {
+ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   if (M.rows() != K.rows() || M.cols() != K.cols() || M.rows() != M.cols()) {
     throw ModelError("M and K are square and of one size");
   }

@@ -20,7 +20,7 @@ struct PiecewiseLinearLoad {
   /// The value at t; at a jump, the value after it.
   void at(double t, Eigen::VectorXd& f) const;
   /// Makes it the load of the equation, with its times as breakpoints.
-  void act_on(EquationOfMotion& equation) const;
+  void apply_to(EquationOfMotion& equation) const;
 };
 
 /// From `start` on, the load does not change.
@@ -35,7 +35,7 @@ struct ModalBasis {
 /// Every mode of finite frequency, by dense algebra of order n^3: small models only. Coordinates
 /// without mass follow statically and have no mode. M is not factored.
 /// @throws ModelError  where M and K do not have the same size.
-[[nodiscard]] ModalBasis every_mode(const SparseMatrix& M, const SparseMatrix& K);
+[[nodiscard]] ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K);
 
 /// Response at ascending times: coordinate x time.
 struct ModalResponse {

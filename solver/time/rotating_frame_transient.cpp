@@ -12,21 +12,21 @@ namespace {
 using Eigen::VectorXd;
 
 /// Motion of every point of the model that turns as a whole by 1 rad about the centre.
-VectorXd unit_turn(const System& system, const Vector2d& centre) {
-  VectorXd turn = VectorXd::Zero(system.T.rows());
+VectorXd unit_rotation(const System& system, const Vector2d& centre) {
+  VectorXd rotation = VectorXd::Zero(system.T.rows());
   for (std::size_t i = 0; i < system.coordinates.node.size(); ++i) {
     const Vector2d arm = system.mesh.positions[i] - centre;
-    turn[system.coordinates.node[i][0]] = -arm.y();
-    turn[system.coordinates.node[i][1]] = arm.x();
+    rotation[system.coordinates.node[i][0]] = -arm.y();
+    rotation[system.coordinates.node[i][1]] = arm.x();
   }
   for (std::size_t k = 0; k < system.coordinates.is_rotation.size(); ++k) {
-    if (system.coordinates.is_rotation[k]) turn[static_cast<Index>(k)] = 1;
+    if (system.coordinates.is_rotation[k]) rotation[static_cast<Index>(k)] = 1;
   }
-  return turn;
+  return rotation;
 }
 
 /// K_1, from the statics under the centrifugal forces of 1 rad/s.
-Outcome unit_stiffening(const System& system, const Spin& unit, SparseMatrix& K_1) {
+Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseMatrix& K_1) {
   const VectorXd force = centrifugal_forces(system, unit, VectorXd::Zero(system.T.rows()));
   const VectorXd on_q = system.T.transpose() * force;
   Factorization factorization;
@@ -43,45 +43,45 @@ Outcome unit_stiffening(const System& system, const Spin& unit, SparseMatrix& K_
 
 }  // namespace
 
-Outcome turn_axes(const System& system, const TurningAxes& axes, EquationOfMotion& equation) {
+Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation& rotation, EquationOfMotion& equation) {
   if (!system.load.isZero(0)) {
     throw ModelError("expected a model without loads: they would not turn with the axes");
   }
-  const Spin unit{1, axes.centre, SpinAxis::normal};
+  const RotatingFrame unit{1, rotation.centre, RotationAxis::normal};
   SparseMatrix K_1(system.K.rows(), system.K.cols());
-  if (axes.stiffening) {
+  if (rotation.stiffening) {
     const Outcome statics = unit_stiffening(system, unit, K_1);
     if (!statics.solved()) return statics;
   }
-  const SparseMatrix G = coriolis_matrix(system);
-  const SparseMatrix added = K_1 - spin_softening(system);
+  const SparseMatrix G = gyroscopic_matrix(system);
+  const SparseMatrix added = K_1 - centrifugal_softening(system);
   SparseMatrix C = equation.C;
   if (C.size() == 0) C.resize(system.K.rows(), system.K.cols());
   // One pattern for all: a sum keeps every place of its terms, zeros too.
   SparseMatrix zero = system.M + system.K + C + G + added;
   zero.coeffs().setZero();
   const auto values = [&zero](const SparseMatrix& A) {
-    const SparseMatrix whole = A + zero;
-    return whole.coeffs().eval();
+    const SparseMatrix sum = A + zero;
+    return sum.coeffs().eval();
   };
   const Eigen::ArrayXd c = values(C), k = values(system.K), g = values(G), s = values(added);
   equation.M = system.M + zero;
   equation.C = C + zero;
   equation.K = system.K + zero;
-  equation.update = [speed = axes.speed, c, k, g, s](double time, SparseMatrix&,
+  equation.update = [speed = rotation.speed, c, k, g, s](double time, SparseMatrix&,
                                                      SparseMatrix& damping,
                                                      SparseMatrix& stiffness) {
     const auto [W, W_dot] = speed(time);
     damping.coeffs() = c + 2 * W * g;
     stiffness.coeffs() = k + W * W * s + W_dot * g;
   };
-  const VectorXd pull =
+  const VectorXd centrifugal =
       system.T.transpose() * centrifugal_forces(system, unit, VectorXd::Zero(system.T.rows()));
-  const VectorXd lag =
-      -(system.T.transpose() * inertia_forces(system, unit_turn(system, axes.centre)));
-  equation.load = [speed = axes.speed, pull, lag](double time, VectorXd& f) {
+  const VectorXd euler =
+      -(system.T.transpose() * inertia_forces(system, unit_rotation(system, rotation.centre)));
+  equation.load = [speed = rotation.speed, centrifugal, euler](double time, VectorXd& f) {
     const auto [W, W_dot] = speed(time);
-    f = W * W * pull + W_dot * lag;
+    f = W * W * centrifugal + W_dot * euler;
   };
   return {};
 }

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 /// is round-off of its largest products.
 constexpr double kResidual = 1e-10;
 /// Motions so small have no digits: what numerical damping leaves of a vibration ends in them.
-constexpr double kNothing =
+constexpr double kUnderflow =
     std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 constexpr int kMaxRefinements = 40;
 /// Below this ratio of pivot to diagonal a mass matrix counts as singular.
@@ -143,7 +143,7 @@ class Integrator {
       const std::vector<double> ends = segment_ends(equation_, options_);
       double begin = options_.start;
       for (const double end : ends) {
-        if (!cross(begin, end)) break;
+        if (!integrate_segment(begin, end)) break;
         begin = end;
       }
     }
@@ -158,11 +158,11 @@ class Integrator {
     return false;
   }
 
-  [[nodiscard]] std::string where(double h) const {
-    std::ostringstream words;
-    words << "step " << summary_.accepted + 1 << " to t = " << now_.time + h << " s (h = " << h
+  [[nodiscard]] std::string describe_step(double h) const {
+    std::ostringstream message;
+    message << "step " << summary_.accepted + 1 << " to t = " << now_.time + h << " s (h = " << h
           << " s)";
-    return words.str();
+    return message.str();
   }
 
   void load(double time, VectorXd& f) const {
@@ -263,11 +263,11 @@ class Integrator {
     }
     const double phase = std::sqrt(squared) * options_.step;
     if (phase <= limit) return true;
-    std::ostringstream words;
-    words << "the step h = " << options_.step
+    std::ostringstream message;
+    message << "the step h = " << options_.step
           << " s is unstable: the fastest motion has w h = " << phase << ", the scheme bears "
           << limit << "; take h below " << options_.step * limit / phase << " s";
-    return fail(Status::not_converged, words.str());
+    return fail(Status::not_converged, message.str());
   }
 
   // ---- segments and steps ----------------------------------------------------------------------
@@ -291,7 +291,7 @@ class Integrator {
     if (mass_is_singular_) {
       start_factor_ = step_factor(h, level);
       if (!start_factor_)
-        return fail(Status::singular, "M + C h + K h^2 is singular at " + where(h));
+        return fail(Status::singular, "M + C h + K h^2 is singular at " + describe_step(h));
     }
     start_factor_->solve(residual_, now_.acceleration);
     ++summary_.counters.solves;
@@ -303,7 +303,7 @@ class Integrator {
   /// What the load of the segment can move: the size of the motion, before there is any, to which
   /// the error is compared. x = M^-1 f moves as an oscillator with its own Rayleigh quotient, a
   /// free body as far as the time lasts.
-  void size_by_load(double begin, double end) {
+  void estimate_size_from_load(double begin, double end) {
     constexpr int kPoints = 8;
     const double time = options_.end - options_.start;
     for (int i = 0; i <= kPoints; ++i) {
@@ -321,36 +321,36 @@ class Integrator {
     }
   }
 
-  bool cross(double begin, double end) {
+  bool integrate_segment(double begin, double end) {
     const double span = end - begin;
-    const double whole = std::max(1.0, std::ceil(span / options_.step * (1 - 1e-9)));
-    if (whole > 1e12) return fail(Status::not_converged, "more than 1e12 steps");
-    if (factors_step_ == 0 || std::abs(span / whole - factors_step_) > 1e-12 * factors_step_) {
+    const double step_count = std::max(1.0, std::ceil(span / options_.step * (1 - 1e-9)));
+    if (step_count > 1e12) return fail(Status::not_converged, "more than 1e12 steps");
+    if (factors_step_ == 0 || std::abs(span / step_count - factors_step_) > 1e-12 * factors_step_) {
       factors_.clear();
-      factors_step_ = span / whole;
+      factors_step_ = span / step_count;
     }
-    auto count = static_cast<std::int64_t>(whole);  // of steps of the present level
+    auto count = static_cast<std::int64_t>(step_count);  // of steps of the present level
     std::int64_t done = 0;
     int level = options_.adaptive ? std::min(level_, options_.adaptive->finest_level) : 0;
     count <<= level;
     if (!begin_segment(std::ldexp(factors_step_, -level), level)) return false;
     if (!begun_) observe_start();
-    if (options_.adaptive) size_by_load(begin, end);
+    if (options_.adaptive) estimate_size_from_load(begin, end);
     while (done < count) {
       const double h = std::ldexp(factors_step_, -level);
       const bool last = done + 1 == count;
       const double time = last ? end : begin + static_cast<double>(done + 1) * h;
       // The left limit at a jump; see EquationOfMotion::load.
       const double load_time = last ? std::nextafter(end, begin) : time;
-      if (!attempt(h, level, time, load_time)) return false;
+      if (!try_step(h, level, time, load_time)) return false;
       const double ratio = error_ratio(h);
       if (ratio > 1) {
         ++summary_.rejected;
         if (++level > options_.adaptive->finest_level) {
-          std::ostringstream words;
-          words << where(h) << ": the estimated error is " << ratio
+          std::ostringstream message;
+          message << describe_step(h) << ": the estimated error is " << ratio
                 << " times what is allowed, and the step is the smallest";
-          return fail(Status::not_converged, words.str());
+          return fail(Status::not_converged, message.str());
         }
         count *= 2;
         done *= 2;
@@ -395,7 +395,7 @@ class Integrator {
 
   /// One step from now_ to next_: predictors with A_1 = 0, then corrections until the equation of
   /// motion holds at the end of the step. Symmetric matrices need one.
-  bool attempt(double h, int level, double time, double load_time) {
+  bool try_step(double h, int level, double time, double load_time) {
     const TimeScheme& s = scheme_;
     if (now_.a_step != h) {  // a lies alpha_m - alpha_f steps off the time of A
       now_.a = now_.acceleration + (h / now_.a_step) * (now_.a - now_.acceleration);
@@ -404,7 +404,7 @@ class Integrator {
     update_matrices(time);
     load(load_time, next_.f);
     SparseFactor* factor = step_factor(h, level);
-    if (!factor) return fail(Status::singular, "M + C h + K h^2 is singular at " + where(h));
+    if (!factor) return fail(Status::singular, "M + C h + K h^2 is singular at " + describe_step(h));
     next_.acceleration.setZero();
     next_.a = (s.alpha_f * now_.acceleration - s.alpha_m * now_.a) / (1 - s.alpha_m);
     next_.q = now_.q + h * now_.v + h * h * ((0.5 - s.beta) * now_.a + s.beta * next_.a);
@@ -430,9 +430,9 @@ class Integrator {
       summary_.largest_residual = std::max(summary_.largest_residual, share);
       return true;
     }
-    std::ostringstream words;
-    words << where(h) << ": the residual is " << share << " of the terms of the equation";
-    return fail(Status::not_converged, words.str());
+    std::ostringstream message;
+    message << describe_step(h) << ": the residual is " << share << " of the terms of the equation";
+    return fail(Status::not_converged, message.str());
   }
 
   /// residual_ = f - M A - C v - K q of next_; its largest entry, what is allowed, and the share of
@@ -447,7 +447,7 @@ class Integrator {
         infinity_norm(MA_) + infinity_norm(next_.Cv) + infinity_norm(Kq_) + infinity_norm(next_.f);
     const double products = norm_M_ * infinity_norm(next_.acceleration) +
                             norm_C_ * infinity_norm(next_.v) + norm_K_ * infinity_norm(next_.q);
-    allowed = kResidual * terms + 16 * kEps * products + kNothing * (norm_M_ + norm_C_ + norm_K_);
+    allowed = kResidual * terms + 16 * kEps * products + kUnderflow * (norm_M_ + norm_C_ + norm_K_);
     share = terms > 0 ? left / terms : left;
     return left;
   }

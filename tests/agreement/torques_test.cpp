@@ -44,8 +44,8 @@ derive::LinkBody body(const RigidLink& link) {
   return {link.mass, link.center, link.inertia};
 }
 
-derive::PlaneManipulator bodies(const RigidManipulator& m) {
-  derive::PlaneManipulator result;
+derive::PlanarManipulator bodies(const RigidManipulator& m) {
+  derive::PlanarManipulator result;
   for (std::size_t i = 0; i < 3; ++i) {
     derive::LimbBodies& limb = result.limbs[i];
     limb.base = {m.geometry.base[i].x(), m.geometry.base[i].y()};
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(ten_thousand_random_states_have_the_torques_of_newton_and_e
   double worst = 0, symmetry = 0, skewness = 0, least = 1;
   std::mt19937_64 engine(2017);
   for (const RigidManipulator& m : {table_1(), uneven()}) {
-    const derive::PlaneManipulator independent = bodies(m);
+    const derive::PlanarManipulator independent = bodies(m);
     for (int trial = 0; trial < 5000; ++trial) {
       const RandomState state(engine);
       const InverseDynamics found = inverse_dynamics(m, state.motion, state.wrench);
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(ten_thousand_random_states_have_the_torques_of_newton_and_e
       const PropertyResiduals residuals = property_residuals(m, terms);
       symmetry = std::max(symmetry, residuals.symmetry);
       skewness = std::max(skewness, residuals.skewness);
-      least = std::min(least, residuals.least_eigenvalue / terms.Mh.norm());
+      least = std::min(least, residuals.min_eigenvalue / terms.Mh.norm());
     }
   }
   std::cout << "worst over 10000 random states: torques off by " << worst
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(a_wrong_inertia_in_one_link_is_seen) {
   std::mt19937_64 engine(1);
   const RandomState state(engine);
   RigidManipulator m = uneven();
-  const derive::PlaneManipulator independent = bodies(m);
+  const derive::PlanarManipulator independent = bodies(m);
   m.distal[1].inertia *= 1 + 1e-6;
   const Vector3d torque = inverse_dynamics(m, state.motion, state.wrench).torque;
   const auto expected = derive::newton_euler_torques(

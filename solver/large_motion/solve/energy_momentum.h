@@ -25,16 +25,16 @@ class EnergyMomentum final : public Stepper {
  private:
   [[nodiscard]] StepReport newton(double h, bool exact);
   [[nodiscard]] bool factor(double h, bool exact);
-  void residuals(double h);
+  void compute_residuals(double h);
   void set_end_multipliers(double h);
 
   const ConservativeSystem& system_;
   KktMatrix matrix_;
-  State from_, to_, middle_;
-  VectorXd mean_, last_mean_;  ///< multipliers of this step and the last
+  State from_, to_, midpoint_;
+  VectorXd mean_lambda_, previous_mean_lambda_;  ///< multipliers of this step and the last
   double factored_step_ = 0, last_step_ = 0;
   bool first_ = true;
-  VectorXd gap_, rate_, gap_before_, step_, change_;
+  VectorXd constraint_residual_, constraint_rate_, previous_constraint_residual_, step_, change_;
 };
 
 }  // namespace trammel::large

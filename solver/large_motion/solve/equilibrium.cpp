@@ -7,65 +7,65 @@
 
 namespace trammel::large {
 
-void advance(State& state, const VectorXd& step, double factor) {
+void apply_correction(State& state, const VectorXd& step, double factor) {
   state.q += factor * step.head(state.q.size());
   state.lambda += factor * step.tail(state.lambda.size());
 }
 
-Equilibrium::Equilibrium(const LargeSystem& system, const NewtonOptions& options)
+Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOptions& options)
     : system_(system),
       options_(options),
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
-      gap_(VectorXd::Zero(system.constraints())),
-      rate_(VectorXd::Zero(system.constraints())),
+      constraint_residual_(VectorXd::Zero(system.constraints())),
+      constraint_rate_(VectorXd::Zero(system.constraints())),
       step_(VectorXd::Zero(system.coordinates() + system.constraints())) {}
 
-double Equilibrium::size(const Eigen::Ref<const VectorXd>& dq) const {
+double Equilibrium::weighted_rms_norm(const Eigen::Ref<const VectorXd>& dq) const {
   if (dq.size() == 0) return 0;
   return dq.cwiseQuotient(system_.scale()).norm() / std::sqrt(static_cast<double>(dq.size()));
 }
 
-bool Equilibrium::settled(const std::vector<double>& correction, double whole) const {
+bool Equilibrium::converged(const std::vector<double>& correction, double displacement) const {
   const std::size_t count = correction.size();
   const double last = correction[count - 1];
   // What is left after a correction is its square, so 1e-15 of the model's size is no loss however
   // small the displacement.
-  if (last <= options_.tolerance * whole + 1e-15) return true;
-  return count > 1 && last < 1e-8 * whole && last > 0.3 * correction[count - 2];
+  if (last <= options_.tolerance * displacement + 1e-15) return true;
+  return count > 1 && last < 1e-8 * displacement && last > 0.3 * correction[count - 2];
 }
 
 bool Equilibrium::factor(const State& state) {
   matrix_.clear();
-  system_.tangent(state, Weights{}, matrix_);
+  system_.tangent(state, TangentCoefficients{}, matrix_);
   return matrix_.factor(system_.symmetric());
 }
 
 void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& history) {
   const Index n = system_.coordinates(), m = system_.constraints();
   step.resize(n + m);
-  system_.balance(state, step.head(n));
-  system_.gaps(state, gap_, rate_);
-  step.tail(m) = gap_ - system_.compliance().cwiseProduct(state.lambda);
-  history.residual.push_back(n > 0 ? step.head(n).cwiseProduct(system_.scale()).norm() : 0.0);
-  history.gap.push_back(step.tail(m).norm());
+  system_.force_residual(state, step.head(n));
+  system_.constraint_residual(state, constraint_residual_, constraint_rate_);
+  step.tail(m) = constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+  history.force_residual.push_back(n > 0 ? step.head(n).cwiseProduct(system_.scale()).norm() : 0.0);
+  history.constraint_residual.push_back(step.tail(m).norm());
   step = -step;
   matrix_.solve(step);
-  history.correction.push_back(size(step.head(n)));
+  history.correction.push_back(weighted_rms_norm(step.head(n)));
 }
 
 void Equilibrium::load_direction(const State& state, VectorXd& direction) {
   const Index n = system_.coordinates(), m = system_.constraints();
   direction.resize(n + m);
-  system_.load_rate(state, direction.head(n));
-  State still = state;
-  still.v.setZero(n);
-  system_.gaps(still, gap_, rate_);
-  direction.tail(m) = rate_;
+  system_.load_derivative(state, direction.head(n));
+  State at_rest = state;
+  at_rest.v.setZero(n);
+  system_.constraint_residual(at_rest, constraint_residual_, constraint_rate_);
+  direction.tail(m) = constraint_rate_;
   direction = -direction;
   matrix_.solve(direction);
 }
 
-double Equilibrium::softest(VectorXd& shape) {
+double Equilibrium::smallest_eigenpair(VectorXd& shape) {
   const Index n = system_.coordinates(), m = system_.constraints();
   if (n == 0) return 0;
   // A start without symmetry, so that no shape is missed.
@@ -80,9 +80,9 @@ double Equilibrium::softest(VectorXd& shape) {
     x.tail(m).setZero();
     matrix_.solve(x);
     const double next = 1 / x.head(n).cwiseQuotient(system_.scale()).norm();
-    const bool settled = std::abs(next - eigenvalue) < 1e-10 * next;
+    const bool converged = std::abs(next - eigenvalue) < 1e-10 * next;
     eigenvalue = next;
-    if (settled) break;
+    if (converged) break;
   }
   shape = x.head(n) * eigenvalue;
   return eigenvalue;
@@ -93,39 +93,39 @@ NewtonResult Equilibrium::solve(State& state, double load) {
   const State before = state;
   const Index n = system_.coordinates();
   state.t = state.load = state.gravity = load;
-  const auto fail = [&](Status status, std::string words) {
+  const auto fail = [&](Status status, std::string message) {
     state = before;
-    result.outcome = {status, std::move(words)};
+    result.outcome = {status, std::move(message)};
     return result;
   };
-  for (int i = 0; i < options_.iterations; ++i) {
+  for (int i = 0; i < options_.max_iterations; ++i) {
     if (!factor(state)) return fail(Status::singular, "the tangent is singular");
     correction(state, step_, result);
     if (!step_.allFinite()) return fail(Status::singular, "the tangent is singular");
-    advance(state, step_);
-    const double last = result.correction.back(), whole = size(state.q.head(n));
-    if (settled(result.correction, whole)) return result;
-    if (last > 1e6 * (1 + whole)) break;
+    apply_correction(state, step_);
+    const double last = result.correction.back(), displacement = weighted_rms_norm(state.q.head(n));
+    if (converged(result.correction, displacement)) return result;
+    if (last > 1e6 * (1 + displacement)) break;
   }
-  std::ostringstream words;
-  words << "Newton's method did not converge at load factor " << load << " in "
+  std::ostringstream message;
+  message << "Newton's method did not converge at load factor " << load << " in "
         << result.correction.size() << " iterations; last correction " << result.correction.back()
-        << ", residual " << result.residual.back() << " N m";
-  return fail(Status::not_converged, words.str());
+        << ", residual " << result.force_residual.back() << " N m";
+  return fail(Status::not_converged, message.str());
 }
 
-std::string describe_motion(const LargeSystem& system, const VectorXd& shape) {
+std::string describe_motion(const GeometricallyExactSystem& system, const VectorXd& shape) {
   const Layout& layout = system.layout();
   static constexpr std::array<const char*, 3> names = {"motion along x", "motion along y",
                                                        "rotation"};
   double largest = -1;
-  std::string words = "a motion inside a member";
+  std::string description = "a motion inside a member";
   const auto consider = [&](Index k, const std::string& what) {
     if (k < 0 || k >= layout.free) return;
     const double amount = std::abs(shape[k]) / system.scale()[k];
     if (amount <= largest * (1 + 1e-9)) return;
     largest = amount;
-    words = what;
+    description = what;
   };
   for (std::size_t i = 0; i < layout.node.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -138,7 +138,7 @@ std::string describe_motion(const LargeSystem& system, const VectorXd& shape) {
       consider(k, "rotation of an end of member " + system.model().members[i].name);
     }
   }
-  return words;
+  return description;
 }
 
 }  // namespace trammel::large

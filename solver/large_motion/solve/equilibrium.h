@@ -9,7 +9,7 @@
 namespace trammel::large {
 
 struct NewtonOptions {
-  int iterations = 30;
+  int max_iterations = 30;
   double tolerance = 1e-13;  ///< last correction over the displacement [-]
 };
 
@@ -17,14 +17,14 @@ struct NewtonOptions {
 struct NewtonResult {
   Outcome outcome;
   std::vector<double> correction;  ///< size of the correction: translations over the model's size
-  std::vector<double> residual;    ///< of equilibrium, forces times the model's size [N m]
-  std::vector<double> gap;         ///< of the constraints and of the beams' stretch and shear [m]
+  std::vector<double> force_residual;    ///< of equilibrium, forces times the model's size [N m]
+  std::vector<double> constraint_residual;         ///< of the constraints and of the beams' stretch and shear [m]
 };
 
 /// Static equilibrium by Newton's method with exact tangents. Its memory is reused by every solve.
 class Equilibrium {
  public:
-  explicit Equilibrium(const LargeSystem& system, const NewtonOptions& options = {});
+  explicit Equilibrium(const GeometricallyExactSystem& system, const NewtonOptions& options = {});
 
   /// Solves at `load` (also the time of drives) from the state given; on failure the state is what
   /// it was.
@@ -38,26 +38,26 @@ class Equilibrium {
   void correction(const State& state, VectorXd& step, NewtonResult& history);
   /// Smallest eigenvalue (absolute) of the tangent over the squared scale, and its shape (by
   /// inverse iteration with the tangent factored last) [N m].
-  double softest(VectorXd& shape);
+  double smallest_eigenpair(VectorXd& shape);
 
   /// True where the corrections so far end the iteration at a displacement of that size: the last
   /// is small enough, or they have stopped to shrink at round-off.
-  [[nodiscard]] bool settled(const std::vector<double>& correction, double whole) const;
+  [[nodiscard]] bool converged(const std::vector<double>& correction, double displacement) const;
   /// Root mean square of a change of coordinates over their scale.
-  [[nodiscard]] double size(const Eigen::Ref<const VectorXd>& dq) const;
+  [[nodiscard]] double weighted_rms_norm(const Eigen::Ref<const VectorXd>& dq) const;
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
 
  private:
-  const LargeSystem& system_;
+  const GeometricallyExactSystem& system_;
   NewtonOptions options_;
   KktMatrix matrix_;
-  VectorXd gap_, rate_, step_;
+  VectorXd constraint_residual_, constraint_rate_, step_;
 };
 
 /// Adds a correction (dq, dlambda) times a factor.
-void advance(State& state, const VectorXd& step, double factor = 1);
+void apply_correction(State& state, const VectorXd& step, double factor = 1);
 
 /// The coordinate that moves most in a shape, in words: "rotation of node P".
-[[nodiscard]] std::string describe_motion(const LargeSystem& system, const VectorXd& shape);
+[[nodiscard]] std::string describe_motion(const GeometricallyExactSystem& system, const VectorXd& shape);
 
 }  // namespace trammel::large

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/large_motion/solve/start.h"
+#include "solver/large_motion/solve/consistent_initialization.h"
 
 namespace trammel::large {
 
@@ -14,10 +14,10 @@ GeneralizedAlpha::GeneralizedAlpha(const ConstrainedSystem& system, double spect
       beta_(std::pow(1 - alpha_m_ + alpha_f_, 2) / 4),
       gamma_(0.5 - alpha_m_ + alpha_f_),
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
-      gap_(VectorXd::Zero(system.constraints())),
-      rate_(VectorXd::Zero(system.constraints())),
-      motion_(VectorXd::Zero(system.coordinates() + system.constraints())),
-      place_(VectorXd::Zero(system.coordinates() + system.constraints())) {}
+      constraint_residual_(VectorXd::Zero(system.constraints())),
+      constraint_rate_(VectorXd::Zero(system.constraints())),
+      velocity_correction_(VectorXd::Zero(system.coordinates() + system.constraints())),
+      position_correction_(VectorXd::Zero(system.coordinates() + system.constraints())) {}
 
 void GeneralizedAlpha::begin(const State& state) {
   from_ = to_ = state;
@@ -34,21 +34,21 @@ void GeneralizedAlpha::accept() {
 }
 
 StepReport GeneralizedAlpha::attempt(double h) {
-  stored_ = A0_;
+  saved_A0_ = A0_;
   // A0 stands for the acceleration at t0 + (am - af) h.
-  const double delay = alpha_m_ - alpha_f_;
+  const double shift = alpha_m_ - alpha_f_;
   if (first_) {
     A0_ = from_.a;
     const StepReport trial = newton(h);
     if (!trial.converged) return trial;
-    A0_ = from_.a + delay * (to_.a - from_.a);
+    A0_ = from_.a + shift * (to_.a - from_.a);
   } else if (h != last_step_) {
     A0_ = from_.a + h / last_step_ * (A0_ - from_.a);
   }
   StepReport report = newton(h);
-  report.error = std::abs(delay / 2 + beta_ - 1.0 / 6) * h * h * weighted_size(system_, A1_ - A0_);
+  report.error = std::abs(shift / 2 + beta_ - 1.0 / 6) * h * h * weighted_rms_norm(system_, A1_ - A0_);
   // A rejected step must not scale A0 twice; an accepted one has no more use for it.
-  A0_ = stored_;
+  A0_ = saved_A0_;
   return report;
 }
 
@@ -77,13 +77,13 @@ bool GeneralizedAlpha::factor(double h) {
   const double per_acceleration = (1 - alpha_m_) / ((1 - alpha_f_) * beta_ * h * h);
   const double per_velocity = gamma_ / (beta_ * h);
   const double tau = system_.strain_rate_damping();
-  Weights weights;
-  weights.mass = 1;
-  weights.damping = per_velocity / per_acceleration;
-  weights.stiffness = 1 / per_acceleration;
-  weights.compliance = per_acceleration / (1 + tau * per_velocity);
+  TangentCoefficients coefficients;
+  coefficients.mass = 1;
+  coefficients.damping = per_velocity / per_acceleration;
+  coefficients.stiffness = 1 / per_acceleration;
+  coefficients.compliance = per_acceleration / (1 + tau * per_velocity);
   matrix_.clear();
-  system_.tangent(to_, weights, matrix_);
+  system_.tangent(to_, coefficients, matrix_);
   factored_step_ = h;
   return matrix_.factor(system_.symmetric());
 }
@@ -97,28 +97,28 @@ void GeneralizedAlpha::correct(double h) {
   const double per_acceleration = (1 - alpha_m_) / ((1 - alpha_f_) * beta_ * h * h);
   const double per_velocity = gamma_ / (beta_ * h);
   const double tau = system_.strain_rate_damping();
-  system_.balance(to_, motion_.head(n));
-  motion_.head(n) /= -per_acceleration;
-  system_.gaps(to_, gap_, rate_);
-  place_.head(n) = motion_.head(n);
+  system_.force_residual(to_, velocity_correction_.head(n));
+  velocity_correction_.head(n) /= -per_acceleration;
+  system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
+  position_correction_.head(n) = velocity_correction_.head(n);
   for (Index r = 0; r < m; ++r) {
     const double c = system_.compliance()[r];
-    motion_[n + r] =
-        c > 0 ? -(gap_[r] + tau * rate_[r] - c * to_.lambda[r]) / (1 + tau * per_velocity)
-              : -gap_[r];
-    place_[n + r] = motion_[n + r];
+    velocity_correction_[n + r] =
+        c > 0 ? -(constraint_residual_[r] + tau * constraint_rate_[r] - c * to_.lambda[r]) / (1 + tau * per_velocity)
+              : -constraint_residual_[r];
+    position_correction_[n + r] = velocity_correction_[n + r];
   }
-  matrix_.solve(place_);
-  to_.q += place_.head(n);
-  system_.gaps(to_, gap_, rate_);
+  matrix_.solve(position_correction_);
+  to_.q += position_correction_.head(n);
+  system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
   for (Index r = 0; r < m; ++r) {
-    if (system_.compliance()[r] == 0) motion_[n + r] = -rate_[r] / per_velocity;
+    if (system_.compliance()[r] == 0) velocity_correction_[n + r] = -constraint_rate_[r] / per_velocity;
   }
-  matrix_.solve(motion_);
-  to_.v += per_velocity * motion_.head(n);
-  to_.a += per_acceleration * motion_.head(n);
-  A1_ += 1 / (beta_ * h * h) * motion_.head(n);
-  to_.lambda += per_acceleration * motion_.tail(m);
+  matrix_.solve(velocity_correction_);
+  to_.v += per_velocity * velocity_correction_.head(n);
+  to_.a += per_acceleration * velocity_correction_.head(n);
+  A1_ += 1 / (beta_ * h * h) * velocity_correction_.head(n);
+  to_.lambda += per_acceleration * velocity_correction_.tail(m);
 }
 
 StepReport GeneralizedAlpha::newton(double h, bool exact) {
@@ -133,19 +133,19 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
       fresh = true;
     }
     correct(h);
-    if (!motion_.allFinite() || !place_.allFinite()) return report;
+    if (!velocity_correction_.allFinite() || !position_correction_.allFinite()) return report;
     report.iterations = i + 1;
-    convergence.record(weighted_size(system_, motion_.head(n)),
-                       weighted_size(system_, place_.head(n) - motion_.head(n)));
-    report.residual = convergence.last();
-    if (convergence.done(beta_ * h * h * weighted_size(system_, A1_),
-                         h * weighted_size(system_, to_.v), weighted_size(system_, to_.q))) {
+    convergence.record(weighted_rms_norm(system_, velocity_correction_.head(n)),
+                       weighted_rms_norm(system_, position_correction_.head(n) - velocity_correction_.head(n)));
+    report.correction = convergence.last();
+    if (convergence.converged(beta_ * h * h * weighted_rms_norm(system_, A1_),
+                         h * weighted_rms_norm(system_, to_.v), weighted_rms_norm(system_, to_.q))) {
       report.converged = true;
       // A factorization that has aged is renewed before it costs another iteration.
       if (i > 3) factored_step_ = 0;
       return report;
     }
-    if (convergence.hopeless()) return report;
+    if (convergence.diverging()) return report;
   }
   return report;
 }

@@ -38,10 +38,10 @@ class GeneralizedAlpha final : public Stepper {
   double alpha_m_, alpha_f_, beta_, gamma_;
   KktMatrix matrix_;
   State from_, to_;
-  VectorXd A0_, A1_, stored_;  ///< the method's own accelerations
+  VectorXd A0_, A1_, saved_A0_;  ///< the method's own accelerations
   double last_step_ = 0, factored_step_ = 0;
   bool first_ = true;
-  VectorXd gap_, rate_, motion_, place_;
+  VectorXd constraint_residual_, constraint_rate_, velocity_correction_, position_correction_;
 };
 
 }  // namespace trammel::large

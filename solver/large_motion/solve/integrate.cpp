@@ -13,23 +13,23 @@ namespace trammel::large {
 
 namespace {
 
-class Journey {
+class TimeIntegration {
  public:
-  Journey(const ConstrainedSystem& system, Stepper& stepper, const IntegrationOptions& options,
+  TimeIntegration(const ConstrainedSystem& system, Stepper& stepper, const IntegrationOptions& options,
           const Observer& observe)
       : system_(system), stepper_(stepper), options_(options), observe_(observe) {}
 
   IntegrationSummary run(State& state) {
-    begin_ = state.t;
-    limit_steps();
+    start_time_ = state.t;
+    set_step_limit();
     stepper_.begin(state);
-    look();
+    observe_state();
     double h = options_.step;
-    summary_.smallest_step = h;
-    for (std::int64_t leg = 1; state_time() < options_.end_time; ++leg) {
-      const double target = next_target(leg, h);
-      if (!travel(target, h)) break;
-      look();
+    summary_.min_step = h;
+    for (std::int64_t output = 1; state_time() < options_.end_time; ++output) {
+      const double target = next_target(output, h);
+      if (!advance_to(target, h)) break;
+      observe_state();
       if (!summary_.outcome.solved()) break;
     }
     state = stepper_.state();
@@ -42,54 +42,54 @@ class Journey {
   double state_time() const { return stepper_.state().t; }
 
   /// Where steps fail again and again equal steps have become tiny: that must come to an end.
-  void limit_steps() {
-    most_steps_ = options_.steps;
+  void set_step_limit() {
+    max_steps_ = options_.max_steps;
     if (options_.adaptive) return;
-    const double equal = (options_.end_time - begin_) / options_.step;
-    const double enough = 1000 + 10 * equal;
-    if (enough >= static_cast<double>(most_steps_)) return;
-    most_steps_ = static_cast<std::int64_t>(enough);
-    why_enough_ = "steps keep failing, ten times as many as asked for are spent";
+    const double equal_steps = (options_.end_time - start_time_) / options_.step;
+    const double limit = 1000 + 10 * equal_steps;
+    if (limit >= static_cast<double>(max_steps_)) return;
+    max_steps_ = static_cast<std::int64_t>(limit);
+    step_limit_reason_ = "steps keep failing, ten times as many as asked for are spent";
   }
 
   /// Where the next observation is: on the grid of outputs, or after one step.
-  double next_target(std::int64_t leg, double h) const {
+  double next_target(std::int64_t output, double h) const {
     const double end = options_.end_time;
     const double span = options_.output_step > 0 ? options_.output_step
                         : options_.adaptive      ? 0.0
                                                  : options_.step;
-    double target = span > 0 ? begin_ + static_cast<double>(leg) * span : state_time() + h;
+    double target = span > 0 ? start_time_ + static_cast<double>(output) * span : state_time() + h;
     if (target > end - 1e-9 * (span > 0 ? span : h)) target = end;
     return target;
   }
 
-  bool travel(double target, double& h) {
+  bool advance_to(double target, double& h) {
     int failures = 0;
-    double tried = 0;
+    double failed_step = 0;
     while (state_time() < target) {
-      if (summary_.steps + summary_.rejected >= most_steps_) return fail(why_enough_, h, {});
-      const double left = target - state_time();
+      if (summary_.steps + summary_.rejected >= max_steps_) return fail(step_limit_reason_, h, {});
+      const double remaining = target - state_time();
       // Equal steps up to the target, so that none is tiny.
-      const double count = std::ceil(left / h * (1 - 1e-9));
-      const double now = count <= 1 ? left : left / count;
-      if (now < 1e-7 * options_.step && left > now) return fail("no step is small enough", now, {});
-      StepReport report = stepper_.attempt(now);
+      const double count = std::ceil(remaining / h * (1 - 1e-9));
+      const double step = count <= 1 ? remaining : remaining / count;
+      if (step < 1e-7 * options_.step && remaining > step) return fail("no step is small enough", step, {});
+      StepReport report = stepper_.attempt(step);
       summary_.iterations += report.iterations;
       const double ratio = options_.adaptive ? report.error / options_.tolerance : 0.0;
       if (!report.converged || ratio > 1.5) {
         ++summary_.rejected;
-        if (++failures > 30) return fail("no step converges", now, report);
-        h = report.converged ? now * std::clamp(0.85 / std::cbrt(ratio), 0.2, 0.8)
-                             : retry(tried, now, failures);
+        if (++failures > 30) return fail("no step converges", step, report);
+        h = report.converged ? step * std::clamp(0.85 / std::cbrt(ratio), 0.2, 0.8)
+                             : retry(failed_step, step, failures);
         continue;
       }
-      tried = 0;
+      failed_step = 0;
       failures = 0;
       stepper_.accept();
       ++summary_.steps;
-      summary_.smallest_step = std::min(summary_.smallest_step, now);
+      summary_.min_step = std::min(summary_.min_step, step);
       if (options_.adaptive) {
-        h = now * std::clamp(0.85 / std::cbrt(std::max(ratio, 1e-6)), 0.3, 1.8);
+        h = step * std::clamp(0.85 / std::cbrt(std::max(ratio, 1e-6)), 0.3, 1.8);
       } else {
         h = std::min(options_.step, 2 * h);
       }
@@ -99,34 +99,34 @@ class Journey {
 
   /// After a step that does not converge: a smaller one, but also a larger one now and then, since
   /// what is in the way may be a singular position to be stepped over.
-  static double retry(double& tried, double now, int failures) {
-    if (tried == 0) tried = now;
-    const double smaller = tried * std::pow(0.5, (failures + 1) / 2);
-    return failures % 2 == 1 ? smaller : tried * (1 + 0.3 * failures / (1 + 0.1 * failures));
+  static double retry(double& failed_step, double step, int failures) {
+    if (failed_step == 0) failed_step = step;
+    const double smaller = failed_step * std::pow(0.5, (failures + 1) / 2);
+    return failures % 2 == 1 ? smaller : failed_step * (1 + 0.3 * failures / (1 + 0.1 * failures));
   }
 
   bool fail(const std::string& why, double h, const StepReport& report) {
-    std::ostringstream words;
-    words << why << ": step " << summary_.steps + 1 << " at time " << state_time() << " s of size "
-          << h << " s, last correction " << report.residual << " of the model's size after "
+    std::ostringstream message;
+    message << why << ": step " << summary_.steps + 1 << " at time " << state_time() << " s of size "
+          << h << " s, last correction " << report.correction << " of the model's size after "
           << report.iterations << " iterations";
-    summary_.outcome = {Status::not_converged, words.str()};
+    summary_.outcome = {Status::not_converged, message.str()};
     return false;
   }
 
-  void look() {
+  void observe_state() {
     const State& state = stepper_.state();
     if (!state.q.allFinite() || !state.v.allFinite()) {
       fail("the motion is not finite", options_.step, {});
       return;
     }
-    gap_.setZero(system_.constraints());
-    rate_.setZero(system_.constraints());
-    system_.gaps(state, gap_, rate_);
-    for (Index r = 0; r < gap_.size(); ++r) {
+    constraint_residual_.setZero(system_.constraints());
+    constraint_rate_.setZero(system_.constraints());
+    system_.constraint_residual(state, constraint_residual_, constraint_rate_);
+    for (Index r = 0; r < constraint_residual_.size(); ++r) {
       if (system_.compliance()[r] > 0) continue;
-      summary_.largest_gap = std::max(summary_.largest_gap, std::abs(gap_[r]));
-      summary_.largest_gap_rate = std::max(summary_.largest_gap_rate, std::abs(rate_[r]));
+      summary_.max_constraint_residual = std::max(summary_.max_constraint_residual, std::abs(constraint_residual_[r]));
+      summary_.max_constraint_rate = std::max(summary_.max_constraint_rate, std::abs(constraint_rate_[r]));
     }
     if (observe_) observe_(state);
   }
@@ -136,10 +136,10 @@ class Journey {
   const IntegrationOptions& options_;
   const Observer& observe_;
   IntegrationSummary summary_;
-  double begin_ = 0;
-  std::int64_t most_steps_ = 0;
-  const char* why_enough_ = "too many steps";
-  VectorXd gap_, rate_;
+  double start_time_ = 0;
+  std::int64_t max_steps_ = 0;
+  const char* step_limit_reason_ = "too many steps";
+  VectorXd constraint_residual_, constraint_rate_;
 };
 
 }  // namespace
@@ -147,12 +147,12 @@ class Journey {
 IntegrationSummary integrate(const ConstrainedSystem& system, State& state,
                              const IntegrationOptions& options, const Observer& observe) {
   GeneralizedAlpha stepper(system, options.spectral_radius);
-  return Journey(system, stepper, options, observe).run(state);
+  return TimeIntegration(system, stepper, options, observe).run(state);
 }
 
-IntegrationSummary integrate(const LargeSystem& system, State& state,
+IntegrationSummary integrate(const GeometricallyExactSystem& system, State& state,
                              const IntegrationOptions& options, const Observer& observe) {
-  const Outcome started = start_motion(system, state, options.step);
+  const Outcome started = initialize_state(system, state, options.step);
   if (!started.solved()) {
     IntegrationSummary summary;
     summary.outcome = started;
@@ -163,10 +163,10 @@ IntegrationSummary integrate(const LargeSystem& system, State& state,
     return integrate(equations, state, options, observe);
   }
   EnergyMomentum stepper(system);
-  return Journey(system, stepper, options, observe).run(state);
+  return TimeIntegration(system, stepper, options, observe).run(state);
 }
 
-IntegrationSummary integrate_extrapolated(const LargeSystem& system, State& state,
+IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system, State& state,
                                           const IntegrationOptions& options,
                                           const Observer& observe) {
   IntegrationOptions fixed = options;
@@ -178,42 +178,42 @@ IntegrationSummary integrate_extrapolated(const LargeSystem& system, State& stat
   if (!summary.outcome.solved()) return summary;
   fixed.step /= 2;
   std::size_t next = 0;
-  State combined;
+  State extrapolated;
   const auto combine = [&](const State& fine) {
     const State& other = coarse[std::min(next++, coarse.size() - 1)];
-    combined = fine;
-    combined.q += (fine.q - other.q) / 3;
-    combined.v += (fine.v - other.v) / 3;
-    combined.lambda += (fine.lambda - other.lambda) / 3;
-    if (observe) observe(combined);
+    extrapolated = fine;
+    extrapolated.q += (fine.q - other.q) / 3;
+    extrapolated.v += (fine.v - other.v) / 3;
+    extrapolated.lambda += (fine.lambda - other.lambda) / 3;
+    if (observe) observe(extrapolated);
   };
   const IntegrationSummary second = integrate(system, state, fixed, combine);
-  state = combined;
+  state = extrapolated;
   summary.outcome = second.outcome;
   summary.steps += second.steps;
   summary.rejected += second.rejected;
   summary.iterations += second.iterations;
-  summary.smallest_step = second.smallest_step;
-  summary.largest_gap = std::max(summary.largest_gap, second.largest_gap);
-  summary.largest_gap_rate = std::max(summary.largest_gap_rate, second.largest_gap_rate);
+  summary.min_step = second.min_step;
+  summary.max_constraint_residual = std::max(summary.max_constraint_residual, second.max_constraint_residual);
+  summary.max_constraint_rate = std::max(summary.max_constraint_rate, second.max_constraint_rate);
   summary.counters.factorizations += second.counters.factorizations;
   summary.counters.solves += second.counters.solves;
   return summary;
 }
 
-Outcome start_motion(const LargeSystem& system, State& state, double step) {
-  state = system.rest();
-  GivenVelocities given;
-  for (const StartVelocity& start : system.scenario().start) {
+Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
+  state = system.reference_state();
+  PrescribedVelocities given;
+  for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
     const Index k =
         system.layout()
-            .node[static_cast<std::size_t>(start.node)][static_cast<std::size_t>(start.direction)];
+            .node[static_cast<std::size_t>(initial.node)][static_cast<std::size_t>(initial.direction)];
     if (k < 0 || k >= system.coordinates()) {
       return {Status::singular,
               "a start velocity is given where a support holds node " +
-                  system.model().nodes[static_cast<std::size_t>(start.node)].name};
+                  system.model().nodes[static_cast<std::size_t>(initial.node)].name};
     }
-    given.emplace_back(k, start.value);
+    given.emplace_back(k, initial.value);
   }
   return make_consistent(system, state, given, step);
 }

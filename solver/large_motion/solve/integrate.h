@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "solver/large_motion/system/geometrically_exact_system.h"
-#include "solver/large_motion/solve/start.h"
+#include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/model/outcome.h"
 #include "solver/assembly/system.h"
 
@@ -20,15 +20,15 @@ struct IntegrationOptions {
   double tolerance = 1e-6;  ///< local position error a step over the model's size; adaptive only
   double output_step = 0;   ///< observed at multiples of this, hit exactly; 0: every step [s]
   double spectral_radius = 0.9;      ///< of generalized-alpha at infinite frequency
-  std::int64_t steps = 100'000'000;  ///< at most, rejected ones included
+  std::int64_t max_steps = 100'000'000;  ///< at most, rejected ones included
 };
 
 struct IntegrationSummary {
   Outcome outcome;  ///< not_converged names the step, the time and the residual
   std::int64_t steps = 0, rejected = 0, iterations = 0;
-  double smallest_step = 0;     ///< [s]
-  double largest_gap = 0;       ///< of a rigid constraint at any observed time [m or rad]
-  double largest_gap_rate = 0;  ///< the same of its rate [m/s or rad/s]
+  double min_step = 0;     ///< [s]
+  double max_constraint_residual = 0;       ///< of a rigid constraint at any observed time [m or rad]
+  double max_constraint_rate = 0;  ///< the same of its rate [m/s or rad/s]
   Counters counters;
 };
 
@@ -39,19 +39,19 @@ using Observer = std::function<void(const State&)>;
                                            const IntegrationOptions& options,
                                            const Observer& observe = {});
 
-/// The same from the model's pose with the scenario's start velocities, either integrator.
-[[nodiscard]] IntegrationSummary integrate(const LargeSystem& system, State& state,
+/// The same from the model's pose with the model's initial velocities, either integrator.
+[[nodiscard]] IntegrationSummary integrate(const GeometricallyExactSystem& system, State& state,
                                            const IntegrationOptions& options,
                                            const Observer& observe = {});
 
 /// Two runs with steps `step` and `step`/2, combined to what their common second-order error
 /// leaves: order 3 (order 4 by energy-momentum). The step is fixed and `output_step` a multiple of
 /// it; the state that is observed has q, v and lambda only.
-[[nodiscard]] IntegrationSummary integrate_extrapolated(const LargeSystem& system, State& state,
+[[nodiscard]] IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system, State& state,
                                                         const IntegrationOptions& options,
                                                         const Observer& observe = {});
 
 /// Consistent start of a model: pose, start velocities, accelerations, multipliers.
-[[nodiscard]] Outcome start_motion(const LargeSystem& system, State& state, double step);
+[[nodiscard]] Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step);
 
 }  // namespace trammel::large

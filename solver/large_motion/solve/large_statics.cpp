@@ -7,22 +7,22 @@ namespace trammel {
 namespace {
 
 /// Evaluations of a tangent's elements, by effect.
-void count_tangents(const large::LargeSystem& system, std::int64_t tangents, Counters& counters) {
+void count_tangents(const large::GeometricallyExactSystem& system, std::int64_t tangents, Counters& counters) {
   const Model& model = system.model();
   std::int64_t all = static_cast<std::int64_t>(model.triangles.size());
-  std::int64_t stretching = 0, shearing = 0, sprung = 0;
+  std::int64_t stretching = 0, shearing = 0, spring_ends = 0;
   for (const Member& member : model.members) {
     all += member.elements;
     if (member.section.EI > 0 && member.axially_flexible) stretching += member.elements;
-    if (member.section.EI > 0 && shears(member.theory)) shearing += member.elements;
-    for (const MemberEnd& end : member.ends) sprung += end.fixity == EndFixity::sprung ? 1 : 0;
+    if (member.section.EI > 0 && has_shear_deformation(member.theory)) shearing += member.elements;
+    for (const MemberEnd& end : member.ends) spring_ends += end.fixity == EndFixity::sprung ? 1 : 0;
   }
   counters.element_evaluations += tangents * all;
   counters.count(Effect::large_displacement, tangents * all);
   counters.count(Effect::geometric_stiffening, tangents * all);
   counters.count(Effect::axial_flexibility, tangents * stretching);
   counters.count(Effect::shear, tangents * shearing);
-  counters.count(Effect::joint_compliance, tangents * sprung);
+  counters.count(Effect::joint_compliance, tangents * spring_ends);
   counters.count(Effect::platform_flexibility,
                  tangents * static_cast<std::int64_t>(model.triangles.size()));
   if (model.gravity.isZero(0)) return;
@@ -34,7 +34,7 @@ void count_tangents(const large::LargeSystem& system, std::int64_t tangents, Cou
 
 }  // namespace
 
-StaticSolution static_solution(const large::LargeSystem& system, const large::State& state) {
+StaticSolution static_solution(const large::GeometricallyExactSystem& system, const large::State& state) {
   StaticSolution solution;
   solution.displacement = node_motion(system, state.q);
   solution.end_rotation = end_rotations(system, state.q);
@@ -45,8 +45,8 @@ StaticSolution static_solution(const large::LargeSystem& system, const large::St
   return solution;
 }
 
-StaticSolution solve_large_statics(const Model& model, const large::Scenario& scenario) {
-  const large::LargeSystem system(model, scenario);
+StaticSolution solve_large_statics(const Model& model, const large::LargeMotionModel& large_motion) {
+  const large::GeometricallyExactSystem system(model, large_motion);
   large::StaticPathOptions options;
   options.first_step = 0.5;
   options.keep_points = false;

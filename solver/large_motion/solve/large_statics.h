@@ -7,7 +7,7 @@ namespace trammel {
 
 /// A state of large motion in the terms of `solve_statics`: displacements, end rotations,
 /// reactions, and section forces along the axes that the sections have turned to.
-[[nodiscard]] StaticSolution static_solution(const large::LargeSystem& system,
+[[nodiscard]] StaticSolution static_solution(const large::GeometricallyExactSystem& system,
                                              const large::State& state);
 
 /// Statics in the geometrically exact tier (solver/large_motion). The whole load is put on in steps
@@ -15,6 +15,6 @@ namespace trammel {
 /// not_converged: the path of equilibria does not reach the load.
 /// @throws ModelError  where the model has no meaning.
 [[nodiscard]] StaticSolution solve_large_statics(const Model& model,
-                                                 const large::Scenario& scenario = {});
+                                                 const large::LargeMotionModel& large_motion = {});
 
 }  // namespace trammel

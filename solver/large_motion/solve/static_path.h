@@ -11,8 +11,8 @@ namespace trammel::large {
 
 struct StaticPathOptions {
   double target = 1;           ///< load factor to reach
-  double first_step = 0.1;     ///< of the load factor; later steps follow from how Newton fares
-  int points = 2000;           ///< at most
+  double first_step = 0.1;     ///< of the load factor; later steps follow from the number of Newton iterations
+  int max_points = 2000;           ///< at most
   bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
   bool keep_points = true;     ///< false: keep the last point only
   NewtonOptions newton;
@@ -20,7 +20,7 @@ struct StaticPathOptions {
 
 struct PathPoint {
   State state;         ///< state.load is the load factor
-  Index unstable = 0;  ///< negative pivots of the tangent: directions in which it is unstable;
+  Index unstable_directions = 0;  ///< negative pivots of the tangent: directions in which it is unstable;
                        ///< -1 where follower loads leave no such count
   NewtonResult newton;
 };
@@ -29,7 +29,7 @@ struct PathEvent {
   enum class Kind { limit_point, bifurcation };
   Kind kind = Kind::limit_point;
   double load = 0;  ///< load factor
-  VectorXd shape;   ///< softest motion there, over the coordinates
+  VectorXd shape;   ///< critical mode there, over the coordinates
 };
 
 /// The path of equilibria from load factor 0 to the target.
@@ -43,7 +43,7 @@ struct StaticPath {
 /// Follows the equilibria by arc-length continuation (E. Riks, IJSS 15, 1979) with automatic steps:
 /// limit points are passed, a change of the number of negative pivots without one is a bifurcation,
 /// and both are located.
-[[nodiscard]] StaticPath follow_static_path(const LargeSystem& system,
+[[nodiscard]] StaticPath follow_static_path(const GeometricallyExactSystem& system,
                                             const StaticPathOptions& options = {});
 
 }  // namespace trammel::large

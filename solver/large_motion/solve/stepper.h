@@ -8,7 +8,7 @@ namespace trammel::large {
 struct StepReport {
   bool converged = false;
   int iterations = 0;
-  double residual = 0;  ///< last correction of the positions, over the scale [-]
+  double correction = 0;  ///< last correction of the positions, over the scale [-]
   double error = 0;     ///< estimate of the local error in position, over the scale [-]
 };
 
@@ -16,31 +16,31 @@ struct StepReport {
 /// constraints.
 class StepConvergence {
  public:
-  void record(double moved, double shifted) {
-    before_moved_ = moved_;
-    before_shifted_ = shifted_;
-    moved_ = moved;
-    shifted_ = shifted;
+  void record(double step_correction, double projection) {
+    previous_step_correction_ = step_correction_;
+    previous_projection_ = projection_;
+    step_correction_ = step_correction;
+    projection_ = projection;
     ++count_;
   }
-  /// @param accelerated  h^2 beta a, what the accelerations contribute to the step; travelled: h v;
-  ///                     place: q; all over the scale.
-  [[nodiscard]] bool done(double accelerated, double travelled, double place) const {
-    const bool stalled = count_ > 2 && moved_ > 0.3 * before_moved_;
-    const bool motion = moved_ <= 1e-11 * accelerated || moved_ <= 1e-16 * travelled ||
-                        (stalled && moved_ <= 1e-11 * (travelled + accelerated) + 1e-15 * place);
-    const bool held = shifted_ <= 1e-15 * place || shifted_ <= 1e-13 * travelled ||
-                      (count_ > 2 && shifted_ > 0.3 * before_shifted_ && shifted_ < 1e-12);
-    return motion && held;
+  /// @param acceleration  h^2 beta a, what the accelerations contribute to the step; velocity: h v;
+  ///                     position: q; all over the scale.
+  [[nodiscard]] bool converged(double acceleration, double velocity, double position) const {
+    const bool stalled = count_ > 2 && step_correction_ > 0.3 * previous_step_correction_;
+    const bool motion_met = step_correction_ <= 1e-11 * acceleration || step_correction_ <= 1e-16 * velocity ||
+                        (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + 1e-15 * position);
+    const bool constraints_met = projection_ <= 1e-15 * position || projection_ <= 1e-13 * velocity ||
+                      (count_ > 2 && projection_ > 0.3 * previous_projection_ && projection_ < 1e-12);
+    return motion_met && constraints_met;
   }
-  [[nodiscard]] bool slow() const { return count_ > 1 && last() > 0.1 * before(); }
-  [[nodiscard]] bool hopeless() const { return count_ > 4 && last() > 2 * before(); }
-  [[nodiscard]] double last() const { return moved_ + shifted_; }
+  [[nodiscard]] bool slow() const { return count_ > 1 && last() > 0.1 * previous(); }
+  [[nodiscard]] bool diverging() const { return count_ > 4 && last() > 2 * previous(); }
+  [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
-  [[nodiscard]] double before() const { return before_moved_ + before_shifted_; }
+  [[nodiscard]] double previous() const { return previous_step_correction_ + previous_projection_; }
 
-  double moved_ = 0, shifted_ = 0, before_moved_ = 0, before_shifted_ = 0;
+  double step_correction_ = 0, projection_ = 0, previous_step_correction_ = 0, previous_projection_ = 0;
   int count_ = 0;
 };
 

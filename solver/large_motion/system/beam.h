@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/large_motion/system/constrained_system.h"
-#include "solver/large_motion/system/shapes.h"
+#include "solver/large_motion/system/shape_functions.h"
 
 namespace trammel::large {
 
@@ -22,7 +22,7 @@ inline double sinc(double x) {
 }
 
 /// Geometrically exact beam element (Simo-Reissner) with P + 1 nodes and P Gauss points, straight
-/// when unloaded. With t0, n0 the element's axes and R(theta) the turn of the section,
+/// when unloaded. With t0, n0 the element's axes and R(theta) the rotation of the section,
 ///
 ///     Gamma = R^T (t0 + u') - t0 = (stretch, shear),       kappa = theta',
 ///     energy = sum over Gauss points of  w h (N Gamma_1 + V Gamma_2 - N^2/2EA - V^2/2kGA)
@@ -54,13 +54,13 @@ struct Beam {
   double inertia_per_length = 0;      ///< [kg m]
   bool lumped = false;
 
-  void gaps(const Coordinates& q, double, Rows& gap, Gradient& G) const {
-    const Shapes<P>& s = shapes<P>();
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    const ShapeFunctions<P>& s = shape_functions<P>();
     for (int g = 0; g < P; ++g) {
       const Strain at(*this, q, g);
       const double w = s.weight[g] * length;
-      gap[2 * g] = w * at.stretch;
-      gap[2 * g + 1] = w * at.shear;
+      residual[2 * g] = w * at.stretch;
+      residual[2 * g + 1] = w * at.shear;
       for (int a = 0; a <= P; ++a) {
         const double slope = s.weight[g] * s.slope(g, a), value = w * s.value(g, a);
         G.template block<1, 2>(2 * g, 3 * a) = slope * at.e1.transpose();
@@ -72,20 +72,20 @@ struct Beam {
   }
 
   /// sum of lambda_i d^2 g_i / dq^2.
-  [[nodiscard]] Square curvature(const Coordinates& q, const Rows& lambda) const {
-    const Shapes<P>& s = shapes<P>();
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
+    const ShapeFunctions<P>& s = shape_functions<P>();
     Square K = Square::Zero();
     for (int g = 0; g < P; ++g) {
       const Strain at(*this, q, g);
       const double normal = s.weight[g] * lambda[2 * g], shear = s.weight[g] * lambda[2 * g + 1];
       const Vector2d mixed = normal * at.e2 - shear * at.e1;
-      const double turning = -length * (normal * (1 + at.stretch) + shear * at.shear);
+      const double rotational = -length * (normal * (1 + at.stretch) + shear * at.shear);
       for (int a = 0; a <= P; ++a) {
         for (int b = 0; b <= P; ++b) {
           const Vector2d coupled = s.slope(g, a) * s.value(g, b) * mixed;
           K.template block<2, 1>(3 * a, 3 * b + 2) += coupled;
           K.template block<1, 2>(3 * b + 2, 3 * a) += coupled.transpose();
-          K(3 * a + 2, 3 * b + 2) += turning * s.value(g, a) * s.value(g, b);
+          K(3 * a + 2, 3 * b + 2) += rotational * s.value(g, a) * s.value(g, b);
         }
       }
     }
@@ -93,15 +93,15 @@ struct Beam {
   }
 
   /// D with D (q1 - q0) = g(q1) - g(q0).
-  [[nodiscard]] Gradient secant(const Coordinates& q0, const Coordinates& q1) const {
-    const Shapes<P>& s = shapes<P>();
-    const Coordinates middle = (q0 + q1) / 2;
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
+    const ShapeFunctions<P>& s = shape_functions<P>();
+    const Coordinates midpoint = (q0 + q1) / 2;
     Gradient D;
     for (int g = 0; g < P; ++g) {
-      const Strain at(*this, middle, g);
-      double turn = 0;
-      for (int a = 0; a <= P; ++a) turn += s.value(g, a) * (q1[3 * a + 2] - q0[3 * a + 2]);
-      const double c = std::cos(turn / 2), k = sinc(turn / 2);
+      const Strain at(*this, midpoint, g);
+      double rotation = 0;
+      for (int a = 0; a <= P; ++a) rotation += s.value(g, a) * (q1[3 * a + 2] - q0[3 * a + 2]);
+      const double c = std::cos(rotation / 2), k = sinc(rotation / 2);
       for (int a = 0; a <= P; ++a) {
         const double slope = s.weight[g] * s.slope(g, a) * c;
         const double value = s.weight[g] * length * s.value(g, a) * k;
@@ -117,7 +117,7 @@ struct Beam {
   /// Bending, constant because kappa is linear in the rotations.
   [[nodiscard]] Square stiffness() const {
     Square K = Square::Zero();
-    const Shapes<P>& s = shapes<P>();
+    const ShapeFunctions<P>& s = shape_functions<P>();
     for (int a = 0; a <= P; ++a) {
       for (int b = 0; b <= P; ++b) K(3 * a + 2, 3 * b + 2) = EI / length * s.stiffness(a, b);
     }
@@ -126,7 +126,7 @@ struct Beam {
 
   [[nodiscard]] Square mass() const {
     Square M = Square::Zero();
-    const Shapes<P>& s = shapes<P>();
+    const ShapeFunctions<P>& s = shape_functions<P>();
     for (int a = 0; a <= P; ++a) {
       for (int b = 0; b <= P; ++b) {
         const double m = length * (lumped ? (a == b ? s.integral[a] : 0.0) : s.mass(a, b));
@@ -140,7 +140,7 @@ struct Beam {
   [[nodiscard]] Rows compliance() const {
     Rows c;
     for (int g = 0; g < P; ++g) {
-      const double w = shapes<P>().weight[g] * length;
+      const double w = shape_functions<P>().weight[g] * length;
       c[2 * g] = w * stretch_compliance;
       c[2 * g + 1] = w * shear_compliance;
     }
@@ -149,14 +149,14 @@ struct Beam {
 
   /// rho of `KktMatrix`: a shear stiffness 12 EI/h^2, which keeps bending and shear of one size,
   /// and the element's mass.
-  [[nodiscard]] Rows weight(const Weights& weights) const {
+  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
     double k = 12 * EI / (length * length);
     if (k <= 0) k = stretch_compliance > 0 ? 1e-6 / stretch_compliance : 1.0;
     Rows rho;
     for (int g = 0; g < P; ++g) {
-      const double w = shapes<P>().weight[g];
+      const double w = shape_functions<P>().weight[g];
       rho[2 * g] = rho[2 * g + 1] =
-          weights.stiffness * k / (w * length) + weights.mass * mass_per_length * length / (w * w);
+          coefficients.stiffness * k / (w * length) + coefficients.mass * mass_per_length * length / (w * w);
     }
     return rho;
   }
@@ -168,18 +168,18 @@ struct Beam {
     double stretch = 0, shear = 0;
 
     Strain(const Beam& beam, const Coordinates& q, int g) {
-      const Shapes<P>& s = shapes<P>();
+      const ShapeFunctions<P>& s = shape_functions<P>();
       Vector2d slope = Vector2d::Zero();
-      double turn = 0;
+      double rotation = 0;
       for (int a = 0; a <= P; ++a) {
         slope += s.slope(g, a) / beam.length * q.template segment<2>(3 * a);
-        turn += s.value(g, a) * q[3 * a + 2];
+        rotation += s.value(g, a) * q[3 * a + 2];
       }
-      const double cosine = std::cos(turn), sine = std::sin(turn);
+      const double cosine = std::cos(rotation), sine = std::sin(rotation);
       const Vector2d normal(-beam.axis.y(), beam.axis.x());
       e1 = cosine * beam.axis + sine * normal;
       e2 = cosine * normal - sine * beam.axis;
-      stretch = e1.dot(slope) + cosine_minus_one(turn);
+      stretch = e1.dot(slope) + cosine_minus_one(rotation);
       shear = e2.dot(slope) - sine;
     }
   };

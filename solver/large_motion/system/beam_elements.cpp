@@ -2,8 +2,8 @@
 
 namespace trammel::large {
 
-template class RowTerm<Beam<1>>;
-template class RowTerm<Beam<2>>;
-template class RowTerm<Beam<3>>;
+template class ConstraintElements<Beam<1>>;
+template class ConstraintElements<Beam<2>>;
+template class ConstraintElements<Beam<3>>;
 
 }  // namespace trammel::large

@@ -15,36 +15,36 @@ std::vector<std::vector<Index>> CallableSystem::blocks() const {
   return {all};
 }
 
-void CallableSystem::balance(const State& state, Eigen::Ref<VectorXd> r) const {
+void CallableSystem::force_residual(const State& state, Eigen::Ref<VectorXd> r) const {
   r = equations_.mass(state.q) * state.a - equations_.force(state.t, state.q, state.v) +
       equations_.jacobian(state.t, state.q).transpose() * state.lambda;
 }
 
-void CallableSystem::gaps(const State& state, Eigen::Ref<VectorXd> gap,
+void CallableSystem::constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                           Eigen::Ref<VectorXd> rate) const {
-  gap = equations_.gap(state.t, state.q);
+  residual = equations_.constraint_residual(state.t, state.q);
   rate = equations_.jacobian(state.t, state.q) * state.v;
-  if (equations_.gap_time_rate) rate += equations_.gap_time_rate(state.t, state.q);
+  if (equations_.constraint_time_derivative) rate += equations_.constraint_time_derivative(state.t, state.q);
 }
 
-void CallableSystem::tangent(const State& state, const Weights& weights, KktMatrix& matrix) const {
+void CallableSystem::tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const {
   const Index n = coordinates();
-  Eigen::MatrixXd S = weights.mass * equations_.mass(state.q);
+  Eigen::MatrixXd S = coefficients.mass * equations_.mass(state.q);
   const VectorXd mass = S.diagonal();
   VectorXd plus(n), minus(n);
   const auto difference = [&](VectorXd State::*part, Index i, double step, double weight) {
     State probe = state;
     (probe.*part)[i] += step;
-    balance(probe, plus);
+    force_residual(probe, plus);
     (probe.*part)[i] -= 2 * step;
-    balance(probe, minus);
+    force_residual(probe, minus);
     S.col(i) += weight / (2 * step) * (plus - minus);
   };
   const double speed = state.v.cwiseQuotient(scale()).cwiseAbs().maxCoeff();
   for (Index i = 0; i < n; ++i) {
     const double step = 1e-5 * scale()[i];
-    if (weights.stiffness != 0) difference(&State::q, i, step, weights.stiffness);
-    if (weights.damping != 0) difference(&State::v, i, step * (1 + speed), weights.damping);
+    if (coefficients.stiffness != 0) difference(&State::q, i, step, coefficients.stiffness);
+    if (coefficients.damping != 0) difference(&State::v, i, step * (1 + speed), coefficients.damping);
   }
   const VectorXd c = VectorXd::Zero(constraints());
   const double typical = mass.cwiseProduct(scale().cwiseAbs2()).mean();

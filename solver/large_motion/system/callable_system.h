@@ -15,9 +15,9 @@ struct CallableEquations {
   Index constraints = 0;
   std::function<Eigen::MatrixXd(const VectorXd& q)> mass;
   std::function<VectorXd(double t, const VectorXd& q, const VectorXd& v)> force;
-  std::function<VectorXd(double t, const VectorXd& q)> gap;
+  std::function<VectorXd(double t, const VectorXd& q)> constraint_residual;
   std::function<Eigen::MatrixXd(double t, const VectorXd& q)> jacobian;  ///< dg/dq
-  std::function<VectorXd(double t, const VectorXd& q)> gap_time_rate;    ///< dg/dt; empty: 0
+  std::function<VectorXd(double t, const VectorXd& q)> constraint_time_derivative;    ///< dg/dt; empty: 0
   VectorXd scale;  ///< what counts as a unit change of each coordinate
 };
 
@@ -30,9 +30,9 @@ class CallableSystem final : public ConstrainedSystem {
   [[nodiscard]] const VectorXd& compliance() const override { return compliance_; }
   [[nodiscard]] const VectorXd& scale() const override { return equations_.scale; }
   [[nodiscard]] std::vector<std::vector<Index>> blocks() const override;
-  void balance(const State& state, Eigen::Ref<VectorXd> r) const override;
-  void gaps(const State& state, Eigen::Ref<VectorXd> gap, Eigen::Ref<VectorXd> rate) const override;
-  void tangent(const State& state, const Weights& weights, KktMatrix& matrix) const override;
+  void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual, Eigen::Ref<VectorXd> rate) const override;
+  void tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const override;
   [[nodiscard]] bool symmetric() const override { return false; }
 
  private:

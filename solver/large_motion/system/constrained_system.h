@@ -25,7 +25,7 @@ struct State {
 
 /// S = mass M + damping D + stiffness K and C scaled by `compliance`; D = -df/dv and
 /// K = d(M a - f + G^T lambda)/dq.
-struct Weights {
+struct TangentCoefficients {
   double mass = 0;
   double damping = 0;
   double stiffness = 1;
@@ -47,12 +47,12 @@ class ConstrainedSystem {
   [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
 
   /// r = M a - f + G^T lambda.
-  virtual void balance(const State& state, Eigen::Ref<VectorXd> r) const = 0;
+  virtual void force_residual(const State& state, Eigen::Ref<VectorXd> r) const = 0;
   /// g and dg/dt = G v + partial g / partial t.
-  virtual void gaps(const State& state, Eigen::Ref<VectorXd> gap,
+  virtual void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                     Eigen::Ref<VectorXd> rate) const = 0;
   /// Fills the matrix (cleared by the caller).
-  virtual void tangent(const State& state, const Weights& weights, KktMatrix& matrix) const = 0;
+  virtual void tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const = 0;
   /// False where S is not symmetric, as with follower loads.
   [[nodiscard]] virtual bool symmetric() const { return true; }
   /// tau [s].
@@ -79,12 +79,12 @@ struct Energy {
 class ConservativeSystem : public ConstrainedSystem {
  public:
   /// r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
-  virtual void secant_balance(const State& from, const State& to, const VectorXd& lambda,
+  virtual void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
                               Eigen::Ref<VectorXd> r) const = 0;
   /// Its derivative with respect to the second state, up to terms of the step's square: not
   /// symmetric.
-  virtual void secant_tangent(const State& from, const State& to, const State& middle,
-                              const Weights& weights, KktMatrix& matrix) const = 0;
+  virtual void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
+                              const TangentCoefficients& coefficients, KktMatrix& matrix) const = 0;
   [[nodiscard]] virtual Energy energy(const State& state) const = 0;
 };
 

@@ -7,17 +7,17 @@
 
 #include "solver/large_motion/system/constrained_system.h"
 
-/// One kind of element and what it adds to the equations of `LargeSystem`.
+/// One kind of element and what it adds to the equations of `GeometricallyExactSystem`.
 namespace trammel::large {
 
-class Term {
+class ElementGroup {
  public:
-  Term() = default;
-  Term(const Term&) = delete;
-  Term& operator=(const Term&) = delete;
-  Term(Term&&) = delete;
-  Term& operator=(Term&&) = delete;
-  virtual ~Term() = default;
+  ElementGroup() = default;
+  ElementGroup(const ElementGroup&) = delete;
+  ElementGroup& operator=(const ElementGroup&) = delete;
+  ElementGroup(ElementGroup&&) = delete;
+  ElementGroup& operator=(ElementGroup&&) = delete;
+  virtual ~ElementGroup() = default;
 
   /// Appends what each element couples and remembers where its blocks begin.
   virtual void append_blocks(std::vector<std::vector<Index>>& blocks) = 0;
@@ -25,17 +25,17 @@ class Term {
   virtual void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const = 0;
   // Ref is a view.
   // NOLINTNEXTLINE(performance-unnecessary-value-param)
-  virtual void gaps(const State&, Eigen::Ref<VectorXd>, Eigen::Ref<VectorXd>) const {}
-  virtual void tangent(const State& state, double tau, const Weights& weights,
+  virtual void constraint_residual(const State&, Eigen::Ref<VectorXd>, Eigen::Ref<VectorXd>) const {}
+  virtual void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                        KktMatrix& matrix) const = 0;
   /// The same as `forces` between two states, doing exactly the work of the energy's change.
-  virtual void secant_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
+  virtual void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
                              Eigen::Ref<VectorXd> r) const = 0;
-  /// The derivative of `secant_forces` and of the rows with respect to the second state, up to
-  /// terms of the step's square; `middle` has the mean coordinates.
-  virtual void secant_tangent(const State&, const State&, const State& middle, double tau,
-                              const Weights& weights, KktMatrix& matrix) const {
-    tangent(middle, tau, weights, matrix);
+  /// The derivative of `discrete_gradient_forces` and of the rows with respect to the second state, up to
+  /// terms of the step's square; `midpoint` has the mean coordinates.
+  virtual void discrete_gradient_tangent(const State&, const State&, const State& midpoint, double tau,
+                              const TangentCoefficients& coefficients, KktMatrix& matrix) const {
+    tangent(midpoint, tau, coefficients, matrix);
   }
   /// Strain energy of what is not a compliant row [J].
   [[nodiscard]] virtual double energy(const State&) const { return 0; }
@@ -64,12 +64,12 @@ void scatter(const Eigen::Matrix<double, N, 1>& local, const std::array<Index, N
 
 /// Elements with constraint rows, numbered consecutively from `first_row`: beams and joints.
 template <class Element>
-class RowTerm final : public Term {
+class ConstraintElements final : public ElementGroup {
  public:
   static constexpr int N = Element::N, R = Element::R;
-  static constexpr bool elastic = requires(const Element& e) { e.stiffness(); };
+  static constexpr bool kElastic = requires(const Element& e) { e.stiffness(); };
 
-  RowTerm(Index free, Index first_row) : free_(free), first_row_(first_row) {}
+  ConstraintElements(Index free, Index first_row) : free_(free), first_row_(first_row) {}
 
   void add(Element element, const std::array<Index, N>& coordinates) {
     elements_.push_back(std::move(element));
@@ -97,14 +97,14 @@ class RowTerm final : public Term {
   }
 
   void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override {
-    typename Element::Rows gap;
+    typename Element::Rows residual;
     typename Element::Gradient G;
     for (Index e = 0; e < size(); ++e) {
       const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
-      element(e).gaps(q, state.t, gap, G);
+      element(e).constraint_residual(q, state.t, residual, G);
       typename Element::Coordinates f =
           G.transpose() * state.lambda.template segment<R>(first_row(e));
-      if constexpr (elastic) {
+      if constexpr (kElastic) {
         f += element(e).stiffness() * q;
         if (tau != 0) f += tau * (element(e).stiffness() * gather<N>(state.v, coordinates(e)));
       }
@@ -112,13 +112,13 @@ class RowTerm final : public Term {
     }
   }
 
-  void gaps(const State& state, Eigen::Ref<VectorXd> gap,
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
             Eigen::Ref<VectorXd> rate) const override {
     typename Element::Rows g;
     typename Element::Gradient G;
     for (Index e = 0; e < size(); ++e) {
-      element(e).gaps(gather<N>(state.q, coordinates(e)), state.t, g, G);
-      gap.template segment<R>(first_row(e)) = g;
+      element(e).constraint_residual(gather<N>(state.q, coordinates(e)), state.t, g, G);
+      residual.template segment<R>(first_row(e)) = g;
       rate.template segment<R>(first_row(e)) = G * gather<N>(state.v, coordinates(e));
       if constexpr (requires { element(e).time_rate(state.t); }) {
         rate.template segment<R>(first_row(e)) += element(e).time_rate(state.t);
@@ -126,40 +126,40 @@ class RowTerm final : public Term {
     }
   }
 
-  void tangent(const State& state, double tau, const Weights& weights,
+  void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const override {
-    typename Element::Rows gap;
+    typename Element::Rows residual;
     typename Element::Gradient G;
     for (Index e = 0; e < size(); ++e) {
       const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
-      element(e).gaps(q, state.t, gap, G);
-      matrix.add(first_block_ + e, coordinate_matrix(state, e, tau, weights), G,
-                 scaled_compliance(e, weights), element(e).weight(weights));
+      element(e).constraint_residual(q, state.t, residual, G);
+      matrix.add(first_block_ + e, coordinate_matrix(state, e, tau, coefficients), G,
+                 scaled_compliance(e, coefficients), element(e).penalty(coefficients));
     }
   }
 
-  void secant_tangent(const State& from, const State& to, const State& middle, double tau,
-                      const Weights& weights, KktMatrix& matrix) const override {
-    typename Element::Rows gap;
+  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint, double tau,
+                      const TangentCoefficients& coefficients, KktMatrix& matrix) const override {
+    typename Element::Rows residual;
     typename Element::Gradient G;
     for (Index e = 0; e < size(); ++e) {
       const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
       const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
-      element(e).gaps(q1, to.t, gap, G);
-      matrix.add(first_block_ + e, coordinate_matrix(middle, e, tau, weights),
-                 element(e).secant(q0, q1), G, scaled_compliance(e, weights),
-                 element(e).weight(weights));
+      element(e).constraint_residual(q1, to.t, residual, G);
+      matrix.add(first_block_ + e, coordinate_matrix(midpoint, e, tau, coefficients),
+                 element(e).discrete_gradient(q0, q1), G, scaled_compliance(e, coefficients),
+                 element(e).penalty(coefficients));
     }
   }
 
-  void secant_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
                      Eigen::Ref<VectorXd> r) const override {
     for (Index e = 0; e < size(); ++e) {
       const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
       const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
       typename Element::Coordinates f =
-          element(e).secant(q0, q1).transpose() * lambda.template segment<R>(first_row(e));
-      if constexpr (elastic) {
+          element(e).discrete_gradient(q0, q1).transpose() * lambda.template segment<R>(first_row(e));
+      if constexpr (kElastic) {
         f += element(e).stiffness() * ((q0 + q1) / 2 + tau / (to.t - from.t) * (q1 - q0));
       }
       scatter<N>(f, coordinates(e), r);
@@ -168,7 +168,7 @@ class RowTerm final : public Term {
 
   [[nodiscard]] double energy(const State& state) const override {
     double sum = 0;
-    if constexpr (elastic) {
+    if constexpr (kElastic) {
       for (Index e = 0; e < size(); ++e) {
         const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
         sum += q.dot(element(e).stiffness() * q) / 2;
@@ -179,19 +179,19 @@ class RowTerm final : public Term {
 
  private:
   [[nodiscard]] typename Element::Square coordinate_matrix(const State& state, Index e, double tau,
-                                                           const Weights& weights) const {
+                                                           const TangentCoefficients& coefficients) const {
     const typename Element::Rows lambda = state.lambda.template segment<R>(first_row(e));
     typename Element::Square S =
-        weights.stiffness * element(e).curvature(gather<N>(state.q, coordinates(e)), lambda);
-    if constexpr (elastic) {
-      S += (weights.stiffness + tau * weights.damping) * element(e).stiffness();
-      S += weights.mass * element(e).mass();
+        coefficients.stiffness * element(e).geometric_stiffness(gather<N>(state.q, coordinates(e)), lambda);
+    if constexpr (kElastic) {
+      S += (coefficients.stiffness + tau * coefficients.damping) * element(e).stiffness();
+      S += coefficients.mass * element(e).mass();
     }
     return S;
   }
 
-  [[nodiscard]] typename Element::Rows scaled_compliance(Index e, const Weights& weights) const {
-    return weights.compliance * element(e).compliance();
+  [[nodiscard]] typename Element::Rows scaled_compliance(Index e, const TangentCoefficients& coefficients) const {
+    return coefficients.compliance * element(e).compliance();
   }
 
   Index free_ = 0, first_row_ = 0, first_block_ = 0;
@@ -201,11 +201,11 @@ class RowTerm final : public Term {
 
 /// Elements with a strain energy of their coordinates alone, as `Triangle2d`.
 template <class Element>
-class EnergyTerm final : public Term {
+class EnergyElements final : public ElementGroup {
  public:
   static constexpr int N = Element::N;
 
-  explicit EnergyTerm(Index free) : free_(free) {}
+  explicit EnergyElements(Index free) : free_(free) {}
 
   void add(Element element, const std::array<Index, N>& coordinates) {
     elements_.push_back(std::move(element));
@@ -236,20 +236,20 @@ class EnergyTerm final : public Term {
     }
   }
 
-  void tangent(const State& state, double tau, const Weights& weights,
+  void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const override {
     for (Index e = 0; e < size(); ++e) {
       typename Element::Square S = element(e).tangent(gather<N>(state.q, coordinates(e)),
-                                                      weights.stiffness, tau * weights.damping);
-      S += weights.mass * element(e).mass();
+                                                      coefficients.stiffness, tau * coefficients.damping);
+      S += coefficients.mass * element(e).mass();
       matrix.add(first_block_ + e, S);
     }
   }
 
-  void secant_forces(const State& from, const State& to, const VectorXd&, double tau,
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd&, double tau,
                      Eigen::Ref<VectorXd> r) const override {
     for (Index e = 0; e < size(); ++e) {
-      scatter<N>(element(e).secant_forces(gather<N>(from.q, coordinates(e)),
+      scatter<N>(element(e).discrete_gradient_forces(gather<N>(from.q, coordinates(e)),
                                           gather<N>(to.q, coordinates(e)), tau / (to.t - from.t)),
                  coordinates(e), r);
     }

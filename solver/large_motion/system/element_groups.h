@@ -9,16 +9,16 @@
 /// The kinds of element there are; each is compiled once.
 namespace trammel::large {
 
-extern template class RowTerm<Beam<1>>;
-extern template class RowTerm<Beam<2>>;
-extern template class RowTerm<Beam<3>>;
-extern template class RowTerm<RigidLink>;
-extern template class RowTerm<SlidingJoint>;
-extern template class RowTerm<LineSpringElement>;
-extern template class RowTerm<Bar>;
-extern template class RowTerm<DrivenCoordinate>;
-extern template class EnergyTerm<Triangle2d<3>>;
-extern template class EnergyTerm<Triangle2d<6>>;
-extern template class EnergyTerm<CoordinateSpring>;
+extern template class ConstraintElements<Beam<1>>;
+extern template class ConstraintElements<Beam<2>>;
+extern template class ConstraintElements<Beam<3>>;
+extern template class ConstraintElements<RigidLink>;
+extern template class ConstraintElements<SlidingJoint>;
+extern template class ConstraintElements<LineSpringElement>;
+extern template class ConstraintElements<Bar>;
+extern template class ConstraintElements<DrivenCoordinate>;
+extern template class EnergyElements<Triangle2d<3>>;
+extern template class EnergyElements<Triangle2d<6>>;
+extern template class EnergyElements<CoordinateSpring>;
 
 }  // namespace trammel::large

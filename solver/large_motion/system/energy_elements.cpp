@@ -2,8 +2,8 @@
 
 namespace trammel::large {
 
-template class EnergyTerm<Triangle2d<3>>;
-template class EnergyTerm<Triangle2d<6>>;
-template class EnergyTerm<CoordinateSpring>;
+template class EnergyElements<Triangle2d<3>>;
+template class EnergyElements<Triangle2d<6>>;
+template class EnergyElements<CoordinateSpring>;
 
 }  // namespace trammel::large

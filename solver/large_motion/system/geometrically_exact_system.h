@@ -12,47 +12,47 @@
 
 namespace trammel::large {
 
-class LinearRows;
-class FollowerTerm;
+class LinearConstraints;
+class FollowerLoads;
 
-struct LargeOptions {
+struct GeometricallyExactOptions {
   int order = 3;  ///< degree of the beam elements, 1 to 3; end nodes converge with order 2 * degree
 };
 
 /// A planar model in large motion: Simo-Reissner beams, total-Lagrangian triangles, rigid bodies
 /// and joints, in absolute coordinates. One object serves one thread.
-class LargeSystem final : public ConservativeSystem {
+class GeometricallyExactSystem final : public ConservativeSystem {
  public:
   /// @throws ModelError  where the model has no meaning.
-  explicit LargeSystem(Model model, Scenario scenario = {}, const LargeOptions& options = {});
+  explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {}, const GeometricallyExactOptions& options = {});
 
   [[nodiscard]] Index coordinates() const override { return layout_.free; }
   [[nodiscard]] Index constraints() const override { return compliance_.size(); }
   [[nodiscard]] const VectorXd& compliance() const override { return compliance_; }
   [[nodiscard]] const VectorXd& scale() const override { return scale_; }
   [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return blocks_; }
-  void balance(const State& state, Eigen::Ref<VectorXd> r) const override;
-  void gaps(const State& state, Eigen::Ref<VectorXd> gap, Eigen::Ref<VectorXd> rate) const override;
-  void tangent(const State& state, const Weights& weights, KktMatrix& matrix) const override;
-  void secant_balance(const State& from, const State& to, const VectorXd& lambda,
+  void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual, Eigen::Ref<VectorXd> rate) const override;
+  void tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const override;
+  void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
                       Eigen::Ref<VectorXd> r) const override;
-  void secant_tangent(const State& from, const State& to, const State& middle,
-                      const Weights& weights, KktMatrix& matrix) const override;
+  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
+                      const TangentCoefficients& coefficients, KktMatrix& matrix) const override;
   [[nodiscard]] bool symmetric() const override;
   [[nodiscard]] double strain_rate_damping() const override {
-    return scenario_.strain_rate_damping;
+    return large_motion_.strain_rate_damping;
   }
   [[nodiscard]] double load_factor(double t) const override;
   [[nodiscard]] Energy energy(const State& state) const override;
 
-  /// d(balance)/d(load factor), gravity included.
-  void load_rate(const State& state, Eigen::Ref<VectorXd> r) const;
+  /// d(force residual)/d(load factor), gravity included.
+  void load_derivative(const State& state, Eigen::Ref<VectorXd> r) const;
 
   /// The model's pose at rest without forces, at time 0.
-  [[nodiscard]] State rest() const;
+  [[nodiscard]] State reference_state() const;
 
   [[nodiscard]] const Model& model() const { return model_; }
-  [[nodiscard]] const Scenario& scenario() const { return scenario_; }
+  [[nodiscard]] const LargeMotionModel& large_motion() const { return large_motion_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
   /// Row of a drive's multiplier.
   [[nodiscard]] Index drive_row(Index drive) const;
@@ -78,27 +78,27 @@ class LargeSystem final : public ConservativeSystem {
   void add_masses();
   void add_joints();
   void add_drives();
-  void add_linear_rows();
+  void add_linear_constraints();
   void add_loads();
-  void finish();
-  void join_scales();
-  [[nodiscard]] Weights with_damping(Weights weights) const;
+  void finalize();
+  void set_constraint_scales();
+  [[nodiscard]] TangentCoefficients with_damping(TangentCoefficients coefficients) const;
   void count_elements() const;
-  void add_point_masses(const Weights& weights, KktMatrix& matrix) const;
+  void add_point_masses(const TangentCoefficients& coefficients, KktMatrix& matrix) const;
 
   Model model_;
-  Scenario scenario_;
+  LargeMotionModel large_motion_;
   int order_ = 3;
   Layout layout_;
-  std::vector<std::unique_ptr<Term>> terms_;
-  LinearRows* linear_rows_ = nullptr;
-  FollowerTerm* followers_ = nullptr;
+  std::vector<std::unique_ptr<ElementGroup>> element_groups_;
+  LinearConstraints* linear_constraints_ = nullptr;
+  FollowerLoads* follower_loads_ = nullptr;
   std::vector<Index> element_row_;
   Index rows_ = 0, first_drive_row_ = 0;
   std::vector<std::vector<Index>> blocks_;
   VectorXd compliance_, scale_;
   std::vector<std::pair<Index, double>> point_mass_;  ///< on single coordinates
-  std::vector<Eigen::Triplet<double>> mass_entries_;  ///< until `finish`
+  std::vector<Eigen::Triplet<double>> mass_entries_;  ///< until `finalize`
   Eigen::SparseMatrix<double> mass_;                  ///< total x total
   VectorXd gravity_, loads_;                          ///< total
   mutable VectorXd padded_, product_;

@@ -2,10 +2,10 @@
 
 namespace trammel::large {
 
-template class RowTerm<RigidLink>;
-template class RowTerm<SlidingJoint>;
-template class RowTerm<LineSpringElement>;
-template class RowTerm<Bar>;
-template class RowTerm<DrivenCoordinate>;
+template class ConstraintElements<RigidLink>;
+template class ConstraintElements<SlidingJoint>;
+template class ConstraintElements<LineSpringElement>;
+template class ConstraintElements<Bar>;
+template class ConstraintElements<DrivenCoordinate>;
 
 }  // namespace trammel::large

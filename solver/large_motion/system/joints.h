@@ -6,16 +6,16 @@
 #include "solver/large_motion/system/beam.h"
 #include "solver/large_motion/system/large_motion_model.h"
 
-/// Joints as constraint rows, with the same functions as `Beam`: g and its gradient, its curvature
-/// times the multipliers, and the secant D with D (q1 - q0) = g(q1) - g(q0). J = [0 -1; 1 0].
+/// Joints as constraint rows, with the same functions as `Beam`: g and its gradient, its second derivative
+/// times the multipliers, and the discrete gradient D with D (q1 - q0) = g(q1) - g(q0). J = [0 -1; 1 0].
 namespace trammel::large {
 
-inline Vector2d quarter_turn(const Vector2d& v) {
+inline Vector2d perpendicular(const Vector2d& v) {
   return {-v.y(), v.x()};
 }
 
-inline Vector2d turned(const Vector2d& v, double angle) {
-  return std::cos(angle) * v + std::sin(angle) * quarter_turn(v);
+inline Vector2d rotated(const Vector2d& v, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * perpendicular(v);
 }
 
 /// Sizes and storage that every joint shares.
@@ -29,30 +29,30 @@ struct Joint {
 
   double stiffness_scale = 1, mass_scale = 1;  ///< of what is joined, for rho [N/m], [kg]
 
-  [[nodiscard]] Rows weight(const Weights& weights) const {
-    return Rows::Constant(weights.stiffness * stiffness_scale + weights.mass * mass_scale);
+  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
+    return Rows::Constant(coefficients.stiffness * stiffness_scale + coefficients.mass * mass_scale);
   }
 };
 
 /// Two nodes of one rigid body, u_b - u_a - (R(theta_a) - I) d = 0 (paper Eq. 20-24).
 /// Coordinates: ua (2), theta_a, ub (2).
 struct RigidLink : Joint<5, 2> {
-  Vector2d arm = Vector2d::Zero();  ///< d, from a to b when unloaded [m]
+  Vector2d offset = Vector2d::Zero();  ///< d, from a to b when unloaded [m]
 
-  void gaps(const Coordinates& q, double, Rows& gap, Gradient& G) const {
-    const Vector2d normal = quarter_turn(arm);
-    gap = q.tail<2>() - q.head<2>() - cosine_minus_one(q[2]) * arm - std::sin(q[2]) * normal;
-    G << -Eigen::Matrix2d::Identity(), -turned(normal, q[2]), Eigen::Matrix2d::Identity();
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    const Vector2d normal = perpendicular(offset);
+    residual = q.tail<2>() - q.head<2>() - cosine_minus_one(q[2]) * offset - std::sin(q[2]) * normal;
+    G << -Eigen::Matrix2d::Identity(), -rotated(normal, q[2]), Eigen::Matrix2d::Identity();
   }
-  [[nodiscard]] Square curvature(const Coordinates& q, const Rows& lambda) const {
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
     Square K = Square::Zero();
-    K(2, 2) = lambda.dot(turned(arm, q[2]));
+    K(2, 2) = lambda.dot(rotated(offset, q[2]));
     return K;
   }
-  [[nodiscard]] Gradient secant(const Coordinates& q0, const Coordinates& q1) const {
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
     const double half = (q1[2] - q0[2]) / 2;
     Gradient D;
-    D << -Eigen::Matrix2d::Identity(), -sinc(half) * turned(quarter_turn(arm), (q0[2] + q1[2]) / 2),
+    D << -Eigen::Matrix2d::Identity(), -sinc(half) * rotated(perpendicular(offset), (q0[2] + q1[2]) / 2),
         Eigen::Matrix2d::Identity();
     return D;
   }
@@ -63,32 +63,32 @@ struct RigidLink : Joint<5, 2> {
 /// n(theta_a) . (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
 struct SlidingJoint : Joint<5, 1> {
   Vector2d normal = Vector2d::UnitY();  ///< n of the line when unloaded
-  Vector2d arm = Vector2d::Zero();      ///< x_b - x_a when unloaded [m]
+  Vector2d offset = Vector2d::Zero();      ///< x_b - x_a when unloaded [m]
 
-  void gaps(const Coordinates& q, double, Rows& gap, Gradient& G) const {
-    const Vector2d n = turned(normal, q[2]);
-    const Vector2d moved = q.tail<2>() - q.head<2>();
-    const Vector2d change = cosine_minus_one(q[2]) * normal + std::sin(q[2]) * quarter_turn(normal);
-    gap[0] = n.dot(moved) + change.dot(arm);
-    G << -n.transpose(), quarter_turn(n).dot(arm + moved), n.transpose();
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    const Vector2d n = rotated(normal, q[2]);
+    const Vector2d relative_displacement = q.tail<2>() - q.head<2>();
+    const Vector2d change = cosine_minus_one(q[2]) * normal + std::sin(q[2]) * perpendicular(normal);
+    residual[0] = n.dot(relative_displacement) + change.dot(offset);
+    G << -n.transpose(), perpendicular(n).dot(offset + relative_displacement), n.transpose();
   }
-  [[nodiscard]] Square curvature(const Coordinates& q, const Rows& lambda) const {
-    const Vector2d n = turned(normal, q[2]), slope = lambda[0] * quarter_turn(n);
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
+    const Vector2d n = rotated(normal, q[2]), slope = lambda[0] * perpendicular(n);
     Square K = Square::Zero();
-    K(2, 2) = -lambda[0] * n.dot(arm + q.tail<2>() - q.head<2>());
+    K(2, 2) = -lambda[0] * n.dot(offset + q.tail<2>() - q.head<2>());
     K.block<2, 1>(0, 2) = -slope;
     K.block<1, 2>(2, 0) = -slope.transpose();
     K.block<2, 1>(3, 2) = slope;
     K.block<1, 2>(2, 3) = slope.transpose();
     return K;
   }
-  [[nodiscard]] Gradient secant(const Coordinates& q0, const Coordinates& q1) const {
-    const Coordinates middle = (q0 + q1) / 2;
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
+    const Coordinates midpoint = (q0 + q1) / 2;
     const double half = (q1[2] - q0[2]) / 2;
-    const Vector2d n = turned(normal, middle[2]);
+    const Vector2d n = rotated(normal, midpoint[2]);
     Gradient D;
     D << -std::cos(half) * n.transpose(),
-        sinc(half) * quarter_turn(n).dot(arm + middle.tail<2>() - middle.head<2>()),
+        sinc(half) * perpendicular(n).dot(offset + midpoint.tail<2>() - midpoint.head<2>()),
         std::cos(half) * n.transpose();
     return D;
   }
@@ -99,14 +99,14 @@ struct SlidingJoint : Joint<5, 1> {
 struct DrivenCoordinate : Joint<1, 1> {
   TimeFunction law;
 
-  void gaps(const Coordinates& q, double t, Rows& gap, Gradient& G) const {
-    gap[0] = q[0] - law(t)[0];
+  void constraint_residual(const Coordinates& q, double t, Rows& residual, Gradient& G) const {
+    residual[0] = q[0] - law(t)[0];
     G[0] = 1;
   }
   /// Partial derivative of g with respect to time.
   [[nodiscard]] Rows time_rate(double t) const { return Rows(-law(t)[1]); }
-  [[nodiscard]] static Square curvature(const Coordinates&, const Rows&) { return Square::Zero(); }
-  [[nodiscard]] static Gradient secant(const Coordinates&, const Coordinates&) {
+  [[nodiscard]] static Square geometric_stiffness(const Coordinates&, const Rows&) { return Square::Zero(); }
+  [[nodiscard]] static Gradient discrete_gradient(const Coordinates&, const Coordinates&) {
     return Gradient::Ones();
   }
   [[nodiscard]] static Rows compliance() { return Rows::Zero(); }
@@ -115,29 +115,29 @@ struct DrivenCoordinate : Joint<1, 1> {
 /// Spring along the line between two nodes, g = |x_b - x_a| - rest, c = 1/k (0: a rigid rod).
 /// Coordinates: ua (2), ub (2).
 struct LineSpringElement : Joint<4, 1> {
-  Vector2d arm = Vector2d::Zero();  ///< x_b - x_a in the model's pose [m]
-  double stretched = 0;             ///< |arm| - rest length [m]
+  Vector2d offset = Vector2d::Zero();  ///< x_b - x_a in the model's pose [m]
+  double initial_elongation = 0;             ///< |offset| - rest length [m]
   double flexibility = 0;           ///< 1/k [m/N]
 
-  void gaps(const Coordinates& q, double, Rows& gap, Gradient& G) const {
-    const Vector2d moved = q.tail<2>() - q.head<2>(), now = arm + moved;
-    const double length = now.norm();
-    gap[0] = moved.dot(now + arm) / (length + arm.norm()) + stretched;
-    G << -now.transpose() / length, now.transpose() / length;
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    const Vector2d relative_displacement = q.tail<2>() - q.head<2>(), current = offset + relative_displacement;
+    const double length = current.norm();
+    residual[0] = relative_displacement.dot(current + offset) / (length + offset.norm()) + initial_elongation;
+    G << -current.transpose() / length, current.transpose() / length;
   }
-  [[nodiscard]] Square curvature(const Coordinates& q, const Rows& lambda) const {
-    const Vector2d now = arm + q.tail<2>() - q.head<2>();
-    const double length = now.norm();
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
+    const Vector2d current = offset + q.tail<2>() - q.head<2>();
+    const double length = current.norm();
     const Eigen::Matrix2d k =
         lambda[0] / length *
-        (Eigen::Matrix2d::Identity() - now * now.transpose() / (length * length));
+        (Eigen::Matrix2d::Identity() - current * current.transpose() / (length * length));
     Square K;
     K << k, -k, -k, k;
     return K;
   }
-  [[nodiscard]] Gradient secant(const Coordinates& q0, const Coordinates& q1) const {
-    const Vector2d from = arm + q0.tail<2>() - q0.head<2>();
-    const Vector2d to = arm + q1.tail<2>() - q1.head<2>();
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
+    const Vector2d from = offset + q0.tail<2>() - q0.head<2>();
+    const Vector2d to = offset + q1.tail<2>() - q1.head<2>();
     const Vector2d mean = (from + to) / (from.norm() + to.norm());
     Gradient D;
     D << -mean.transpose(), mean.transpose();
@@ -149,14 +149,14 @@ struct LineSpringElement : Joint<4, 1> {
 /// Member without bending stiffness: a line spring of 1/k = h/EA with its mass, linear between the
 /// ends.
 struct Bar : LineSpringElement {
-  double whole_mass = 0;  ///< [kg]
+  double total_mass = 0;  ///< [kg]
   bool lumped = false;
 
   [[nodiscard]] static Square stiffness() { return Square::Zero(); }
   [[nodiscard]] Square mass() const {
-    const double own = whole_mass / (lumped ? 2 : 3), shared = lumped ? 0 : whole_mass / 6;
+    const double diagonal = total_mass / (lumped ? 2 : 3), off_diagonal = lumped ? 0 : total_mass / 6;
     const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-    return (Square() << own * I, shared * I, shared * I, own * I).finished();
+    return (Square() << diagonal * I, off_diagonal * I, off_diagonal * I, diagonal * I).finished();
   }
 };
 

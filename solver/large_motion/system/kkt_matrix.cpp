@@ -44,7 +44,7 @@ KktMatrix::KktMatrix(Index coordinates, Index constraints, const Blocks& blocks)
     : coordinates_(coordinates), constraints_(constraints), factors_(std::make_unique<Factors>()) {
   order(blocks);
   allocate(blocks);
-  recovery_ = VectorXd::Zero(constraints);
+  multiplier_scaling_ = VectorXd::Zero(constraints);
   work_.resize(coordinates + constraints);
   solution_.resize(coordinates + constraints);
 }
@@ -53,7 +53,7 @@ void KktMatrix::order(const Blocks& blocks) {
   const Index n = coordinates_, size = coordinates_ + constraints_;
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> elimination;
   if (n > 0) Eigen::AMDOrdering<int>()(coordinate_pattern(n, blocks), elimination);
-  // Twice the place among the coordinates; a row comes right after its last coordinate.
+  // Twice the position among the coordinates; a row comes right after its last coordinate.
   std::vector<Index> key(static_cast<std::size_t>(size), -1);
   for (Index p = 0; p < n; ++p) {
     key[static_cast<std::size_t>(elimination.indices()[p])] = 2 * p;
@@ -74,9 +74,9 @@ void KktMatrix::order(const Blocks& blocks) {
   std::stable_sort(sequence.begin(), sequence.end(), [&](Index i, Index j) {
     return key[static_cast<std::size_t>(i)] < key[static_cast<std::size_t>(j)];
   });
-  place_.resize(static_cast<std::size_t>(size));
+  permutation_.resize(static_cast<std::size_t>(size));
   for (Index p = 0; p < size; ++p) {
-    place_[static_cast<std::size_t>(sequence[static_cast<std::size_t>(p)])] = p;
+    permutation_[static_cast<std::size_t>(sequence[static_cast<std::size_t>(p)])] = p;
   }
 }
 
@@ -89,8 +89,8 @@ void KktMatrix::allocate(const Blocks& blocks) {
       if (i < 0) continue;
       for (const Index j : block) {
         if (j < 0) continue;
-        entries.emplace_back(place_[static_cast<std::size_t>(i)],
-                             place_[static_cast<std::size_t>(j)], 0.0);
+        entries.emplace_back(permutation_[static_cast<std::size_t>(i)],
+                             permutation_[static_cast<std::size_t>(j)], 0.0);
       }
     }
   }
@@ -98,22 +98,22 @@ void KktMatrix::allocate(const Blocks& blocks) {
   matrix_.setFromTriplets(entries.begin(), entries.end());
   matrix_.makeCompressed();
   for (const std::vector<Index>& block : blocks) {
-    block_start_.push_back(slots_.size());
+    block_start_.push_back(value_index_.size());
     for (const Index j : block) {
-      for (const Index i : block) slots_.push_back(i < 0 || j < 0 ? -1 : find_slot(i, j));
+      for (const Index i : block) value_index_.push_back(i < 0 || j < 0 ? -1 : value_index(i, j));
     }
   }
-  for (Index i = 0; i < coordinates_; ++i) diagonal_.push_back(find_slot(i, i));
-  row_of_slot_.assign(static_cast<std::size_t>(matrix_.nonZeros()), -1);
+  for (Index i = 0; i < coordinates_; ++i) diagonal_.push_back(value_index(i, i));
+  row_of_value_.assign(static_cast<std::size_t>(matrix_.nonZeros()), -1);
   for (Index r = 0; r < constraints_; ++r) {
-    const int slot = find_slot(coordinates_ + r, coordinates_ + r);
-    row_of_slot_[static_cast<std::size_t>(slot)] = r;
+    const int slot = value_index(coordinates_ + r, coordinates_ + r);
+    row_of_value_[static_cast<std::size_t>(slot)] = r;
   }
 }
 
-int KktMatrix::find_slot(Index row, Index column) const {
-  const int i = static_cast<int>(place_[static_cast<std::size_t>(row)]);
-  const Index j = place_[static_cast<std::size_t>(column)];
+int KktMatrix::value_index(Index row, Index column) const {
+  const int i = static_cast<int>(permutation_[static_cast<std::size_t>(row)]);
+  const Index j = permutation_[static_cast<std::size_t>(column)];
   const int* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[j];
   const int* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[j + 1];
   const int* found = std::lower_bound(begin, end, i);
@@ -123,7 +123,7 @@ int KktMatrix::find_slot(Index row, Index column) const {
 
 void KktMatrix::clear() {
   std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-  recovery_.setZero();
+  multiplier_scaling_.setZero();
 }
 
 void KktMatrix::add_diagonal(Index coordinate, double value) {
@@ -131,12 +131,12 @@ void KktMatrix::add_diagonal(Index coordinate, double value) {
 }
 
 void KktMatrix::add_row_diagonal(Index block, Index local, Index size, double value,
-                                 double recovery) {
+                                 double scaling) {
   const std::size_t start = block_start_[static_cast<std::size_t>(block)];
-  const int slot = slots_[start + static_cast<std::size_t>(local * size + local)];
+  const int slot = value_index_[start + static_cast<std::size_t>(local * size + local)];
   if (slot < 0) return;
   matrix_.valuePtr()[slot] += value;
-  recovery_[row_of_slot_[static_cast<std::size_t>(slot)]] = recovery;
+  multiplier_scaling_[row_of_value_[static_cast<std::size_t>(slot)]] = scaling;
 }
 
 bool KktMatrix::factor(bool symmetric) {
@@ -165,18 +165,18 @@ bool KktMatrix::factor_lu() {
 void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
   ++solves_;
   const Index size = coordinates_ + constraints_;
-  for (Index i = 0; i < size; ++i) work_[place_[static_cast<std::size_t>(i)]] = right_hand_side[i];
+  for (Index i = 0; i < size; ++i) work_[permutation_[static_cast<std::size_t>(i)]] = right_hand_side[i];
   if (factors_->use_lu) {
     solution_ = factors_->lu.solve(work_);
   } else {
     solution_ = factors_->ldlt.solve(work_);
   }
   for (Index i = 0; i < coordinates_; ++i) {
-    right_hand_side[i] = solution_[place_[static_cast<std::size_t>(i)]];
+    right_hand_side[i] = solution_[permutation_[static_cast<std::size_t>(i)]];
   }
   for (Index r = 0; r < constraints_; ++r) {
     double& y = right_hand_side[coordinates_ + r];
-    y = solution_[place_[static_cast<std::size_t>(coordinates_ + r)]] + recovery_[r] * y;
+    y = solution_[permutation_[static_cast<std::size_t>(coordinates_ + r)]] + multiplier_scaling_[r] * y;
   }
 }
 

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 ///     [ G   -C  ] [ dlambda ] = [ d ],      C = diag(c), c >= 0.
 ///
 /// S alone may be singular (it has no stretch and no shear: those are rows of G), so what is
-/// factored is the same equation with a weight rho <= 1 / (2c) on each row,
+/// factored is the same equation with a penalty rho <= 1 / (2c) on each row,
 ///
 ///     [ S + G^T rho G   G^T E ] [ dq ]   [ b ]
 ///     [ E G             -C E  ] [ y  ] = [ d ],   E = 1 - rho C,   dlambda = y + (rho / E) d,
@@ -56,15 +56,15 @@ class KktMatrix {
   template <class Matrix, class Gradient, class Rows>
   void add(Index block, const Matrix& S, const Gradient& D, const Gradient& G, const Rows& c,
            const Rows& rho) {
-    const Rows weight = rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
-    const Rows E = Rows::Ones(c.size()) - weight.cwiseProduct(c);
-    const Matrix augmented = S + D.transpose() * weight.asDiagonal() * G;
+    const Rows penalty = rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
+    const Rows E = Rows::Ones(c.size()) - penalty.cwiseProduct(c);
+    const Matrix augmented = S + D.transpose() * penalty.asDiagonal() * G;
     scatter(block, augmented, G.rows());
     scatter_rows(block, D, G, E);
     const Index n = S.rows();
     for (Index i = 0; i < G.rows(); ++i) {
-      add_row_diagonal(block, n + i, n + G.rows(), -c[i] * E[i] - 1e-11 / weight[i],
-                       weight[i] / E[i]);
+      add_row_diagonal(block, n + i, n + G.rows(), -c[i] * E[i] - 1e-11 / penalty[i],
+                       penalty[i] / E[i]);
     }
   }
 
@@ -91,14 +91,14 @@ class KktMatrix {
 
   void order(const std::vector<std::vector<Index>>& blocks);
   void allocate(const std::vector<std::vector<Index>>& blocks);
-  [[nodiscard]] int find_slot(Index row, Index column) const;
+  [[nodiscard]] int value_index(Index row, Index column) const;
   [[nodiscard]] bool factor_lu();
 
   /// Adds the n x n matrix into the leading part of a block of n + rows unknowns.
   template <class Matrix>
   void scatter(Index block, const Matrix& values, Index rows) {
     const Index n = values.rows();
-    const int* slot = slots_.data() + block_start_[static_cast<std::size_t>(block)];
+    const int* slot = value_index_.data() + block_start_[static_cast<std::size_t>(block)];
     double* a = matrix_.valuePtr();
     for (Index j = 0; j < n; ++j) {
       for (Index i = 0; i < n; ++i) {
@@ -111,7 +111,7 @@ class KktMatrix {
   template <class Gradient, class Rows>
   void scatter_rows(Index block, const Gradient& D, const Gradient& G, const Rows& E) {
     const Index n = G.cols(), m = G.rows();
-    const int* slot = slots_.data() + block_start_[static_cast<std::size_t>(block)];
+    const int* slot = value_index_.data() + block_start_[static_cast<std::size_t>(block)];
     double* a = matrix_.valuePtr();
     for (Index j = 0; j < n; ++j) {
       for (Index i = 0; i < m; ++i) {
@@ -123,16 +123,16 @@ class KktMatrix {
     }
   }
 
-  void add_row_diagonal(Index block, Index local, Index size, double value, double recovery);
+  void add_row_diagonal(Index block, Index local, Index size, double value, double scaling);
 
   Index coordinates_ = 0, constraints_ = 0;
-  std::vector<Index> place_;            ///< where an unknown stands in the elimination order
+  std::vector<Index> permutation_;            ///< elimination order: position of each unknown
   Eigen::SparseMatrix<double> matrix_;  ///< in elimination order, both triangles
   std::vector<std::size_t> block_start_;
-  std::vector<int> slots_;     ///< per block, column-major: position in the values, -1: not free
+  std::vector<int> value_index_;     ///< per block, column-major: position in the values, -1: not free
   std::vector<int> diagonal_;  ///< per coordinate
-  std::vector<Index> row_of_slot_;
-  VectorXd recovery_;  ///< rho / E of each row
+  std::vector<Index> row_of_value_;
+  VectorXd multiplier_scaling_;  ///< rho / E of each row
   std::unique_ptr<Factors> factors_;
   mutable VectorXd work_, solution_;
   mutable std::int64_t solves_ = 0;

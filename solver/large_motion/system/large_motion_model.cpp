@@ -20,45 +20,45 @@ void require_node(Index node, const Model& model, const std::string& part) {
 
 }  // namespace
 
-void validate(const Scenario& scenario, const Model& model) {
-  for (std::size_t i = 0; i < scenario.drives.size(); ++i) {
-    const Drive& drive = scenario.drives[i];
+void validate(const LargeMotionModel& large_motion, const Model& model) {
+  for (std::size_t i = 0; i < large_motion.drives.size(); ++i) {
+    const Drive& drive = large_motion.drives[i];
     const std::string part = part_label("drive", drive.name, i);
     require_node(drive.node, model, part);
     require(drive.direction >= 0 && drive.direction <= 2, part, "has no direction 0, 1 or 2");
     require(static_cast<bool>(drive.law), part, "has no law of motion");
   }
-  for (std::size_t i = 0; i < scenario.sliders.size(); ++i) {
-    const Slider& slider = scenario.sliders[i];
+  for (std::size_t i = 0; i < large_motion.sliders.size(); ++i) {
+    const Slider& slider = large_motion.sliders[i];
     const std::string part = part_label("slider", slider.name, i);
     require_node(slider.node, model, part);
     if (slider.rail != -1) require_node(slider.rail, model, part);
     require(slider.rail != slider.node, part, "slides along itself");
     require(std::isfinite(slider.direction), part, "has no direction");
   }
-  for (std::size_t i = 0; i < scenario.line_springs.size(); ++i) {
-    const LineSpring& spring = scenario.line_springs[i];
+  for (std::size_t i = 0; i < large_motion.line_springs.size(); ++i) {
+    const LineSpring& spring = large_motion.line_springs[i];
     const std::string part = part_label("line spring", spring.name, i);
     for (const Index node : spring.nodes) require_node(node, model, part);
     require(std::isfinite(spring.stiffness) && spring.stiffness > 0, part,
             "must have a positive stiffness");
-    const Vector2d arm = model.nodes[static_cast<std::size_t>(spring.nodes[1])].position -
+    const Vector2d offset = model.nodes[static_cast<std::size_t>(spring.nodes[1])].position -
                          model.nodes[static_cast<std::size_t>(spring.nodes[0])].position;
-    require(arm.norm() > 0, part, "joins nodes in one place, so it has no direction");
+    require(offset.norm() > 0, part, "joins nodes in one place, so it has no direction");
   }
-  for (const FollowerLoad& load : scenario.follower_loads) {
+  for (const FollowerLoad& load : large_motion.follower_loads) {
     require_node(load.node, model, "a follower load");
     require(load.force.allFinite(), "a follower load", "is not a finite number");
   }
-  for (const StartVelocity& start : scenario.start) {
-    require_node(start.node, model, "a start velocity");
-    require(start.direction >= 0 && start.direction <= 2, "a start velocity",
+  for (const InitialVelocity& initial : large_motion.initial_velocities) {
+    require_node(initial.node, model, "a start velocity");
+    require(initial.direction >= 0 && initial.direction <= 2, "a start velocity",
             "has no direction 0, 1 or 2");
-    require(std::isfinite(start.value), "a start velocity", "is not a finite number");
+    require(std::isfinite(initial.value), "a start velocity", "is not a finite number");
   }
-  require(std::isfinite(scenario.mass_damping) && scenario.mass_damping >= 0, "mass damping",
+  require(std::isfinite(large_motion.mass_damping) && large_motion.mass_damping >= 0, "mass damping",
           "must not be negative");
-  require(std::isfinite(scenario.strain_rate_damping) && scenario.strain_rate_damping >= 0,
+  require(std::isfinite(large_motion.strain_rate_damping) && large_motion.strain_rate_damping >= 0,
           "strain-rate damping", "must not be negative");
 }
 

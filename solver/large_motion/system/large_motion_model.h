@@ -25,7 +25,7 @@ struct Drive {
   TimeFunction law;
 };
 
-/// A node slides along a line through its place in the model's pose; the line turns with the node
+/// A node slides along a line through its position in the model's pose; the line turns with the node
 /// `rail`, or stands still (-1).
 struct Slider {
   std::string name;
@@ -51,26 +51,26 @@ struct FollowerLoad {
 };
 
 /// Velocity of a node at the start; what is not given follows by least kinetic energy.
-struct StartVelocity {
+struct InitialVelocity {
   Index node = 0;
   int direction = 0;  ///< 0: x [m/s], 1: y [m/s], 2: rotation [rad/s]
   double value = 0;
 };
 
-struct Scenario {
+struct LargeMotionModel {
   std::vector<Drive> drives;
   std::vector<Slider> sliders;
   std::vector<LineSpring> line_springs;
   std::vector<FollowerLoad> follower_loads;
-  std::vector<StartVelocity> start;
+  std::vector<InitialVelocity> initial_velocities;
   std::function<double(double)> load_history;  ///< factor on the loads (not gravity); empty: 1
   double mass_damping = 0;                     ///< forces -mass_damping M v [1/s]
   double strain_rate_damping = 0;              ///< stress from strain + this times strain rate [s]
 };
 
-/// @throws ModelError  where a part of the scenario names a node that does not exist, or its
+/// @throws ModelError  where a part of the large-motion model names a node that does not exist, or its
 /// numbers
 ///                     have no meaning.
-void validate(const Scenario& scenario, const Model& model);
+void validate(const LargeMotionModel& large_motion, const Model& model);
 
 }  // namespace trammel::large

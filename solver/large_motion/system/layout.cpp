@@ -14,8 +14,8 @@ namespace {
 
 class Numbering {
  public:
-  Numbering(const Model& model, const Scenario& scenario, int order)
-      : model_(model), scenario_(scenario), order_(order) {}
+  Numbering(const Model& model, const LargeMotionModel& large_motion, int order)
+      : model_(model), large_motion_(large_motion), order_(order) {}
 
   Layout run() {
     share_rotations();
@@ -24,9 +24,9 @@ class Numbering {
     for (Index m = 0; m < static_cast<Index>(model_.members.size()); ++m) number_member(m);
     layout_.first_element.push_back(static_cast<Index>(layout_.elements.size()));
     number_masses();
-    share_equal();
-    hold_supports();
-    free_first();
+    merge_equated();
+    apply_supports();
+    renumber_free_first();
     return std::move(layout_);
   }
 
@@ -45,44 +45,44 @@ class Numbering {
   }
 
   void find_rotations() {
-    turns_.assign(model_.nodes.size(), false);
-    const auto need = [&](Index node) {
-      if (node >= 0) turns_[to_size(owner(node))] = true;
+    has_rotation_.assign(model_.nodes.size(), false);
+    const auto require_rotation = [&](Index node) {
+      if (node >= 0) has_rotation_[to_size(owner(node))] = true;
     };
     for (const Member& member : model_.members) {
       for (std::size_t end = 0; end < 2; ++end) {
-        if (member.ends[end].fixity != EndFixity::hinged) need(member.nodes[end]);
+        if (member.ends[end].fixity != EndFixity::hinged) require_rotation(member.nodes[end]);
       }
     }
-    for (const RigidBody& body : model_.rigid_bodies) need(body.reference);
+    for (const RigidBody& body : model_.rigid_bodies) require_rotation(body.reference);
     for (const PointMass& mass : model_.masses) {
-      if (mass.inertia != 0 || !mass.offset.isZero(0)) need(mass.node);
+      if (mass.inertia != 0 || !mass.offset.isZero(0)) require_rotation(mass.node);
     }
     for (const Spring& spring : model_.springs) {
-      if (spring.stiffness[2] != 0) need(spring.nodes[0]);
-      if (spring.stiffness[2] != 0) need(spring.nodes[1]);
+      if (spring.stiffness[2] != 0) require_rotation(spring.nodes[0]);
+      if (spring.stiffness[2] != 0) require_rotation(spring.nodes[1]);
     }
     for (const NodalLoad& load : model_.loads) {
-      if (load.force[2] != 0) need(load.node);
+      if (load.force[2] != 0) require_rotation(load.node);
     }
     for (const LinearConstraint& constraint : model_.constraints) {
       for (const auto& [coordinate, factor] : constraint.terms) {
-        if (coordinate.kind == Coordinate::Kind::rotation) need(coordinate.node);
+        if (coordinate.kind == Coordinate::Kind::rotation) require_rotation(coordinate.node);
       }
     }
-    for (const Drive& drive : scenario_.drives) {
-      if (drive.direction == 2) need(drive.node);
+    for (const Drive& drive : large_motion_.drives) {
+      if (drive.direction == 2) require_rotation(drive.node);
     }
-    for (const FollowerLoad& load : scenario_.follower_loads) need(load.node);
-    for (const Slider& slider : scenario_.sliders) {
-      need(slider.rail);
-      if (slider.keeps_angle) need(slider.node);
+    for (const FollowerLoad& load : large_motion_.follower_loads) require_rotation(load.node);
+    for (const Slider& slider : large_motion_.sliders) {
+      require_rotation(slider.rail);
+      if (slider.keeps_angle) require_rotation(slider.node);
     }
   }
 
   Index add(bool rotation) {
     layout_.is_rotation.push_back(rotation);
-    held_.push_back(false);
+    fixed_.push_back(false);
     return layout_.total++;
   }
 
@@ -91,7 +91,7 @@ class Numbering {
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
       layout_.node[i][0] = add(false);
       layout_.node[i][1] = add(false);
-      if (turns_[i] && owner(static_cast<Index>(i)) == static_cast<Index>(i)) {
+      if (has_rotation_[i] && owner(static_cast<Index>(i)) == static_cast<Index>(i)) {
         layout_.node[i][2] = add(true);
       }
     }
@@ -156,79 +156,79 @@ class Numbering {
 
   /// A constraint that makes two coordinates equal, such as a revolute joint between nodes in one
   /// place, is one coordinate.
-  void share_equal() {
-    shared_.resize(to_size(layout_.total));
-    std::iota(shared_.begin(), shared_.end(), Index{0});
+  void merge_equated() {
+    representative_.resize(to_size(layout_.total));
+    std::iota(representative_.begin(), representative_.end(), Index{0});
     for (const LinearConstraint& constraint : model_.constraints) {
-      const std::optional<std::array<Index, 2>> pair = layout_.equal(constraint);
-      if (pair) shared_[to_size(leader((*pair)[0]))] = leader((*pair)[1]);
+      const std::optional<std::array<Index, 2>> pair = layout_.equated_coordinates(constraint);
+      if (pair) representative_[to_size(representative((*pair)[0]))] = representative((*pair)[1]);
     }
   }
 
-  Index leader(Index i) const {
-    while (shared_[to_size(i)] != i) i = shared_[to_size(i)];
+  Index representative(Index i) const {
+    while (representative_[to_size(i)] != i) i = representative_[to_size(i)];
     return i;
   }
 
-  void hold_supports() {
+  void apply_supports() {
     for (const Support& support : model_.supports) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Index coordinate = layout_.node[to_size(support.node)][k];
-        if (support.fixed[k] && coordinate >= 0) held_[to_size(leader(coordinate))] = true;
+        if (support.fixed[k] && coordinate >= 0) fixed_[to_size(representative(coordinate))] = true;
       }
     }
-    for (const Drive& drive : scenario_.drives) {
-      if (held_[to_size(leader(layout_.node[to_size(drive.node)][to_size(drive.direction)]))]) {
+    for (const Drive& drive : large_motion_.drives) {
+      if (fixed_[to_size(representative(layout_.node[to_size(drive.node)][to_size(drive.direction)]))]) {
         throw ModelError(part_label("drive", drive.name, 0) + " moves what a support holds");
       }
     }
   }
 
-  void free_first() {
-    std::vector<Index> place(to_size(layout_.total), -1);
+  void renumber_free_first() {
+    std::vector<Index> new_index(to_size(layout_.total), -1);
     Index next = 0;
-    for (const bool held : {false, true}) {
+    for (const bool fixed : {false, true}) {
       for (Index i = 0; i < layout_.total; ++i) {
-        if (leader(i) == i && held_[to_size(i)] == held) place[to_size(i)] = next++;
+        if (representative(i) == i && fixed_[to_size(i)] == fixed) new_index[to_size(i)] = next++;
       }
-      if (!held) layout_.free = next;
+      if (!fixed) layout_.free = next;
     }
     std::vector<bool> is_rotation(to_size(next));
     for (Index i = 0; i < layout_.total; ++i) {
-      place[to_size(i)] = place[to_size(leader(i))];
-      is_rotation[to_size(place[to_size(i)])] = layout_.is_rotation[to_size(i)];
+      new_index[to_size(i)] = new_index[to_size(representative(i))];
+      is_rotation[to_size(new_index[to_size(i)])] = layout_.is_rotation[to_size(i)];
     }
     layout_.total = next;
     layout_.is_rotation = std::move(is_rotation);
-    const auto move = [&](Index& i) {
-      if (i >= 0) i = place[to_size(i)];
+    const auto renumber = [&](Index& i) {
+      if (i >= 0) i = new_index[to_size(i)];
     };
     for (auto& node : layout_.node) {
-      for (Index& i : node) move(i);
+      for (Index& i : node) renumber(i);
     }
     for (auto& ends : layout_.end_rotation) {
-      for (Index& i : ends) move(i);
+      for (Index& i : ends) renumber(i);
     }
     for (MemberElement& element : layout_.elements) {
-      for (Index& i : element.coordinates) move(i);
+      for (Index& i : element.coordinates) renumber(i);
     }
     for (auto& centre : layout_.mass_centre) {
-      for (Index& i : centre) move(i);
+      for (Index& i : centre) renumber(i);
     }
   }
 
   const Model& model_;
-  const Scenario& scenario_;
+  const LargeMotionModel& large_motion_;
   int order_;
   Layout layout_;
   std::vector<Index> owner_;   ///< node whose rotation a node shares
-  std::vector<Index> shared_;  ///< coordinate that a coordinate equals
-  std::vector<bool> turns_, held_;
+  std::vector<Index> representative_;  ///< coordinate that a coordinate equals
+  std::vector<bool> has_rotation_, fixed_;
 };
 
 }  // namespace
 
-Index Layout::of(const Coordinate& coordinate) const {
+Index Layout::index_of(const Coordinate& coordinate) const {
   if (coordinate.kind == Coordinate::Kind::end_rotation) {
     if (coordinate.member < 0 || to_size(coordinate.member) >= end_rotation.size() ||
         coordinate.end < 0 || coordinate.end > 1) {
@@ -242,17 +242,17 @@ Index Layout::of(const Coordinate& coordinate) const {
   return node[to_size(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
 }
 
-std::optional<std::array<Index, 2>> Layout::equal(const LinearConstraint& constraint) const {
+std::optional<std::array<Index, 2>> Layout::equated_coordinates(const LinearConstraint& constraint) const {
   if (constraint.terms.size() != 2) return std::nullopt;
   const auto& [first, a] = constraint.terms[0];
   const auto& [second, b] = constraint.terms[1];
-  const std::array<Index, 2> pair = {of(first), of(second)};
+  const std::array<Index, 2> pair = {index_of(first), index_of(second)};
   if (a == 0 || a != -b || pair[0] < 0 || pair[1] < 0) return std::nullopt;
   return pair;
 }
 
-Layout number_coordinates(const Model& model, const Scenario& scenario, int order) {
-  return Numbering(model, scenario, order).run();
+Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion, int order) {
+  return Numbering(model, large_motion, order).run();
 }
 
 }  // namespace trammel::large

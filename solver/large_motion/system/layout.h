@@ -36,13 +36,13 @@ struct Layout {
       mass_centre;                ///< of each point mass with an offset; else node's
   std::vector<bool> is_rotation;  ///< of each coordinate
 
-  [[nodiscard]] Index of(const Coordinate& coordinate) const;
+  [[nodiscard]] Index index_of(const Coordinate& coordinate) const;
   /// The two coordinates that a constraint makes equal, if it is of that kind.
-  [[nodiscard]] std::optional<std::array<Index, 2>> equal(const LinearConstraint& constraint) const;
+  [[nodiscard]] std::optional<std::array<Index, 2>> equated_coordinates(const LinearConstraint& constraint) const;
 };
 
 /// @param order  degree of the beam elements, 1 to 3.
 /// @throws ModelError  where the model has no meaning.
-[[nodiscard]] Layout number_coordinates(const Model& model, const Scenario& scenario, int order);
+[[nodiscard]] Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion, int order);
 
 }  // namespace trammel::large

@@ -6,7 +6,7 @@ namespace trammel::large {
 
 namespace {
 
-double dot(const LinearRow& row, const VectorXd& values) {
+double dot(const LinearConstraintRow& row, const VectorXd& values) {
   double sum = 0;
   for (std::size_t i = 0; i < row.coordinates.size(); ++i) {
     const Index k = row.coordinates[i];
@@ -17,12 +17,12 @@ double dot(const LinearRow& row, const VectorXd& values) {
 
 }  // namespace
 
-void LinearRows::add(LinearRow row) {
-  nothing_.emplace_back(Eigen::MatrixXd::Zero(row.factors.size(), row.factors.size()));
+void LinearConstraints::add(LinearConstraintRow row) {
+  zero_blocks_.emplace_back(Eigen::MatrixXd::Zero(row.factors.size(), row.factors.size()));
   rows_.push_back(std::move(row));
 }
 
-void LinearRows::append_blocks(std::vector<std::vector<Index>>& blocks) {
+void LinearConstraints::append_blocks(std::vector<std::vector<Index>>& blocks) {
   first_block_ = static_cast<Index>(blocks.size());
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     std::vector<Index> block;
@@ -32,7 +32,7 @@ void LinearRows::append_blocks(std::vector<std::vector<Index>>& blocks) {
   }
 }
 
-void LinearRows::pull(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const {
+void LinearConstraints::add_constraint_forces(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const {
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     const double force = lambda[first_row_ + static_cast<Index>(e)];
     for (std::size_t i = 0; i < rows_[e].coordinates.size(); ++i) {
@@ -42,31 +42,31 @@ void LinearRows::pull(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const {
   }
 }
 
-void LinearRows::forces(const State& state, double, Eigen::Ref<VectorXd> r) const {
-  pull(state.lambda, r);
+void LinearConstraints::forces(const State& state, double, Eigen::Ref<VectorXd> r) const {
+  add_constraint_forces(state.lambda, r);
 }
 
-void LinearRows::secant_forces(const State&, const State&, const VectorXd& lambda, double,
+void LinearConstraints::discrete_gradient_forces(const State&, const State&, const VectorXd& lambda, double,
                                Eigen::Ref<VectorXd> r) const {
-  pull(lambda, r);
+  add_constraint_forces(lambda, r);
 }
 
-void LinearRows::gaps(const State& state, Eigen::Ref<VectorXd> gap,
+void LinearConstraints::constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                       Eigen::Ref<VectorXd> rate) const {
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     const Index row = first_row_ + static_cast<Index>(e);
-    gap[row] = dot(rows_[e], state.q);
+    residual[row] = dot(rows_[e], state.q);
     rate[row] = dot(rows_[e], state.v);
   }
 }
 
-void LinearRows::tangent(const State&, double, const Weights& weights, KktMatrix& matrix) const {
+void LinearConstraints::tangent(const State&, double, const TangentCoefficients& coefficients, KktMatrix& matrix) const {
   const Eigen::Matrix<double, 1, 1> c = Eigen::Matrix<double, 1, 1>::Zero();
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     const double norm = rows_[e].factors.squaredNorm();
     const Eigen::Matrix<double, 1, 1> rho(
-        (weights.stiffness * rows_[e].stiffness_scale + weights.mass * rows_[e].mass_scale) / norm);
-    matrix.add(first_block_ + static_cast<Index>(e), nothing_[e],
+        (coefficients.stiffness * rows_[e].stiffness_scale + coefficients.mass * rows_[e].mass_scale) / norm);
+    matrix.add(first_block_ + static_cast<Index>(e), zero_blocks_[e],
                Eigen::RowVectorXd(rows_[e].factors.transpose()), c, rho);
   }
 }

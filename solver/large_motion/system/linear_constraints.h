@@ -7,35 +7,35 @@
 namespace trammel::large {
 
 /// One row: sum of factor * coordinate = 0.
-struct LinearRow {
+struct LinearConstraintRow {
   std::vector<Index> coordinates;
   VectorXd factors;
   double stiffness_scale = 1, mass_scale = 1;  ///< of what is joined, for rho
 };
 
 /// Linear constraints between coordinates.
-class LinearRows final : public Term {
+class LinearConstraints final : public ElementGroup {
  public:
-  LinearRows(Index free, Index first_row) : free_(free), first_row_(first_row) {}
+  LinearConstraints(Index free, Index first_row) : free_(free), first_row_(first_row) {}
 
-  void add(LinearRow row);
+  void add(LinearConstraintRow row);
 
   void append_blocks(std::vector<std::vector<Index>>& blocks) override;
   void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override;
-  void gaps(const State& state, Eigen::Ref<VectorXd> gap, Eigen::Ref<VectorXd> rate) const override;
-  void tangent(const State& state, double tau, const Weights& weights,
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual, Eigen::Ref<VectorXd> rate) const override;
+  void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const override;
-  void secant_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
                      Eigen::Ref<VectorXd> r) const override;
   [[nodiscard]] Index size() const override { return static_cast<Index>(rows_.size()); }
-  std::vector<LinearRow>& rows() { return rows_; }
+  std::vector<LinearConstraintRow>& rows() { return rows_; }
 
  private:
-  void pull(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const;
+  void add_constraint_forces(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const;
 
   Index free_ = 0, first_row_ = 0, first_block_ = 0;
-  std::vector<LinearRow> rows_;
-  std::vector<Eigen::MatrixXd> nothing_;  ///< a zero S of each row's size
+  std::vector<LinearConstraintRow> rows_;
+  std::vector<Eigen::MatrixXd> zero_blocks_;  ///< a zero S of each row's size
 };
 
 }  // namespace trammel::large

@@ -14,21 +14,21 @@ void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& 
 void add_linear_slider(Model& model, const large::Slider& slider) {
   const Vector2d normal(-std::sin(slider.direction), std::cos(slider.direction));
   using Kind = Coordinate::Kind;
-  LinearConstraint across{
+  LinearConstraint no_normal_displacement{
       slider.name,
       {{{Kind::x, slider.node, -1, 0}, normal.x()}, {{Kind::y, slider.node, -1, 0}, normal.y()}}};
-  LinearConstraint turning{slider.name, {{{Kind::rotation, slider.node, -1, 0}, 1.0}}};
+  LinearConstraint equal_rotation{slider.name, {{{Kind::rotation, slider.node, -1, 0}, 1.0}}};
   if (slider.rail >= 0) {
-    const Vector2d arm = model.nodes[static_cast<std::size_t>(slider.node)].position -
+    const Vector2d offset = model.nodes[static_cast<std::size_t>(slider.node)].position -
                          model.nodes[static_cast<std::size_t>(slider.rail)].position;
-    const double lever = normal.dot(Vector2d(-arm.y(), arm.x()));
-    across.terms.push_back({{Kind::x, slider.rail, -1, 0}, -normal.x()});
-    across.terms.push_back({{Kind::y, slider.rail, -1, 0}, -normal.y()});
-    if (lever != 0) across.terms.push_back({{Kind::rotation, slider.rail, -1, 0}, -lever});
-    turning.terms.push_back({{Kind::rotation, slider.rail, -1, 0}, -1.0});
+    const double lever = normal.dot(Vector2d(-offset.y(), offset.x()));
+    no_normal_displacement.terms.push_back({{Kind::x, slider.rail, -1, 0}, -normal.x()});
+    no_normal_displacement.terms.push_back({{Kind::y, slider.rail, -1, 0}, -normal.y()});
+    if (lever != 0) no_normal_displacement.terms.push_back({{Kind::rotation, slider.rail, -1, 0}, -lever});
+    equal_rotation.terms.push_back({{Kind::rotation, slider.rail, -1, 0}, -1.0});
   }
-  model.constraints.push_back(std::move(across));
-  if (slider.keeps_angle) model.constraints.push_back(std::move(turning));
+  model.constraints.push_back(std::move(no_normal_displacement));
+  if (slider.keeps_angle) model.constraints.push_back(std::move(equal_rotation));
 }
 
 }  // namespace trammel

@@ -26,7 +26,7 @@ struct CoordinateSpring {
   [[nodiscard]] Square tangent(const Coordinates&, double k, double d) const {
     return (k + d) * matrix();
   }
-  [[nodiscard]] Coordinates secant_forces(const Coordinates& q0, const Coordinates& q1,
+  [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
                                           double rate) const {
     return matrix() * ((q0 + q1) / 2 + rate * (q1 - q0));
   }
@@ -34,9 +34,9 @@ struct CoordinateSpring {
 };
 
 /// Forces and moments that turn with their nodes, f = R(theta) F; their stiffness is not symmetric.
-class FollowerTerm final : public Term {
+class FollowerLoads final : public ElementGroup {
  public:
-  explicit FollowerTerm(Index free) : free_(free) {}
+  explicit FollowerLoads(Index free) : free_(free) {}
 
   /// @param where  x, y, rotation of the node.
   void add(const Eigen::Vector3d& force, const std::array<Index, 3>& where) {
@@ -59,18 +59,18 @@ class FollowerTerm final : public Term {
     }
   }
 
-  void tangent(const State& state, double, const Weights& weights,
+  void tangent(const State& state, double, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const override {
     for (std::size_t e = 0; e < forces_.size(); ++e) {
       const double angle = gather<3>(state.q, where_[e])[2];
       Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
       S.block<2, 1>(0, 2) =
-          -weights.stiffness * state.load * quarter_turn(turned(forces_[e].head<2>(), angle));
+          -coefficients.stiffness * state.load * perpendicular(rotated(forces_[e].head<2>(), angle));
       matrix.add(first_block_ + static_cast<Index>(e), S);
     }
   }
 
-  void secant_forces(const State& from, const State& to, const VectorXd&, double,
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd&, double,
                      Eigen::Ref<VectorXd> r) const override {
     for (std::size_t e = 0; e < forces_.size(); ++e) {
       const double angle = (gather<3>(from.q, where_[e])[2] + gather<3>(to.q, where_[e])[2]) / 2;
@@ -79,7 +79,7 @@ class FollowerTerm final : public Term {
   }
 
   /// Adds -df/dload to r.
-  void add_load_rate(const State& state, Eigen::Ref<VectorXd> r) const {
+  void add_load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
     for (std::size_t e = 0; e < forces_.size(); ++e) {
       add_force(e, gather<3>(state.q, where_[e])[2], 1, r);
     }
@@ -90,7 +90,7 @@ class FollowerTerm final : public Term {
  private:
   void add_force(std::size_t e, double angle, double factor, Eigen::Ref<VectorXd> r) const {
     Eigen::Vector3d f;
-    f << turned(forces_[e].head<2>(), angle), forces_[e][2];
+    f << rotated(forces_[e].head<2>(), angle), forces_[e][2];
     const Eigen::Vector3d pushed = -factor * f;
     scatter<3>(pushed, where_[e], r);
   }

@@ -18,7 +18,7 @@ Beam<P> make_beam(const Member& member, const MemberElement& element) {
   beam.stretch_compliance = member.axially_flexible ? 1 / section.EA : 0.0;
   beam.mass_per_length = section.mass_per_length;
   beam.lumped = member.mass == MassMatrix::lumped;
-  if (shears(member.theory)) beam.shear_compliance = 1 / section.kappa_GA;
+  if (has_shear_deformation(member.theory)) beam.shear_compliance = 1 / section.kappa_GA;
   if (has_rotary_inertia(member.theory)) beam.inertia_per_length = section.inertia_per_length;
   return beam;
 }

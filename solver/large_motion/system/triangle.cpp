@@ -7,7 +7,7 @@ namespace trammel::large {
 namespace {
 
 template <int Nodes>
-Eigen::Matrix<double, Nodes, 1> values(double r, double s) {
+Eigen::Matrix<double, Nodes, 1> shape_functions(double r, double s) {
   const double t = 1 - r - s;
   Eigen::Matrix<double, Nodes, 1> n;
   if constexpr (Nodes == 3) {
@@ -19,7 +19,7 @@ Eigen::Matrix<double, Nodes, 1> values(double r, double s) {
 }
 
 template <int Nodes>
-Eigen::Matrix<double, 2, Nodes> local_slopes(double r, double s) {
+Eigen::Matrix<double, 2, Nodes> local_gradients(double r, double s) {
   Eigen::Matrix<double, 2, Nodes> d;
   if constexpr (Nodes == 3) {
     d << -1, 1, 0, -1, 0, 1;
@@ -36,17 +36,17 @@ struct Point {
 };
 
 /// Interior rules on the triangle, weights summing to 1: degree 1, 2 or 4.
-constexpr std::array<Point, 1> centroid = {{{1.0 / 3, 1.0 / 3, 1}}};
-constexpr std::array<Point, 3> three = {
+constexpr std::array<Point, 1> kCentroidRule = {{{1.0 / 3, 1.0 / 3, 1}}};
+constexpr std::array<Point, 3> kThreePointRule = {
     {{1.0 / 6, 1.0 / 6, 1.0 / 3}, {2.0 / 3, 1.0 / 6, 1.0 / 3}, {1.0 / 6, 2.0 / 3, 1.0 / 3}}};
-constexpr double a4 = 0.44594849091596488632, b4 = 0.09157621350977074346;
-constexpr double wa = 0.22338158967801146570, wb = 0.10995174365532186764;
-constexpr std::array<Point, 6> six = {{{a4, a4, wa},
-                                       {1 - 2 * a4, a4, wa},
-                                       {a4, 1 - 2 * a4, wa},
-                                       {b4, b4, wb},
-                                       {1 - 2 * b4, b4, wb},
-                                       {b4, 1 - 2 * b4, wb}}};
+constexpr double kA4 = 0.44594849091596488632, kB4 = 0.09157621350977074346;
+constexpr double kWeightA = 0.22338158967801146570, kWeightB = 0.10995174365532186764;
+constexpr std::array<Point, 6> kSixPointRule = {{{kA4, kA4, kWeightA},
+                                       {1 - 2 * kA4, kA4, kWeightA},
+                                       {kA4, 1 - 2 * kA4, kWeightA},
+                                       {kB4, kB4, kWeightB},
+                                       {1 - 2 * kB4, kB4, kWeightB},
+                                       {kB4, 1 - 2 * kB4, kWeightB}}};
 
 }  // namespace
 
@@ -59,27 +59,27 @@ Triangle2d<Nodes>::Triangle2d(const Material& material, double thickness,
   Eigen::Matrix<double, 2, Nodes> X;
   for (int a = 0; a < Nodes; ++a) X.col(a) = corners[static_cast<std::size_t>(a)];
   const auto jacobian = [&](double r, double s) {
-    const Eigen::Matrix2d F = X * local_slopes<Nodes>(r, s).transpose();
+    const Eigen::Matrix2d F = X * local_gradients<Nodes>(r, s).transpose();
     if (!(std::abs(F.determinant()) > 0)) throw ModelError("a triangle has no area");
     return F;
   };
   const auto prepare = [&](const auto& rule) {
-    for (std::size_t p = 0; p < static_cast<std::size_t>(Points); ++p) {
+    for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
       const Eigen::Matrix2d F = jacobian(rule[p].r, rule[p].s);
-      slopes_[p] = F.inverse().transpose() * local_slopes<Nodes>(rule[p].r, rule[p].s);
+      gradients_[p] = F.inverse().transpose() * local_gradients<Nodes>(rule[p].r, rule[p].s);
       volume_[p] = thickness * rule[p].weight * std::abs(F.determinant()) / 2;
     }
   };
   if constexpr (Nodes == 3) {
-    prepare(centroid);
+    prepare(kCentroidRule);
   } else {
-    prepare(three);
+    prepare(kThreePointRule);
   }
   mass_.setZero();
-  for (const Point& p : six) {
+  for (const Point& p : kSixPointRule) {
     const double m =
         material.rho * thickness * p.weight * std::abs(jacobian(p.r, p.s).determinant()) / 2;
-    const Eigen::Matrix<double, Nodes, 1> n = values<Nodes>(p.r, p.s);
+    const Eigen::Matrix<double, Nodes, 1> n = shape_functions<Nodes>(p.r, p.s);
     for (int a = 0; a < Nodes; ++a) {
       for (int b = 0; b < Nodes; ++b) {
         mass_.template block<2, 2>(2 * a, 2 * b) += m * n[a] * n[b] * Eigen::Matrix2d::Identity();
@@ -89,11 +89,11 @@ Triangle2d<Nodes>::Triangle2d(const Material& material, double thickness,
 }
 
 template <int Nodes>
-Eigen::Matrix2d Triangle2d<Nodes>::displacement_gradient(const Slopes& slopes,
+Eigen::Matrix2d Triangle2d<Nodes>::displacement_gradient(const Gradients& gradients,
                                                          const Coordinates& q) {
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
   for (int a = 0; a < Nodes; ++a) {
-    H += q.template segment<2>(2 * a) * slopes.col(a).transpose();
+    H += q.template segment<2>(2 * a) * gradients.col(a).transpose();
   }
   return H;
 }
@@ -105,15 +105,15 @@ typename Triangle2d<Nodes>::Strain Triangle2d<Nodes>::strain(const Eigen::Matrix
 }
 
 template <int Nodes>
-typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::strain_operator(const Slopes& slopes,
+typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::strain_operator(const Gradients& gradients,
                                                                         const Eigen::Matrix2d& H) {
   const Eigen::Matrix2d F = Eigen::Matrix2d::Identity() + H;
   Operator B;
   for (int a = 0; a < Nodes; ++a) {
-    B.template block<1, 2>(0, 2 * a) = slopes(0, a) * F.col(0).transpose();
-    B.template block<1, 2>(1, 2 * a) = slopes(1, a) * F.col(1).transpose();
+    B.template block<1, 2>(0, 2 * a) = gradients(0, a) * F.col(0).transpose();
+    B.template block<1, 2>(1, 2 * a) = gradients(1, a) * F.col(1).transpose();
     B.template block<1, 2>(2, 2 * a) =
-        slopes(1, a) * F.col(0).transpose() + slopes(0, a) * F.col(1).transpose();
+        gradients(1, a) * F.col(0).transpose() + gradients(0, a) * F.col(1).transpose();
   }
   return B;
 }
@@ -121,8 +121,8 @@ typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::strain_operator(const Sl
 template <int Nodes>
 double Triangle2d<Nodes>::energy(const Coordinates& q) const {
   double sum = 0;
-  for (std::size_t p = 0; p < static_cast<std::size_t>(Points); ++p) {
-    const Strain e = strain(displacement_gradient(slopes_[p], q));
+  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
+    const Strain e = strain(displacement_gradient(gradients_[p], q));
     sum += volume_[p] / 2 * e.dot(D_ * e);
   }
   return sum;
@@ -133,9 +133,9 @@ typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::forces(const Coordina
                                                                   const Coordinates& v,
                                                                   double tau) const {
   Coordinates f = Coordinates::Zero();
-  for (std::size_t p = 0; p < static_cast<std::size_t>(Points); ++p) {
-    const Eigen::Matrix2d H = displacement_gradient(slopes_[p], q);
-    const Operator B = strain_operator(slopes_[p], H);
+  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
+    const Eigen::Matrix2d H = displacement_gradient(gradients_[p], q);
+    const Operator B = strain_operator(gradients_[p], H);
     Strain e = strain(H);
     if (tau != 0) e += tau * (B * v);
     f += volume_[p] * B.transpose() * (D_ * e);
@@ -148,15 +148,15 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates&
                                                               double stiffness,
                                                               double damping) const {
   Square K = Square::Zero();
-  for (std::size_t p = 0; p < static_cast<std::size_t>(Points); ++p) {
-    const Eigen::Matrix2d H = displacement_gradient(slopes_[p], q);
-    const Operator B = strain_operator(slopes_[p], H);
+  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
+    const Eigen::Matrix2d H = displacement_gradient(gradients_[p], q);
+    const Operator B = strain_operator(gradients_[p], H);
     const Strain s = D_ * strain(H);
     K += (stiffness + damping) * volume_[p] * B.transpose() * D_ * B;
     Eigen::Matrix2d S;
     S << s[0], s[2], s[2], s[1];
     const Eigen::Matrix<double, Nodes, Nodes> geometric =
-        stiffness * volume_[p] * slopes_[p].transpose() * S * slopes_[p];
+        stiffness * volume_[p] * gradients_[p].transpose() * S * gradients_[p];
     for (int a = 0; a < Nodes; ++a) {
       for (int b = 0; b < Nodes; ++b) {
         K(2 * a, 2 * b) += geometric(a, b);
@@ -168,15 +168,15 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates&
 }
 
 template <int Nodes>
-typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::secant_forces(const Coordinates& q0,
+typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::discrete_gradient_forces(const Coordinates& q0,
                                                                          const Coordinates& q1,
                                                                          double rate) const {
   Coordinates f = Coordinates::Zero();
-  for (std::size_t p = 0; p < static_cast<std::size_t>(Points); ++p) {
-    const Eigen::Matrix2d H0 = displacement_gradient(slopes_[p], q0);
-    const Eigen::Matrix2d H1 = displacement_gradient(slopes_[p], q1);
+  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
+    const Eigen::Matrix2d H0 = displacement_gradient(gradients_[p], q0);
+    const Eigen::Matrix2d H1 = displacement_gradient(gradients_[p], q1);
     const Strain e0 = strain(H0), e1 = strain(H1);
-    const Operator B = strain_operator(slopes_[p], (H0 + H1) / 2);
+    const Operator B = strain_operator(gradients_[p], (H0 + H1) / 2);
     f += volume_[p] * B.transpose() * (D_ * ((e0 + e1) / 2 + rate * (e1 - e0)));
   }
   return f;
@@ -190,7 +190,7 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::mass() const {
 template <int Nodes>
 Eigen::Vector3d Triangle2d<Nodes>::stress(const Coordinates& q) const {
   Strain mean = Strain::Zero();
-  for (const Slopes& slopes : slopes_) mean += strain(displacement_gradient(slopes, q)) / Points;
+  for (const Gradients& gradients : gradients_) mean += strain(displacement_gradient(gradients, q)) / kPoints;
   return D_ * mean;
 }
 

@@ -15,10 +15,10 @@ template <int Nodes>
 struct Triangle2d {
   static_assert(Nodes == 3 || Nodes == 6);
   static constexpr int N = 2 * Nodes;
-  static constexpr int Points = Nodes == 3 ? 1 : 3;
+  static constexpr int kPoints = Nodes == 3 ? 1 : 3;
   using Coordinates = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
-  using Slopes = Eigen::Matrix<double, 2, Nodes>;
+  using Gradients = Eigen::Matrix<double, 2, Nodes>;
 
   /// @throws ModelError  where the triangle has no area.
   Triangle2d(const Material& material, double thickness,
@@ -31,7 +31,7 @@ struct Triangle2d {
   [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
   /// Forces f with f . (q1 - q0) = energy(q1) - energy(q0) where tau = 0 (J. C. Simo,
   /// N. Tarnow, ZAMP 43, 1992); `rate` is tau over the step.
-  [[nodiscard]] Coordinates secant_forces(const Coordinates& q0, const Coordinates& q1,
+  [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
                                           double rate) const;
   [[nodiscard]] Square mass() const;
   [[nodiscard]] Eigen::Vector3d stress(const Coordinates& q) const;
@@ -40,14 +40,14 @@ struct Triangle2d {
   using Strain = Eigen::Vector3d;  ///< E11, E22, 2 E12
   using Operator = Eigen::Matrix<double, 3, N>;
 
-  [[nodiscard]] static Eigen::Matrix2d displacement_gradient(const Slopes& slopes,
+  [[nodiscard]] static Eigen::Matrix2d displacement_gradient(const Gradients& gradients,
                                                              const Coordinates& q);
   [[nodiscard]] static Strain strain(const Eigen::Matrix2d& H);
-  [[nodiscard]] static Operator strain_operator(const Slopes& slopes, const Eigen::Matrix2d& H);
+  [[nodiscard]] static Operator strain_operator(const Gradients& gradients, const Eigen::Matrix2d& H);
 
   Eigen::Matrix3d D_;
-  std::array<Slopes, Points> slopes_;
-  std::array<double, Points> volume_{};  ///< thickness times area times weight [m^3]
+  std::array<Gradients, kPoints> gradients_;
+  std::array<double, kPoints> volume_{};  ///< thickness times area times weight [m^3]
   Square mass_;
 };
 

@@ -16,17 +16,17 @@ Document at_one_point(Document document) {
   const JsonPointer circle("/model/trajectory/circle");
   if (document.value().contains(circle)) {
     const int points = analysis_kind(document) == "elastodynamics" ? 2 : 1;
-    document.lay(file, "", Json{{"model", {{"trajectory", {{"circle", {{"points", points}}}}}}}});
+    document.apply_patch(file, "", Json{{"model", {{"trajectory", {{"circle", {{"points", points}}}}}}}});
   }
   return document;
 }
 
 void check_counters(const Document& document, const References& references) {
   const AnalysisResult result = analyse(document, references, {false});
-  BOOST_TEST(result.effects.size() == effect_count);
+  BOOST_TEST(result.effects.size() == kEffectCount);
   for (const EffectReason& one : result.effects) {
-    if (one.on) continue;
-    BOOST_TEST(result.counters.of(one.effect) == 0, name_of(one.effect));
+    if (one.active) continue;
+    BOOST_TEST(result.counters.evaluations(one.effect) == 0, name_of(one.effect));
   }
 }
 
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(what_is_off_is_never_evaluated_in_the_whole_catalogue) {
       if (!knows_effects(document)) continue;
       BOOST_TEST_CONTEXT(given.id() << ":" << variant) {
         check_counters(document, references);
-        const EffectScope scope = effect_scope(document, read_scene(document));
+        const EffectScope scope = effect_scope(document, read_case_model(document));
         check_counters(with_effects(document, scope.required), references);
         ++runs;
       }

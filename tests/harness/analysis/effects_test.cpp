@@ -43,9 +43,9 @@ BOOST_AUTO_TEST_CASE(effects_by_name_are_what_there_is) {
   const double bending = 100 * 8 / (3 * 2e11 * 0.05 * 1e-3 / 12);
   BOOST_TEST(tip(plain) == bending, boost::test_tools::tolerance(1e-10));
   BOOST_TEST(tip(plain) < whole);
-  BOOST_TEST(plain.counters.of(Effect::shear) == 0);
-  BOOST_TEST(plain.counters.of(Effect::inertia) == 0);
-  BOOST_TEST(plain.counters.of(Effect::axial_flexibility) == 4);
+  BOOST_TEST(plain.counters.evaluations(Effect::shear) == 0);
+  BOOST_TEST(plain.counters.evaluations(Effect::inertia) == 0);
+  BOOST_TEST(plain.counters.evaluations(Effect::axial_flexibility) == 4);
 }
 
 BOOST_AUTO_TEST_CASE(geometric_stiffening_by_name_is_second_order_theory) {
@@ -80,20 +80,20 @@ BOOST_AUTO_TEST_CASE(automatic_effects_say_why) {
   const AnalysisResult slender = result_of(json);
   // 3 E I / (kappa G A L^2) = 3 * 2.6 / (5/6 * 12) * (0.1 / 2)^2 = 0.2 %.
   const EffectReason& shear = slender.effects.at(static_cast<std::size_t>(Effect::shear));
-  BOOST_TEST(!shear.on);
+  BOOST_TEST(!shear.active);
   BOOST_TEST(*shear.change == 0.00195, boost::test_tools::tolerance(2e-3));
   BOOST_TEST(contains(shear.why, "without it the results change by 0.195 %"));
   json["effects"]["auto"]["tolerance"] = 0.001;
-  BOOST_TEST(result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).on);
+  BOOST_TEST(result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).active);
 }
 
 BOOST_AUTO_TEST_CASE(a_study_measures_what_was_estimated) {
   const Folder folder;
   const Document document = patched(testing::read(folder, timoshenko_cantilever()), "base");
   const EffectStudy study = study_effects(document, {0.01, true, 0});
-  BOOST_TEST(study.within());
-  BOOST_TEST(study.minimal());
-  for (const LeftOut& one : study.singles) {
+  BOOST_TEST(study.within_tolerance());
+  BOOST_TEST(study.is_minimal());
+  for (const Ablation& one : study.singles) {
     if (one.effects.front() != Effect::shear) continue;
     BOOST_TEST(one.run.changes.at("displacement") == 0.00195, boost::test_tools::tolerance(2e-3));
     BOOST_TEST(one.run.changes.at("force") < 1e-6);
@@ -125,14 +125,14 @@ BOOST_AUTO_TEST_CASE(each_scene_calls_for_the_effects_that_it_was_made_for) {
       {"scene-welded-truss", "axial-flexibility"},
   };
   BOOST_TEST(expected.size() >= 12);
-  for (const Case& scene : load_catalogue({"effects"})) {
-    const Document document = patched(scene, base_variant);
+  for (const Case& labelled_case : load_catalogue({"effects"})) {
+    const Document document = patched(labelled_case, kBaseVariant);
     const EffectStudy study = study_effects(document, {0.01, false, 0});
-    BOOST_TEST_CONTEXT(scene.id()) {
-      BOOST_TEST(study.within());
+    BOOST_TEST_CONTEXT(labelled_case.id()) {
+      BOOST_TEST(study.within_tolerance());
       // What the tenth in hand keeps: weight and load bend the links by just 0.98 %.
-      BOOST_TEST((study.minimal() || scene.id() == "scene-gravity-in-plane"));
-      const auto found = expected.find(scene.id());
+      BOOST_TEST((study.is_minimal() || labelled_case.id() == "scene-gravity-in-plane"));
+      const auto found = expected.find(labelled_case.id());
       BOOST_REQUIRE(found != expected.end());
       BOOST_TEST(effect_names(study.choice.chosen) == found->second);
     }
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(a_change_that_is_not_a_number_is_not_forgotten_over_the_nex
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const Quantities full = {{"displacement_x_m:B", {{1, 2, 3}, {}}}};
   const Quantities other = {{"displacement_x_m:B", {{nothing, 2, 3.1}, {}}}};
-  BOOST_TEST(std::isinf(largest(changes_between(full, other, 1))));
+  BOOST_TEST(std::isinf(max_change(changes_between(full, other, 1))));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

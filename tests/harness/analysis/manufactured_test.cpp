@@ -1,4 +1,4 @@
-// Observed orders of convergence against manufactured solutions, and patch tests.
+// ObservedQuantity orders of convergence against manufactured solutions, and patch tests.
 #include "harness/analysis/manufactured.h"
 
 #include <boost/test/unit_test.hpp>

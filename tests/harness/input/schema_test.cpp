@@ -17,7 +17,7 @@ namespace {
 /// "pointer: message" of the case with one place changed.
 std::string fault(Json json, const std::string& pointer, const Json& value) {
   json[JsonPointer(pointer)] = value;
-  const auto found = find_fault(json, "case");
+  const auto found = find_schema_error(json, "case");
   return found ? found->pointer + ": " + found->message : "";
 }
 
@@ -30,8 +30,8 @@ std::string robot_fault(const std::string& pointer, const Json& value) {
 BOOST_AUTO_TEST_SUITE(schema)
 
 BOOST_AUTO_TEST_CASE(good_cases_obey_the_schema) {
-  BOOST_TEST(!find_fault(testing::manipulator(), "case").has_value());
-  BOOST_TEST(!find_fault(testing::cantilever(), "case").has_value());
+  BOOST_TEST(!find_schema_error(testing::manipulator(), "case").has_value());
+  BOOST_TEST(!find_schema_error(testing::cantilever(), "case").has_value());
 }
 
 BOOST_AUTO_TEST_CASE(a_misspelt_key_is_answered_with_the_nearest_right_one) {
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(alternatives_are_all_named) {
 BOOST_AUTO_TEST_CASE(a_missing_key_is_named_where_it_is_missing) {
   Json json = testing::manipulator();
   json["model"]["manipulator"]["material"].erase("E_Pa");
-  const auto found = find_fault(json, "case");
+  const auto found = find_schema_error(json, "case");
   BOOST_REQUIRE(found.has_value());
   BOOST_TEST(found->pointer == "/model/manipulator/material");
   BOOST_TEST(found->message == "expected the key 'E_Pa' (got 'nu' and 'rho_kg_m3')");
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(an_analysis_is_exactly_one) {
 
 BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
   for (const char* name : {"case", "cost", "reference", "results"}) {
-    const Json text = read_json(home() / "cases" / "schema" / (std::string(name) + ".schema.json"));
+    const Json text = read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json"));
     BOOST_TEST(text.contains("description"), name);
     for (const auto& item : text.at("properties").items()) {
       const bool elsewhere = item.value().contains("$ref") || item.key() == "runs" ||
@@ -100,8 +100,8 @@ BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
 
 BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
   int seen = 0;
-  for (const auto& [id, file] : reference_files(home() / "references" / "values")) {
-    const auto found = find_fault(read_json(file), "reference");
+  for (const auto& [id, file] : reference_files(data_root() / "references" / "values")) {
+    const auto found = find_schema_error(read_json(file), "reference");
     BOOST_TEST(!found.has_value(), id << (found ? ": " + found->pointer + found->message : ""));
     ++seen;
   }
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
 
 BOOST_AUTO_TEST_CASE(orders_of_singular_corners_are_twice_the_stored_exponents) {
   const auto exponent = [](const std::string& of) {
-    const auto files = reference_files(home() / "references" / "values");
+    const auto files = reference_files(data_root() / "references" / "values");
     return read_json(files.at(of + "-corner-exponent"))["values"][0].get<double>();
   };
   const auto sweep = [](const std::string& of, const std::string& variant) {

@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(the_order_of_a_power_is_that_power) {
     Series series = made_up(p, 0.1, 0, 6);
     for (const bool known : {false, true}) {
       if (known) series.exact = 10;
-      const Convergence found = study(series);
+      const Convergence found = analyse_convergence(series);
       BOOST_TEST(std::abs(found.fitted_order.value() - p) < 1e-3);
       BOOST_TEST(std::abs(found.richardson.value() - 10) < 1e-12);
       for (std::size_t k = 2; k < 5; ++k) BOOST_TEST(std::abs(found.order[k] - p) < 1e-3);
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_refinement_by_any_ratio_shows_its_order) {
     series.values.push_back(3 + 2 * std::pow(n, -2.5));
     series.roundoff.push_back(1e-15);
   }
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   BOOST_TEST(std::abs(found.order[2] - 2.5) < 1e-6);
   BOOST_TEST(std::abs(found.order[3] - 2.5) < 1e-6);
   BOOST_TEST(std::abs(found.richardson.value() - 3) < 1e-9);
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(a_refinement_by_any_ratio_shows_its_order) {
 BOOST_AUTO_TEST_CASE(the_next_term_keeps_coarse_meshes_out_of_the_asymptotic_range) {
   Series series = made_up(4, 0.1, 0.5, 8);
   series.exact = 10;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   BOOST_TEST(!found.in_asymptotic_range[1]);
   BOOST_TEST(found.in_asymptotic_range[4]);
   BOOST_TEST(found.in_asymptotic_range[5]);
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(the_next_term_keeps_coarse_meshes_out_of_the_asymptotic_ran
 BOOST_AUTO_TEST_CASE(the_roundoff_floor_is_recognised_as_such) {
   Series series = made_up(4, 0.1, 0, 12, 1e-12);
   series.exact = 10;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   // 0.1 h^4 is above 100e-12 as long as h > 1/178.
   for (std::size_t k = 0; k < 12; ++k) BOOST_TEST(found.at_roundoff_floor[k] == (k >= 8));
   for (std::size_t k = 8; k < 12; ++k) BOOST_TEST(!found.in_asymptotic_range[k]);
@@ -76,13 +76,13 @@ BOOST_AUTO_TEST_CASE(the_roundoff_floor_is_recognised_as_such) {
 BOOST_AUTO_TEST_CASE(the_band_holds_the_exact_value_and_is_not_huge) {
   for (const double b : {0.5, -0.03, 0.0}) {
     const Series series = made_up(4, 0.1, b, 12, 1e-14);
-    const Convergence found = study(series);
+    const Convergence found = analyse_convergence(series);
     for (std::size_t k = 1; k < 12; ++k) {
       const double error = std::abs(series.values[k] - 10) / std::abs(series.values[k]);
-      BOOST_TEST(found.band[k] >= error);
+      BOOST_TEST(found.gci[k] >= error);
       if (k > 4 && !found.at_roundoff_floor[k]) {
         BOOST_TEST(found.factor[k] == 1.25);
-        BOOST_TEST(found.band[k] < 1.4 * error);
+        BOOST_TEST(found.gci[k] < 1.4 * error);
       }
     }
   }
@@ -91,16 +91,16 @@ BOOST_AUTO_TEST_CASE(the_band_holds_the_exact_value_and_is_not_huge) {
 BOOST_AUTO_TEST_CASE(an_order_other_than_theory_gets_the_factor_three) {
   Series series = made_up(2, 0.1, 0, 6);
   series.theory = 4;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   for (std::size_t k = 2; k < 6; ++k) BOOST_TEST(found.factor[k] == 3);
   series.theory.reset();
-  BOOST_TEST(study(series).factor[5] == 3);  // nothing to be near to
+  BOOST_TEST(analyse_convergence(series).factor[5] == 3);  // nothing to be near to
 }
 
 BOOST_AUTO_TEST_CASE(an_order_is_not_made_up_from_values_that_go_to_and_fro) {
   Series series = made_up(2, 0.1, 0, 5);
   for (std::size_t k = 0; k < 5; ++k) series.values[k] = k % 2 == 0 ? 1.0 : 2.0;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   for (const double order : found.order) BOOST_TEST(std::isnan(order));
   BOOST_TEST(!found.fitted_order.has_value());
 }
@@ -109,17 +109,17 @@ BOOST_AUTO_TEST_CASE(levels_without_a_value_are_skipped_at_the_coarse_end_only) 
   Series series = made_up(4, 0.1, 0, 7);
   series.exact = 10;
   series.values[0] = std::nan("");
-  Convergence found = study(series);
+  Convergence found = analyse_convergence(series);
   BOOST_TEST(!found.broken);
   BOOST_TEST(std::isnan(found.error[0]));
   BOOST_TEST(std::abs(found.order[2] - 4) < 1e-3);
   series.values[5] = std::nan("");
-  found = study(series);
+  found = analyse_convergence(series);
   BOOST_TEST(found.broken);
 }
 
 BOOST_AUTO_TEST_CASE(too_few_levels_say_nothing) {
-  const Convergence found = study(made_up(4, 0.1, 0, 1));
+  const Convergence found = analyse_convergence(made_up(4, 0.1, 0, 1));
   BOOST_TEST(!found.richardson.has_value());
   BOOST_TEST(!found.fitted_order.has_value());
 }

@@ -33,7 +33,7 @@ struct Bench {
   Quantities other = {{"frequency_Hz", {{5, 10, 15}, {}}}};
   bool has_other = true;
 
-  std::vector<Judgement> judge_all() {
+  std::vector<CheckResult> judge_all() {
     (void)folder->write(reference);
     Json json = testing::cantilever();
     json["checks"]["c"] = check;
@@ -42,12 +42,12 @@ struct Bench {
     const auto checks = read_checks(document, "base", {"base", "other"});
     const References references;
     const auto variant = [&](const std::string&) { return has_other ? &other : nullptr; };
-    return judge(checks.at(0), {document, quantities, {}, references, variant});
+    return evaluate_check(checks.at(0), {document, quantities, {}, references, variant});
   }
   /// The worst verdict, with its message.
   std::string verdict() {
     Verdict worst = Verdict::pass;
-    for (const Judgement& one : judge_all()) {
+    for (const CheckResult& one : judge_all()) {
       message = one.verdict == Verdict::pass ? message : one.message;
       if (one.verdict != Verdict::pass && worst != Verdict::error) worst = one.verdict;
     }
@@ -215,7 +215,7 @@ BOOST_AUTO_TEST_CASE(a_known_discrepancy_may_leave_some_entries_in_agreement) {
   Bench bench = validation("known_discrepancy", {{-0.01, 0.01}, {0.1, 0.2}, {-0.3, -0.2}});
   bench.quantities["frequency_Hz"].values = {10.05, 23, 22};
   const auto all = bench.judge_all();
-  for (const Judgement& one : all) BOOST_TEST((one.verdict == Verdict::pass));
+  for (const CheckResult& one : all) BOOST_TEST((one.verdict == Verdict::pass));
   BOOST_TEST((all[0].expectation == Expectation::agrees));
   BOOST_TEST((all[1].expectation == Expectation::known_discrepancy));
 }
@@ -235,7 +235,7 @@ BOOST_AUTO_TEST_CASE(a_validation_without_an_expectation_is_recorded_and_does_no
   const auto all = bench.judge_all();
   BOOST_TEST((all[0].verdict == Verdict::recorded));
   BOOST_TEST(all[0].difference.value() == 1.5);
-  BOOST_TEST(!breaks_gate(all[0].verdict));
+  BOOST_TEST(!fails_gate(all[0].verdict));
   bench.set(0, not_a_number);
   BOOST_TEST((bench.judge_all()[0].verdict == Verdict::error));
 }

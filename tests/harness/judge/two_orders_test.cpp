@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_SUITE(two_orders)
 BOOST_AUTO_TEST_CASE(a_mixture_of_two_orders_is_fitted_and_extrapolated_as_such) {
   Series series = mixed(0.5, 2e-3, 7);
   series.lower = 2;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   BOOST_REQUIRE(found.two_term.has_value());
   BOOST_TEST(found.two_term->coefficient[0] == 0.5, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(found.two_term->coefficient[1] == 2e-3, boost::test_tools::tolerance(1e-9));
@@ -50,20 +50,20 @@ BOOST_AUTO_TEST_CASE(a_mixture_of_two_orders_is_fitted_and_extrapolated_as_such)
 BOOST_AUTO_TEST_CASE(bands_of_a_mixture_hold_with_the_small_factor_where_the_law_is_known) {
   Series series = mixed(0.5, 2e-3, 8);
   series.lower = 2;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   for (std::size_t k = 2; k < 8; ++k) {
     BOOST_TEST(found.factor[k] == 1.25);
-    BOOST_TEST(found.band[k] >= found.error[k]);
-    BOOST_TEST(found.band[k] < 1.3 * found.error[k]);
+    BOOST_TEST(found.gci[k] >= found.error[k]);
+    BOOST_TEST(found.gci[k] < 1.3 * found.error[k]);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_mixture_that_theory_does_not_know_gets_the_large_factor_and_its_bands_hold) {
-  const Convergence found = study(mixed(0.5, 2e-3, 8));
+  const Convergence found = analyse_convergence(mixed(0.5, 2e-3, 8));
   bool large = false;
   for (std::size_t k = 2; k < 8; ++k) {
     large = large || found.factor[k] == 3;
-    if (found.factor[k] == 3) BOOST_TEST(found.band[k] >= found.error[k]);
+    if (found.factor[k] == 3) BOOST_TEST(found.gci[k] >= found.error[k]);
   }
   BOOST_TEST(large);
 }
@@ -73,9 +73,9 @@ BOOST_AUTO_TEST_CASE(a_linear_error_is_no_mixture_of_orders_four_and_two) {
   series.exact = 10;
   series.theory = 4;
   series.lower = 2;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   BOOST_REQUIRE(found.two_term.has_value());
-  BOOST_TEST(found.two_term->worst > two_term_within);
+  BOOST_TEST(found.two_term->worst > kTwoTermTolerance);
   for (std::size_t k = 0; k < 7; ++k) BOOST_TEST(!found.in_asymptotic_range[k]);
   for (std::size_t k = 2; k < 7; ++k) BOOST_TEST(found.factor[k] == 3);
 }
@@ -83,10 +83,10 @@ BOOST_AUTO_TEST_CASE(a_linear_error_is_no_mixture_of_orders_four_and_two) {
 BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
   Series series = series_of([](double h) { return 10 * (1 + 0.1 * h * h); }, 2);
   series.theory = 2;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   BOOST_TEST(found.factor[1] == 3);
   // 3 |v1 - v0| / (2^2 - 1) = |v1 - v0|
-  BOOST_TEST(found.band[1] * series.values[1] == series.values[0] - series.values[1],
+  BOOST_TEST(found.gci[1] * series.values[1] == series.values[0] - series.values[1],
              boost::test_tools::tolerance(1e-9));
 }
 
@@ -102,10 +102,10 @@ BOOST_AUTO_TEST_CASE(values_that_swing_about_their_limit_get_a_wide_band_that_ho
   }
   series.exact = 10;
   series.theory = 2;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   for (std::size_t k = 2; k < 7; ++k) {
     BOOST_TEST(found.factor[k] == 3);
-    BOOST_TEST(found.band[k] >= found.error[k]);
+    BOOST_TEST(found.gci[k] >= found.error[k]);
   }
 }
 
@@ -114,11 +114,11 @@ BOOST_AUTO_TEST_CASE(values_that_turn_back_on_coarse_levels_settle_on_fine_ones)
   Series series = series_of([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);
   series.exact = 10;
   series.theory = 2;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   BOOST_TEST(found.factor[2] == 3);
   BOOST_TEST(found.factor[9] == 1.25);
   BOOST_TEST(std::abs(found.fitted_order.value() - 2) < 0.1);
-  for (std::size_t k = 2; k < 10; ++k) BOOST_TEST(found.band[k] >= found.error[k]);
+  for (std::size_t k = 2; k < 10; ++k) BOOST_TEST(found.gci[k] >= found.error[k]);
 }
 
 BOOST_AUTO_TEST_CASE(a_floor_of_round_off_ends_the_range_and_not_the_band) {
@@ -132,12 +132,12 @@ BOOST_AUTO_TEST_CASE(a_floor_of_round_off_ends_the_range_and_not_the_band) {
       12, 1e-9);
   series.exact = 10;
   series.theory = 4;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   BOOST_TEST(found.in_asymptotic_range[3]);
   BOOST_TEST(found.at_roundoff_floor[9]);
   BOOST_TEST(!found.in_asymptotic_range[9]);
   BOOST_TEST(std::abs(found.richardson.value() - 10) < 1e-7);
-  for (std::size_t k = 1; k < 12; ++k) BOOST_TEST(found.band[k] >= found.error[k]);
+  for (std::size_t k = 1; k < 12; ++k) BOOST_TEST(found.gci[k] >= found.error[k]);
 }
 
 BOOST_AUTO_TEST_CASE(values_that_are_errors_have_the_exact_value_zero) {
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(values_that_are_errors_have_the_exact_value_zero) {
   series.exact = 0;
   series.is_error = true;
   series.theory = 2;
-  const Convergence found = study(series);
+  const Convergence found = analyse_convergence(series);
   for (std::size_t k = 0; k < 6; ++k) BOOST_TEST(found.error[k] == series.values[k]);
   BOOST_TEST(std::abs(found.fitted_order.value() - 2) < 1e-9);
 }

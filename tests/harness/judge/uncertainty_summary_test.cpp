@@ -20,15 +20,15 @@ Convergence made_up(std::size_t levels, double scale) {
     series.values.push_back(10 * (1 + 0.1 * h * h));
     series.roundoff.push_back(1e-16);
   }
-  Convergence found = study(series);
-  for (double& band : found.band) band *= scale;
+  Convergence found = analyse_convergence(series);
+  for (double& band : found.gci) band *= scale;
   return found;
 }
 
-BandSummary summarise(const std::vector<Convergence>& all) {
+NumericalUncertaintySummary summarise(const std::vector<Convergence>& all) {
   std::vector<const Convergence*> pointers;
   for (const Convergence& one : all) pointers.push_back(&one);
-  return summarise_bands(pointers);
+  return summarise_numerical_uncertainty(pointers);
 }
 
 }  // namespace
@@ -36,47 +36,47 @@ BandSummary summarise(const std::vector<Convergence>& all) {
 BOOST_AUTO_TEST_SUITE(uncertainty_summary)
 
 BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_and_are_a_quarter_too_wide) {
-  const BandSummary bands = summarise(std::vector<Convergence>(30, made_up(8, 1)));
-  BOOST_TEST(bands.levels == 30U * 7U);  // the first level has no band
-  BOOST_TEST(bands.hit_rate() == 1.0);
-  BOOST_TEST(bands.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
-  BOOST_TEST(!bands.fails());
+  const NumericalUncertaintySummary summary = summarise(std::vector<Convergence>(30, made_up(8, 1)));
+  BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no band
+  BOOST_TEST(summary.hit_rate() == 1.0);
+  BOOST_TEST(summary.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(!summary.fails());
 }
 
 BOOST_AUTO_TEST_CASE(bands_that_miss_too_often_fail) {
   std::vector<Convergence> all(30, made_up(8, 1));
   for (std::size_t i = 0; i < 3; ++i) all[i] = made_up(8, 0.5);
-  const BandSummary bands = summarise(all);
-  BOOST_TEST(bands.hits < bands.levels);
-  BOOST_TEST(bands.fails());
+  const NumericalUncertaintySummary summary = summarise(all);
+  BOOST_TEST(summary.hits < summary.levels);
+  BOOST_TEST(summary.fails());
 }
 
 BOOST_AUTO_TEST_CASE(bands_that_are_huge_fail_although_they_never_miss) {
-  const BandSummary bands = summarise(std::vector<Convergence>(30, made_up(8, 4)));
-  BOOST_TEST(bands.hit_rate() == 1.0);
-  BOOST_TEST(bands.fails());
+  const NumericalUncertaintySummary summary = summarise(std::vector<Convergence>(30, made_up(8, 4)));
+  BOOST_TEST(summary.hit_rate() == 1.0);
+  BOOST_TEST(summary.fails());
 }
 
 BOOST_AUTO_TEST_CASE(a_few_levels_decide_nothing) {
-  const BandSummary bands = summarise({made_up(8, 0.5)});
-  BOOST_TEST(bands.hit_rate() < 0.95);
-  BOOST_TEST(!bands.fails());
+  const NumericalUncertaintySummary summary = summarise({made_up(8, 0.5)});
+  BOOST_TEST(summary.hit_rate() < 0.95);
+  BOOST_TEST(!summary.fails());
 }
 
 BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
   Convergence found = made_up(8, 1);
   found.series.exact.reset();
-  const BandSummary bands = summarise({found});
-  BOOST_TEST(bands.levels == 0U);
-  BOOST_TEST(std::isnan(bands.hit_rate()));
-  BOOST_TEST(!bands.fails());
+  const NumericalUncertaintySummary summary = summarise({found});
+  BOOST_TEST(summary.levels == 0U);
+  BOOST_TEST(std::isnan(summary.hit_rate()));
+  BOOST_TEST(!summary.fails());
 }
 
 BOOST_AUTO_TEST_CASE(a_ratio_that_is_not_a_number_fails_closed) {
-  BandSummary bands;
-  bands.levels = bands.hits = 1000;
-  bands.median_ratio = std::numeric_limits<double>::quiet_NaN();
-  BOOST_TEST(bands.fails());
+  NumericalUncertaintySummary summary;
+  summary.levels = summary.hits = 1000;
+  summary.median_ratio = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(summary.fails());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -111,8 +111,8 @@ BOOST_AUTO_TEST_CASE(an_agreement_is_within_the_noise_and_a_difference_is_not) {
   const auto verdict = [&](double off) {
     return run(testing::read(folder, beam(folder, off))).uncertainty.entries[0].validation.verdict;
   };
-  BOOST_TEST((verdict(0.01) == ValidationVerdict::within_noise));
-  BOOST_TEST((verdict(0.05) == ValidationVerdict::model_off));
+  BOOST_TEST((verdict(0.01) == ValidationVerdict::within_validation_uncertainty));
+  BOOST_TEST((verdict(0.05) == ValidationVerdict::beyond_validation_uncertainty));
 }
 
 BOOST_AUTO_TEST_CASE(the_spread_of_two_references_is_told_and_takes_no_part) {
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(results_with_uncertainty_obey_the_schema_and_do_not_depend_
   };
   const Json one = results(1);
   const Json two = results(2);
-  const auto fault = find_fault(one, "results");
+  const auto fault = find_schema_error(one, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST((one["runs"][1]["uncertainty"] == two["runs"][1]["uncertainty"]));
   BOOST_TEST(one["runs"][1]["uncertainty"]["comparisons"].size() == 2U);

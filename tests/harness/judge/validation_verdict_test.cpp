@@ -9,27 +9,27 @@ using t::ValidationVerdict;
 BOOST_AUTO_TEST_SUITE(validation_verdict)
 
 BOOST_AUTO_TEST_CASE(uncertainties_add_in_quadrature_and_count_twice) {
-  const auto v = t::judge_row({{17.0, 10.0, 2.0, 3.0, 6.0}}, "Hz").front();
+  const auto v = t::evaluate_validation_row({{17.0, 10.0, 2.0, 3.0, 6.0}}, "Hz").front();
   BOOST_TEST(v.difference == 7.0);
   BOOST_TEST(v.u_val == 7.0);
   BOOST_TEST(v.low == -7.0);
   BOOST_TEST(v.high == 21.0);
-  BOOST_TEST((v.verdict == ValidationVerdict::within_noise));
+  BOOST_TEST((v.verdict == ValidationVerdict::within_validation_uncertainty));
   BOOST_TEST(v.words == "the difference of 7 Hz is within the noise of ±14 Hz");
 }
 
 BOOST_AUTO_TEST_CASE(a_difference_beyond_the_noise_is_given_as_a_range) {
-  const auto v = t::judge_row({{10.0, 12.0, 0.0, 0.25, 0.0}}, "Hz").front();
-  BOOST_TEST((v.verdict == ValidationVerdict::model_off));
+  const auto v = t::evaluate_validation_row({{10.0, 12.0, 0.0, 0.25, 0.0}}, "Hz").front();
+  BOOST_TEST((v.verdict == ValidationVerdict::beyond_validation_uncertainty));
   BOOST_TEST(v.words == "the model is off by between 1.5 and 2.5 Hz, too low");
 }
 
 BOOST_AUTO_TEST_CASE(a_reference_that_splits_a_repeated_value_contradicts_itself) {
   const t::Comparison first{14.0, 12.768, 0, 0.1, 3e-4};
   const t::Comparison second{14.0, 15.115, 0, 0.1, 3e-4};
-  const auto row = t::judge_row({first, second}, "Hz");
-  BOOST_TEST((row[0].verdict == ValidationVerdict::reference_contradicts_itself));
-  BOOST_TEST((row[1].verdict == ValidationVerdict::reference_contradicts_itself));
+  const auto row = t::evaluate_validation_row({first, second}, "Hz");
+  BOOST_TEST((row[0].verdict == ValidationVerdict::reference_inconsistent));
+  BOOST_TEST((row[1].verdict == ValidationVerdict::reference_inconsistent));
   BOOST_TEST(row[0].words.find("12.768 to 15.115 Hz") != std::string::npos);
   BOOST_TEST(row[0].difference == 14.0 - 12.768);
 }
@@ -37,25 +37,25 @@ BOOST_AUTO_TEST_CASE(a_reference_that_splits_a_repeated_value_contradicts_itself
 BOOST_AUTO_TEST_CASE(a_contradiction_is_no_excuse_for_a_model_that_lies_beyond_it) {
   const t::Comparison first{20.0, 12.768, 0, 0.1, 3e-4};
   const t::Comparison second{20.0, 15.115, 0, 0.1, 3e-4};
-  for (const auto& v : t::judge_row({first, second}, "Hz")) {
-    BOOST_TEST((v.verdict == ValidationVerdict::model_off));
+  for (const auto& v : t::evaluate_validation_row({first, second}, "Hz")) {
+    BOOST_TEST((v.verdict == ValidationVerdict::beyond_validation_uncertainty));
   }
 }
 
 BOOST_AUTO_TEST_CASE(values_that_differ_by_more_than_round_off_are_not_a_pair) {
   const t::Comparison first{14.0, 12.768, 0, 0.1, 3e-4};
   const t::Comparison second{14.1, 15.115, 0, 0.1, 3e-4};
-  for (const auto& v : t::judge_row({first, second}, "Hz")) {
-    BOOST_TEST((v.verdict == ValidationVerdict::model_off));
+  for (const auto& v : t::evaluate_validation_row({first, second}, "Hz")) {
+    BOOST_TEST((v.verdict == ValidationVerdict::beyond_validation_uncertainty));
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_pair_printed_to_few_digits_may_differ_by_them) {
   const t::Comparison first{14.06, 13.0, 0, 0.1, 0.29};
   const t::Comparison second{14.06, 13.5, 0, 0.1, 0.29};
-  const auto row = t::judge_row({first, second}, "Hz");
-  BOOST_TEST((row[0].verdict == ValidationVerdict::model_off));
-  BOOST_TEST((row[1].verdict == ValidationVerdict::within_noise));
+  const auto row = t::evaluate_validation_row({first, second}, "Hz");
+  BOOST_TEST((row[0].verdict == ValidationVerdict::beyond_validation_uncertainty));
+  BOOST_TEST((row[1].verdict == ValidationVerdict::within_validation_uncertainty));
 }
 
 BOOST_AUTO_TEST_CASE(nothing_is_claimed_where_a_number_is_missing) {
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_claimed_where_a_number_is_missing) {
   for (const t::Comparison& c :
        {t::Comparison{missing, 1, 0, 0, 0}, t::Comparison{1, 1, missing, 0, 0},
         t::Comparison{1, 1, 0, missing, 0}}) {
-    const auto v = t::judge_row({c}, "Hz").front();
+    const auto v = t::evaluate_validation_row({c}, "Hz").front();
     BOOST_TEST((v.verdict == ValidationVerdict::undecided));
     BOOST_TEST(t::to_string(v.verdict) == "undecided");
   }

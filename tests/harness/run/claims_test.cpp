@@ -14,7 +14,7 @@ using testing::contains;
 
 namespace {
 
-Document ledger_of(const Json& readings, const std::string& expected,
+Document claims_of(const Json& readings, const std::string& expected,
                    const std::string& together = "parts") {
   const Json json = {{"title", "A paper"},
                      {"source", "someone-2020"},
@@ -27,13 +27,13 @@ Document ledger_of(const Json& readings, const std::string& expected,
                          {"expected", expected},
                          {"conclusion", "So it is."}}}}}};
   Document document;
-  document.lay("ledger.json", "", json);
-  document.check("ledger");
+  document.apply_patch("ledger.json", "", json);
+  document.validate("ledger");
   return document;
 }
 
-Judgement entry(const std::string& name, double computed, double expected) {
-  Judgement one;
+CheckResult entry(const std::string& name, double computed, double expected) {
+  CheckResult one;
   one.name = name;
   one.unit = "m";
   one.computed = computed;
@@ -48,9 +48,9 @@ Run bend(double first, double second) {
   run.case_id = "bend";
   run.variant = "base";
   run.status = "solved";
-  run.judgements = {entry("tip", first, 1), entry("tip", second, 1), entry("tip-y", 5, 1)};
-  run.judgements[0].index = 0;
-  run.judgements[1].index = 1;
+  run.check_results = {entry("tip", first, 1), entry("tip", second, 1), entry("tip-y", 5, 1)};
+  run.check_results[0].index = 0;
+  run.check_results[1].index = 1;
   run.result.quantities["frequency_Hz"] = {{1, 3, 2}, {}};
   return run;
 }
@@ -60,7 +60,7 @@ const Json ratio = {
     {"take", "ratio"},           {"confirms", {0.9, 1.1}}, {"contradicts", {1.5, nullptr}}};
 
 ClaimVerdict verdict(const Document& document, const std::vector<Run>& runs) {
-  return judge_ledger(document, runs).claims.at(0).verdict;
+  return evaluate_claims(document, runs).claims.at(0).verdict;
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ ClaimVerdict verdict(const Document& document, const std::vector<Run>& runs) {
 BOOST_AUTO_TEST_SUITE(claims)
 
 BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
-  const Document document = ledger_of({{"r", ratio}}, "confirmed");
+  const Document document = claims_of({{"r", ratio}}, "confirmed");
   BOOST_TEST((verdict(document, {bend(1, 1.05)}) == ClaimVerdict::confirmed));
   BOOST_TEST((verdict(document, {bend(2, 3)}) == ClaimVerdict::contradicted));
   BOOST_TEST((verdict(document, {bend(1, 3)}) == ClaimVerdict::confirmed_in_part));
@@ -77,14 +77,14 @@ BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
 }
 
 BOOST_AUTO_TEST_CASE(a_verdict_that_no_longer_follows_is_seen) {
-  const Document document = ledger_of({{"r", ratio}}, "confirmed");
-  BOOST_TEST(judge_ledger(document, {bend(1, 1)}).follows());
-  BOOST_TEST(!judge_ledger(document, {bend(1, 2)}).follows());
-  BOOST_TEST(!judge_ledger(document, {}).follows());
+  const Document document = claims_of({{"r", ratio}}, "confirmed");
+  BOOST_TEST(evaluate_claims(document, {bend(1, 1)}).as_expected());
+  BOOST_TEST(!evaluate_claims(document, {bend(1, 2)}).as_expected());
+  BOOST_TEST(!evaluate_claims(document, {}).as_expected());
 }
 
 BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
-  const Document document = ledger_of({{"r", ratio}}, "confirmed");
+  const Document document = claims_of({{"r", ratio}}, "confirmed");
   Run broken = bend(1, 1);
   broken.status = "error";
   BOOST_TEST((verdict(document, {broken}) == ClaimVerdict::not_measured));
@@ -92,9 +92,9 @@ BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
   other.case_id = "buckle";
   BOOST_TEST((verdict(document, {other}) == ClaimVerdict::not_measured));
   Run half = bend(1, 1);
-  half.judgements[1].computed.reset();
+  half.check_results[1].computed.reset();
   BOOST_TEST((verdict(document, {half}) == ClaimVerdict::not_measured));
-  half.judgements[1].computed = std::nan("");
+  half.check_results[1].computed = std::nan("");
   BOOST_TEST((verdict(document, {half}) == ClaimVerdict::not_measured));
 }
 
@@ -103,11 +103,11 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm
   second["check"] = "tip-y";
   const Json both = {{"x", ratio}, {"y", second}};
   const std::vector<Run> runs = {bend(1, 1)};
-  BOOST_TEST((verdict(ledger_of(both, "confirmed"), runs) == ClaimVerdict::confirmed_in_part));
-  BOOST_TEST((verdict(ledger_of(both, "confirmed", "alternatives"), runs) ==
+  BOOST_TEST((verdict(claims_of(both, "confirmed"), runs) == ClaimVerdict::confirmed_in_part));
+  BOOST_TEST((verdict(claims_of(both, "confirmed", "alternatives"), runs) ==
               ClaimVerdict::cannot_be_decided));
   second["check"] = "tip*";
-  BOOST_TEST(judge_ledger(ledger_of({{"all", second}}, "confirmed"), runs)
+  BOOST_TEST(evaluate_claims(claims_of({{"all", second}}, "confirmed"), runs)
                  .claims[0]
                  .readings[0]
                  .entries.size() == 3U);
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
   Json jointly = ratio;
   jointly["jointly"] = true;
   jointly["contradicts"] = "otherwise";
-  const Document document = ledger_of({{"r", jointly}}, "confirmed");
+  const Document document = claims_of({{"r", jointly}}, "confirmed");
   BOOST_TEST((verdict(document, {bend(1, 1)}) == ClaimVerdict::confirmed));
   BOOST_TEST((verdict(document, {bend(1, 3)}) == ClaimVerdict::contradicted));
   BOOST_TEST((verdict(document, {bend(3, 1)}) == ClaimVerdict::contradicted));
@@ -127,23 +127,23 @@ BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
   Json away = ratio;
   away["confirms"] = "otherwise";
   away["contradicts"] = {-1, 1};
-  const Document document = ledger_of({{"r", away}}, "confirmed");
-  BOOST_TEST(judge_ledger(document, {bend(-3, 2)}).follows());
-  BOOST_TEST(!judge_ledger(document, {}).follows());
-  BOOST_TEST(!judge_ledger(document, {bend(0.5, 0.5)}).follows());
+  const Document document = claims_of({{"r", away}}, "confirmed");
+  BOOST_TEST(evaluate_claims(document, {bend(-3, 2)}).as_expected());
+  BOOST_TEST(!evaluate_claims(document, {}).as_expected());
+  BOOST_TEST(!evaluate_claims(document, {bend(0.5, 0.5)}).as_expected());
 }
 
 BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
   const Json grows = {{"what", "growth"},           {"case", "bend"},
                       {"quantity", "frequency_Hz"}, {"take", "steps"},
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
-  const Ledger found = judge_ledger(ledger_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
-  const LedgerReading& reading = found.claims[0].readings[0];
+  const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
+  const Interpretation& reading = found.claims[0].readings[0];
   BOOST_REQUIRE(reading.entries.size() == 2U);
   BOOST_TEST(reading.entries[0].value == 2);
   BOOST_TEST(reading.entries[1].value == -1);
   BOOST_TEST(reading.unit == "Hz");
-  BOOST_TEST((reading.verdict == ReadingVerdict::in_part));
+  BOOST_TEST((reading.verdict == InterpretationVerdict::in_part));
 }
 
 BOOST_AUTO_TEST_CASE(
@@ -153,10 +153,10 @@ BOOST_AUTO_TEST_CASE(
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
   Run run = bend(1, 1);
   run.result.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
-  const Ledger found = judge_ledger(ledger_of({{"g", grows}}, "confirmed"), {run});
+  const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == ClaimVerdict::not_measured));
   BOOST_TEST(found.claims[0].readings[0].entries.size() == 2U);
-  for (const LedgerEntry& entry : found.claims[0].readings[0].entries) {
+  for (const InterpretationEntry& entry : found.claims[0].readings[0].entries) {
     BOOST_TEST(std::isfinite(entry.value));
   }
 }
@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
     reading[key] = value;
     if (value.is_null()) reading.erase(key);
     return complaint([&] {
-      (void)judge_ledger(ledger_of({{"r", reading}}, "confirmed"), {bend(1, 1)});
+      (void)evaluate_claims(claims_of({{"r", reading}}, "confirmed"), {bend(1, 1)});
     });
   };
   BOOST_TEST(contains(refusal("contradicts", {1, 2}),
@@ -178,17 +178,17 @@ BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its_cases) {
-  const Document document = load_ledger();
-  const Ledger found = judge_ledger(document, {});
+  const Document document = load_claims();
+  const ClaimSet found = evaluate_claims(document, {});
   BOOST_TEST(found.claims.size() == 11U);
-  for (const LedgerClaim& claim : found.claims) {
+  for (const Claim& claim : found.claims) {
     const bool undecidable = !claim.undecidable.empty();
     BOOST_TEST((claim.verdict ==
                 (undecidable ? ClaimVerdict::cannot_be_decided : ClaimVerdict::not_measured)));
   }
   // No reading names a case or a check that is not there.
   const std::vector<Case> catalogue = load_catalogue({});
-  for (const auto& [id, claim] : Cursor(document)["claims"].entries()) {
+  for (const auto& [id, claim] : JsonView(document)["claims"].entries()) {
     if (!claim.has("readings")) continue;
     for (const auto& [name, reading] : claim["readings"].entries()) {
       if (!reading.has("case")) continue;
@@ -197,18 +197,18 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its
           [&, &place = reading](const Case& one) { return one.id() == place.text("case"); });
       BOOST_TEST_REQUIRE((owner != catalogue.end()), id << " " << name);
       if (!reading.has("check") || reading.text("check").back() == '*') continue;
-      BOOST_TEST(Cursor(owner->document)["checks"].has(reading.text("check")), id << " " << name);
+      BOOST_TEST(JsonView(owner->document)["checks"].has(reading.text("check")), id << " " << name);
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(what_results_say_of_the_ledger_obeys_their_schema) {
-  const Document document = ledger_of({{"r", ratio}}, "confirmed");
-  const Json json = to_json(judge_ledger(document, {bend(1, 2)}));
+  const Document document = claims_of({{"r", ratio}}, "confirmed");
+  const Json json = to_json(evaluate_claims(document, {bend(1, 2)}));
   BOOST_TEST(json["claims"][0]["verdict"] == "confirmed in part");
   BOOST_TEST(json["follows"] == false);
   Json results = {{"format", 1}, {"ledger", json}};
-  const auto fault = find_fault(results, "results");
+  const auto fault = find_schema_error(results, "results");
   // Only what is missing around it is at fault.
   BOOST_REQUIRE(fault.has_value());
   BOOST_TEST(contains(fault->message, "expected the key"));

@@ -60,8 +60,8 @@ std::vector<Run> run_all(const std::vector<Case>& cases, unsigned jobs = 1,
   return run_cases(cases, references, options);
 }
 
-const Judgement& find(const Run& run, const std::string& name) {
-  for (const Judgement& one : run.judgements) {
+const CheckResult& find(const Run& run, const std::string& name) {
+  for (const CheckResult& one : run.check_results) {
     if (one.name == name) return one;
   }
   throw std::runtime_error("no check " + name);
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(results_obey_their_schema) {
   const std::vector<Case> cases = {testing::read(folder, json)};
   const References references;
   const Json results = results_of(run_cases(cases, references, {}), cases, references);
-  const auto fault = find_fault(results, "results");
+  const auto fault = find_schema_error(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST(results["references"].contains("exact"));
 }
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(a_singular_model_holds_where_it_is_expected_and_fails_where
   json["expect_status"] = "singular";
   runs = run_all({testing::read(folder, json)});
   BOOST_TEST((find(runs.at(0), "status").verdict == Verdict::pass));
-  BOOST_TEST(runs[0].judgements.size() == 1);
+  BOOST_TEST(runs[0].check_results.size() == 1);
   BOOST_TEST(exit_status(runs) == 0);
   json["model"]["supports"]["A"] = {"x", "y", "rotation"};
   runs = run_all({testing::read(folder, json)});
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(a_variant_that_is_looked_at_is_computed_but_not_told) {
   BOOST_TEST((find(runs[0], "half").verdict == Verdict::pass));
   runs = run_all({testing::read(folder, json)});
   BOOST_REQUIRE(runs.size() == 2);
-  BOOST_TEST(runs[1].judgements.empty());  // not against itself
+  BOOST_TEST(runs[1].check_results.empty());  // not against itself
 }
 
 BOOST_AUTO_TEST_SUITE_END()

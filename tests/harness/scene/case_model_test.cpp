@@ -14,14 +14,14 @@ using testing::Folder;
 
 namespace {
 
-Scene scene_of(const Json& json) {
+CaseModel case_model_of(const Json& json) {
   const Folder folder;
-  return read_scene(patched(testing::read(folder, json), "base"));
+  return read_case_model(patched(testing::read(folder, json), "base"));
 }
 
 std::string fault(Json json, const std::string& pointer, const Json& value) {
   json[JsonPointer(pointer)] = value;
-  return complaint([&] { (void)scene_of(json); });
+  return complaint([&] { (void)case_model_of(json); });
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ std::string fault(Json json, const std::string& pointer, const Json& value) {
 BOOST_AUTO_TEST_SUITE(case_model)
 
 BOOST_AUTO_TEST_CASE(a_rectangle_has_the_stiffness_and_mass_of_a_rectangle) {
-  const Section section = build_model(scene_of(testing::cantilever()), 0).members.at(0).section;
+  const Section section = build_model(case_model_of(testing::cantilever()), 0).members.at(0).section;
   BOOST_TEST(section.EA == 2e11 * 0.1 * 0.05, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(section.EI == 2e11 * 0.05 * 1e-3 / 12, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(section.kappa_GA == 5.0 / 6 * 2e11 / 2.6 * 0.005, boost::test_tools::tolerance(1e-14));
@@ -40,11 +40,11 @@ BOOST_AUTO_TEST_CASE(a_rectangle_has_the_stiffness_and_mass_of_a_rectangle) {
 BOOST_AUTO_TEST_CASE(a_circle_and_plain_numbers_are_sections_too) {
   Json json = testing::cantilever();
   json["model"]["sections"]["bar"] = {{"material", "steel"}, {"circle", {{"diameter_m", 0.1}}}};
-  const Section round = build_model(scene_of(json), 0).members.at(0).section;
+  const Section round = build_model(case_model_of(json), 0).members.at(0).section;
   BOOST_TEST(round.EI == 2e11 * std::numbers::pi * 1e-4 / 64, boost::test_tools::tolerance(1e-14));
   json["model"]["sections"]["bar"] = {
       {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 1e-6}};
-  const Section plain = build_model(scene_of(json), 0).members.at(0).section;
+  const Section plain = build_model(case_model_of(json), 0).members.at(0).section;
   BOOST_TEST(plain.EI == 2e5, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(contains(fault(json, "/model/sections/bar/circle/diameter_m", 0.1),
                       "/model/sections/bar: expected exactly one of 'rectangle', 'circle'"));
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(every_word_of_a_planar_model_reaches_the_model) {
                            {"rotational_stiffness_N_m_per_rad", 6}};
   model["supports"]["C"] = {"y"};
   model["gravity_m_s2"] = {0, -9.81};
-  const Model built = build_model(scene_of(json), 0);
+  const Model built = build_model(case_model_of(json), 0);
   const Member& member = built.members.at(1);
   BOOST_TEST((member.theory == BeamTheory::timoshenko && member.mass == MassMatrix::lumped));
   BOOST_TEST(!member.axially_flexible);
@@ -110,12 +110,12 @@ BOOST_AUTO_TEST_CASE(impossible_geometry_is_refused_where_it_stands) {
   json["model"]["nodes"]["C"] = {4, 0};
   json["model"]["plates"]["p"] = {
       {"material", "steel"}, {"thickness_m", 1}, {"triangles", {{"A", "B", "C"}}}};
-  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }),
+  BOOST_TEST(contains(complaint([&] { (void)case_model_of(json); }),
                       "/model/plates/p/triangles/0: expected a triangle with an area"));
 }
 
 BOOST_AUTO_TEST_CASE(blocks_become_triangles_joined_to_the_named_nodes) {
-  const Model model = build_model(scene_of(testing::quarter_ring()), 0);
+  const Model model = build_model(case_model_of(testing::quarter_ring()), 0);
   BOOST_TEST(model.nodes.size() == 5U * 9);  // six-node triangles of 2 x 4 cells
   BOOST_TEST(model.triangles.size() == 16U);
   for (const char* name : {"A", "B", "C", "D", "M"}) {
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(blocks_become_triangles_joined_to_the_named_nodes) {
 BOOST_AUTO_TEST_CASE(two_supported_edges_take_a_motion_of_their_corner_away_once) {
   Json json = testing::quarter_ring();
   json["model"]["supports"] = {{"inner", {"x", "y"}}, {"bottom", {"y"}}, {"A", {"y"}}};
-  const Model model = build_model(scene_of(json), 0);
+  const Model model = build_model(case_model_of(json), 0);
   const Index a = model.find_node("A");
   int y = 0;
   for (const Support& support : model.supports) y += support.node == a && support.fixed[1] ? 1 : 0;
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(a_block_that_cannot_be_is_refused_where_it_stands) {
   two["model"]["nodes"]["F"] = {3, 3};
   two["model"]["plates"]["ring"]["blocks"]["c"] = {{"corners", {"B", "E", "F", "C"}},
                                                    {"cells", {1, 3}}};
-  BOOST_TEST(contains(complaint([&] { (void)scene_of(two); }),
+  BOOST_TEST(contains(complaint([&] { (void)case_model_of(two); }),
                       "/model/plates/ring/blocks/c: expected the same mesh on both sides"));
   BOOST_TEST(contains(fault(two, "/model/plates/ring/blocks/c/cells", {1, 2}),
                       "/model/loads/p/edge: expected an edge with a plate on one side"));
@@ -215,7 +215,7 @@ BOOST_AUTO_TEST_CASE(an_unreachable_pose_is_refused_with_the_limb_and_the_distan
   json["model"].erase("pose");
   json["model"]["trajectory"]["circle"] = {
       {"center_m", {0.25, 0.144}}, {"radius_m", 0.3}, {"points", 10}, {"step_s", 0.6}};
-  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }),
+  BOOST_TEST(contains(complaint([&] { (void)case_model_of(json); }),
                       "/model/trajectory: expected a pose within reach at point 0"));
 }
 
@@ -229,8 +229,8 @@ BOOST_AUTO_TEST_CASE(links_may_differ_in_length_and_in_section) {
   robot["joints"]["elbow"] = {"hinged", "welded", {{"spring_N_m_per_rad", 3}}};
   robot["base_m"] = {{0, 0}, {0.5, 0.01}, {0.26, 0.43}};
   robot.erase("base_side_m");
-  const Scene scene = scene_of(json);
-  const ManipulatorDesign& design = *scene.manipulator;
+  const CaseModel case_model = case_model_of(json);
+  const ManipulatorDesign& design = *case_model.manipulator;
   BOOST_TEST((design.geometry.proximal == std::array<double, 3>{0.19, 0.2, 0.21}));
   BOOST_TEST((design.geometry.distal == std::array<double, 3>{0.22, 0.22, 0.22}));
   BOOST_TEST(design.proximal[0].thickness == 0.003);
@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(links_may_differ_in_length_and_in_section) {
   BOOST_TEST((design.geometry.working_mode == std::array<int, 3>{1, -1, 1}));
   BOOST_TEST((design.geometry.base[1] == Vector2d(0.5, 0.01)));
   BOOST_TEST((design.elbow[2].kind == ElbowKind::sprung && design.elbow[2].stiffness == 3));
-  const Model model = build_model(scene, 0);
+  const Model model = build_model(case_model, 0);
   const auto length = [&](Index a, Index b) {
     return (model.nodes[static_cast<std::size_t>(a)].position -
             model.nodes[static_cast<std::size_t>(b)].position)
@@ -271,13 +271,13 @@ BOOST_AUTO_TEST_CASE(a_circle_runs_through_its_points_in_time) {
                                            {"points", 631},
                                            {"step_s", 0.01},
                                            {"phi_rad", 0.1}};
-  const Scene scene = scene_of(json);
-  BOOST_REQUIRE(scene.steps() == 631);
-  BOOST_TEST(scene.motion.back().time == 6.3, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(scene.motion[0].pose.x == 0.26, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(scene.motion[157].pose.y == 0.144 + 0.01 * std::sin(1.57),
+  const CaseModel case_model = case_model_of(json);
+  BOOST_REQUIRE(case_model.steps() == 631);
+  BOOST_TEST(case_model.motion.back().time == 6.3, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(case_model.motion[0].pose.x == 0.26, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(case_model.motion[157].pose.y == 0.144 + 0.01 * std::sin(1.57),
              boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(scene.motion[630].pose.phi == 0.1);
+  BOOST_TEST(case_model.motion[630].pose.phi == 0.1);
 }
 
 BOOST_AUTO_TEST_CASE(a_line_a_motion_from_rest_to_rest_and_a_spline_are_paths_too) {
@@ -288,11 +288,11 @@ BOOST_AUTO_TEST_CASE(a_line_a_motion_from_rest_to_rest_and_a_spline_are_paths_to
   const Json path = {
       {"from", from}, {"to", to}, {"duration_s", 2}, {"points", 21}, {"step_s", 0.1}};
   json["model"]["trajectory"] = {{"line", path}};
-  TrajectoryPoint middle = scene_of(json).motion[10];
+  TrajectoryPoint middle = case_model_of(json).motion[10];
   BOOST_TEST(middle.pose.x == 0.26, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(middle.velocity.z() == 0.1, boost::test_tools::tolerance(1e-14));
   json["model"]["trajectory"] = {{"rest_to_rest", path}};
-  middle = scene_of(json).motion[10];
+  middle = case_model_of(json).motion[10];
   BOOST_TEST(middle.pose.phi == 0.1, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(middle.velocity.x() == 1.875 * 0.01, boost::test_tools::tolerance(1e-13));
   const auto knot = [](double time, Json pose) {
@@ -304,20 +304,20 @@ BOOST_AUTO_TEST_CASE(a_line_a_motion_from_rest_to_rest_and_a_spline_are_paths_to
                                    {"ends", "periodic"},
                                    {"points", 21},
                                    {"step_s", 0.1}}}};
-  const Scene scene = scene_of(json);
-  BOOST_TEST(scene.motion[10].pose.x == 0.27, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST((scene.motion[0].velocity - scene.motion[20].velocity).norm() < 1e-14);
+  const CaseModel case_model = case_model_of(json);
+  BOOST_TEST(case_model.motion[10].pose.x == 0.27, boost::test_tools::tolerance(1e-14));
+  BOOST_TEST((case_model.motion[0].velocity - case_model.motion[20].velocity).norm() < 1e-14);
 
   Json& trajectory = json["model"]["trajectory"];
   trajectory["spline"]["points"] = 22;
-  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }),
+  BOOST_TEST(contains(complaint([&] { (void)case_model_of(json); }),
                       "/model/trajectory/spline: expected a path that has a meaning: the time"));
   trajectory["spline"]["points"] = 21;
   trajectory["spline"]["knots"][0]["time_s"] = 0.5;
-  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }),
+  BOOST_TEST(contains(complaint([&] { (void)case_model_of(json); }),
                       "/model/trajectory/spline/knots/0: expected the first knot at 0 s"));
   trajectory = {{"line", path}, {"rest_to_rest", path}};
-  BOOST_TEST(contains(complaint([&] { (void)scene_of(json); }), "/model/trajectory"));
+  BOOST_TEST(contains(complaint([&] { (void)case_model_of(json); }), "/model/trajectory"));
 }
 
 BOOST_AUTO_TEST_CASE(a_manipulator_carries_what_stands_beside_it) {
@@ -326,7 +326,7 @@ BOOST_AUTO_TEST_CASE(a_manipulator_carries_what_stands_beside_it) {
   json["model"]["springs"]["k"] = {{"nodes", {"P", "G"}}, {"stiffness_N_per_m", {10, 10}}};
   json["model"]["supports"]["G"] = {"x", "y"};
   json["model"]["point_masses"]["payload"] = {{"node", "P"}, {"mass_kg", 0.5}};
-  const Model model = build_model(scene_of(json), 0);
+  const Model model = build_model(case_model_of(json), 0);
   BOOST_TEST(model.nodes.at(static_cast<std::size_t>(model.springs.at(0).nodes[0])).name == "P");
   BOOST_TEST(model.nodes.at(static_cast<std::size_t>(model.springs.at(0).nodes[1])).name == "G");
   BOOST_TEST(model.masses.back().mass == 0.5);

@@ -32,7 +32,7 @@ Json quarter(Index elements) {
 BOOST_AUTO_TEST_SUITE(member_chain)
 
 BOOST_AUTO_TEST_CASE(an_arc_is_cut_into_chords_between_points_of_the_circle) {
-  const Model model = build_model(read_scene(document_of(quarter(6))), 0);
+  const Model model = build_model(read_case_model(document_of(quarter(6))), 0);
   BOOST_REQUIRE(model.members.size() == 6);
   BOOST_TEST(model.nodes.size() == 7);
   BOOST_TEST(model.members[0].name == "AB.1");
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(an_arc_is_cut_into_chords_between_points_of_the_circle) {
 BOOST_AUTO_TEST_CASE(from_b_to_a_the_arc_goes_the_long_way_round) {
   Json json = quarter(6);
   json["model"]["members"]["AB"]["nodes"] = {"B", "A"};
-  const Model model = build_model(read_scene(document_of(json)), 0);
+  const Model model = build_model(read_case_model(document_of(json)), 0);
   bool left = false;
   for (const Node& node : model.nodes) left = left || node.position.x() < -0.5;
   BOOST_TEST(left);
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(an_exponential_taper_has_the_geometric_mean_half_way) {
   json["model"]["members"]["AB"]["end_section"] = "thin";
   json["model"]["members"]["AB"]["taper"] = "exponential";
   json["model"]["elements"] = 2;
-  const Model model = build_model(read_scene(document_of(json)), 0);
+  const Model model = build_model(read_case_model(document_of(json)), 0);
   BOOST_TEST(model.members[0].end_section.EI ==
                  std::sqrt(model.members[0].section.EI * model.members[1].end_section.EI),
              tolerance(1e-14));

@@ -29,14 +29,14 @@ Json study_json() {
 }
 
 /// The study beside its case.
-CostStudy load(const Json& json, Sweeping sweeping = Sweeping::full) {
+CostStudy load(const Json& json, SweepExtent sweeping = SweepExtent::full) {
   const Folder folder;
   (void)folder.write(testing::cantilever());
   const References references;
   return load_cost_study(folder.write("arm.json", json.dump(1)), sweeping, references);
 }
 
-std::string fault_of(const Json& json, Sweeping sweeping = Sweeping::full) {
+std::string fault_of(const Json& json, SweepExtent sweeping = SweepExtent::full) {
   return complaint([&] { (void)load(json, sweeping); });
 }
 
@@ -54,9 +54,9 @@ BOOST_AUTO_TEST_CASE(settings_are_the_case_with_the_patches_of_study_curve_and_v
              "lumped");
   BOOST_TEST(!study.settings[3].document.value()["model"]["members"]["AB"].contains("mass_matrix"));
   BOOST_TEST(study.baseline == 2U);
-  BOOST_TEST_REQUIRE(study.truth.has_value());
-  BOOST_TEST(study.truth->document.value().at("model").at("elements") == 32);
-  BOOST_TEST(study.truth_words == "32 elements");
+  BOOST_TEST_REQUIRE(study.reference_solution.has_value());
+  BOOST_TEST(study.reference_solution->document.value().at("model").at("elements") == 32);
+  BOOST_TEST(study.reference_description == "32 elements");
 }
 
 BOOST_AUTO_TEST_CASE(a_null_in_a_patch_takes_away_what_the_case_has) {
@@ -65,13 +65,13 @@ BOOST_AUTO_TEST_CASE(a_null_in_a_patch_takes_away_what_the_case_has) {
 }
 
 BOOST_AUTO_TEST_CASE(the_quick_sweep_has_the_quick_values_and_their_baseline) {
-  const CostStudy study = load(study_json(), Sweeping::quick);
+  const CostStudy study = load(study_json(), SweepExtent::quick);
   BOOST_TEST_REQUIRE(study.settings.size() == 2U);
   BOOST_TEST(study.settings[study.baseline].title == "consistent mass, 4 elements");
   Json json = study_json();
   json["baseline"]["value"] = 8;
   BOOST_TEST(fault_of(json) == "");
-  BOOST_TEST(contains(fault_of(json, Sweeping::quick), "/baseline: expected a curve"));
+  BOOST_TEST(contains(fault_of(json, SweepExtent::quick), "/baseline: expected a curve"));
 }
 
 BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
@@ -106,18 +106,18 @@ BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
 BOOST_AUTO_TEST_CASE(observed_values_are_chosen_added_and_condensed) {
   const Quantities quantities = {{"pose_x_m", {{1, 2, 3}, {}}},
                                  {"displacement_x_m:P", {{0.1, 0.2, -0.6}, {}}}};
-  Observed one;
+  ObservedQuantity one;
   one.quantity = "displacement_x_m:P";
-  one.plus = "pose_x_m";
+  one.addend = "pose_x_m";
   BOOST_TEST(observe(quantities, {one})[0] == (std::vector<double>{1.1, 2.2, 2.4}),
              boost::test_tools::per_element());
   one.index = {0, 2};
   BOOST_TEST(observe(quantities, {one})[0] == (std::vector<double>{1.1, 2.4}),
              boost::test_tools::per_element());
-  one.plus = "";
+  one.addend = "";
   one.statistic = "max_abs";
   BOOST_TEST(observe(quantities, {one})[0][0] == 0.6);
-  const auto said = [&](const Observed& observed) {
+  const auto said = [&](const ObservedQuantity& observed) {
     try {
       (void)observe(quantities, {observed});
     } catch (const std::runtime_error& error) {
@@ -141,17 +141,17 @@ BOOST_AUTO_TEST_CASE(the_sweeps_of_a_case_are_a_study) {
   const Folder folder;
   const References references;
   const Case given = testing::read(folder, json);
-  const CostStudy study = cost_study_of_sweeps(given, base_variant, {"elements"}, references);
+  const CostStudy study = cost_study_of_sweeps(given, kBaseVariant, {"elements"}, references);
   BOOST_TEST_REQUIRE(study.settings.size() == 3U);
   BOOST_TEST(study.settings[1].title == "elements 2");
   BOOST_TEST(study.baseline == 0U);
-  BOOST_TEST(study.truth_words == "the finest level, elements 4");
+  BOOST_TEST(study.reference_description == "the finest level, elements 4");
   BOOST_TEST(contains(
-      complaint([&] { (void)cost_study_of_sweeps(given, base_variant, {"element"}, references); }),
+      complaint([&] { (void)cost_study_of_sweeps(given, kBaseVariant, {"element"}, references); }),
       "did you mean 'elements'"));
   const Case without = testing::read(folder, testing::cantilever());
   BOOST_TEST(contains(
-      complaint([&] { (void)cost_study_of_sweeps(without, base_variant, {}, references); }),
+      complaint([&] { (void)cost_study_of_sweeps(without, kBaseVariant, {}, references); }),
       "expected 'sweeps'"));
 }
 
@@ -159,8 +159,8 @@ BOOST_AUTO_TEST_CASE(what_the_checks_of_a_case_know_exactly_is_what_its_sweep_is
   const References references;
   const Case given =
       load_case(find_case("beam-cantilever"));
-  const CostStudy study = cost_study_of_sweeps(given, base_variant, {}, references);
-  BOOST_TEST(!study.truth.has_value());
+  const CostStudy study = cost_study_of_sweeps(given, kBaseVariant, {}, references);
+  BOOST_TEST(!study.reference_solution.has_value());
   BOOST_TEST_REQUIRE(study.settings.front().observed.size() == 1U);
   BOOST_TEST(study.settings.front().observed[0].quantity == "frequency_Hz");
   BOOST_TEST(study.settings.front().observed[0].exact.size() == 6U);
@@ -170,8 +170,8 @@ BOOST_AUTO_TEST_CASE(every_study_of_the_catalogue_can_be_read_in_full_and_quickl
   const References references;
   BOOST_TEST(!cost_study_files().empty());
   for (const auto& file : cost_study_files()) {
-    const CostStudy full = load_cost_study(file, Sweeping::full, references);
-    const CostStudy quick = load_cost_study(file, Sweeping::quick, references);
+    const CostStudy full = load_cost_study(file, SweepExtent::full, references);
+    const CostStudy quick = load_cost_study(file, SweepExtent::quick, references);
     BOOST_TEST(full.settings.size() >= quick.settings.size(), file);
     BOOST_TEST(quick.settings.size() >= 2U, file);
     BOOST_TEST(!full.description.empty(), file);

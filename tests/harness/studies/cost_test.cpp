@@ -13,7 +13,7 @@ using namespace trammel;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;
-using Standing = MeasuredSetting::Standing;
+using MeasurementStatus = MeasuredSetting::MeasurementStatus;
 
 namespace {
 
@@ -41,7 +41,7 @@ MeasuredStudy measured(const Json& json) {
   const References references;
   CostOptions options;
   options.timing.shortest_s = 0;
-  return measure(load_cost_study(folder.write(json), Sweeping::full, references), options,
+  return measure(load_cost_study(folder.write(json), SweepExtent::full, references), options,
                  references);
 }
 
@@ -50,14 +50,14 @@ MeasuredStudy measured(const Json& json) {
 BOOST_AUTO_TEST_SUITE(cost)
 
 BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
-  const Observations truth = {{10, 0, -5}}, found = {{11, 1, -5}};
-  const ErrorNorms entry = error_norms(found, truth, {});
+  const Observations reference_solution = {{10, 0, -5}}, found = {{11, 1, -5}};
+  const ErrorNorms entry = error_norms(found, reference_solution, {});
   BOOST_TEST(entry.max == 0.1);  // of the true zero: 1 over the largest, 10
   BOOST_TEST(entry.mean == 0.2 / 3);
   BOOST_TEST(entry.rms == std::sqrt(0.02 / 3));
-  const ErrorNorms largest = error_norms({{10, 0, -4}}, truth, {Scale::Kind::largest, 0});
+  const ErrorNorms largest = error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::largest, 0});
   BOOST_TEST(largest.max == 0.1);
-  const ErrorNorms fixed = error_norms({{10, 0, -4}}, truth, {Scale::Kind::number, 4});
+  const ErrorNorms fixed = error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::number, 4});
   BOOST_TEST(fixed.max == 0.25);
   // Values that are errors themselves have no truth.
   BOOST_TEST(error_norms({{1e-3, -2e-3}}, {{}}, {}).max == 2e-3);
@@ -71,17 +71,17 @@ BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
   BOOST_TEST_REQUIRE(study.settings.size() == 5U);
   for (std::size_t i : {0U, 1U, 2U}) {
     const MeasuredSetting& one = study.settings[i];
-    BOOST_TEST((one.standing == Standing::measured || one.standing == Standing::wide));
+    BOOST_TEST((one.status == MeasurementStatus::measured || one.status == MeasurementStatus::excessive_spread));
     BOOST_TEST(one.error->max > 0);
     BOOST_TEST(one.timing->cpu_s.size() == 7U);
   }
   BOOST_TEST(study.settings[1].error->max < study.settings[0].error->max / 10);
-  BOOST_TEST((study.settings[3].standing == Standing::truth));
-  BOOST_TEST((study.settings[4].standing == Standing::failed));
+  BOOST_TEST((study.settings[3].status == MeasurementStatus::reference_solution));
+  BOOST_TEST((study.settings[4].status == MeasurementStatus::failed));
   BOOST_TEST(contains(study.settings[4].reason, "values of frequency_Hz"));
   BOOST_TEST(!study.settings[4].timing.has_value());
   for (const CostPoint& point : study.points) {
-    BOOST_TEST((study.settings[point.setting].standing == Standing::measured));
+    BOOST_TEST((study.settings[point.setting].status == MeasurementStatus::measured));
   }
 }
 
@@ -102,13 +102,13 @@ BOOST_AUTO_TEST_CASE(a_spread_that_is_too_wide_is_marked_and_not_used) {
   MeasuredStudy study = measured(study_json());
   Timing& timing = *study.settings[1].timing;
   timing.median_s = timing.lower_quartile_s = 1;
-  timing.upper_quartile_s = 1 + 1.01 * widest_spread;
-  conclude(study);
-  BOOST_TEST((study.settings[1].standing == Standing::wide));
+  timing.upper_quartile_s = 1 + 1.01 * kMaxSpread;
+  derive_results(study);
+  BOOST_TEST((study.settings[1].status == MeasurementStatus::excessive_spread));
   for (const CostPoint& point : study.points) BOOST_TEST(point.setting != 1U);
-  timing.upper_quartile_s = 1 + 0.99 * widest_spread;
-  conclude(study);
-  BOOST_TEST((study.settings[1].standing == Standing::measured));
+  timing.upper_quartile_s = 1 + 0.99 * kMaxSpread;
+  derive_results(study);
+  BOOST_TEST((study.settings[1].status == MeasurementStatus::measured));
 }
 
 BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
       {"title", "far too fine"},
       {"patch", {{"model", {{"elements", 4000}}}, {"analysis", {{"modes", {{"path", "dense"}}}}}}}};
   const MeasuredStudy study = measured(json);
-  BOOST_TEST((study.settings[4].standing == Standing::timed_out));
+  BOOST_TEST((study.settings[4].status == MeasurementStatus::timed_out));
   BOOST_TEST(study.settings[4].cpu_s == 1);
   BOOST_TEST(contains(study.settings[4].reason, "1 s of processor time"));
 }
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
   // Each frequency goes with the square root of E.
   json["curves"]["more"] = {{"title", "stiff beyond reason"},
                             {"patch", {{"model", {{"materials", {{"steel", {{"E_Pa", 2e15}}}}}}}}}};
-  BOOST_TEST((measured(json).settings[4].standing == Standing::diverged));
+  BOOST_TEST((measured(json).settings[4].status == MeasurementStatus::diverged));
 }
 
 BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
@@ -145,12 +145,12 @@ BOOST_AUTO_TEST_CASE(the_results_obey_their_schema_and_give_the_front_back) {
   const MeasuredStudy study = measured(study_json());
   const References references;
   Json results = results_of({}, {}, references);
-  results["cost"] = cost_json({study}, Sweeping::full, {});
-  const auto fault = find_fault(results, "results");
+  results["cost"] = cost_json({study}, SweepExtent::full, {});
+  const auto fault = find_schema_error(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   const Json& written = results["cost"]["studies"][0];
   BOOST_TEST(written["settings"].size() == 5U);
-  BOOST_TEST(written["cheapest"].size() == asked_errors().size());
+  BOOST_TEST(written["cheapest"].size() == target_errors().size());
   const std::vector<CostPoint> points = cost_points(written);
   BOOST_TEST_REQUIRE(points.size() == study.points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

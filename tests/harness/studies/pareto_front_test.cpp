@@ -28,14 +28,14 @@ BOOST_AUTO_TEST_SUITE(pareto_front)
 
 BOOST_AUTO_TEST_CASE(what_is_beaten_in_error_and_time_is_not_on_the_front) {
   const std::vector<std::size_t> expected = {0, 2, 3, 4};
-  BOOST_TEST(settings(efficient_front(sample())) == expected, boost::test_tools::per_element());
+  BOOST_TEST(settings(find_pareto_front(sample())) == expected, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(the_front_is_that_of_every_order_of_the_settings) {
   std::vector<CostPoint> points = sample();
   std::reverse(points.begin(), points.end());
   const std::vector<std::size_t> expected = {0, 2, 3, 4};
-  BOOST_TEST(settings(efficient_front(points)) == expected, boost::test_tools::per_element());
+  BOOST_TEST(settings(find_pareto_front(points)) == expected, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(differences_within_the_noise_change_nothing_on_the_front) {
@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(differences_within_the_noise_change_nothing_on_the_front) {
   for (const double noise : {0.97, 1.03}) {
     const std::vector<CostPoint> points = {{0, 1e-3, 1}, {1, 1.0000001e-3, noise}, {2, 1e-5, 3}};
     const std::vector<std::size_t> expected = {0, 2};
-    BOOST_TEST(settings(efficient_front(points)) == expected, boost::test_tools::per_element());
+    BOOST_TEST(settings(find_pareto_front(points)) == expected, boost::test_tools::per_element());
     BOOST_TEST(cheapest(points, 0.01)->setting == 0U);
   }
 }
@@ -62,51 +62,51 @@ BOOST_AUTO_TEST_CASE(the_cheapest_setting_is_within_the_error_or_there_is_none) 
 }
 
 BOOST_AUTO_TEST_CASE(the_sentence_names_what_is_enough_and_what_more_takes) {
-  const std::string words = front_in_words(sample(), titles, 0);
+  const std::string words = describe_pareto_front(sample(), titles, 0);
   BOOST_TEST(contains(words, "Within 1 %, 'middle' is cheapest, at 2 times the time of 'coarse'"));
   BOOST_TEST(contains(words, "1e-6 takes 'finest' and 8 times as long"));
 }
 
 BOOST_AUTO_TEST_CASE(the_sentence_does_not_compare_the_baseline_with_itself) {
-  BOOST_TEST(contains(front_in_words({{0, 1e-3, 1}}, titles, 0), "'coarse' is cheapest;"));
-  BOOST_TEST(contains(front_in_words({{1, 1e-3, 1.02}}, titles, 0), "as quick as 'coarse'"));
+  BOOST_TEST(contains(describe_pareto_front({{0, 1e-3, 1}}, titles, 0), "'coarse' is cheapest;"));
+  BOOST_TEST(contains(describe_pareto_front({{1, 1e-3, 1.02}}, titles, 0), "as quick as 'coarse'"));
 }
 
 BOOST_AUTO_TEST_CASE(the_sentence_has_no_more_digits_than_were_measured) {
-  const std::string words = front_in_words({{0, 1e-3, 1}, {4, 1e-7, 7917.3}}, titles, 0);
+  const std::string words = describe_pareto_front({{0, 1e-3, 1}, {4, 1e-7, 7917.3}}, titles, 0);
   BOOST_TEST(contains(words, "and 7900 times as long"));
 }
 
 BOOST_AUTO_TEST_CASE(the_sentence_says_what_is_not_reached) {
   std::vector<CostPoint> points = sample();
   points.pop_back();
-  BOOST_TEST(contains(front_in_words(points, titles, 0),
+  BOOST_TEST(contains(describe_pareto_front(points, titles, 0),
                       "no setting reaches 1e-6, the best is 'fine', off by 0.01 %"));
   points = {{0, 0.02, 1}};
-  BOOST_TEST(contains(front_in_words(points, titles, 0), "No setting comes within 1 %"));
-  BOOST_TEST(contains(front_in_words({}, titles, 0), "No setting could be measured"));
+  BOOST_TEST(contains(describe_pareto_front(points, titles, 0), "No setting comes within 1 %"));
+  BOOST_TEST(contains(describe_pareto_front({}, titles, 0), "No setting could be measured"));
   points = {{4, 1e-7, 16}};
-  BOOST_TEST(contains(front_in_words(points, titles, 0), "at no further cost"));
+  BOOST_TEST(contains(describe_pareto_front(points, titles, 0), "at no further cost"));
 }
 
 BOOST_AUTO_TEST_CASE(a_front_agrees_with_itself_and_differs_by_what_is_slower) {
-  const FrontAgreement same = compare_fronts(sample(), sample());
+  const ParetoFrontAgreement same = compare_pareto_fronts(sample(), sample());
   BOOST_TEST(same.shared == 4U);
   BOOST_TEST(same.either == 4U);
   BOOST_TEST(same.same_cheapest == 4U);
-  BOOST_TEST(same.asked == 4U);
+  BOOST_TEST(same.targets == 4U);
   BOOST_TEST(same.largest_difference == 0);
 
   std::vector<CostPoint> slower = sample();
   slower[3].time *= 1.2;
-  const FrontAgreement apart = compare_fronts(sample(), slower);
+  const ParetoFrontAgreement apart = compare_pareto_fronts(sample(), slower);
   BOOST_TEST(apart.shared == 4U);
   BOOST_TEST(apart.largest_difference == 0.2, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(apart.median_difference == 0);
 
   std::vector<CostPoint> other = sample();
   other[2].time = 10;  // now 3 is as good for 1 %
-  const FrontAgreement moved = compare_fronts(sample(), other);
+  const ParetoFrontAgreement moved = compare_pareto_fronts(sample(), other);
   BOOST_TEST(moved.shared == 3U);
   BOOST_TEST(moved.either == 4U);
   BOOST_TEST(moved.same_cheapest == 3U);

@@ -16,8 +16,8 @@ BOOST_AUTO_TEST_CASE(automatic_effects_hold_in_motion) {
   for (std::uint64_t n = 0; n < kScenes; ++n) {
     const EffectStudy study = study_effects(random_motion(1, n), {0.01, false, 0});
     BOOST_TEST_REQUIRE(study.full.outcome.solved(), "scene " << n);
-    within += study.within() ? 1 : 0;
-    minimal += study.minimal() ? 1 : 0;
+    within += study.within_tolerance() ? 1 : 0;
+    minimal += study.is_minimal() ? 1 : 0;
   }
   BOOST_TEST_MESSAGE(within << " within, " << minimal << " minimal of " << kScenes);
   BOOST_TEST(100 * within >= 99 * kScenes);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "references/programs/stored.h"
+#include "references/programs/derivation_comparison.h"
 
 namespace fs = std::filesystem;
 using namespace trammel::derive;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "references/data/reference.h"
-#include "references/programs/stored.h"
+#include "references/programs/derivation_comparison.h"
 
 namespace fs = std::filesystem;
 using namespace trammel::derive;
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(every_stored_value_with_a_derivation_is_what_comes_out_of_i
       BOOST_TEST(comparison.id == name);
       if (comparison.program.empty()) continue;
       BOOST_TEST(comparison.derived.size() == comparison.stored.size());
-      BOOST_TEST(comparison.holds());
+      BOOST_TEST(comparison.within_uncertainty());
       ++derived;
     }
   }
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(a_stored_exact_value_corrupted_in_its_tenth_digit_is_caught
         if (value == 0) continue;
         const double kept = value;
         value = with_tenth_digit_changed(kept);
-        BOOST_TEST(!comparison.holds());
+        BOOST_TEST(!comparison.within_uncertainty());
         value = kept;
         ++corrupted;
       }
@@ -114,11 +114,11 @@ BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {
   comparison.stored = {1.0, 2.0};
   comparison.uncertainty = {1e-9, 1e-9};
   comparison.derived = {1.0, 2.0};
-  BOOST_TEST(comparison.holds());
+  BOOST_TEST(comparison.within_uncertainty());
   comparison.derived = {1.0};
-  BOOST_TEST(!comparison.holds());
+  BOOST_TEST(!comparison.within_uncertainty());
   comparison.derived = {1.0, std::nan("")};
-  BOOST_TEST(!comparison.holds());
+  BOOST_TEST(!comparison.within_uncertainty());
 }
 
 BOOST_AUTO_TEST_CASE(a_printed_value_is_uncertain_by_half_its_last_place) {

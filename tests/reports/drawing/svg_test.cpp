@@ -9,7 +9,7 @@ using namespace trammel::tests;
 
 namespace {
 
-constexpr const char* drawn = R"(<?xml version="1.0"?>
+constexpr const char* kDrawnSvg = R"(<?xml version="1.0"?>
 <svg
  viewBox="0 0 500 360"
  xmlns="http://www.w3.org/2000/svg">
@@ -33,7 +33,7 @@ constexpr const char* drawn = R"(<?xml version="1.0"?>
 BOOST_AUTO_TEST_SUITE(svg)
 
 BOOST_AUTO_TEST_CASE(a_drawing_becomes_one_element_that_can_stand_beside_others) {
-  const std::string tidy = tidy_svg(drawn, "fig-a", "Title", "What <it> shows");
+  const std::string tidy = tidy_svg(kDrawnSvg, "fig-a", "Title", "What <it> shows");
   BOOST_TEST(markup_fault(tidy, false) == "");
   BOOST_TEST(tidy.rfind("<svg ", 0) == 0U);
   BOOST_TEST(tidy.find("aria-label=\"Title. What &lt;it&gt; shows\"") != std::string::npos);
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(a_drawing_becomes_one_element_that_can_stand_beside_others)
 }
 
 BOOST_AUTO_TEST_CASE(coordinates_and_colours_are_short_and_texts_untouched) {
-  const std::string tidy = tidy_svg(drawn, "a", "t", "d");
+  const std::string tidy = tidy_svg(kDrawnSvg, "a", "t", "d");
   BOOST_TEST(tidy.find("stroke='#1f5fa8'") != std::string::npos);
   BOOST_TEST(tidy.find("M57.7,335 L69,335.1") != std::string::npos);
   BOOST_TEST(tidy.find("335.00 is told") != std::string::npos);

@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(without_failures_there_is_no_strip) {
   study.settings.resize(7);
   const Figure figure = cost_figure(study);
   BOOST_TEST(!contains(figure.commands, "no answer"));
-  BOOST_TEST(figure.caption == study.words);
+  BOOST_TEST(figure.caption == study.conclusion);
 }
 
 BOOST_AUTO_TEST_CASE(the_page_has_figure_table_sentence_and_says_which_sweep_it_is) {

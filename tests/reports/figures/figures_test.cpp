@@ -35,7 +35,7 @@ Convergence sweep(int index, double order) {
     c.error.emplace_back(0.1 * std::pow(n, -order));
     c.roundoff.emplace_back(1e-15 * n * n);
     c.order.emplace_back(order);
-    c.band.emplace_back(0.1);
+    c.gci.emplace_back(0.1);
     c.in_asymptotic_range.push_back(n > 2);
   }
   c.exact = 100;
@@ -88,12 +88,12 @@ BOOST_AUTO_TEST_CASE(where_two_orders_mix_the_caption_names_their_law_and_how_we
   Convergence mixed = sweep(0, 4);
   mixed.fitted_order.reset();
   mixed.lower_order = 1.354;
-  mixed.law_within = 0.042;
+  mixed.two_term_misfit = 0.042;
   const auto figure = convergence_figures(beam(), run_with({mixed}));
   BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35 of the size h"));
   BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
   BOOST_TEST(!contains(figure[0].caption, "No order"));
-  mixed.law_within.reset();
+  mixed.two_term_misfit.reset();
   BOOST_TEST(contains(convergence_figures(beam(), run_with({mixed}))[0].caption,
                       "no law a h^4 + b h^1.35 meets the errors"));
 }

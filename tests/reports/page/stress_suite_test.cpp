@@ -10,7 +10,7 @@ using namespace trammel::tests;
 namespace {
 
 /// The sample's results with some of its cases in a battery, by item.
-nlohmann::ordered_json with_battery() {
+nlohmann::ordered_json with_stress_suite() {
   auto results = sample_results();
   int item = 0;
   for (auto& [id, info] : results["cases"].items()) {
@@ -25,7 +25,7 @@ nlohmann::ordered_json with_battery() {
   return results;
 }
 
-std::string battery_of(const nlohmann::ordered_json& results) {
+std::string stress_suite_of(const nlohmann::ordered_json& results) {
   const Workspace workspace;
   const std::string page =
       text_of(trammel::write_report(workspace.results(results), workspace.path() / "out"));
@@ -45,7 +45,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 BOOST_AUTO_TEST_SUITE(stress_suite)
 
 BOOST_AUTO_TEST_CASE(items_stand_in_order_with_the_worst_of_each_indicator) {
-  const std::string text = battery_of(with_battery());
+  const std::string text = stress_suite_of(with_stress_suite());
   BOOST_TEST(text.find("3 items, 3 cases, 3 indicators:") != std::string::npos);
   BOOST_TEST(text.find("Not among these results: items 2.") != std::string::npos);
   const std::size_t first = text.find(">1. <"), third = text.find(">3. <"),
@@ -57,35 +57,35 @@ BOOST_AUTO_TEST_CASE(items_stand_in_order_with_the_worst_of_each_indicator) {
 }
 
 BOOST_AUTO_TEST_CASE(an_indicator_that_fails_is_said_to_fail) {
-  auto results = with_battery();
+  auto results = with_stress_suite();
   for (auto& [id, info] : results["cases"].items()) {
     if (!info.contains("battery")) continue;
     const std::string check = info["battery"]["indicators"][0];
     for (auto& run : results["runs"]) {
       if (run["case"] != id) continue;
-      for (auto& one : run["checks"]) {
-        if (one["name"] == check) one["verdict"] = "fail";
+      for (auto& entry : run["checks"]) {
+        if (entry["name"] == check) entry["verdict"] = "fail";
       }
     }
     break;
   }
-  const std::string text = battery_of(results);
+  const std::string text = stress_suite_of(results);
   BOOST_TEST(text.find("1 fails") != std::string::npos);
   BOOST_TEST(count_of(text, "class=\"mark fails\"") == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(an_indicator_that_no_run_has_does_not_hold) {
-  auto results = with_battery();
+  auto results = with_stress_suite();
   for (auto& [id, info] : results["cases"].items()) {
     if (info.contains("battery")) info["battery"]["indicators"] = {"nowhere"};
   }
-  const std::string text = battery_of(results);
+  const std::string text = stress_suite_of(results);
   BOOST_TEST(count_of(text, "no run has it") == 3U);
   BOOST_TEST(text.find("3 not run") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(without_cases_of_a_battery_there_is_no_section) {
-  BOOST_TEST(battery_of(sample_results()).empty());
+  BOOST_TEST(stress_suite_of(sample_results()).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

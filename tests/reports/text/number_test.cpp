@@ -38,10 +38,10 @@ BOOST_AUTO_TEST_CASE(relative_differences_are_per_cent_until_they_are_too_small_
 
 BOOST_AUTO_TEST_CASE(enough_digits_are_shown_to_see_where_two_numbers_part) {
   const double target = 3.5160152685, computed = 3.5160179;
-  const int digits = telling_digits(target, computed);
+  const int digits = distinguishing_digits(target, computed);
   BOOST_TEST(significant(target, digits) != significant(computed, digits));
-  BOOST_TEST(telling_digits(1.0, 2.0) == 4);
-  BOOST_TEST(telling_digits(1.0, 1.0 + 1e-15) == 6);
+  BOOST_TEST(distinguishing_digits(1.0, 2.0) == 4);
+  BOOST_TEST(distinguishing_digits(1.0, 1.0 + 1e-15) == 6);
 }
 
 BOOST_AUTO_TEST_CASE(the_shortest_text_reads_back_as_the_same_double) {

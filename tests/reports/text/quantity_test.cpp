@@ -11,25 +11,25 @@ BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
   BOOST_TEST(moment.label == "reaction moment");
   BOOST_TEST(moment.subject == "A1");
   BOOST_TEST(moment.unit == "N·m");
-  BOOST_TEST(in_words(parse_quantity("displacement_x_m:P")) == "x displacement of P");
-  BOOST_TEST(in_words(parse_quantity("frequency_Hz:1")) == "frequency of mode 1");
-  BOOST_TEST(in_words(parse_quantity("relative_error:displacement_y_m:B")) ==
+  BOOST_TEST(to_text(parse_quantity("displacement_x_m:P")) == "x displacement of P");
+  BOOST_TEST(to_text(parse_quantity("frequency_Hz:1")) == "frequency of mode 1");
+  BOOST_TEST(to_text(parse_quantity("relative_error:displacement_y_m:B")) ==
              "relative error of y displacement of B");
   BOOST_TEST(parse_quantity("relative_error:frequency_Hz").unit == "");
-  BOOST_TEST(in_words(parse_quantity("peak_time_s:displacement_y_m:M")) ==
+  BOOST_TEST(to_text(parse_quantity("peak_time_s:displacement_y_m:M")) ==
              "peak time of y displacement of M");
-  BOOST_TEST(in_words(parse_quantity("relative_error:serial_distance")) ==
+  BOOST_TEST(to_text(parse_quantity("relative_error:serial_distance")) ==
              "relative error of serial distance");
-  BOOST_TEST(in_words(parse_quantity("displacement_x_m:tip_left")) == "x displacement of tip_left");
+  BOOST_TEST(to_text(parse_quantity("displacement_x_m:tip_left")) == "x displacement of tip_left");
   BOOST_TEST(parse_quantity("platform_inertia_kg_m2").unit == "kg·m²");
   BOOST_TEST(parse_quantity("frequency_roundoff").unit == "");
 }
 
 BOOST_AUTO_TEST_CASE(units_are_written_as_in_print) {
-  BOOST_TEST(unit_for_people("N_m") == "N·m");
-  BOOST_TEST(unit_for_people("N m") == "N·m");
-  BOOST_TEST(unit_for_people("kg m^2") == "kg·m²");
-  BOOST_TEST(unit_for_people("1") == "");
+  BOOST_TEST(display_unit("N_m") == "N·m");
+  BOOST_TEST(display_unit("N m") == "N·m");
+  BOOST_TEST(display_unit("kg m^2") == "kg·m²");
+  BOOST_TEST(display_unit("1") == "");
 }
 
 BOOST_AUTO_TEST_CASE(values_are_scaled_to_what_people_say) {

@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(modes_decouple_under_both_dampings) {
   const SparseMatrix M = sparse((Eigen::Matrix3d() << 2, .5, 0, .5, 3, .2, 0, .2, 1).finished());
   const SparseMatrix K =
       sparse((Eigen::Matrix3d() << 50, -20, 0, -20, 60, -30, 0, -30, 45).finished());
-  const ModalBasis basis = every_mode(M, K);
+  const ModalBasis basis = all_modes(M, K);
   const auto modal = [&basis](const SparseMatrix& C) -> Eigen::MatrixXd {
     return basis.shape.transpose() * (C * basis.shape);
   };

@@ -32,7 +32,7 @@ Model column(Index elements, double angle, bool foot_clamped, bool top_guided_al
   return model;
 }
 
-double first_factor(const Model& model, EigenPath path = EigenPath::automatic) {
+double first_factor(const Model& model, EigenMethod path = EigenMethod::automatic) {
   const BucklingSolution b = solve_buckling(assemble(model), {1, path});
   BOOST_REQUIRE(b.outcome.solved());
   BOOST_REQUIRE(b.load_factor.size() == 1);
@@ -67,8 +67,8 @@ BOOST_AUTO_TEST_CASE(buckling_loads_converge_with_the_fourth_power) {
 
 BOOST_AUTO_TEST_CASE(both_paths_give_the_same_factors) {
   const System system = assemble(column(40, 0.3, true));
-  const BucklingSolution dense = solve_buckling(system, {4, EigenPath::dense});
-  const BucklingSolution sparse = solve_buckling(system, {4, EigenPath::sparse});
+  const BucklingSolution dense = solve_buckling(system, {4, EigenMethod::dense});
+  const BucklingSolution sparse = solve_buckling(system, {4, EigenMethod::sparse});
   BOOST_REQUIRE(dense.load_factor.size() == 4);
   BOOST_REQUIRE(sparse.load_factor.size() == 4);
   for (Index i = 0; i < 4; ++i) {
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(a_column_under_its_own_weight_buckles_as_greenhill_says) {
 BOOST_AUTO_TEST_CASE(tension_does_not_buckle) {
   Model model = column(8, 0.3, true);
   model.loads[0].force *= -1;
-  const BucklingSolution b = solve_buckling(assemble(model), {3, EigenPath::automatic});
+  const BucklingSolution b = solve_buckling(assemble(model), {3, EigenMethod::automatic});
   BOOST_TEST(b.outcome.solved());
   BOOST_TEST(b.load_factor.size() == 0);
 }
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_hanging_offset_mass_swings_as_a_pendulum_with_its_spring)
   model.supports = {pin(0)};
   model.springs = {{"k", {0, -1}, {0, 0, 10}}};
   model.gravity = {0, -9.81};
-  const PrestressedModes r = solve_prestressed_modes(assemble(model), {1, EigenPath::dense});
+  const PrestressedModes r = solve_prestressed_modes(assemble(model), {1, EigenMethod::dense});
   BOOST_REQUIRE_MESSAGE(r.modes.outcome.solved(), r.modes.outcome.reason);
   BOOST_TEST(r.modes.frequency[0] == std::sqrt((10 + 2 * 9.81 * 3) / (2 * 9)) / (2 * kPi),
              tolerance(1e-12));
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(tension_raises_the_frequencies_of_a_beam_as_sdll101_says) {
     model.constraints = {
         {"guide", {{{Coordinate::Kind::x, 1, -1, 0}, -s}, {{Coordinate::Kind::y, 1, -1, 0}, c}}}};
     model.loads = {{1, {N * c, N * s, 0}}};
-    const PrestressedModes r = solve_prestressed_modes(assemble(model), {5, EigenPath::dense});
+    const PrestressedModes r = solve_prestressed_modes(assemble(model), {5, EigenMethod::dense});
     BOOST_REQUIRE_MESSAGE(r.modes.outcome.solved(), r.modes.outcome.reason);
     for (int n = 1; n <= 5; ++n) {
       const double k2 = n * n * kPi * kPi / 4;
@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(tension_raises_the_frequencies_of_a_beam_as_sdll101_says) {
 BOOST_AUTO_TEST_CASE(a_load_past_buckling_has_no_stable_state) {
   Model model = column(8, 0.3, true);
   model.loads[0].force *= 3;  // pi^2 / 4 = 2.47
-  const PrestressedModes r = solve_prestressed_modes(assemble(model), {3, EigenPath::dense});
+  const PrestressedModes r = solve_prestressed_modes(assemble(model), {3, EigenMethod::dense});
   BOOST_TEST((r.modes.outcome.status == Status::singular));
   BOOST_TEST(r.modes.outcome.reason == "the loads reach or exceed the buckling load");
   BOOST_TEST(r.modes.frequency.size() == 0);

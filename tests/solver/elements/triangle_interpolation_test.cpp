@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(a_bent_side_adds_the_area_of_its_parabola) {
   const double bend = 0.05;
   double area = 0;
   for (const auto& point : t::triangle_quadrature()) {
-    area += point.weight * at(one_triangle(true, bend), point.at).area;
+    area += point.weight * at(one_triangle(true, bend), point.area_coordinates).area;
   }
   const Vector2d a(1.2, -0.1), b(0.3, 0.7), side(-0.9, 0.8);
   const double straight = (a.x() * b.y() - a.y() * b.x()) / 2;

@@ -244,21 +244,21 @@ BOOST_AUTO_TEST_CASE(a_split_takes_as_many_as_asked_for_in_its_order) {
   };
   for (const Split split : {Split::first, Split::interleaved, Split::shuffled}) {
     for (const Index train : {1, 379, 631}) {
-      BOOST_TEST(count(training_part(631, train, split)) == train);
+      BOOST_TEST(count(training_mask(631, train, split)) == train);
     }
   }
-  const std::vector<bool> first = training_part(631, 379, Split::first);
+  const std::vector<bool> first = training_mask(631, 379, Split::first);
   BOOST_TEST(first[378]);
   BOOST_TEST(!first[379]);
   // Interleaved: 60 % of every part, and never two in a row held out.
-  const std::vector<bool> spread = training_part(631, 379, Split::interleaved);
+  const std::vector<bool> spread = training_mask(631, 379, Split::interleaved);
   for (std::size_t i = 0; i + 1 < spread.size(); ++i) BOOST_TEST((spread[i] || spread[i + 1]));
   BOOST_TEST(
-      (training_part(631, 379, Split::shuffled, 1) == training_part(631, 379, Split::shuffled, 1)));
+      (training_mask(631, 379, Split::shuffled, 1) == training_mask(631, 379, Split::shuffled, 1)));
   BOOST_TEST(
-      (training_part(631, 379, Split::shuffled, 1) != training_part(631, 379, Split::shuffled, 2)));
-  BOOST_CHECK_THROW((void)training_part(5, 0, Split::first), ModelError);
-  BOOST_CHECK_THROW((void)training_part(5, 6, Split::first), ModelError);
+      (training_mask(631, 379, Split::shuffled, 1) != training_mask(631, 379, Split::shuffled, 2)));
+  BOOST_CHECK_THROW((void)training_mask(5, 0, Split::first), ModelError);
+  BOOST_CHECK_THROW((void)training_mask(5, 6, Split::first), ModelError);
 }
 
 BOOST_AUTO_TEST_CASE(the_search_finds_the_least_error_and_beats_both_trivial_predictors) {

@@ -33,62 +33,62 @@ Beam<P> some_beam() {
 
 RigidLink some_link() {
   RigidLink link;
-  link.arm = Vector2d(0.3, -0.4);
+  link.offset = Vector2d(0.3, -0.4);
   return link;
 }
 
 SlidingJoint some_slider() {
   SlidingJoint joint;
   joint.normal = Vector2d(-0.6, 0.8);
-  joint.arm = Vector2d(0.2, 0.5);
+  joint.offset = Vector2d(0.2, 0.5);
   return joint;
 }
 
 LineSpringElement some_spring() {
   LineSpringElement spring;
-  spring.arm = Vector2d(0.7, 0.2);
-  spring.stretched = 0.1;
+  spring.offset = Vector2d(0.7, 0.2);
+  spring.initial_elongation = 0.1;
   spring.flexibility = 0.01;
   return spring;
 }
 
 template <class Element>
-typename Element::Rows gaps(const Element& element, const typename Element::Coordinates& q) {
-  typename Element::Rows gap;
+typename Element::Rows constraint_residual(const Element& element, const typename Element::Coordinates& q) {
+  typename Element::Rows residual;
   typename Element::Gradient G;
-  element.gaps(q, 0, gap, G);
-  return gap;
+  element.constraint_residual(q, 0, residual, G);
+  return residual;
 }
 
 template <class Element>
 typename Element::Gradient gradient(const Element& element,
                                     const typename Element::Coordinates& q) {
-  typename Element::Rows gap;
+  typename Element::Rows residual;
   typename Element::Gradient G;
-  element.gaps(q, 0, gap, G);
+  element.constraint_residual(q, 0, residual, G);
   return G;
 }
 
 constexpr double kStep = 1e-5;
 
-/// Largest difference of the gradient from central differences of the gaps, of the curvature from
-/// those of the gradient, and of the secant's promise.
+/// Largest difference of the gradient from central differences of the residuals, of the geometric stiffness from
+/// those of the gradient, and of what the discrete gradient promises.
 template <class Element>
 void check_derivatives(const Element& element) {
   using Coordinates = typename Element::Coordinates;
   const Coordinates q = random_vector<Element::N>(1, 0.8), dq = random_vector<Element::N>(2, 1);
   const auto lambda = random_vector<Element::R>(3, 1);
   const Coordinates plus = q + kStep * dq, minus = q - kStep * dq;
-  const auto slope = ((gaps(element, plus) - gaps(element, minus)) / (2 * kStep)).eval();
+  const auto slope = ((constraint_residual(element, plus) - constraint_residual(element, minus)) / (2 * kStep)).eval();
   BOOST_TEST((gradient(element, q) * dq - slope).norm() < 1e-9);
   const Coordinates bend =
       (gradient(element, plus) - gradient(element, minus)).transpose() * lambda / (2 * kStep);
-  const auto K = element.curvature(q, lambda);
+  const auto K = element.geometric_stiffness(q, lambda);
   BOOST_TEST((K * dq - bend).norm() < 1e-9);
   BOOST_TEST((K - K.transpose()).norm() < 1e-14);
   const Coordinates far = q + random_vector<Element::N>(4, 2);
-  const auto change = (gaps(element, far) - gaps(element, q)).eval();
-  BOOST_TEST((element.secant(q, far) * (far - q) - change).norm() < 1e-14);
+  const auto change = (constraint_residual(element, far) - constraint_residual(element, q)).eval();
+  BOOST_TEST((element.discrete_gradient(q, far) * (far - q) - change).norm() < 1e-14);
 }
 
 template <class Element>
@@ -104,7 +104,7 @@ void check_energy_derivatives(const Element& element) {
       (element.forces(plus, none, 0) - element.forces(minus, none, 0)) / (2 * kStep);
   BOOST_TEST((element.tangent(q, 1, 0) * dq - bend).norm() < 1e-8 * scale);
   const Coordinates to = q + random_vector<Element::N>(7, 0.3);
-  const double work = element.secant_forces(q, to, 0).dot(to - q);
+  const double work = element.discrete_gradient_forces(q, to, 0).dot(to - q);
   BOOST_TEST(std::abs(work - element.energy(to) + element.energy(q)) < 1e-12 * element.energy(to));
 }
 
@@ -142,11 +142,11 @@ BOOST_AUTO_TEST_CASE(a_beam_turned_and_shifted_as_a_whole_has_no_strain) {
     Beam<3>::Coordinates q;
     for (int a = 0; a <= 3; ++a) {
       const Vector2d place =
-          (0.3 + lobatto_place(3, static_cast<std::size_t>(a))) * beam.length * beam.axis;
-      const Vector2d turn = cosine_minus_one(angle) * place + std::sin(angle) * quarter_turn(place);
+          (0.3 + lobatto_coordinate(3, static_cast<std::size_t>(a))) * beam.length * beam.axis;
+      const Vector2d turn = cosine_minus_one(angle) * place + std::sin(angle) * perpendicular(place);
       q.segment<3>(3 * a) << turn + Vector2d(2, -1) * angle, angle;
     }
-    BOOST_TEST(gaps(beam, q).norm() < 4e-15 * std::abs(angle));
+    BOOST_TEST(constraint_residual(beam, q).norm() < 4e-15 * std::abs(angle));
   }
 }
 
@@ -154,13 +154,13 @@ BOOST_AUTO_TEST_CASE(strains_do_not_see_a_rotation_of_the_whole) {
   const Beam<2> beam = some_beam<2>();
   const Beam<2>::Coordinates q = random_vector<9>(8, 0.5);
   const double angle = 1.1;
-  Beam<2>::Coordinates turned_q;
+  Beam<2>::Coordinates rotated_q;
   for (int a = 0; a <= 2; ++a) {
-    const Vector2d place = beam.length * lobatto_place(2, static_cast<std::size_t>(a)) * beam.axis;
-    turned_q.segment<2>(3 * a) = turned(place + q.segment<2>(3 * a), angle) - place;
-    turned_q[3 * a + 2] = q[3 * a + 2] + angle;
+    const Vector2d place = beam.length * lobatto_coordinate(2, static_cast<std::size_t>(a)) * beam.axis;
+    rotated_q.segment<2>(3 * a) = rotated(place + q.segment<2>(3 * a), angle) - place;
+    rotated_q[3 * a + 2] = q[3 * a + 2] + angle;
   }
-  BOOST_TEST((gaps(beam, turned_q) - gaps(beam, q)).norm() < 1e-15);
+  BOOST_TEST((constraint_residual(beam, rotated_q) - constraint_residual(beam, q)).norm() < 1e-15);
 }
 
 BOOST_AUTO_TEST_CASE(a_triangle_turned_as_a_whole_has_no_energy) {
@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(a_triangle_turned_as_a_whole_has_no_energy) {
   const std::array<Vector2d, 3> corners = {Vector2d(0, 0), Vector2d(1, 0.1), Vector2d(0.2, 0.9)};
   Triangle2d<3>::Coordinates q;
   for (std::size_t a = 0; a < 3; ++a) {
-    q.segment<2>(2 * static_cast<Index>(a)) = turned(corners[a], 2.1) - corners[a];
+    q.segment<2>(2 * static_cast<Index>(a)) = rotated(corners[a], 2.1) - corners[a];
   }
   BOOST_TEST(triangle.energy(q) < 1e-30);
 }

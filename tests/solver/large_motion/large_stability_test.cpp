@@ -23,15 +23,15 @@ Model column(Index elements) {
 }
 
 double critical_load(const Model& model, double target) {
-  const LargeSystem system(model);
+  const GeometricallyExactSystem system(model);
   StaticPathOptions options;
   options.target = target;
   const StaticPath path = follow_static_path(system, options);
   BOOST_REQUIRE(path.outcome.solved());
   BOOST_REQUIRE(path.events.size() == 1U);
   BOOST_TEST((path.events[0].kind == PathEvent::Kind::bifurcation));
-  BOOST_TEST(path.points.front().unstable == 0);
-  BOOST_TEST(path.points.back().unstable == 1);
+  BOOST_TEST(path.points.front().unstable_directions == 0);
+  BOOST_TEST(path.points.back().unstable_directions == 1);
   return path.events[0].load;
 }
 
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(a_column_follows_its_buckled_branch_as_the_elastica_does) {
       {100, 1.51838879329, .791539496537, -.651010699585},
       {120, 1.88480086898, .803170990007, -.876840027595}};
   for (const auto& [angle, load, lateral, axial] : exact) {
-    const LargeSystem system(column(24));
+    const GeometricallyExactSystem system(column(24));
     StaticPathOptions options;
     options.target = load * kPi * kPi / 4;
     options.switch_branch = true;
@@ -88,13 +88,13 @@ BOOST_AUTO_TEST_CASE(a_column_follows_its_buckled_branch_as_the_elastica_does) {
     BOOST_TEST(std::abs(std::abs(tip[2]) * 180 / kPi - angle) < 100 * sensitivity);
     BOOST_TEST(std::abs(std::abs(tip[1]) - lateral) < sensitivity);
     BOOST_TEST(std::abs(tip[0] - axial) < sensitivity);
-    BOOST_TEST(path.points.back().unstable == 0);
+    BOOST_TEST(path.points.back().unstable_directions == 0);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_path_does_not_step_over_its_target) {
   // Newton on the target itself may fail from far away; the step must then be cut, not taken.
-  const LargeSystem system(column(24));
+  const GeometricallyExactSystem system(column(24));
   StaticPathOptions options;
   options.target = kPi * kPi / 2;
   options.switch_branch = true;
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_shallow_truss_snaps_through_its_limit_points) {
   // l^3 = L B^2.
   const double l = std::cbrt(L * B * B), z = std::sqrt(l * l - B * B);
   const double limit = 2 * EA * (1 / l - 1 / L) * z;
-  const LargeSystem system(shallow_truss(B, H, EA));
+  const GeometricallyExactSystem system(shallow_truss(B, H, EA));
   StaticPathOptions options;
   options.target = 2 * limit;
   options.first_step = limit / 20;
@@ -127,10 +127,10 @@ BOOST_AUTO_TEST_CASE(a_shallow_truss_snaps_through_its_limit_points) {
 }
 
 BOOST_AUTO_TEST_CASE(a_path_that_cannot_go_on_says_where_it_stopped) {
-  const LargeSystem system(column(8));
+  const GeometricallyExactSystem system(column(8));
   StaticPathOptions options;
   options.target = 100;
-  options.points = 5;
+  options.max_points = 5;
   const StaticPath path = follow_static_path(system, options);
   BOOST_TEST((path.outcome.status == Status::not_converged));
   BOOST_TEST(path.outcome.reason.find("load factor") != std::string::npos);

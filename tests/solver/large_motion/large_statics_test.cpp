@@ -20,7 +20,7 @@ using namespace trammel::testing;
 constexpr double kPi = std::numbers::pi;
 
 /// Tip motion (x, y, rotation) of a solved path's last point.
-Vector3d tip(const LargeSystem& system, const StaticPath& path) {
+Vector3d tip(const GeometricallyExactSystem& system, const StaticPath& path) {
   return node_motion(system, path.points.back().state.q).row(1).transpose();
 }
 
@@ -50,7 +50,7 @@ double elastica_error(const Elastica& exact, Index elements, int order, double a
   Model model = elastica(elements, angle);
   const Vector2d along(std::cos(angle), std::sin(angle)), up(-along.y(), along.x());
   model.loads = {{1, {exact.load * up.x(), exact.load * up.y(), 0}}};
-  const LargeSystem system(model, {}, {order});
+  const GeometricallyExactSystem system(model, {}, {order});
   const StaticPath path = follow_static_path(system);
   BOOST_REQUIRE(path.outcome.solved());
   const Vector3d moved = tip(system, path);
@@ -63,9 +63,9 @@ double elastica_error(const Elastica& exact, Index elements, int order, double a
 NewtonResult roll_up(double turns, Index elements, Vector3d& tip_motion) {
   Model model = elastica(elements);
   model.loads = {{1, {0, 0, 2 * kPi * turns}}};
-  const LargeSystem system(model);
+  const GeometricallyExactSystem system(model);
   Equilibrium equilibrium(system);
-  State state = system.rest();
+  State state = system.reference_state();
   const NewtonResult result = equilibrium.solve(state, 1);
   tip_motion = node_motion(system, state.q).row(1).transpose();
   return result;
@@ -78,9 +78,9 @@ double difference_from_linear(Model model, double factor) {
   for (Member& member : model.members) member.load *= factor;
   const StaticSolution linear = solve_statics(assemble(model));
   BOOST_REQUIRE(linear.outcome.solved());
-  const LargeSystem system(model);
+  const GeometricallyExactSystem system(model);
   Equilibrium equilibrium(system);
-  State state = system.rest();
+  State state = system.reference_state();
   BOOST_REQUIRE(equilibrium.solve(state, 1).outcome.solved());
   const Eigen::MatrixX3d moved = node_motion(system, state.q);
   const double size = linear.displacement.leftCols(2).cwiseAbs().maxCoeff();
@@ -149,9 +149,9 @@ BOOST_AUTO_TEST_CASE(newton_corrections_shrink_quadratically) {
   Model model = elastica(10);
   model.loads = {{1, {-0.3, 0.8, 0.2}}};
   model.members[0].axially_flexible = true;
-  const LargeSystem system(model);
+  const GeometricallyExactSystem system(model);
   Equilibrium equilibrium(system);
-  State state = system.rest();
+  State state = system.reference_state();
   const NewtonResult result = equilibrium.solve(state, 1);
   BOOST_REQUIRE(result.outcome.solved());
   int pairs = 0;
@@ -179,11 +179,11 @@ BOOST_AUTO_TEST_CASE(follower_loads_keep_newton_quadratic_and_meet_the_integrate
     y += h / 6 * (a + 2 * b + 2 * c + rate(y + h * c));
   }
   const double turn = -y[0];  // the tip's angle over the root
-  const Vector2d tip_from_root = turned(Vector2d(-y[2], -y[3]), turn);
+  const Vector2d tip_from_root = rotated(Vector2d(-y[2], -y[3]), turn);
   Model model = elastica(30);
-  Scenario scenario;
-  scenario.follower_loads = {{1, {0, F, 0}}};
-  const LargeSystem system(model, scenario);
+  LargeMotionModel large_motion;
+  large_motion.follower_loads = {{1, {0, F, 0}}};
+  const GeometricallyExactSystem system(model, large_motion);
   const StaticPath path = follow_static_path(system);
   BOOST_REQUIRE(path.outcome.solved());
   const Vector3d moved = tip(system, path);
@@ -201,9 +201,9 @@ BOOST_AUTO_TEST_CASE(thin_and_thick_shear_flexible_beams_do_not_lock) {
       model.members[0].theory = BeamTheory::timoshenko;
       const double load = 1e-6 * section.EI;
       model.loads = {{1, {-load * std::sin(angle), load * std::cos(angle), 0}}};
-      const LargeSystem system(model);
+      const GeometricallyExactSystem system(model);
       Equilibrium equilibrium(system);
-      State state = system.rest();
+      State state = system.reference_state();
       BOOST_REQUIRE(equilibrium.solve(state, 1).outcome.solved());
       const Vector3d moved = node_motion(system, state.q).row(1).transpose();
       const double transverse = Vector2d(-std::sin(angle), std::cos(angle)).dot(moved.head<2>());
@@ -244,7 +244,7 @@ BOOST_AUTO_TEST_CASE(reactions_and_section_forces_balance_the_loads_in_the_bent_
   model.members[0].axially_flexible = true;
   model.members[0].load = {0.4, -1.5};
   model.loads = {{1, {1, 2, 0.3}}};
-  const LargeSystem system(model);
+  const GeometricallyExactSystem system(model);
   const StaticPath path = follow_static_path(system);
   BOOST_REQUIRE(path.outcome.solved());
   const State& state = path.points.back().state;
@@ -264,14 +264,14 @@ BOOST_AUTO_TEST_CASE(reactions_and_section_forces_balance_the_loads_in_the_bent_
 BOOST_AUTO_TEST_CASE(a_driven_tip_takes_the_force_that_would_move_it_there) {
   Model loaded = elastica(10);
   loaded.loads = {{1, {0, 5, 0}}};
-  const LargeSystem by_force(loaded);
+  const GeometricallyExactSystem by_force(loaded);
   const StaticPath forced = follow_static_path(by_force);
   const double raised = tip(by_force, forced)[1];
-  Scenario scenario;
-  scenario.drives = {{"lift", 1, 1, [raised](double t) {
+  LargeMotionModel large_motion;
+  large_motion.drives = {{"lift", 1, 1, [raised](double t) {
                         return std::array<double, 3>{t * raised, raised, 0};
                       }}};
-  const LargeSystem by_drive(elastica(10), scenario);
+  const GeometricallyExactSystem by_drive(elastica(10), large_motion);
   const StaticPath driven = follow_static_path(by_drive);
   BOOST_REQUIRE(driven.outcome.solved());
   BOOST_TEST(std::abs(drive_force(by_drive, driven.points.back().state, 0) - 5) < 1e-9);
@@ -281,7 +281,7 @@ BOOST_AUTO_TEST_CASE(a_free_motion_is_named_and_not_solved) {
   Model model = beam(unit_section(), 1, 2);
   model.supports = {pin(0)};
   model.loads = {{1, {0, 1, 0}}};
-  const StaticPath path = follow_static_path(LargeSystem(model));
+  const StaticPath path = follow_static_path(GeometricallyExactSystem(model));
   BOOST_TEST((path.outcome.status == Status::singular));
   BOOST_TEST(path.outcome.reason.find("free motion") != std::string::npos);
 }

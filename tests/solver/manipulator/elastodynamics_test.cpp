@@ -149,11 +149,11 @@ BOOST_AUTO_TEST_CASE(a_step_load_on_a_manipulator_at_rest_keeps_its_energy_and_o
 }
 
 BOOST_AUTO_TEST_CASE(the_deflection_along_the_path_converges_with_order_2) {
-  for (const bool convective : {false, true}) {
+  for (const bool gyroscopic : {false, true}) {
     for (const TimeScheme& scheme : {average_acceleration(), generalized_alpha(0.8)}) {
       const auto deflection = [&](double step) {
         ElastodynamicsOptions options = options_on(circle(15), 0.2, step);
-        options.convective = convective;
+        options.gyroscopic = gyroscopic;
         options.wrench = {10, 0, 0};
         options.time.scheme = scheme;
         options.time.quasi_static_start = true;
@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(convective_terms_are_not_left_out_of_a_quasi_static_equatio
   // they once stood in the forces and not in the equation: 2e-4 N were missing
   ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-2);
   options.wrench = {10, 0, 0};
-  options.convective = true;
+  options.gyroscopic = true;
   options.elastic_inertia = false;
   BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
 }
@@ -247,12 +247,12 @@ BOOST_AUTO_TEST_CASE(inertia_that_is_nothing_at_the_start_may_be_more_than_the_l
 
 BOOST_AUTO_TEST_CASE(reactions_loads_inertia_and_drag_are_in_equilibrium_all_along) {
   for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
-    for (const bool convective : {false, true}) {
+    for (const bool gyroscopic : {false, true}) {
       ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-3);
       options.design = coarse_design(kind);
       options.wrench = {10, 0, 0};
       options.gravity = {0, -9.81};
-      options.convective = convective;
+      options.gyroscopic = gyroscopic;
       const ElastodynamicsSolution s = solve_elastodynamics(options);
       BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
       BOOST_TEST(s.time.size() == 51U);
@@ -269,13 +269,13 @@ BOOST_AUTO_TEST_CASE(convective_terms_matter_as_much_as_their_number_says) {
   options.wrench = {10, 0, 0};
   options.time.quasi_static_start = true;
   const ElastodynamicsSolution without = solve_elastodynamics(options);
-  options.convective = true;
+  options.gyroscopic = true;
   const ElastodynamicsSolution with = solve_elastodynamics(options);
   const double change =
       largest_difference(with, without) / without.deflection.rowwise().norm().maxCoeff();
   BOOST_TEST(change > 0);
-  BOOST_TEST(with.effects.convective > 0);
-  BOOST_TEST(change < with.effects.convective);
+  BOOST_TEST(with.effects.gyroscopic > 0);
+  BOOST_TEST(change < with.effects.gyroscopic);
 }
 
 BOOST_AUTO_TEST_CASE(the_errors_along_and_across_the_path_are_the_deflection) {
@@ -312,9 +312,9 @@ BOOST_AUTO_TEST_CASE(beside_the_motion_stands_the_quasi_static_position_of_the_s
     ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-3);
     options.design = coarse_design(kind);
     options.wrench = {10, 0, 0};
-    options.convective = true;
+    options.gyroscopic = true;
     const ElastodynamicsSolution motion = solve_elastodynamics(options);
-    options.elastic_inertia = options.convective = false;
+    options.elastic_inertia = options.gyroscopic = false;
     const ElastodynamicsSolution slow = solve_elastodynamics(options);
     BOOST_TEST((motion.quasi_static_deflection - slow.deflection).norm() <
                1e-12 * slow.deflection.norm());

@@ -61,8 +61,8 @@ struct Walk {
   double start;
   MovingSystem moving;
 
-  Walk(const ManipulatorDesign& d, const Path& p, double t, bool convective)
-      : design(d), path(p), start(t), moving(build_manipulator(d, at(p, t).pose), convective) {}
+  Walk(const ManipulatorDesign& d, const Path& p, double t, bool gyroscopic)
+      : design(d), path(p), start(t), moving(build_manipulator(d, at(p, t).pose), gyroscopic) {}
 
   Outcome go_to(double time) {
     const RigidManipulator rigid = rigid_manipulator(design);
@@ -103,7 +103,7 @@ void add_links(const Moments& moments, VectorXd& force) {
       const auto W = [&](const System& system) -> Eigen::Matrix<double, 3, 6> {
         const Matrix6d T = frame_rotation(system.mesh.frame[e].direction);
         return T.topLeftCorner<3, 3>().transpose() *
-               frame_interpolation(phi, element.length, p.at) * T;
+               frame_interpolation(phi, element.length, p.xi) * T;
       };
       const Vector3d a = moments.second([&](const System& system, const VectorXd& u) -> Vector3d {
         return W(system) * detail::gather(element.coordinates, u);
@@ -131,17 +131,17 @@ void add_the_rest(const Moments& moments, VectorXd& force) {
     }
   });
   for (std::size_t i = 0; i < now.model.masses.size(); ++i) {
-    const PointMass& lump = now.model.masses[i];
-    const auto& c = now.coordinates.node[static_cast<std::size_t>(lump.node)];
+    const PointMass& point_mass = now.model.masses[i];
+    const auto& c = now.coordinates.node[static_cast<std::size_t>(point_mass.node)];
     const Vector2d center =
         moments.second([&](const System& system, const VectorXd& u) -> Vector2d {
           const Vector2d r = system.model.masses[i].offset;
           return Vector2d(u[c[0]] - u[c[2]] * r.y(), u[c[1]] + u[c[2]] * r.x());
         });
-    force[c[0]] += lump.mass * center.x();
-    force[c[1]] += lump.mass * center.y();
-    force[c[2]] += lump.inertia * a[c[2]] +
-                   lump.mass * (lump.offset.x() * center.y() - lump.offset.y() * center.x());
+    force[c[0]] += point_mass.mass * center.x();
+    force[c[1]] += point_mass.mass * center.y();
+    force[c[2]] += point_mass.inertia * a[c[2]] +
+                   point_mass.mass * (point_mass.offset.x() * center.y() - point_mass.offset.y() * center.x());
   }
 }
 
@@ -168,8 +168,8 @@ BOOST_AUTO_TEST_CASE(a_pose_reached_by_motion_has_the_matrices_of_a_model_built_
         continue;
       }
       // other coordinates may have been eliminated: compare what does not depend on them
-      const VectorXd moved = every_mode(walk.moving.M(), walk.moving.K()).omega;
-      const VectorXd there = every_mode(built.M, built.K).omega;
+      const VectorXd moved = all_modes(walk.moving.M(), walk.moving.K()).omega;
+      const VectorXd there = all_modes(built.M, built.K).omega;
       BOOST_TEST((moved - there).cwiseQuotient(there).cwiseAbs().maxCoeff() < 1e-9);
     }
   }
@@ -202,9 +202,9 @@ BOOST_AUTO_TEST_CASE(the_load_of_inertia_is_that_of_equation_14) {
   Eigen::Matrix<double, 2, 6> H9 = Eigen::Matrix<double, 2, 6>::Zero();
   for (const LineQuadraturePoint& p : line_quadrature()) {
     const double rho = p.weight * length * member.section.mass_per_length;
-    const Eigen::Matrix<double, 2, 6> N = frame_interpolation(0.0, length, p.at).topRows<2>();
-    H7 += rho * p.at * length * N.row(0);
-    H8 += rho * p.at * length * N.row(1);
+    const Eigen::Matrix<double, 2, 6> N = frame_interpolation(0.0, length, p.xi).topRows<2>();
+    H7 += rho * p.xi * length * N.row(0);
+    H8 += rho * p.xi * length * N.row(1);
     H9 += rho * N;
   }
   const Matrix6d T = frame_rotation(d);
@@ -251,7 +251,7 @@ BOOST_AUTO_TEST_CASE(convective_terms_are_the_second_derivative_of_the_turning_i
     const VectorXd q1 = VectorXd::LinSpaced(n, 5, -9).array().cos() * 20;
     const VectorXd q2 = VectorXd::LinSpaced(n, 3, 8).array().sin() * 100;
     const VectorXd force =
-        walk.moving.convective_damping() * q1 + walk.moving.convective_stiffness() * q0;
+        walk.moving.gyroscopic_matrix() * q1 + walk.moving.centrifugal_and_euler_matrix() * q0;
 
     Moments moments{.h = 1e-3, .systems = {}, .u = {}};
     for (int k = -2; k <= 2; ++k) {
@@ -280,9 +280,9 @@ BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_conve
   for (std::size_t i = 0; i < system.constraints.free.size(); ++i) {
     if (system.constraints.free[i] >= 0) q[system.constraints.free[i]] = u[static_cast<Index>(i)];
   }
-  const VectorXd damping = walk.moving.convective_damping() * q;
-  const VectorXd stiffness = walk.moving.convective_stiffness() * q;
-  const double scale = walk.moving.convective_damping().norm();
+  const VectorXd damping = walk.moving.gyroscopic_matrix() * q;
+  const VectorXd stiffness = walk.moving.centrifugal_and_euler_matrix() * q;
+  const double scale = walk.moving.gyroscopic_matrix().norm();
   for (std::size_t node = 6; node < 10; ++node) {  // C1 C2 C3, P
     for (std::size_t k = 0; k < 2; ++k) {
       const Index i =
@@ -319,7 +319,7 @@ BOOST_AUTO_TEST_CASE(a_pose_that_is_refused_leaves_no_trace) {
     const Vector2d d = before.position.row(ends[1]) - before.position.row(ends[0]);
     for (const double along : {0.0, 0.5}) {  // of x, of y: the other component is no pivot then
       NominalMotion motion = before;
-      motion.member[member].turn = along * std::numbers::pi - std::atan2(d.y(), d.x());
+      motion.member[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());
       refused += moving.move_to(motion).solved() ? 0 : 1;
       BOOST_TEST_REQUIRE(moving.move_to(before).solved());
       BOOST_TEST((moving.constraints().multipliers(force) - multipliers).norm() <

@@ -8,7 +8,7 @@
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
-#include "solver/assembly/reduced_model.h"
+#include "solver/assembly/restrict_model_effects.h"
 
 using namespace trammel;
 
@@ -34,7 +34,7 @@ double first_frequency_squared(BeamTheory theory, Index mode) {
   Model model = testing::beam(stubby(), kLength, 32);
   model.supports = {testing::pin(0), testing::roller(1)};
   model.members[0].theory = theory;
-  const ModalSolution modes = solve_modes(assemble(model), {6, EigenPath::automatic});
+  const ModalSolution modes = solve_modes(assemble(model), {6, EigenMethod::automatic});
   const double w = 2 * std::numbers::pi * modes.frequency[mode];
   return w * w;
 }
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
   for (const Effect effect : Effects::all().list()) {
     BOOST_TEST((effect_named(name_of(effect)) == effect));
   }
-  BOOST_TEST(Effects::all().list().size() == effect_count);
+  BOOST_TEST(Effects::all().list().size() == kEffectCount);
   BOOST_TEST(!effect_named("friction"));
 }
 
@@ -82,13 +82,13 @@ BOOST_AUTO_TEST_CASE(a_pinned_beam_vibrates_as_each_of_the_four_theories_says) {
 
 BOOST_AUTO_TEST_CASE(what_is_off_has_no_matrix_no_coordinate_and_no_evaluation) {
   const Model model = sprung_cantilever();
-  const Effects all = admitted_effects(model).with(Effect::inertia);
+  const Effects all = applicable_effects(model).with(Effect::inertia);
   const System whole = assemble(model, all);
   for (const Effect effect : all.list()) {
     BOOST_TEST_CONTEXT(name_of(effect)) {
-      BOOST_TEST(whole.counters.of(effect) > 0);
+      BOOST_TEST(whole.counters.evaluations(effect) > 0);
       const System without = assemble(model, all.without(effect));
-      BOOST_TEST(without.counters.of(effect) == 0);
+      BOOST_TEST(without.counters.evaluations(effect) == 0);
     }
   }
   BOOST_TEST(assemble(model, all.without(Effect::inertia)).M.size() == 0);
@@ -100,20 +100,20 @@ BOOST_AUTO_TEST_CASE(what_is_off_has_no_matrix_no_coordinate_and_no_evaluation) 
 
 BOOST_AUTO_TEST_CASE(a_model_admits_what_its_parts_have) {
   const Model model = sprung_cantilever();
-  Effects bare = admitted_effects(testing::cantilever(stubby(), kLength, 1));
+  Effects bare = applicable_effects(testing::cantilever(stubby(), kLength, 1));
   BOOST_TEST((bare == Effects().with(Effect::axial_flexibility).with(Effect::link_mass)));
-  BOOST_TEST(admitted_effects(model).has(Effect::shear));
-  BOOST_TEST(admitted_effects(model).has(Effect::joint_compliance));
-  BOOST_TEST(admitted_effects(model).has(Effect::gravity));
-  const Model stripped = reduced(model, Effects());
-  BOOST_TEST(admitted_effects(stripped).empty());
+  BOOST_TEST(applicable_effects(model).has(Effect::shear));
+  BOOST_TEST(applicable_effects(model).has(Effect::joint_compliance));
+  BOOST_TEST(applicable_effects(model).has(Effect::gravity));
+  const Model stripped = restrict_effects(model, Effects());
+  BOOST_TEST(applicable_effects(stripped).empty());
 }
 
 /// Forces follow from equilibrium alone, so that the estimate is no estimate.
 BOOST_AUTO_TEST_CASE(where_forces_are_determinate_flexibilities_are_estimated_exactly) {
   Model model = sprung_cantilever();
   model.gravity.setZero();
-  const Effects all = admitted_effects(model).without(Effect::link_mass);
+  const Effects all = applicable_effects(model).without(Effect::link_mass);
   const EffectEstimates estimates =
       estimate_static_effects({model}, all.without(Effect::rotary_inertia));
   const double full = solve_statics(assemble(model)).displacement(1, 1);
@@ -149,12 +149,12 @@ BOOST_AUTO_TEST_CASE(a_frequencys_estimates_are_what_leaving_out_does) {
   Model model = sprung_cantilever();
   model.masses = {{1, 5, 0, {0, 0}}};
   model.gravity.setZero();
-  const Effects all = admitted_effects(model).with(Effect::inertia);
-  const double full = solve_modes(assemble(model, all), {1, EigenPath::dense}).frequency[0];
+  const Effects all = applicable_effects(model).with(Effect::inertia);
+  const double full = solve_modes(assemble(model, all), {1, EigenMethod::dense}).frequency[0];
   const EffectEstimates estimates = estimate_modal_effects({model}, all, 1);
   for (const Effect effect : {Effect::shear, Effect::joint_compliance, Effect::rotary_inertia}) {
     const double without =
-        solve_modes(assemble(model, all.without(effect)), {1, EigenPath::dense}).frequency[0];
+        solve_modes(assemble(model, all.without(effect)), {1, EigenMethod::dense}).frequency[0];
     BOOST_TEST_CONTEXT(name_of(effect)) {
       BOOST_TEST(of(estimates, effect).change[0] == without / full - 1,
                  boost::test_tools::tolerance(0.05));
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(a_frequencys_estimates_are_what_leaving_out_does) {
 
 BOOST_AUTO_TEST_CASE(small_changes_that_add_up_are_not_small) {
   EffectScope scope;
-  scope.admitted = Effects().with(Effect::shear).with(Effect::axial_flexibility);
+  scope.applicable = Effects().with(Effect::shear).with(Effect::axial_flexibility);
   EffectEstimates estimates;
   const Eigen::VectorXd change = Eigen::VectorXd::Constant(1, 0.006);
   estimates.effects = {made_up(Effect::axial_flexibility, change), made_up(Effect::shear, change)};
@@ -175,15 +175,15 @@ BOOST_AUTO_TEST_CASE(small_changes_that_add_up_are_not_small) {
 
 BOOST_AUTO_TEST_CASE(what_carries_another_effect_goes_only_with_it) {
   EffectScope scope;
-  scope.admitted = Effects().with(Effect::gravity).with(Effect::link_mass);
-  scope.carries[static_cast<std::size_t>(Effect::gravity)] = Effects().with(Effect::link_mass);
+  scope.applicable = Effects().with(Effect::gravity).with(Effect::link_mass);
+  scope.dependents[static_cast<std::size_t>(Effect::gravity)] = Effects().with(Effect::link_mass);
   EffectEstimates estimates;
   estimates.effects = {made_up(Effect::link_mass, Eigen::VectorXd::Constant(1, 0.1)),
                        made_up(Effect::gravity, Eigen::VectorXd::Zero(1))};
-  BOOST_TEST((choose_effects(estimates, scope, 0.01) == scope.admitted));
-  BOOST_TEST(scope.without(scope.admitted, Effect::gravity).empty());
+  BOOST_TEST((choose_effects(estimates, scope, 0.01) == scope.applicable));
+  BOOST_TEST(scope.without(scope.applicable, Effect::gravity).empty());
   estimates.outcome = {Status::singular, "a mechanism"};
-  BOOST_TEST((choose_effects(estimates, scope, 1) == scope.admitted));
+  BOOST_TEST((choose_effects(estimates, scope, 1) == scope.applicable));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

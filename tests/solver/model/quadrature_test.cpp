@@ -9,7 +9,7 @@ namespace {
 
 double line_moment(int power) {
   double sum = 0;
-  for (const auto& point : t::line_quadrature()) sum += point.weight * std::pow(point.at, power);
+  for (const auto& point : t::line_quadrature()) sum += point.weight * std::pow(point.xi, power);
   return sum;
 }
 
@@ -22,8 +22,8 @@ double exact_mean(int a, int b, int c) {
 double mean(int a, int b, int c) {
   double sum = 0;
   for (const auto& point : t::triangle_quadrature()) {
-    sum += point.weight * std::pow(point.at[0], a) * std::pow(point.at[1], b) *
-           std::pow(point.at[2], c);
+    sum += point.weight * std::pow(point.area_coordinates[0], a) * std::pow(point.area_coordinates[1], b) *
+           std::pow(point.area_coordinates[2], c);
   }
   return sum;
 }

@@ -35,7 +35,7 @@ Model blade(double hub, Index elements, double angle = 0.4) {
 }
 
 RotatingModes rotate(const Model& model, double speed, Index count,
-                     EigenPath path = EigenPath::automatic) {
+                     EigenMethod path = EigenMethod::automatic) {
   return solve_rotating_modes(assemble(model), {{speed, {0, 0}}, count, path});
 }
 
@@ -72,8 +72,8 @@ BOOST_AUTO_TEST_CASE(beyond_the_softer_natural_frequency_the_mass_flies_off) {
 
 BOOST_AUTO_TEST_CASE(at_rest_the_modes_are_the_ordinary_ones) {
   const Model model = pinned_double_cross(4);
-  const ModalSolution ordinary = solve_modes(assemble(model), {16, EigenPath::dense});
-  for (const EigenPath path : {EigenPath::dense, EigenPath::sparse}) {
+  const ModalSolution ordinary = solve_modes(assemble(model), {16, EigenMethod::dense});
+  for (const EigenMethod path : {EigenMethod::dense, EigenMethod::sparse}) {
     const RotatingModes r = rotate(model, 0, 16, path);
     BOOST_REQUIRE_MESSAGE(r.outcome.solved(), r.outcome.reason);
     BOOST_TEST(r.inertia_count >= 16);
@@ -119,9 +119,9 @@ BOOST_AUTO_TEST_CASE(a_rotating_blade_flaps_as_wright_says) {
   };
   for (const Row& row : {Row{0, 2, 4.13731957303}, Row{0, 10, 11.2023277622},
                          Row{1, 2, 4.83368887153}, Row{1, 10, 16.6063628422}}) {
-    for (const SpinAxis axis : {SpinAxis::x, SpinAxis::y}) {
+    for (const RotationAxis axis : {RotationAxis::x, RotationAxis::y}) {
       for (const bool rigid : {true, false}) {
-        Model model = blade(row.hub, 24, axis == SpinAxis::y ? 0 : kPi / 2);
+        Model model = blade(row.hub, 24, axis == RotationAxis::y ? 0 : kPi / 2);
         model.members[0].axially_flexible = !rigid;
         const RotatingModes r = solve_rotating_modes(assemble(model), {{row.eta, {0, 0}, axis}, 1});
         BOOST_REQUIRE(r.outcome.solved());
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(what_flaps_is_not_softened_and_what_lags_is_by_the_square_o
     const System system = assemble(model);
     const double W = 3;
     const RotatingModes lag = solve_rotating_modes(system, {{W, {0, 0}}, 3});
-    const RotatingModes flap = solve_rotating_modes(system, {{W, {0, 0}, SpinAxis::y}, 3});
+    const RotatingModes flap = solve_rotating_modes(system, {{W, {0, 0}, RotationAxis::y}, 3});
     for (Index i = 0; i < 3; ++i) {
       const double square = std::pow(2 * kPi * flap.frequency[i], 2);
       BOOST_TEST(std::pow(2 * kPi * lag.frequency[i], 2) == square - W * W, tolerance(1e-9));
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(without_the_coriolis_coupling_the_blade_is_faster) {
   const System system = assemble(blade(1, 24));
   RotatingOptions options{{10, {0, 0}}, 1};
   const double coupled = solve_rotating_modes(system, options).frequency[0];
-  options.coriolis = false;
+  options.gyroscopic = false;
   BOOST_TEST(solve_rotating_modes(system, options).frequency[0] > coupled);
 }
 
@@ -174,8 +174,8 @@ BOOST_AUTO_TEST_CASE(both_paths_and_mass_matrices_agree_in_a_rotating_frame) {
   model.masses = {{2, 0.3, 0.01, {0.05, 0.02}}};
   for (const MassMatrix mass : {MassMatrix::consistent, MassMatrix::lumped}) {
     for (Member& m : model.members) m.mass = mass;
-    const RotatingModes dense = rotate(model, 1.5, 6, EigenPath::dense);
-    const RotatingModes sparse = rotate(model, 1.5, 6, EigenPath::sparse);
+    const RotatingModes dense = rotate(model, 1.5, 6, EigenMethod::dense);
+    const RotatingModes sparse = rotate(model, 1.5, 6, EigenMethod::sparse);
     BOOST_REQUIRE_MESSAGE(dense.outcome.solved(), dense.outcome.reason);
     BOOST_REQUIRE_MESSAGE(sparse.outcome.solved(), sparse.outcome.reason);
     BOOST_TEST(dense.inertia_count == 6);
@@ -198,8 +198,8 @@ BOOST_AUTO_TEST_CASE(the_sense_of_rotation_does_not_matter_and_the_angle_neither
 BOOST_AUTO_TEST_CASE(every_shape_satisfies_the_equation_of_the_rotating_frame) {
   const System system = assemble(blade(0.5, 8));
   const double W = 3;
-  const RotatingModes r = solve_rotating_modes(system, {{W, {0, 0}}, 4, EigenPath::dense});
-  const SparseMatrix G = coriolis_matrix(system);
+  const RotatingModes r = solve_rotating_modes(system, {{W, {0, 0}}, 4, EigenMethod::dense});
+  const SparseMatrix G = gyroscopic_matrix(system);
   const Eigen::MatrixXd sum = Eigen::MatrixXd(G) + Eigen::MatrixXd(G).transpose();
   BOOST_TEST(sum.isZero(0));
   for (Index i = 0; i < 4; ++i) {

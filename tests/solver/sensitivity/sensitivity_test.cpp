@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(complex_steps_of_the_eigenvalue_problem_agree_with_its_ener
   const Pose pose{0.26, 0.15, 0.1};
   for (const ManipulatorDesign& design : designs) {
     const FrequencySensitivity energies = frequency_sensitivity(design, pose, parameters, 6);
-    const FrequencyComplexStep steps = step_frequencies(design, pose, parameters, 6);
+    const FrequencyComplexStep steps = differentiate_by_complex_step(design, pose, parameters, 6);
     BOOST_TEST_REQUIRE(steps.outcome.solved());
     for (Index p = 0; p < energies.derivative.cols(); ++p) {
       const double scale = energies.derivative.col(p).cwiseAbs().maxCoeff();
@@ -128,10 +128,10 @@ BOOST_AUTO_TEST_CASE(complex_steps_of_the_eigenvalue_problem_agree_with_its_ener
 BOOST_AUTO_TEST_CASE(complex_steps_say_where_they_cannot_tell) {
   ManipulatorDesign design = coarse_design();
   const FrequencyComplexStep repeated =
-      step_frequencies(design, centred_pose(0.1), {all(Quantity::length)}, 6);
+      differentiate_by_complex_step(design, centred_pose(0.1), {all(Quantity::length)}, 6);
   BOOST_TEST(static_cast<int>(repeated.outcome.status) == static_cast<int>(Status::singular));
   design.proximal[0].axially_flexible = false;
-  BOOST_CHECK_THROW((void)step_frequencies(design, {0.26, 0.15, 0.1}, {all(Quantity::length)}, 6),
+  BOOST_CHECK_THROW((void)differentiate_by_complex_step(design, {0.26, 0.15, 0.1}, {all(Quantity::length)}, 6),
                     ModelError);
 }
 
@@ -304,7 +304,7 @@ BOOST_AUTO_TEST_CASE(the_boundary_of_the_reach_is_where_a_limb_is_straight_or_fo
   geometry.distal = {0.15, 0.2, 0.18};
   std::size_t all = 0;
   std::size_t points = 0;
-  for (const Polyline& arc : reach_boundary(geometry, 0.2, 360)) {
+  for (const Polyline& arc : workspace_boundary(geometry, 0.2, 360)) {
     all += arc.size();
     for (const Vector2d& P : arc) {
       const Vector2d inward = 1e-9 * (Vector2d(0.25, 0.144) - P).normalized();

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(an_oscillator_keeps_its_digits_in_every_kind_of_damping) {
 BOOST_AUTO_TEST_CASE(a_free_mass_falls_by_half_a_t_squared) {
   const SparseMatrix M = sparse(Eigen::MatrixXd::Constant(1, 1, 2.0));
   const SparseMatrix K = sparse(Eigen::MatrixXd::Zero(1, 1));
-  const ModalBasis basis = every_mode(M, K);
+  const ModalBasis basis = all_modes(M, K);
   const ModalResponse r = superpose(basis, Eigen::VectorXd::Zero(1), M,
                                     step_load(Eigen::VectorXd::Constant(1, 2 * 9.81)), {0, 0.5, 2},
                                     Eigen::VectorXd(), Eigen::VectorXd());
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(every_mode_is_orthogonal_and_massless_coordinates_have_none
   const SparseMatrix M = sparse(Eigen::Vector4d(1, 2, 0, 3).asDiagonal());
   const SparseMatrix K = sparse(
       (Eigen::Matrix4d() << 2, -1, -1, 0, -1, 4, -2, -1, -1, -2, 5, -2, 0, -1, -2, 3).finished());
-  const ModalBasis basis = every_mode(M, K);
+  const ModalBasis basis = all_modes(M, K);
   BOOST_TEST(basis.omega.size() == 3);
   const Eigen::MatrixXd mass = basis.shape.transpose() * (M * basis.shape);
   const Eigen::MatrixXd stiffness = basis.shape.transpose() * (K * basis.shape);

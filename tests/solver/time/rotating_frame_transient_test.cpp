@@ -12,16 +12,16 @@ using Eigen::VectorXd;
 
 namespace {
 
-EquationOfMotion equation_of(const System& system, const TurningAxes& axes) {
+EquationOfMotion equation_of(const System& system, const PrescribedRotation& axes) {
   EquationOfMotion equation;
   equation.M = system.M;
   equation.K = system.K;
-  BOOST_TEST(turn_axes(system, axes, equation).solved());
+  BOOST_TEST(add_rotating_frame_terms(system, axes, equation).solved());
   return equation;
 }
 
-TurningAxes steady(double speed) {
-  TurningAxes axes;
+PrescribedRotation steady(double speed) {
+  PrescribedRotation axes;
   axes.speed = [speed](double) { return std::array<double, 2>{speed, 0}; };
   return axes;
 }
@@ -39,8 +39,8 @@ BOOST_AUTO_TEST_CASE(at_a_steady_speed_it_has_the_steady_state_of_the_rotating_f
   VectorXd f = VectorXd::Zero(system.K.rows());
   equation.load(0, f);
   RotatingOptions options;
-  options.spin.speed = 3;
-  options.deformed_tension = false;
+  options.frame.speed = 3;
+  options.prestress_at_steady_state = false;
   const RotatingModes rotating = solve_rotating_modes(system, options);
   BOOST_TEST(rotating.outcome.solved());
   // q of size 1 under a K of 1e6: the residual is round-off of that.
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_mass_on_a_soft_spring_moves_as_it_does_seen_from_the_grou
   spring.stiffness = {4, 4, 0};
   model.springs.push_back(spring);
   const System system = assemble(model);
-  TurningAxes axes;
+  PrescribedRotation axes;
   axes.speed = [](double t) { return std::array<double, 2>{0.3 * t * t, 0.6 * t}; };
   axes.stiffening = false;
   const EquationOfMotion equation = equation_of(system, axes);
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(loads_that_would_not_turn_are_refused) {
   model.loads.push_back({1, Vector3d(0, 1, 0)});
   const System system = assemble(model);
   EquationOfMotion equation;
-  BOOST_CHECK_THROW(static_cast<void>(turn_axes(system, steady(1), equation)), ModelError);
+  BOOST_CHECK_THROW(static_cast<void>(add_rotating_frame_terms(system, steady(1), equation)), ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -57,7 +57,7 @@ Errors errors_of(const TimeScheme& scheme, double h) {
   const RayleighDamping damping{.mass = 0.4, .stiffness = 2e-3};
   equation.C = damping_matrix(damping, equation.M, equation.K);
   const PiecewiseLinearLoad load = rough_load(4);
-  load.act_on(equation);
+  load.apply_to(equation);
   TransientOptions options;
   options.end = 1;
   options.step = h;
@@ -66,7 +66,7 @@ Errors errors_of(const TimeScheme& scheme, double h) {
   options.v0 = VectorXd::LinSpaced(4, 0.1, -0.2);
   const TransientHistory history = solve_transient(equation, options);
   BOOST_TEST(history.summary.outcome.solved(), history.summary.outcome.reason);
-  const ModalBasis basis = every_mode(equation.M, equation.K);
+  const ModalBasis basis = all_modes(equation.M, equation.K);
   const ModalResponse exact = superpose(basis, decay_rates(damping, basis.omega), equation.M, load,
                                         {0, 1}, VectorXd(), options.v0);
   return {(history.q.col(0) - exact.q.col(1)).norm() / exact.q.col(1).norm(),
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(schemes_without_dissipation_keep_the_energy_of_a_free_motio
 BOOST_AUTO_TEST_CASE(work_feeds_what_is_stored_and_what_is_dissipated) {
   EquationOfMotion equation = chain(5, 1, 300);
   equation.C = damping_matrix({.mass = 0.5, .stiffness = 1e-2}, equation.M, equation.K);
-  rough_load(5).act_on(equation);
+  rough_load(5).apply_to(equation);
   TransientOptions options;
   options.end = 1;
   options.step = 0.01;
@@ -221,8 +221,8 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
   const RayleighDamping damping{.mass = 1, .stiffness = 1e-2};
   equation.C = damping_matrix(damping, equation.M, equation.K);
   const PiecewiseLinearLoad load = rough_load(4);
-  load.act_on(equation);
-  const ModalBasis basis = every_mode(equation.M, equation.K);
+  load.apply_to(equation);
+  const ModalBasis basis = all_modes(equation.M, equation.K);
   TransientOptions options;
   options.end = 1;
   options.step = 0.1;
@@ -251,7 +251,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
 
 BOOST_AUTO_TEST_CASE(a_tolerance_out_of_reach_is_a_status_that_names_the_step) {
   EquationOfMotion equation = chain(2, 1, 100);
-  step_load(Eigen::Vector2d(0, 1)).act_on(equation);
+  step_load(Eigen::Vector2d(0, 1)).apply_to(equation);
   TransientOptions options;
   options.end = 1;
   options.step = 0.1;
@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(a_tolerance_out_of_reach_is_a_status_that_names_the_step) {
 
 BOOST_AUTO_TEST_CASE(a_step_beyond_the_stability_limit_is_refused_before_it_is_taken) {
   const EquationOfMotion equation = chain(8, 1, 100);
-  const double fastest = every_mode(equation.M, equation.K).omega.maxCoeff();
+  const double fastest = all_modes(equation.M, equation.K).omega.maxCoeff();
   TransientOptions options;
   options.end = 1;
   options.scheme = central_difference();
@@ -409,7 +409,7 @@ BOOST_AUTO_TEST_CASE(an_impulse_moves_the_oscillator_of_vm74) {
     load.pattern = Eigen::MatrixXd::Ones(1, 1);
     load.time = {0, 0, 0.0025, 0.0025};
     load.factor = (Eigen::MatrixXd(1, 4) << 0, 4000, 4000, 0).finished();
-    load.act_on(equation);
+    load.apply_to(equation);
     TransientOptions options;
     options.end = 0.1;
     options.step = 1e-4;
@@ -430,7 +430,7 @@ BOOST_AUTO_TEST_CASE(a_step_load_moves_the_oscillator_of_vm75) {
   for (const double c : {0.0, 10.0}) {
     EquationOfMotion equation = chain(1, 0.5, 200);
     equation.C = sparse(Eigen::MatrixXd::Constant(1, 1, c));
-    step_load(VectorXd::Constant(1, 200)).act_on(equation);
+    step_load(VectorXd::Constant(1, 200)).apply_to(equation);
     TransientOptions options;
     options.end = 0.2;
     options.step = 2e-4;

@@ -20,7 +20,7 @@ std::string browser() {
   throw std::runtime_error("no Chromium on this machine: install the Debian package chromium");
 }
 
-constexpr const char* probe = R"(<script>
+constexpr const char* kProbeScript = R"(<script>
 addEventListener("load", () => {
   document.querySelectorAll("details").forEach(d => d.open = true);
   const root = document.documentElement;
@@ -50,7 +50,7 @@ addEventListener("message", e => Object.assign(document.documentElement.dataset,
 Visit visit_framed(const fs::path& page, int width) {
   const Workspace workspace;
   std::string text = text_of(page);
-  text.replace(text.rfind("</body>"), 7, probe);
+  text.replace(text.rfind("</body>"), 7, kProbeScript);
   std::ofstream(workspace.path() / "inside.html") << text;
   const fs::path outside = workspace.path() / "outside.html";
   std::ofstream(outside) << frame << width << "px\"></iframe></body></html>";

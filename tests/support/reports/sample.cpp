@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Point = std::pair<double, double>;
 constexpr double pi = 3.14159265358979323846;
-constexpr std::size_t circle_points = 631;
+constexpr std::size_t kCirclePoints = 631;
 
 Json check(const std::string& name, const std::string& quantity, int index, double computed,
            double expected, const std::string& unit, const std::string& reference,
@@ -379,7 +379,7 @@ void add_table_2(Json& results) {
                             {"labels", {"manipulator", "modes", "validation"}},
                             {"figures", Json::object()},
                             {"variants", variants}};
-    for (const Json& one : runs) results["runs"].push_back(one);
+    for (const Json& run : runs) results["runs"].push_back(run);
   }
 }
 
@@ -388,7 +388,7 @@ void add_table_2(Json& results) {
 Json circle_run(const std::string& variant, double compliance) {
   Json solved = run("circle-load", variant);
   Json& q = solved["quantities"];
-  for (std::size_t i = 0; i < circle_points; ++i) {
+  for (std::size_t i = 0; i < kCirclePoints; ++i) {
     const double t = 0.01 * static_cast<double>(i);
     q["time_s"].push_back(t);
     q["displacement_x_m:P"].push_back(compliance * (0.0123 + 0.0004 * std::cos(t)));
@@ -548,12 +548,12 @@ Json cost_setting(const std::string& curve, double value, double error, double t
       {"on_front", curve == "sparse"}};
 }
 
-Json without_answer(Json setting, const std::string& standing, const std::string& reason) {
-  setting["standing"] = standing;
+Json without_answer(Json setting, const std::string& status, const std::string& reason) {
+  setting["standing"] = status;
   setting["reason"] = reason;
   setting["on_front"] = false;
-  if (standing != "wide") setting["time"] = nullptr;
-  if (standing == "failed" || standing == "timed-out") setting["error"] = nullptr;
+  if (status != "wide") setting["time"] = nullptr;
+  if (status == "failed" || status == "timed-out") setting["error"] = nullptr;
   return setting;
 }
 
@@ -645,9 +645,9 @@ void add_claims(Json& results) {
           {"time", {{"title", "one solve"}, {"timing", "solve"}}},
           {"ratio",
            {{"title", "over a guess"}, {"timing", "solve"}, {"over_timing", "guess"}}}}}}}};
-  for (Json& one : results["runs"]) {
-    if (one["case"] != "circle-load") continue;
-    one["cost"]["timings"] = {{"solve", {{"each_s", 2e-5}, {"evaluations", 631}}},
+  for (Json& run : results["runs"]) {
+    if (run["case"] != "circle-load") continue;
+    run["cost"]["timings"] = {{"solve", {{"each_s", 2e-5}, {"evaluations", 631}}},
                               {"guess", {{"each_s", 1e-5}, {"evaluations", 631}}}};
   }
 }

@@ -13,8 +13,8 @@
 /// Models in large motion that the tests share.
 namespace trammel::testing {
 
-using large::LargeSystem;
-using large::Scenario;
+using large::GeometricallyExactSystem;
+using large::LargeMotionModel;
 using large::State;
 
 /// EI = 1, inextensible, Euler-Bernoulli: the elastica.
@@ -45,7 +45,7 @@ inline Model simple_pendulum() {
 
 /// IFToMM A02: `loops` four-bars in a row of uniform rods (1 m, 1 kg), upright; node "B0" starts
 /// with 1 m/s.
-inline std::pair<Model, Scenario> four_bar_chain(int loops) {
+inline std::pair<Model, LargeMotionModel> four_bar_chain(int loops) {
   Model model;
   model.gravity = {0, -9.81};
   for (int i = 0; i <= loops; ++i) {
@@ -65,9 +65,9 @@ inline std::pair<Model, Scenario> four_bar_chain(int loops) {
     pin_together(model, c, 2 * i + 1);
     pin_together(model, c + 1, 2 * i + 3);
   }
-  Scenario scenario;
-  scenario.start = {{1, 0, 1.0}};
-  return {model, scenario};
+  LargeMotionModel large_motion;
+  large_motion.initial_velocities = {{1, 0, 1.0}};
+  return {model, large_motion};
 }
 
 /// The angles (beta, Theta, gamma, Phi, delta, Omega, epsilon) of Andrews' squeezing mechanism.
@@ -75,7 +75,7 @@ using AndrewsAngles = std::array<double, 7>;
 
 struct Andrews {
   Model model;
-  Scenario scenario;
+  LargeMotionModel large_motion;
   std::array<Index, 7> body{};  ///< reference nodes of the bodies K1 ... K7
   AndrewsAngles start{-.0617138900142764496, 0,
                       .455279819163070380,   .222668390165885885,
@@ -128,26 +128,26 @@ inline Andrews andrews_mechanism() {
       {a5, .07050, 1.169e-5, {.02308, .00916}},        {g6, .00706, 5.667e-7, (.02 - .01421) * k6},
       {a7, .05498, 1.912e-5, {.01228, .00449}}};
   m.loads = {{o, {0, 0, .033}}};
-  a.scenario.line_springs = {{"spring", {c, d}, 4530, .07785}};
+  a.large_motion.line_springs = {{"spring", {c, d}, 4530, .07785}};
   a.body = {o, f2, b, h4, a5, g6, a7};
   return a;
 }
 
 /// Simo and Vu-Quoc's spin-up manoeuvre (ANSYS VM258): a beam of 10 m whose hub turns up to 6 rad/s
 /// in 15 s.
-inline std::pair<Model, Scenario> spin_up(Index elements) {
+inline std::pair<Model, LargeMotionModel> spin_up(Index elements) {
   Model model = beam({2.8e7, 1.4e4, 1e7, 1.2, 6e-4, 1, 1}, 10, elements);
   model.members[0].theory = BeamTheory::timoshenko;
   model.supports = {pin(0)};
-  Scenario scenario;
-  scenario.drives = {{"hub", 0, 2, [](double t) {
+  LargeMotionModel large_motion;
+  large_motion.drives = {{"hub", 0, 2, [](double t) {
                         const double w = 2 * std::numbers::pi / 15;
                         if (t >= 15) return std::array<double, 3>{6 * t - 45, 6, 0};
                         return std::array<double, 3>{
                             0.4 * (t * t / 2 + (std::cos(w * t) - 1) / (w * w)),
                             0.4 * (t - std::sin(w * t) / w), 0.4 * (1 - std::cos(w * t))};
                       }}};
-  return {model, scenario};
+  return {model, large_motion};
 }
 
 }  // namespace trammel::testing

@@ -10,6 +10,6 @@ namespace trammel::derive {
 /// study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and values, or
 /// patches (merge patches of the arguments).
 /// @throws DerivationError  where a pointer leads nowhere.
-[[nodiscard]] std::vector<double> swept_program(const Json& arguments);
+[[nodiscard]] std::vector<double> parameter_sweep_program(const Json& arguments);
 
 }  // namespace trammel::derive

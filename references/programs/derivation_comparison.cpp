@@ -1,4 +1,4 @@
-#include "references/programs/stored.h"
+#include "references/programs/derivation_comparison.h"
 
 #include <cmath>
 #include <fstream>
@@ -11,7 +11,7 @@ namespace trammel::derive {
 namespace {
 
 /// Half a unit in the last printed place: "12.768" -> 5e-4, "1.2e-3" -> 5e-5.
-double half_last_place(const std::string& printed) {
+double half_unit_in_last_place(const std::string& printed) {
   const std::size_t exponent_at = printed.find_first_of("eE");
   const std::string mantissa = printed.substr(0, exponent_at);
   const int exponent =
@@ -27,7 +27,7 @@ std::vector<double> absolute_uncertainty(const Arguments& reference,
   if (!reference.has("uncertainty")) {
     const std::vector<std::string> printed = reference.texts("printed");
     if (printed.size() != values.size()) reference.fail("printed", "expected one text a value");
-    for (const std::string& text : printed) result.push_back(half_last_place(text));
+    for (const std::string& text : printed) result.push_back(half_unit_in_last_place(text));
     return result;
   }
   const Arguments given(reference["uncertainty"], "/uncertainty", {"relative", "absolute"});
@@ -36,18 +36,18 @@ std::vector<double> absolute_uncertainty(const Arguments& reference,
     for (const double value : values) result.push_back(relative * std::abs(value));
     return result;
   }
-  if (given["absolute"].is_array()) return rounded(given.numbers("absolute", values.size()));
+  if (given["absolute"].is_array()) return to_doubles(given.numbers("absolute", values.size()));
   return std::vector<double>(values.size(), static_cast<double>(given.not_negative("absolute", 0)));
 }
 
 /// A pointer of the program's arguments becomes one of the file.
-std::string inside_arguments(const std::string& message) {
+std::string pointer_in_file(const std::string& message) {
   return message.rfind('/', 0) == 0 ? "/derivation/arguments" + message : "/derivation: " + message;
 }
 
 }  // namespace
 
-bool Comparison::holds() const {
+bool Comparison::within_uncertainty() const {
   if (derived.size() != stored.size()) return false;
   for (std::size_t i = 0; i < stored.size(); ++i) {
     if (!(std::abs(derived[i] - stored[i]) <= uncertainty[i])) return false;
@@ -60,7 +60,7 @@ Comparison compare_with_derivation(const Json& json) {
   Comparison result;
   result.id = reference.text("id");
   result.unit = reference.text("unit");
-  result.stored = rounded(reference.numbers("values"));
+  result.stored = to_doubles(reference.numbers("values"));
   result.uncertainty = absolute_uncertainty(reference, result.stored);
   if (!reference.has("derivation")) return result;
   const Arguments derivation(reference["derivation"], "/derivation", {"program", "arguments"});
@@ -68,7 +68,7 @@ Comparison compare_with_derivation(const Json& json) {
   try {
     result.derived = derive(result.program, derivation["arguments"]);
   } catch (const DerivationError& error) {
-    throw DerivationError(inside_arguments(error.what()));
+    throw DerivationError(pointer_in_file(error.what()));
   }
   return result;
 }

@@ -8,14 +8,14 @@
 namespace trammel::derive {
 
 template <class Number>
-using Place = std::array<Number, 2>;
+using Point2 = std::array<Number, 2>;
 
 /// Vertices of an equilateral triangle about `centre`, at 210, 330 and 90 degrees plus `angle`.
 template <class Number>
-[[nodiscard]] std::array<Place<Number>, 3> triangle(const Place<Number>& centre, const Real& side,
+[[nodiscard]] std::array<Point2<Number>, 3> triangle(const Point2<Number>& centre, const Real& side,
                                                     const Number& angle) {
   const Real radius = side / sqrt(Real(3));
-  std::array<Place<Number>, 3> vertices;
+  std::array<Point2<Number>, 3> vertices;
   for (int i = 0; i < 3; ++i) {
     const Number direction = angle + Real(pi<Real>() * (7 + 4 * i) / 6);
     vertices[i] = {centre[0] + radius * cos(direction), centre[1] + radius * sin(direction)};
@@ -26,7 +26,7 @@ template <class Number>
 /// The intersection of the circles about A and C; mode -1 lies clockwise of the line A C.
 /// @throws DerivationError  where there is none.
 template <class Number>
-[[nodiscard]] Place<Number> elbow(const Place<Number>& A, const Place<Number>& C,
+[[nodiscard]] Point2<Number> elbow(const Point2<Number>& A, const Point2<Number>& C,
                                   const Real& proximal, const Real& distal, int mode) {
   const Number dx = C[0] - A[0];
   const Number dy = C[1] - A[1];

@@ -1,4 +1,4 @@
-#include "references/beams/wedge.h"
+#include "references/beams/corner_singularity.h"
 
 #include "references/numerics/roots.h"
 
@@ -22,7 +22,7 @@ std::vector<double> wedge_exponent_program(const Json& json) {
            l * l * static_cast<T>(sine * sine / k);
   };
   // A step that does not fall on 1, the root of a corner that is not singular.
-  return rounded(first_roots(equation(f), 0.1, 0.0013, 1));
+  return to_doubles(first_roots(equation(f), 0.1, 0.0013, 1));
 }
 
 }  // namespace trammel::derive

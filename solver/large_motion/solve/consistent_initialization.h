@@ -9,7 +9,7 @@
 namespace trammel::large {
 
 /// Which coordinates start with which velocity.
-using GivenVelocities = std::vector<std::pair<Index, double>>;
+using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 
 /// Makes a state consistent: positions and velocities onto the rigid constraints (velocities by
 /// least kinetic energy around those given), then accelerations and multipliers from the equations
@@ -17,10 +17,10 @@ using GivenVelocities = std::vector<std::pair<Index, double>>;
 /// acceleration that an implicit step of that size gives them.
 /// @param state  t and q are the guess; v, a, lambda are replaced.
 [[nodiscard]] Outcome make_consistent(const ConstrainedSystem& system, State& state,
-                                      const GivenVelocities& given, double step);
+                                      const PrescribedVelocities& given, double step);
 
 /// Root mean square of a change of coordinates over their scale.
-[[nodiscard]] double weighted_size(const ConstrainedSystem& system,
+[[nodiscard]] double weighted_rms_norm(const ConstrainedSystem& system,
                                    const Eigen::Ref<const VectorXd>& change);
 
 }  // namespace trammel::large

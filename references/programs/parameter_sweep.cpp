@@ -1,4 +1,4 @@
-#include "references/programs/swept.h"
+#include "references/programs/parameter_sweep.h"
 
 #include "references/programs/program.h"
 
@@ -20,7 +20,7 @@ Json with_value(Json arguments, const std::vector<std::string>& pointers, const 
 
 }  // namespace
 
-std::vector<double> swept_program(const Json& json) {
+std::vector<double> parameter_sweep_program(const Json& json) {
   const Arguments arguments(json, "", {"program", "arguments", "pointers", "values", "patches"});
   const std::string program = arguments.text("program");
   std::vector<Json> levels;

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "solver/large_motion/system/geometrically_exact_system.h"
-#include "solver/large_motion/solve/start.h"
+#include "solver/large_motion/solve/consistent_initialization.h"
 
 namespace trammel::large {
 
 /// Velocities of every coordinate where members move as rigid bars, for `make_consistent`: a
 /// mechanism that starts in motion without vibrating.
 /// @param node    of each model node (x, y [m/s], rotation [rad/s])
-/// @param member  turning of each member [rad/s]
-[[nodiscard]] GivenVelocities rigid_start(const LargeSystem& system, const Eigen::MatrixX3d& node,
+/// @param member  angular velocity of each member [rad/s]
+[[nodiscard]] PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system, const Eigen::MatrixX3d& node,
                                           const VectorXd& member);
 
 }  // namespace trammel::large

@@ -18,7 +18,7 @@ struct Comparison {
   std::vector<double> derived;      ///< empty where there is no derivation
 
   /// Every derived value lies within the stated uncertainty of the stored one.
-  [[nodiscard]] bool holds() const;
+  [[nodiscard]] bool within_uncertainty() const;
 };
 
 /// @param reference  the content of a file of references/values/.

@@ -8,7 +8,7 @@
 namespace trammel::large {
 
 template <int P>
-struct Shapes {
+struct ShapeFunctions {
   static_assert(P >= 1 && P <= 3);
   std::array<double, P + 1> node;                 ///< Lobatto points
   Eigen::Matrix<double, P, 1> weight;             ///< of the P Gauss points; sum 1
@@ -18,17 +18,17 @@ struct Shapes {
   Eigen::Matrix<double, P + 1, P + 1> stiffness;  ///< integral of slope_a slope_b
   Eigen::Matrix<double, P + 1, P + 1> mass;       ///< integral of value_a value_b
 
-  Shapes();
+  ShapeFunctions();
 };
 
 /// The table of degree P.
 template <int P>
-const Shapes<P>& shapes() {
-  static const Shapes<P> table;
+const ShapeFunctions<P>& shape_functions() {
+  static const ShapeFunctions<P> table;
   return table;
 }
 
-/// Place of node a of an element of that degree, in [0, 1].
-[[nodiscard]] double lobatto_place(int degree, std::size_t a);
+/// Coordinate of node a of an element of that degree, in [0, 1].
+[[nodiscard]] double lobatto_coordinate(int degree, std::size_t a);
 
 }  // namespace trammel::large

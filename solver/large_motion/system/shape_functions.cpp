@@ -1,4 +1,4 @@
-#include "solver/large_motion/system/shapes.h"
+#include "solver/large_motion/system/shape_functions.h"
 
 #include <cmath>
 
@@ -59,7 +59,7 @@ double lagrange_slope(const std::array<double, S>& node, std::size_t a, double x
 }  // namespace
 
 template <int P>
-Shapes<P>::Shapes() : node(lobatto<P>()) {
+ShapeFunctions<P>::ShapeFunctions() : node(lobatto<P>()) {
   const Gauss<P> rule = gauss<P>();
   for (int g = 0; g < P; ++g) {
     const auto at = static_cast<std::size_t>(g);
@@ -83,14 +83,14 @@ Shapes<P>::Shapes() : node(lobatto<P>()) {
   }
 }
 
-double lobatto_place(int degree, std::size_t a) {
-  if (degree == 1) return (1 + shapes<1>().node[a]) / 2;
-  if (degree == 2) return (1 + shapes<2>().node[a]) / 2;
-  return (1 + shapes<3>().node[a]) / 2;
+double lobatto_coordinate(int degree, std::size_t a) {
+  if (degree == 1) return (1 + shape_functions<1>().node[a]) / 2;
+  if (degree == 2) return (1 + shape_functions<2>().node[a]) / 2;
+  return (1 + shape_functions<3>().node[a]) / 2;
 }
 
-template struct Shapes<1>;
-template struct Shapes<2>;
-template struct Shapes<3>;
+template struct ShapeFunctions<1>;
+template struct ShapeFunctions<2>;
+template struct ShapeFunctions<3>;
 
 }  // namespace trammel::large

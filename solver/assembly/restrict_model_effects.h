@@ -9,9 +9,9 @@ namespace trammel {
 /// The effects that the parts have, as they are described. What belongs to an analysis rather than
 /// to parts (inertia, damping, gyroscopic forces, geometric stiffening, large displacement) is not
 /// among them.
-[[nodiscard]] Effects admitted_effects(const Model& model);
+[[nodiscard]] Effects applicable_effects(const Model& model);
 
-/// The model without the effects that are not in `kept`.
-[[nodiscard]] Model reduced(Model model, Effects kept);
+/// The model without the effects that are not in `active`.
+[[nodiscard]] Model restrict_effects(Model model, Effects active);
 
 }  // namespace trammel

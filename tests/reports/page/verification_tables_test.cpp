@@ -82,13 +82,13 @@ BOOST_AUTO_TEST_CASE(a_law_of_two_orders_is_shown_by_how_well_it_meets_the_error
 }
 
 BOOST_AUTO_TEST_CASE(differences_from_the_paper_stand_with_the_noise_that_they_stand_against) {
-  const std::string noise = section("noise");
-  BOOST_TEST(says(noise, "16 comparisons with the paper: 8 within the noise, 8 the model is off."));
-  BOOST_TEST(says(noise, "that of the link thickness, for 16 of 16."));
-  BOOST_TEST(says(noise, "class=\"cell model-off above\""));
-  BOOST_TEST(says(noise, "+16.5\u202f%<span class=\"delta muted\">± 5.1\u202f%</span>"));
-  BOOST_TEST(says(noise, "link thickness, up to 99\u202f%"));
-  BOOST_TEST(says(noise, "the difference &amp; its &quot;noise&quot; &lt;b&gt;"));
+  const std::string uncertainty = section("noise");
+  BOOST_TEST(says(uncertainty, "16 comparisons with the paper: 8 within the noise, 8 the model is off."));
+  BOOST_TEST(says(uncertainty, "that of the link thickness, for 16 of 16."));
+  BOOST_TEST(says(uncertainty, "class=\"cell model-off above\""));
+  BOOST_TEST(says(uncertainty, "+16.5\u202f%<span class=\"delta muted\">± 5.1\u202f%</span>"));
+  BOOST_TEST(says(uncertainty, "link thickness, up to 99\u202f%"));
+  BOOST_TEST(says(uncertainty, "the difference &amp; its &quot;noise&quot; &lt;b&gt;"));
 }
 
 BOOST_AUTO_TEST_CASE(without_evidence_of_a_kind_its_section_is_left_out) {

@@ -1,4 +1,4 @@
-#include "solver/assembly/reduced_model.h"
+#include "solver/assembly/restrict_model_effects.h"
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ bool has_weight(const Model& model) {
   if (model.gravity.isZero(0)) return false;
   return std::any_of(model.members.begin(), model.members.end(), has_mass) ||
          std::any_of(model.masses.begin(), model.masses.end(),
-                     [](const PointMass& lump) { return lump.mass > 0; }) ||
+                     [](const PointMass& point_mass) { return point_mass.mass > 0; }) ||
          std::any_of(model.plates.begin(), model.plates.end(),
                      [](const Plate& plate) { return plate.material.rho > 0; });
 }
@@ -35,30 +35,30 @@ void take_mass(Section& section) {
   section.inertia_per_length = 0;
 }
 
-void reduce(Member& member, Effects kept) {
-  if (!kept.has(Effect::axial_flexibility) && bends(member)) member.axially_flexible = false;
+void restrict_effects(Member& member, Effects active) {
+  if (!active.has(Effect::axial_flexibility) && bends(member)) member.axially_flexible = false;
   member.theory =
-      beam_theory(shears(member.theory) && kept.has(Effect::shear),
-                  has_rotary_inertia(member.theory) && kept.has(Effect::rotary_inertia));
+      beam_theory(has_shear_deformation(member.theory) && active.has(Effect::shear),
+                  has_rotary_inertia(member.theory) && active.has(Effect::rotary_inertia));
   for (MemberEnd& end : member.ends) {
-    const bool stiff = end.fixity == EndFixity::sprung && !kept.has(Effect::joint_compliance);
+    const bool stiff = end.fixity == EndFixity::sprung && !active.has(Effect::joint_compliance);
     if (stiff) end = {EndFixity::welded, 0, end.inertia};
-    if (!kept.has(Effect::link_mass)) end.inertia = 0;
+    if (!active.has(Effect::link_mass)) end.inertia = 0;
   }
-  if (kept.has(Effect::link_mass)) return;
+  if (active.has(Effect::link_mass)) return;
   take_mass(member.section);
   take_mass(member.end_section);
 }
 
 }  // namespace
 
-Effects admitted_effects(const Model& model) {
+Effects applicable_effects(const Model& model) {
   Effects effects;
   for (const Member& member : model.members) {
     if (member.axially_flexible && bends(member)) {
       effects = effects.with(Effect::axial_flexibility);
     }
-    if (shears(member.theory) && bends(member)) effects = effects.with(Effect::shear);
+    if (has_shear_deformation(member.theory) && bends(member)) effects = effects.with(Effect::shear);
     const bool turns = has_rotary_inertia(member.theory) && member.section.inertia_per_length > 0;
     if (turns) effects = effects.with(Effect::rotary_inertia);
     if (is_sprung(member)) effects = effects.with(Effect::joint_compliance);
@@ -68,9 +68,9 @@ Effects admitted_effects(const Model& model) {
   return effects;
 }
 
-Model reduced(Model model, Effects kept) {
-  for (Member& member : model.members) reduce(member, kept);
-  if (!kept.has(Effect::gravity)) model.gravity.setZero();
+Model restrict_effects(Model model, Effects active) {
+  for (Member& member : model.members) restrict_effects(member, active);
+  if (!active.has(Effect::gravity)) model.gravity.setZero();
   return model;
 }
 

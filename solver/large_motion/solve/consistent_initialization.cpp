@@ -1,0 +1,199 @@
+#include "solver/large_motion/solve/consistent_initialization.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace trammel::large {
+
+namespace {
+
+class ConsistentInitialization {
+ public:
+  ConsistentInitialization(const ConstrainedSystem& system, State& state, double step)
+      : system_(system),
+        state_(state),
+        step_(step),
+        n_(system.coordinates()),
+        m_(system.constraints()),
+        matrix_(n_, m_, system.blocks()),
+        constraint_residual_(VectorXd::Zero(m_)),
+        constraint_rate_(VectorXd::Zero(m_)),
+        force_residual_(VectorXd::Zero(n_)),
+        solution_(VectorXd::Zero(n_ + m_)) {}
+
+  Outcome run(const PrescribedVelocities& given) {
+    state_.v.setZero(n_);
+    state_.a.setZero(n_);
+    if (state_.lambda.size() != m_) state_.lambda.setZero(m_);
+    state_.load = system_.load_factor(state_.t);
+    if (!project_positions()) return failed("positions");
+    if (!solve_velocities(given)) return failed("velocities");
+    if (!solve_accelerations()) return failed("accelerations");
+    return {};
+  }
+
+ private:
+  Outcome failed(const std::string& what) const {
+    std::ostringstream message;
+    message << "no consistent " << what << " at the start, time " << state_.t
+          << " s: largest constraint gap " << (m_ > 0 ? rigid_constraint_residual() : 0.0) << " m or rad";
+    return {Status::not_converged, message.str()};
+  }
+
+  double rigid_constraint_residual() const {
+    double largest = 0;
+    for (Index i = 0; i < m_; ++i) {
+      if (rigid(i)) largest = std::max(largest, std::abs(constraint_residual_[i]));
+    }
+    return largest;
+  }
+
+  bool rigid(Index i) const { return system_.compliance()[i] == 0; }
+
+  /// S = M + (fraction of step)^2 K.
+  void assemble(double fraction) {
+    const double stiffness = fraction * fraction * step_ * step_;
+    matrix_.clear();
+    coefficients_ = TangentCoefficients{1, 0, stiffness, 1 / stiffness};
+    system_.tangent(state_, coefficients_, matrix_);
+  }
+
+  bool project_positions() {
+    double last = 1e300;
+    for (int i = 0; i < 30; ++i) {
+      system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
+      const double now = rigid_constraint_residual();
+      if (!std::isfinite(now)) return false;
+      if (now == 0 || (now < 1e-12 && now > 0.5 * last)) return true;
+      last = now;
+      assemble(0.5);
+      if (!matrix_.factor(system_.symmetric())) return false;
+      solution_.setZero();
+      for (Index r = 0; r < m_; ++r) {
+        if (rigid(r)) solution_[n_ + r] = -constraint_residual_[r];
+      }
+      matrix_.solve(solution_);
+      state_.q += solution_.head(n_);
+    }
+    return last < 1e-9;
+  }
+
+  bool solve_velocities(const PrescribedVelocities& given) {
+    assemble(1e-3);
+    const double penalty = 1e6 * mass_scale();
+    for (const auto& [k, value] : given) matrix_.add_diagonal(k, penalty);
+    if (!matrix_.factor(system_.symmetric())) return false;
+    VectorXd penalty_force = VectorXd::Zero(n_);
+    for (int i = 0; i < 8; ++i) {
+      // Each pass also takes away what the last one left of the given values.
+      for (const auto& [k, value] : given) penalty_force[k] += penalty * (value - state_.v[k]);
+      State at_rest = state_;
+      at_rest.v.setZero();
+      system_.constraint_residual(at_rest, constraint_residual_, constraint_rate_);
+      solution_.head(n_) = penalty_force;
+      for (Index r = 0; r < m_; ++r) solution_[n_ + r] = rigid(r) ? -constraint_rate_[r] : 0.0;
+      matrix_.solve(solution_);
+      const double change = weighted_rms_norm(system_, solution_.head(n_) - state_.v);
+      state_.v = solution_.head(n_);
+      if (!state_.v.allFinite()) return false;
+      if (change <= 1e-15 * weighted_rms_norm(system_, state_.v)) break;
+    }
+    return project_velocities();
+  }
+
+  /// What regularization left: a last correction onto G v + dg/dt = 0.
+  bool project_velocities() {
+    for (int i = 0; i < 2; ++i) {
+      system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
+      solution_.setZero();
+      for (Index r = 0; r < m_; ++r) solution_[n_ + r] = rigid(r) ? -constraint_rate_[r] : 0.0;
+      matrix_.solve(solution_);
+      state_.v += solution_.head(n_);
+    }
+    return state_.v.allFinite();
+  }
+
+  double mass_scale() {
+    State probe = state_;
+    VectorXd r0(n_), r1(n_);
+    system_.force_residual(probe, r0);
+    probe.a.setOnes();
+    system_.force_residual(probe, r1);
+    const double sum = (r1 - r0).cwiseAbs().sum();
+    return sum > 0 ? sum : 1.0;
+  }
+
+  bool solve_accelerations() {
+    system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
+    const double tau = system_.strain_rate_damping();
+    for (Index r = 0; r < m_; ++r) {
+      const double c = system_.compliance()[r];
+      state_.lambda[r] = c > 0 ? (constraint_residual_[r] + tau * constraint_rate_[r]) / c : 0.0;
+    }
+    const VectorXd bias = acceleration_bias();
+    system_.force_residual(state_, force_residual_);
+    if (!solve_with_mass_scaling(0.5, bias)) return false;
+    const VectorXd resolved = solution_;
+    // Without the step's view where that makes no great difference; where it does, what vibrates
+    // faster than the step, or has no mass, would start wildly.
+    if (!solve_with_mass_scaling(1e-4, bias) || weighted_rms_norm(system_, solution_.head(n_)) >
+                                       4 * weighted_rms_norm(system_, resolved.head(n_))) {
+      solution_ = resolved;
+    }
+    state_.a = solution_.head(n_);
+    for (Index r = 0; r < m_; ++r) {
+      if (rigid(r)) state_.lambda[r] = solution_[n_ + r];
+    }
+    return state_.a.allFinite() && state_.lambda.allFinite();
+  }
+
+  bool solve_with_mass_scaling(double fraction, const VectorXd& bias) {
+    assemble(fraction);
+    if (!matrix_.factor(system_.symmetric())) return false;
+    solution_.head(n_) = -force_residual_;
+    for (Index r = 0; r < m_; ++r) solution_[n_ + r] = rigid(r) ? -bias[r] : 0.0;
+    matrix_.solve(solution_);
+    return solution_.allFinite();
+  }
+
+  /// d(G v + dg/dt)/dt without accelerations, by a central difference along the motion. The
+  /// acceleration only starts the integrator, so ten digits are plenty.
+  VectorXd acceleration_bias() {
+    const double speed = state_.v.size() > 0 ? weighted_rms_norm(system_, state_.v) : 0.0;
+    double d = 1e-2 * step_;
+    if (speed > 0) d = std::min(d, 1e-5 / speed);
+    VectorXd before = VectorXd::Zero(m_), after = VectorXd::Zero(m_);
+    State shifted = state_;
+    shifted.q = state_.q - d * state_.v;
+    shifted.t = state_.t - d;
+    system_.constraint_residual(shifted, constraint_residual_, before);
+    shifted.q = state_.q + d * state_.v;
+    shifted.t = state_.t + d;
+    system_.constraint_residual(shifted, constraint_residual_, after);
+    return (after - before) / (2 * d);
+  }
+
+  const ConstrainedSystem& system_;
+  State& state_;
+  double step_;
+  Index n_, m_;
+  KktMatrix matrix_;
+  TangentCoefficients coefficients_;
+  VectorXd constraint_residual_, constraint_rate_, force_residual_, solution_;
+};
+
+}  // namespace
+
+double weighted_rms_norm(const ConstrainedSystem& system, const Eigen::Ref<const VectorXd>& change) {
+  if (change.size() == 0) return 0;
+  return change.cwiseQuotient(system.scale()).norm() /
+         std::sqrt(static_cast<double>(change.size()));
+}
+
+Outcome make_consistent(const ConstrainedSystem& system, State& state, const PrescribedVelocities& given,
+                        double step) {
+  return ConsistentInitialization(system, state, step).run(given);
+}
+
+}  // namespace trammel::large
