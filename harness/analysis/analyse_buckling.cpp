@@ -4,25 +4,25 @@
 #include "harness/scene/eigen_path.h"
 #include "solver/statics/buckling.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-constexpr Index kMaxDrawnShapes = 12;
+constexpr solver::Index kMaxDrawnShapes = 12;
 
-std::string label(Index mode, double factor) {
+std::string label(solver::Index mode, double factor) {
   char text[64];
   std::snprintf(text, sizeof text, "mode %d, %.4g times the loads", static_cast<int>(mode) + 1,
                 factor);
   return text;
 }
 
-BucklingOptions read_options(const JsonView& analysis) {
-  return {analysis.get<Index>("count", 3), read_eigen_path(analysis)};
+solver::BucklingOptions read_buckling_options(const JsonView& analysis) {
+  return {analysis.get<solver::Index>("count", 3), read_eigen_path(analysis)};
 }
 
 /// The forces on nodes at a load factor: critical_force_N:NAME.
-void record_forces(const JsonView& analysis, const std::string& mode, double factor, double roundoff,
-                   Recorder& record) {
+void record_forces(const JsonView& analysis, const std::string& mode, double factor,
+                   double roundoff, Recorder& record) {
   const JsonView model = JsonView(analysis.document())["model"];
   const auto loads = model.find("loads");
   if (!loads) return;
@@ -36,14 +36,15 @@ void record_forces(const JsonView& analysis, const std::string& mode, double fac
 
 }  // namespace
 
-StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_model, std::size_t step, bool draw,
-                            Recorder& record) {
-  const System system = assemble(build_model(case_model, step));
-  const BucklingSolution buckling = solve_buckling(system, read_options(analysis));
+StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
+                            bool draw, Recorder& record) {
+  const solver::System system = solver::assemble(build_model(case_model, step));
+  const solver::BucklingSolution buckling =
+      solver::solve_buckling(system, read_buckling_options(analysis));
   StepResult result{buckling.outcome, buckling.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
-  for (Index i = 0; i < buckling.load_factor.size(); ++i) {
+  for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {
     const double factor = buckling.load_factor[i];
     const std::string mode = case_model.path ? std::to_string(i + 1) : "";
     record.add("load_factor", mode, factor, buckling.roundoff[i]);
@@ -56,4 +57,4 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 #include "harness/scene/rigid_case_model.h"
 #include "solver/manipulator/forward_dynamics.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 double turned(double from, double to) {
@@ -13,7 +13,7 @@ double turned(double from, double to) {
 }
 
 /// What gravity has taken up: -sum m g . x [J].
-double potential(const RigidManipulator& m, const InverseDynamics& at) {
+double potential(const solver::RigidManipulator& m, const solver::InverseDynamics& at) {
   double energy = -m.platform.mass * m.gravity.dot(at.bodies[6].position);
   for (std::size_t k = 0; k < 3; ++k) {
     energy -= m.gravity.dot(m.proximal[k].mass * at.bodies[k].position +
@@ -22,7 +22,7 @@ double potential(const RigidManipulator& m, const InverseDynamics& at) {
   return energy;
 }
 
-void record_motion(const TrajectoryPoint& moved, Recorder& record) {
+void record_motion(const solver::TrajectoryPoint& moved, Recorder& record) {
   record.add("motion_x_m", "", moved.pose.x);
   record.add("motion_y_m", "", moved.pose.y);
   record.add("motion_phi_rad", "", moved.pose.phi);
@@ -32,7 +32,8 @@ void record_motion(const TrajectoryPoint& moved, Recorder& record) {
 }
 
 /// How far the motion is from the path that its torques were computed for.
-void record_errors(const TrajectoryPoint& nominal, const TrajectoryPoint& moved, Recorder& record) {
+void record_errors(const solver::TrajectoryPoint& nominal, const solver::TrajectoryPoint& moved,
+                   Recorder& record) {
   record.add("position_error_m", "",
              std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));
   record.add("orientation_error_rad", "", std::abs(turned(nominal.pose.phi, moved.pose.phi)));
@@ -41,16 +42,16 @@ void record_errors(const TrajectoryPoint& nominal, const TrajectoryPoint& moved,
 
 /// Constant torques and a constant load have potentials: kinetic and potential energy less the
 /// work done since the start stay what they were, relative to the most that was ever kinetic.
-void record_energy(const RigidManipulator& m, const ForwardDynamics& found, const Vector3d& torque,
-                   const Vector3d& wrench, Recorder& record) {
+void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynamics& found,
+                   const Eigen::Vector3d& torque, const Eigen::Vector3d& wrench, Recorder& record) {
   std::vector<double> kinetic, change;
   double work = 0, start = 0, max_kinetic = 0;
-  InverseDynamics before;
+  solver::InverseDynamics before;
   for (std::size_t k = 0; k < found.motion.size(); ++k) {
-    const TrajectoryPoint& point = found.motion[k];
-    const InverseDynamics now = inverse_dynamics(m, point);
+    const solver::TrajectoryPoint& point = found.motion[k];
+    const solver::InverseDynamics now = solver::inverse_dynamics(m, point);
     if (k > 0) {
-      for (Index i = 0; i < 3; ++i) work += torque(i) * turned(before.q(i), now.q(i));
+      for (solver::Index i = 0; i < 3; ++i) work += torque(i) * turned(before.q(i), now.q(i));
       work += wrench.head<2>().dot(now.q.segment<2>(6) - before.q.segment<2>(6)) +
               wrench(2) * (now.q(8) - before.q(8));
     }
@@ -69,31 +70,33 @@ void record_energy(const RigidManipulator& m, const ForwardDynamics& found, cons
 
 }  // namespace
 
-StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
-                                    Recorder& record) {
-  const RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
+StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& case_model,
+                                    bool draw, Recorder& record) {
+  const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   if (!case_model.path) throw analysis.error("expected a model with a trajectory");
   if (!loads_at_P_only(case_model)) {
     throw analysis.error("expected loads at P alone: at a corner their moment changes as it turns");
   }
-  const Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
+  const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
   const bool given = analysis.has("torque_N_m");
-  Vector3d constant = Vector3d::Zero();
+  Eigen::Vector3d constant = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; given && i < 3; ++i) {
-    constant(static_cast<Index>(i)) = analysis["torque_N_m"][i].get<double>();
+    constant(static_cast<solver::Index>(i)) = analysis["torque_N_m"][i].get<double>();
   }
   // A step of the integrator may look a little past the path's end, where a spline has none.
   const double last = case_model.motion.back().time;
-  const auto torque = [&](double time) -> Vector3d {
+  const auto torque = [&](double time) -> Eigen::Vector3d {
     if (given) return constant;
-    return inverse_dynamics(manipulator, at(*case_model.path, std::min(time, last)), wrench).torque;
+    return solver::inverse_dynamics(manipulator, solver::at(*case_model.path, std::min(time, last)),
+                                    wrench)
+        .torque;
   };
   std::vector<double> times;
-  for (const TrajectoryPoint& point : case_model.motion) times.push_back(point.time);
-  ForwardOptions options;
+  for (const solver::TrajectoryPoint& point : case_model.motion) times.push_back(point.time);
+  solver::ForwardOptions options;
   options.tolerance = analysis.get("tolerance", options.tolerance);
-  const ForwardDynamics found =
-      forward_dynamics(manipulator, case_model.motion.front(), torque, times, wrench, options);
+  const solver::ForwardDynamics found = solver::forward_dynamics(
+      manipulator, case_model.motion.front(), torque, times, wrench, options);
   StepResult result;
   result.outcome = found.outcome;
   if (draw) result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
@@ -109,4 +112,4 @@ StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& c
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -3,7 +3,7 @@
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/scene/rigid_case_model.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 using JointNames = std::array<std::string, 3>;
@@ -21,8 +21,8 @@ const std::array<std::string, 7>& body_names() {
   return names;
 }
 
-void record_joints(const InverseDynamics& found, Recorder& record) {
-  for (Index i = 0; i < 3; ++i) {
+void record_joints(const solver::InverseDynamics& found, Recorder& record) {
+  for (solver::Index i = 0; i < 3; ++i) {
     const std::string& active = active_names()[static_cast<std::size_t>(i)];
     const std::string& elbow = elbow_names()[static_cast<std::size_t>(i)];
     record.add("torque_N_m", active, found.torque(i));
@@ -35,9 +35,9 @@ void record_joints(const InverseDynamics& found, Recorder& record) {
   }
 }
 
-void record_bodies(const InverseDynamics& found, Recorder& record) {
+void record_bodies(const solver::InverseDynamics& found, Recorder& record) {
   for (std::size_t b = 0; b < found.bodies.size(); ++b) {
-    const BodyMotion& body = found.bodies[b];
+    const solver::BodyMotion& body = found.bodies[b];
     const std::string& name = body_names()[b];
     record.add("center_x_m", name, body.position.x());
     record.add("center_y_m", name, body.position.y());
@@ -48,12 +48,12 @@ void record_bodies(const InverseDynamics& found, Recorder& record) {
   }
 }
 
-double power_scale(const InverseDynamics& found) {
+double power_scale(const solver::InverseDynamics& found) {
   return found.torque.norm() * found.q_dot.head<3>().norm() + std::abs(found.load_power) +
          std::abs(found.gravity_power) + std::abs(found.kinetic_power);
 }
 
-void record_energy(const InverseDynamics& found, Recorder& record) {
+void record_energy(const solver::InverseDynamics& found, Recorder& record) {
   record.add("kinetic_energy_J", "", found.kinetic_energy);
   record.add("kinetic_power_W", "", found.kinetic_power);
   record.add("actuator_power_W", "", found.actuator_power);
@@ -64,10 +64,10 @@ void record_energy(const InverseDynamics& found, Recorder& record) {
   record.add("power_residual", "", scale > 0 ? (found.kinetic_power - fed) / scale : 0);
 }
 
-void record_properties(const RigidManipulator& manipulator, const TrajectoryPoint& point,
-                       Recorder& record) {
-  const PropertyResiduals residuals =
-      property_residuals(manipulator, rigid_terms(manipulator, point.pose, point.velocity));
+void record_properties(const solver::RigidManipulator& manipulator,
+                       const solver::TrajectoryPoint& point, Recorder& record) {
+  const solver::PropertyResiduals residuals = solver::property_residuals(
+      manipulator, solver::rigid_terms(manipulator, point.pose, point.velocity));
   record.add("symmetry_residual", "", residuals.symmetry);
   record.add("skewness_residual", "", residuals.skewness);
   record.add("least_inertia_kg_m2", "", residuals.min_eigenvalue);
@@ -76,14 +76,14 @@ void record_properties(const RigidManipulator& manipulator, const TrajectoryPoin
 /// Work of the actuators over exactly one turn, by the trapezoid rule, which for a periodic
 /// integrand converges faster than any power of the step: inertia, gravity and a constant load
 /// leave none. Beside it what goes to and fro, the integral of |power|.
-void record_turn(const RigidManipulator& manipulator, const CaseModel& case_model, const Circle& circle,
-                 int points, Recorder& record) {
+void record_turn(const solver::RigidManipulator& manipulator, const CaseModel& case_model,
+                 const solver::Circle& circle, int points, Recorder& record) {
   const double period = 2 * std::numbers::pi / std::abs(circle.angular_speed);
   double work = 0, turnover = 0;
   for (int k = 0; k < points; ++k) {
-    const TrajectoryPoint point = at(circle, period * k / points);
-    const InverseDynamics found =
-        inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
+    const solver::TrajectoryPoint point = solver::at(circle, period * k / points);
+    const solver::InverseDynamics found =
+        solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) return;  // the path's own points tell why
     work += found.actuator_power * period / points;
     turnover += std::abs(found.actuator_power) * period / points;
@@ -95,17 +95,17 @@ void record_turn(const RigidManipulator& manipulator, const CaseModel& case_mode
 
 }  // namespace
 
-StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
-                                    Recorder& record) {
-  const RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
+StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& case_model,
+                                    bool draw, Recorder& record) {
+  const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   const bool bodies = analysis.get("bodies", false);
   StepResult result;
   if (draw) result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
   for (std::size_t step = 0; step < case_model.motion.size(); ++step) {
-    const TrajectoryPoint& point = case_model.motion[step];
+    const solver::TrajectoryPoint& point = case_model.motion[step];
     record_path(case_model, step, record);
-    const InverseDynamics found =
-        inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
+    const solver::InverseDynamics found =
+        solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) {
       result.outcome = at_point(case_model, step, found.outcome);
       return result;
@@ -115,11 +115,11 @@ StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& c
     record_properties(manipulator, point, record);
     if (bodies) record_bodies(found, record);
   }
-  const auto* circle = case_model.path ? std::get_if<Circle>(&*case_model.path) : nullptr;
+  const auto* circle = case_model.path ? std::get_if<solver::Circle>(&*case_model.path) : nullptr;
   if (circle && circle->angular_speed != 0) {
     record_turn(manipulator, case_model, *circle, analysis.get("turn_points", 64), record);
   }
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,36 +2,36 @@
 #include <cmath>
 
 #include "harness/analysis/analysis_kinds.h"
+#include "harness/base/text.h"
 #include "harness/scene/draw_large.h"
 #include "harness/scene/joint_reader.h"
 #include "harness/scene/tracking.h"
-#include "harness/base/text.h"
 #include "solver/large_motion/solve/integrate.h"
 #include "solver/large_motion/solve/state_results.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-using large::GeometricallyExactSystem;
-using large::State;
+using solver::large_motion::GeometricallyExactSystem;
+using solver::large_motion::State;
 
 constexpr int kMaxPoses = 8;
 
 /// Rotation of a node, less that of another (-1: of the ground).
 struct Angle {
   std::string name;
-  Index node = 0, from = -1;
+  solver::Index node = 0, from = -1;
   double start = 0;
 };
 
 /// What is kept at each output time.
 struct OutputSelection {
-  std::vector<Index> nodes;
-  Index seen_from = -1;
+  std::vector<solver::Index> nodes;
+  solver::Index seen_from = -1;
   std::vector<Angle> angles;
 };
 
-OutputSelection read_kept(const JsonView& analysis, const Model& model) {
+OutputSelection read_kept(const JsonView& analysis, const solver::Model& model) {
   OutputSelection selection;
   if (const auto names = analysis.find("nodes")) {
     for (const auto& entry : names->entries()) {
@@ -39,7 +39,7 @@ OutputSelection read_kept(const JsonView& analysis, const Model& model) {
     }
   } else {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-      if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<Index>(i));
+      if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<solver::Index>(i));
     }
   }
   if (analysis.has("seen_from")) selection.seen_from = find_node(analysis["seen_from"], model);
@@ -53,10 +53,10 @@ OutputSelection read_kept(const JsonView& analysis, const Model& model) {
   return selection;
 }
 
-large::IntegrationOptions read_options(const JsonView& analysis) {
-  large::IntegrationOptions options;
+solver::large_motion::IntegrationOptions read_large_motion_options(const JsonView& analysis) {
+  solver::large_motion::IntegrationOptions options;
   if (analysis.get<std::string>("integrator", "generalized-alpha") == "energy-momentum") {
-    options.integrator = large::Integrator::energy_momentum;
+    options.integrator = solver::large_motion::Integrator::energy_momentum;
   }
   options.end_time = analysis.number("end_time_s");
   options.step = analysis.number("step_s");
@@ -71,14 +71,15 @@ large::IntegrationOptions read_options(const JsonView& analysis) {
 /// Writes down each state that the integrator shows.
 class MotionRecorder {
  public:
-  MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection, Recorder& record)
+  MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection,
+                 Recorder& record)
       : system_(system), selection_(std::move(selection)), record_(record) {}
 
   void look(const State& state) {
     record_.add("time_s", "", state.t);
     const Eigen::MatrixX3d motion = node_motion(system_, state.q);
     const Eigen::MatrixX3d velocity = node_motion(system_, state.v);
-    for (const Index node : selection_.nodes) look_at(node, motion, velocity);
+    for (const solver::Index node : selection_.nodes) look_at(node, motion, velocity);
     for (const Angle& angle : selection_.angles) look_at(angle, motion, velocity);
     look_at_forces(state);
     look_at_energy(state);
@@ -89,8 +90,9 @@ class MotionRecorder {
   }
 
  private:
-  void look_at(Index node, const Eigen::MatrixX3d& motion, const Eigen::MatrixX3d& velocity) {
-    const Node& named = system_.model().nodes[static_cast<std::size_t>(node)];
+  void look_at(solver::Index node, const Eigen::MatrixX3d& motion,
+               const Eigen::MatrixX3d& velocity) {
+    const solver::Node& named = system_.model().nodes[static_cast<std::size_t>(node)];
     const Eigen::RowVector3d u = motion.row(node), v = velocity.row(node);
     record_.add("position_x_m", named.name, named.position.x() + u[0]);
     record_.add("position_y_m", named.name, named.position.y() + u[1]);
@@ -103,12 +105,12 @@ class MotionRecorder {
     if (selection_.seen_from >= 0 && node != selection_.seen_from) look_from(node, motion);
   }
 
-  void look_from(Index node, const Eigen::MatrixX3d& motion) {
-    const std::vector<Node>& nodes = system_.model().nodes;
-    const Node& named = nodes[static_cast<std::size_t>(node)];
-    const Index eye = selection_.seen_from;
-    const Vector2d arm = named.position - nodes[static_cast<std::size_t>(eye)].position;
-    const Vector2d moved = (motion.row(node) - motion.row(eye)).head<2>().transpose();
+  void look_from(solver::Index node, const Eigen::MatrixX3d& motion) {
+    const std::vector<solver::Node>& nodes = system_.model().nodes;
+    const solver::Node& named = nodes[static_cast<std::size_t>(node)];
+    const solver::Index eye = selection_.seen_from;
+    const Eigen::Vector2d arm = named.position - nodes[static_cast<std::size_t>(eye)].position;
+    const Eigen::Vector2d moved = (motion.row(node) - motion.row(eye)).head<2>().transpose();
     const double turn = motion(eye, 2);
     const double c = std::cos(turn), s = std::sin(turn);
     // R^T (arm + moved) - arm, with R^T - 1 by the half angle.
@@ -134,11 +136,12 @@ class MotionRecorder {
   void look_at_forces(const State& state) {
     const Eigen::MatrixX3d reaction = reactions(system_, state);
     for (std::size_t i = 0; i < system_.model().supports.size(); ++i) {
-      const Support& support = system_.model().supports[i];
-      if (std::find(selection_.nodes.begin(), selection_.nodes.end(), support.node) == selection_.nodes.end()) {
+      const solver::Support& support = system_.model().supports[i];
+      if (std::find(selection_.nodes.begin(), selection_.nodes.end(), support.node) ==
+          selection_.nodes.end()) {
         continue;
       }
-      const auto row = static_cast<Index>(i);
+      const auto row = static_cast<solver::Index>(i);
       if (support.fixed[0]) record_.add("reaction_x_N", support.name, reaction(row, 0));
       if (support.fixed[1]) record_.add("reaction_y_N", support.name, reaction(row, 1));
       if (support.fixed[0] && support.fixed[1]) {
@@ -147,14 +150,14 @@ class MotionRecorder {
       if (support.fixed[2]) record_.add("reaction_moment_N_m", support.name, reaction(row, 2));
     }
     for (std::size_t i = 0; i < system_.large_motion().drives.size(); ++i) {
-      const large::Drive& drive = system_.large_motion().drives[i];
+      const solver::large_motion::Drive& drive = system_.large_motion().drives[i];
       record_.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
-                  drive_force(system_, state, static_cast<Index>(i)));
+                  drive_force(system_, state, static_cast<solver::Index>(i)));
     }
   }
 
   void look_at_energy(const State& state) {
-    const large::Energy energy = system_.energy(state);
+    const solver::large_motion::Energy energy = system_.energy(state);
     record_.add("kinetic_energy_J", "", energy.kinetic);
     record_.add("strain_energy_J", "", energy.strain);
     record_.add("total_energy_J", "", energy.total());
@@ -172,13 +175,13 @@ class MotionRecorder {
 };
 
 /// How far P is from where the rigid twin would have it.
-void record_deflection(const GeometricallyExactSystem& system, const State& state, const Path& path,
-                       Recorder& record) {
-  const Index p = system.model().find_node("P");
+void record_deflection(const GeometricallyExactSystem& system, const State& state,
+                       const solver::Path& path, Recorder& record) {
+  const solver::Index p = system.model().find_node("P");
   const Eigen::MatrixX3d motion = node_motion(system, state.q);
-  const Vector2d now = system.model().nodes[static_cast<std::size_t>(p)].position +
-                       motion.row(p).head<2>().transpose();
-  const Pose pose = at(path, state.t).pose;
+  const Eigen::Vector2d now = system.model().nodes[static_cast<std::size_t>(p)].position +
+                              motion.row(p).head<2>().transpose();
+  const solver::Pose pose = solver::at(path, state.t).pose;
   record.add("pose_x_m", "", pose.x);
   record.add("pose_y_m", "", pose.y);
   record.add("deflection_x_m", "P", now.x() - pose.x);
@@ -187,23 +190,26 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
 }
 
 /// From where the model stands, or with the velocities of the rigid twin that it follows.
-large::IntegrationSummary integrate_motion(const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
-                               const large::IntegrationOptions& options, bool extrapolated,
-                               const large::Observer& look) {
+solver::large_motion::IntegrationSummary integrate_motion(
+    const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
+    const solver::large_motion::IntegrationOptions& options, bool extrapolated,
+    const solver::large_motion::Observer& look) {
   State state;
   if (!tracking) {
     return extrapolated ? integrate_extrapolated(system, state, options, look)
                         : integrate(system, state, options, look);
   }
   state = system.reference_state();
-  large::IntegrationSummary summary;
-  summary.outcome = make_consistent(system, state, tracking_start(case_model, system), options.step);
+  solver::large_motion::IntegrationSummary summary;
+  summary.outcome =
+      make_consistent(system, state, tracking_start(case_model, system), options.step);
   if (!summary.outcome.solved()) return summary;
-  const large::ConstrainedSystem& equations = system;
+  const solver::large_motion::ConstrainedSystem& equations = system;
   return integrate(equations, state, options, look);
 }
 
-void record_summary(const large::IntegrationSummary& summary, const MotionRecorder& log, Recorder& record) {
+void record_summary(const solver::large_motion::IntegrationSummary& summary,
+                    const MotionRecorder& log, Recorder& record) {
   record.add("steps", "", static_cast<double>(summary.steps));
   record.add("rejected_steps", "", static_cast<double>(summary.rejected));
   record.add("newton_iterations", "", static_cast<double>(summary.iterations));
@@ -217,8 +223,8 @@ void record_summary(const large::IntegrationSummary& summary, const MotionRecord
 
 StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                 Recorder& record) {
-  Model model = build_bare_model(case_model, 0);
-  large::LargeMotionModel large_motion = case_model.joint_elements;
+  solver::Model model = build_bare_model(case_model, 0);
+  solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);
   read_history(analysis, model, large_motion);
   const bool extrapolated = analysis.get("extrapolated", false);
@@ -233,7 +239,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
     }
   }
   const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
-  const large::IntegrationOptions options = read_options(analysis);
+  const solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   MotionRecorder log(system, read_kept(analysis, model), record);
@@ -245,7 +251,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
     ++poses;
     result.drawing->poses.push_back(draw_large_pose(system, state.q, rounded(state.t, 3) + " s"));
   };
-  const large::IntegrationSummary summary =
+  const solver::large_motion::IntegrationSummary summary =
       integrate_motion(system, case_model, tracking, options, extrapolated, look);
   result.outcome = summary.outcome;
   result.counters = summary.counters;
@@ -255,4 +261,4 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

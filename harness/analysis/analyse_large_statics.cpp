@@ -1,25 +1,25 @@
 #include <algorithm>
 
 #include "harness/analysis/analysis_kinds.h"
+#include "harness/base/text.h"
 #include "harness/scene/draw_large.h"
 #include "harness/scene/joint_reader.h"
-#include "harness/base/text.h"
+#include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
-#include "solver/large_motion/solve/large_statics.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-using large::GeometricallyExactSystem;
-using large::PathEvent;
-using large::PathPoint;
-using large::StaticPath;
+using solver::large_motion::GeometricallyExactSystem;
+using solver::large_motion::PathEvent;
+using solver::large_motion::PathPoint;
+using solver::large_motion::StaticPath;
 
 constexpr std::size_t kMaxPoses = 6;
 
-large::StaticPathOptions read_options(const JsonView& analysis) {
-  large::StaticPathOptions options;
+solver::large_motion::StaticPathOptions read_large_statics_options(const JsonView& analysis) {
+  solver::large_motion::StaticPathOptions options;
   options.first_step = analysis.get("first_step", options.first_step);
   options.max_points = analysis.get("points", options.max_points);
   options.switch_branch = analysis.get("switch_branch", false);
@@ -27,13 +27,14 @@ large::StaticPathOptions read_options(const JsonView& analysis) {
   return options;
 }
 
-void record_point(const GeometricallyExactSystem& system, const PathPoint& point, Recorder& record) {
+void record_point(const GeometricallyExactSystem& system, const PathPoint& point,
+                  Recorder& record) {
   record.add("load_factor", "", point.state.load);
-  record_solution(system.model(), static_solution(system, point.state), -1, record);
+  record_solution(system.model(), solver::static_solution(system, point.state), -1, record);
   for (std::size_t i = 0; i < system.large_motion().drives.size(); ++i) {
-    const large::Drive& drive = system.large_motion().drives[i];
+    const solver::large_motion::Drive& drive = system.large_motion().drives[i];
     record.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
-               drive_force(system, point.state, static_cast<Index>(i)));
+               drive_force(system, point.state, static_cast<solver::Index>(i)));
   }
   record.add("newton_iterations", "", static_cast<double>(point.newton.correction.size()));
   if (point.unstable_directions >= 0) {
@@ -49,19 +50,21 @@ void record_events(const StaticPath& path, Recorder& record) {
 }
 
 /// How the last solution was found, iteration by iteration.
-void record_newton(const large::NewtonResult& newton, Recorder& record) {
+void record_newton(const solver::large_motion::NewtonResult& newton, Recorder& record) {
   for (std::size_t i = 0; i < newton.correction.size(); ++i) {
     record.add("newton_iteration", "", static_cast<double>(i + 1));
     record.add("newton_correction", "", newton.correction[i]);
-    if (i < newton.force_residual.size()) record.add("newton_residual_N_m", "", newton.force_residual[i]);
+    if (i < newton.force_residual.size())
+      record.add("newton_residual_N_m", "", newton.force_residual[i]);
   }
 }
 
-void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPoint>& points, Drawing& drawing) {
+void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPoint>& points,
+                Drawing& drawing) {
   const std::size_t stride = (points.size() + kMaxPoses - 1) / kMaxPoses;
   for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(stride, 1)) {
     const std::size_t last_first = points.size() - 1 - i;
-    const large::State& state = points[last_first].state;
+    const solver::large_motion::State& state = points[last_first].state;
     drawing.poses.push_back(
         draw_large_pose(system, state.q, "load factor " + rounded(state.load, 3)));
   }
@@ -70,18 +73,18 @@ void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPo
 
 }  // namespace
 
-StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
-                                 bool draw, Recorder& record) {
+StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case_model,
+                                 std::size_t step, bool draw, Recorder& record) {
   const auto factors = analysis.get("load_factors", std::vector<double>{1.0});
   if (case_model.path && factors.size() > 1) {
     throw analysis["load_factors"].error("expected one load factor along a trajectory");
   }
-  large::StaticPathOptions options = read_options(analysis);
+  solver::large_motion::StaticPathOptions options = read_large_statics_options(analysis);
   if (options.keep_points && (case_model.path || factors.size() > 1)) {
     throw analysis["whole_path"].error("expected one pose and one load factor beside it");
   }
-  const Model model = build_bare_model(case_model, step);
-  large::LargeMotionModel large_motion = case_model.joint_elements;
+  const solver::Model model = build_bare_model(case_model, step);
+  solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);
   const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
   StepResult result;
@@ -108,4 +111,4 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,16 +5,16 @@
 #include "harness/analysis/manufactured.h"
 #include "harness/scene/material_reader.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Every error is relative, so that the size of the field does not matter.
 constexpr double kAmplitudePerLength = 1e-3;
 
 /// @param thickness  in the plane [m]
-Section rectangle(const Material& material, double thickness, double width,
-                  double shear_coefficient) {
-  Section section;
+solver::Section rectangle(const solver::Material& material, double thickness, double width,
+                          double shear_coefficient) {
+  solver::Section section;
   section.area = thickness * width;
   section.EA = material.E * section.area;
   section.EI = section.EA * thickness * thickness / 12;
@@ -27,13 +27,14 @@ Section rectangle(const Material& material, double thickness, double width,
 
 MembraneTest read_membrane(const JsonView& place) {
   const JsonView part = place["membrane"];
-  const Material material = read_material(part["material"]);
+  const solver::Material material = read_material(part["material"]);
   MembraneTest test;
   const std::string field = part.text("field");
-  test.problem.field = field == "clamped"          ? manufactured::MembraneField::clamped
-                       : field == "cantilever"     ? manufactured::MembraneField::cantilever
-                       : field == "uniform-strain" ? manufactured::MembraneField::uniform_strain
-                                                   : manufactured::MembraneField::linear_strain;
+  test.problem.field = field == "clamped"      ? references::manufactured::MembraneField::clamped
+                       : field == "cantilever" ? references::manufactured::MembraneField::cantilever
+                       : field == "uniform-strain"
+                           ? references::manufactured::MembraneField::uniform_strain
+                           : references::manufactured::MembraneField::linear_strain;
   test.problem.E = material.E;
   test.problem.nu = material.nu;
   test.problem.rho = material.rho;
@@ -43,7 +44,7 @@ MembraneTest read_membrane(const JsonView& place) {
   test.problem.omega = place.get("angular_frequency_rad_s", 0.0);
   test.thickness = part.number("thickness_m");
   test.six_nodes = part.text("triangles") == "six-node";
-  test.cells = place["cells"].get<Index>();
+  test.cells = place["cells"].get<solver::Index>();
   test.distortion = place.get("distortion", 0.0);
   return test;
 }
@@ -52,17 +53,17 @@ BeamTest read_beam(const JsonView& place) {
   const JsonView part = place["beam"];
   const std::string shear = part.text("shear");
   BeamTest test;
-  test.field = part.text("field") == "cubic" ? manufactured::BeamField::cubic
-                                             : manufactured::BeamField::smooth;
-  test.shear = shear == "none"           ? manufactured::ShearStrain::none
-               : shear == "from-bending" ? manufactured::ShearStrain::from_bending
-                                         : manufactured::ShearStrain::independent;
+  test.field = part.text("field") == "cubic" ? references::manufactured::BeamField::cubic
+                                             : references::manufactured::BeamField::smooth;
+  test.shear = shear == "none"           ? references::manufactured::ShearStrain::none
+               : shear == "from-bending" ? references::manufactured::ShearStrain::from_bending
+                                         : references::manufactured::ShearStrain::independent;
   test.section = rectangle(read_material(part["material"]), part.number("thickness_m"),
                            part.number("width_m"), part.get("shear_coefficient", 5.0 / 6));
   test.length = part.number("length_m");
   test.amplitude = kAmplitudePerLength * test.length;
   test.omega = place.get("angular_frequency_rad_s", 0.0);
-  test.cells = place["cells"].get<Index>();
+  test.cells = place["cells"].get<solver::Index>();
   test.distortion = place.get("distortion", 0.0);
   return test;
 }
@@ -71,7 +72,7 @@ BeamTest read_beam(const JsonView& place) {
 /// by the number of cells.
 class NormRecorder {
  public:
-  NormRecorder(Recorder& record, Index cells)
+  NormRecorder(Recorder& record, solver::Index cells)
       : record_(record), cells_(static_cast<double>(cells)) {}
 
   void add(const std::string& name, double error, int derivative) {
@@ -134,9 +135,9 @@ StepResult analyse_manufactured(const JsonView& manufactured, bool draw, Recorde
   try {
     return manufactured.has("membrane") ? run_membrane(manufactured, draw, record)
                                         : run_beam(manufactured, draw, record);
-  } catch (const ModelError& error) {
+  } catch (const solver::ModelError& error) {
     throw manufactured.error(error.what());
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

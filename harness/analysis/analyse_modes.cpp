@@ -1,22 +1,22 @@
 #include <cmath>
 
 #include "harness/analysis/analysis_kinds.h"
-#include "harness/scene/eigen_path.h"
 #include "harness/analysis/rotating_state.h"
+#include "harness/scene/eigen_path.h"
 #include "solver/modes/modes.h"
 #include "solver/modes/prestressed_modes.h"
 #include "solver/modes/reduction.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-constexpr Index kMaxDrawnShapes = 12;
+constexpr solver::Index kMaxDrawnShapes = 12;
 
-ModesOptions read_options(const JsonView& analysis) {
-  return {analysis["count"].get<Index>(), read_eigen_path(analysis)};
+solver::ModesOptions read_modes_options(const JsonView& analysis) {
+  return {analysis["count"].get<solver::Index>(), read_eigen_path(analysis)};
 }
 
-std::string label(Index mode, double frequency) {
+std::string label(solver::Index mode, double frequency) {
   char text[64];
   std::snprintf(text, sizeof text, "mode %d, %.4g Hz", static_cast<int>(mode) + 1, frequency);
   return text;
@@ -29,42 +29,46 @@ void refuse(const JsonView& analysis, const char* key, const char* beside, const
 }
 
 /// The system in the coordinates that the analysis asks for.
-System condensed(const JsonView& analysis, const CaseModel& case_model, System system) {
+solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
+                         solver::System system) {
   if (!analysis.has("reduction")) return system;
   refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the whole model");
-  if (case_model.effects.has(Effect::geometric_stiffening)) {
+  if (case_model.effects.has(solver::Effect::geometric_stiffening)) {
     throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
   }
-  return reduce_members(system, analysis["reduction"]["modes_of_a_member"].get<Index>());
+  return solver::reduce_members(system,
+                                analysis["reduction"]["modes_of_a_member"].get<solver::Index>());
 }
 
-ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_model, const System& system) {
-  const ModesOptions options = read_options(analysis);
-  if (!case_model.effects.has(Effect::geometric_stiffening)) return solve_modes(system, options);
+solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_model,
+                               const solver::System& system) {
+  const solver::ModesOptions options = read_modes_options(analysis);
+  if (!case_model.effects.has(solver::Effect::geometric_stiffening))
+    return solver::solve_modes(system, options);
   refuse(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
          "it counts the modes of the unloaded model");
-  return solve_prestressed_modes(system, options).modes;
+  return solver::solve_prestressed_modes(system, options).modes;
 }
 
 }  // namespace
 
-StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, std::size_t step, bool draw,
-                         Recorder& record) {
+StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
+                         bool draw, Recorder& record) {
   if (analysis.has("rotating")) {
     refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
     refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
     if (case_model.path) throw analysis["rotating"].error("expected a model at one place");
-    return analyse_rotating(analysis, assemble(build_model(case_model, step)), case_model.effects, draw,
-                            record);
+    return analyse_rotating(analysis, solver::assemble(build_model(case_model, step)),
+                            case_model.effects, draw, record);
   }
-  const System system =
-      condensed(analysis, case_model, assemble(build_model(case_model, step), case_model.effects));
-  const ModalSolution modes = modes_of(analysis, case_model, system);
+  const solver::System system = condensed(
+      analysis, case_model, solver::assemble(build_model(case_model, step), case_model.effects));
+  const solver::ModalSolution modes = modes_of(analysis, case_model, system);
   StepResult result{modes.outcome, modes.counters, std::nullopt};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!modes.outcome.solved()) return result;
-  for (Index i = 0; i < modes.frequency.size(); ++i) {
+  for (solver::Index i = 0; i < modes.frequency.size(); ++i) {
     const std::string item = case_model.path ? std::to_string(i + 1) : "";
     record.add("frequency_Hz", item, modes.frequency[i], modes.roundoff[i]);
     record.add("frequency_roundoff", item, modes.roundoff[i]);
@@ -78,7 +82,8 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
     }
   }
   if (analysis.has("count_below_Hz")) {
-    const std::optional<Index> below = sturm_count(system, analysis.number("count_below_Hz"));
+    const std::optional<solver::Index> below =
+        solver::sturm_count(system, analysis.number("count_below_Hz"));
     record.add("modes_below", "", below ? static_cast<double>(*below) : std::nan(""));
   }
   record.add("rigid_motions", "", static_cast<double>(modes.zero_energy_mode_count));
@@ -86,4 +91,4 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -7,23 +7,23 @@
 #include "harness/input/case.h"
 #include "harness/input/catalogue.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// What came of all options together.
 struct OptionCounts {
   int tried = 0, solved = 0, singular = 0, not_converged = 0, refused = 0;
-  int not_finite = 0;        ///< solved, with a number that is none
-  int incomplete_reasons = 0;            ///< not solved, without the words that its reason must have
-  double disagreement = -1;  ///< of what must not change, over what round-off allows
+  int not_finite = 0;          ///< solved, with a number that is none
+  int incomplete_reasons = 0;  ///< not solved, without the words that its reason must have
+  double disagreement = -1;    ///< of what must not change, over what round-off allows
 
   void disagree(double by) { disagreement = std::max(disagreement, by); }
 };
 
 /// The options of one kind of analysis.
 struct Options {
-  std::vector<Json> combinations;  ///< patches of it
-  bool must_agree = false;              ///< none of them may change a number
+  std::vector<Json> combinations;           ///< patches of it
+  bool must_agree = false;                  ///< none of them may change a number
   std::vector<std::string> required_terms;  ///< in a reason why it does not converge
 };
 
@@ -66,8 +66,8 @@ double max_relative_difference(const Quantities& a, const Quantities& b) {
     for (std::size_t i = 0; i < added.values.size(); ++i) {
       const double x = added.values[i], y = other->second.values[i];
       const double allowed = std::abs(x) * (added.roundoff[i] + (i < other->second.roundoff.size()
-                                                                   ? other->second.roundoff[i]
-                                                                   : added.roundoff[i]));
+                                                                     ? other->second.roundoff[i]
+                                                                     : added.roundoff[i]));
       if (x != y) largest = std::max(largest, std::abs(x - y) / allowed);
     }
   }
@@ -82,22 +82,24 @@ bool all_finite(const Quantities& quantities) {
 }
 
 bool contains_all(const std::string& reason, const std::vector<std::string>& required_terms) {
-  return !reason.empty() && std::all_of(required_terms.begin(), required_terms.end(), [&](const std::string& word) {
-    return reason.find(word) != std::string::npos;
-  });
+  return !reason.empty() &&
+         std::all_of(required_terms.begin(), required_terms.end(), [&](const std::string& word) {
+           return reason.find(word) != std::string::npos;
+         });
 }
 
-void count(const AnalysisResult& result, const std::vector<std::string>& required_terms, OptionCounts& counts) {
+void count(const AnalysisResult& result, const std::vector<std::string>& required_terms,
+           OptionCounts& counts) {
   switch (result.outcome.status) {
-    case Status::solved:
+    case solver::Status::solved:
       ++counts.solved;
       counts.not_finite += all_finite(result.quantities) ? 0 : 1;
       return;
-    case Status::singular:
+    case solver::Status::singular:
       ++counts.singular;
       counts.incomplete_reasons += result.outcome.reason.empty() ? 1 : 0;
       return;
-    case Status::not_converged:
+    case solver::Status::not_converged:
       ++counts.not_converged;
       counts.incomplete_reasons += contains_all(result.outcome.reason, required_terms) ? 0 : 1;
       return;
@@ -106,7 +108,7 @@ void count(const AnalysisResult& result, const std::vector<std::string>& require
 
 /// Every combination of options on one computation.
 void run_combinations(const Document& document, const JsonView& place, const References& references,
-             OptionCounts& counts) {
+                      OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
   const Options options = options_of(place, kind);
   const Origin written = place.document().origin(place["of"].pointer());
@@ -193,4 +195,4 @@ void analyse_options(const Document& document, const References& references, Rec
   record_counts("", all, record);
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,13 +4,13 @@
 #include "harness/analysis/analysis_kinds.h"
 #include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Mass, its centre, and its moment of inertia about that centre.
 struct Body {
   double mass = 0;
-  Vector2d center = Vector2d::Zero();
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
   double inertia = 0;
 };
 
@@ -26,14 +26,14 @@ Body join(const Body& a, const Body& b) {
 
 /// The uniform elements that the member is cut into; the rotary inertia of the cross-section where
 /// the theory has it.
-Body body_of(const Model& model, const Member& member) {
-  const Vector2d start = model.nodes[static_cast<std::size_t>(member.nodes[0])].position;
-  const Vector2d end = model.nodes[static_cast<std::size_t>(member.nodes[1])].position;
+Body body_of(const solver::Model& model, const solver::Member& member) {
+  const Eigen::Vector2d start = model.nodes[static_cast<std::size_t>(member.nodes[0])].position;
+  const Eigen::Vector2d end = model.nodes[static_cast<std::size_t>(member.nodes[1])].position;
   const auto count = static_cast<double>(member.elements);
   const double length = (end - start).norm() / count;
-  const bool rotary = has_rotary_inertia(member.theory);
+  const bool rotary = solver::has_rotary_inertia(member.theory);
   Body whole;
-  for (Index e = 0; e < member.elements; ++e) {
+  for (solver::Index e = 0; e < member.elements; ++e) {
     const double s = (static_cast<double>(e) + 0.5) / count;
     const auto between = [s](double a, double b) { return a + s * (b - a); };
     const double mu = between(member.section.mass_per_length, member.end_section.mass_per_length);
@@ -47,13 +47,13 @@ Body body_of(const Model& model, const Member& member) {
   return whole;
 }
 
-Body body_of(const Model& model, const Triangle& triangle) {
+Body body_of(const solver::Model& model, const solver::Triangle& triangle) {
   const auto corner = [&](std::size_t i) {
     return model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
   };
-  const Vector2d a = corner(1) - corner(0), b = corner(2) - corner(0), c = b - a;
-  const Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
-  const double area = std::abs(cross(a, b)) / 2;
+  const Eigen::Vector2d a = corner(1) - corner(0), b = corner(2) - corner(0), c = b - a;
+  const solver::Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
+  const double area = std::abs(solver::cross(a, b)) / 2;
   const double mass = plate.material.rho * plate.thickness * area;
   return {mass, (corner(0) + corner(1) + corner(2)) / 3,
           mass * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm()) / 36};
@@ -66,19 +66,20 @@ void record_body(const std::string& name, const Body& body, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_properties(const CaseModel& case_model, std::size_t step, bool, Recorder& record) {
-  const Model model = build_model(case_model, step);
+StepResult analyse_properties(const CaseModel& case_model, std::size_t step, bool,
+                              Recorder& record) {
+  const solver::Model model = build_model(case_model, step);
   Body total;
-  for (const Member& member : model.members) {
+  for (const solver::Member& member : model.members) {
     const Body body = body_of(model, member);
-    const Vector2d span = model.nodes[static_cast<std::size_t>(member.nodes[1])].position -
-                          model.nodes[static_cast<std::size_t>(member.nodes[0])].position;
+    const Eigen::Vector2d span = model.nodes[static_cast<std::size_t>(member.nodes[1])].position -
+                                 model.nodes[static_cast<std::size_t>(member.nodes[0])].position;
     record.add("length_m", member.name, span.norm());
     record_body(member.name, body, record);
     total = join(total, body);
   }
   std::vector<Body> plates(model.plates.size());
-  for (const Triangle& triangle : model.triangles) {
+  for (const solver::Triangle& triangle : model.triangles) {
     Body& plate = plates[static_cast<std::size_t>(triangle.plate)];
     plate = join(plate, body_of(model, triangle));
   }
@@ -86,8 +87,8 @@ StepResult analyse_properties(const CaseModel& case_model, std::size_t step, boo
     record_body(model.plates[p].name, plates[p], record);
     total = join(total, plates[p]);
   }
-  for (const PointMass& mass : model.masses) {
-    const Node& node = model.nodes[static_cast<std::size_t>(mass.node)];
+  for (const solver::PointMass& mass : model.masses) {
+    const solver::Node& node = model.nodes[static_cast<std::size_t>(mass.node)];
     const Body body{mass.mass, node.position + mass.offset, mass.inertia};
     const bool is_platform = case_model.manipulator && model.plates.empty() && node.name == "P" &&
                              &mass == &model.masses.front();
@@ -100,4 +101,4 @@ StepResult analyse_properties(const CaseModel& case_model, std::size_t step, boo
   return {};
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,12 +4,12 @@
 #include <numbers>
 
 #include "harness/analysis/analysis_kinds.h"
+#include "harness/base/text.h"
 #include "harness/scene/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
-#include "harness/base/text.h"
 #include "solver/sensitivity/workspace_curves.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -17,15 +17,16 @@ constexpr double kCurveGap = std::numeric_limits<double>::quiet_NaN();  // betwe
 
 /// What one orientation comes to, by each reading of "the sensitivity".
 struct Reading {
-  double center_frequency = kCurveGap, center = kCurveGap;  ///< at the position that counts as the centre
-  double mean_frequency = kCurveGap, mean = kCurveGap;      ///< over all positions of the map
-  double largest = kCurveGap;                         ///< in magnitude, clear of the boundary
+  double center_frequency = kCurveGap,
+         center = kCurveGap;  ///< at the position that counts as the centre
+  double mean_frequency = kCurveGap, mean = kCurveGap;  ///< over all positions of the map
+  double largest = kCurveGap;                           ///< in magnitude, clear of the boundary
 };
 
 void record_curves(const std::string& name, const std::string& item,
-                   const std::vector<Polyline>& curves, Recorder& record) {
-  for (const Polyline& curve : curves) {
-    for (const Vector2d& point : curve) {
+                   const std::vector<solver::Polyline>& curves, Recorder& record) {
+  for (const solver::Polyline& curve : curves) {
+    for (const Eigen::Vector2d& point : curve) {
       record.add(name + "_x_m", item, point.x());
       record.add(name + "_y_m", item, point.y());
     }
@@ -41,8 +42,8 @@ double for_map(double value) {
   return std::round(value / unit) * unit;
 }
 
-void record_position(const SensitivityMap& map, Index j, Index i, const std::string& quantity,
-                     const std::string& item, Recorder& record) {
+void record_position(const solver::SensitivityMap& map, solver::Index j, solver::Index i,
+                     const std::string& quantity, const std::string& item, Recorder& record) {
   const double x = map.grid.x0 + static_cast<double>(i) * map.grid.dx;
   const double y = map.grid.y0 + static_cast<double>(j) * map.grid.dy;
   record.add("position_x_m", item, for_map(x));
@@ -52,12 +53,12 @@ void record_position(const SensitivityMap& map, Index j, Index i, const std::str
 }
 
 /// @param positions  record each of them, too
-Reading read_map(const SensitivityMap& map, const std::string& quantity, const std::string& item,
-                 double margin, bool positions, Recorder& record) {
+Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
+                 const std::string& item, double margin, bool positions, Recorder& record) {
   Reading reading{.mean_frequency = 0, .mean = 0, .largest = 0};
   double count = 0;
-  for (Index j = 0; j < map.grid.rows; ++j) {
-    for (Index i = 0; i < map.grid.columns; ++i) {
+  for (solver::Index j = 0; j < map.grid.rows; ++j) {
+    for (solver::Index i = 0; i < map.grid.columns; ++i) {
       const double rate = map.derivative(j, i);
       if (!std::isfinite(rate)) continue;  // out of reach, or on its boundary
       if (positions) record_position(map, j, i, quantity, item, record);
@@ -90,11 +91,13 @@ void record_rises(const std::vector<Reading>& readings, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& case_model, Recorder& record) {
+StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& case_model,
+                                   Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
-  static_cast<void>(read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
-  const ManipulatorDesign& design = *case_model.manipulator;
-  DesignParameter parameter;
+  static_cast<void>(
+      read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
+  const solver::ManipulatorDesign& design = *case_model.manipulator;
+  solver::DesignParameter parameter;
   if (const auto given = analysis.find("parameter")) parameter = read_design_parameter(*given);
   const std::string quantity = sensitivity_name(parameter.quantity);
   const double margin = analysis.get("serial_margin", 0.1);
@@ -104,14 +107,14 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
   for (const auto& entry : analysis["orientations_deg"].entries()) {
     const auto degrees = entry.second.get<double>();
     const std::string item = "phi-" + shortest(degrees);
-    Pose center = case_model.motion.front().pose;
+    solver::Pose center = case_model.motion.front().pose;
     center.phi = degrees * kDegree;
-    const PoseGrid grid =
-        reachable_grid(design.geometry, center.phi, analysis["columns"].get<Index>());
-    const SensitivityMap map = map_first_frequency(design, parameter, grid);
+    const solver::PoseGrid grid = solver::reachable_grid(design.geometry, center.phi,
+                                                         analysis["columns"].get<solver::Index>());
+    const solver::SensitivityMap map = solver::map_first_frequency(design, parameter, grid);
     result.counters += map.counters;
     Reading reading = read_map(map, quantity, item, margin, positions, record);
-    const FirstFrequency at_center = first_frequency(design, parameter, center);
+    const solver::FirstFrequency at_center = solver::first_frequency(design, parameter, center);
     result.outcome = at_center.outcome;
     if (!result.outcome.solved()) {
       result.outcome.reason.insert(0, "at the centre, " + item + ": ");
@@ -121,8 +124,10 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     reading.center = at_center.derivative;
     readings.push_back(reading);
     if (positions) {
-      record_curves("boundary", item, workspace_boundary(design.geometry, center.phi, 360), record);
-      record_curves("singular", item, parallel_singularities(design.geometry, grid), record);
+      record_curves("boundary", item, solver::workspace_boundary(design.geometry, center.phi, 360),
+                    record);
+      record_curves("singular", item, solver::parallel_singularities(design.geometry, grid),
+                    record);
     }
     record.add("center_frequency_Hz", "", reading.center_frequency);
     record.add("center_" + quantity, "", reading.center);
@@ -134,4 +139,4 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

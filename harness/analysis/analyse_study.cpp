@@ -2,14 +2,13 @@
 #include <limits>
 
 #include "harness/analysis/analysis_kinds.h"
+#include "harness/base/numbers.h"
+#include "harness/base/statistic.h"
 #include "harness/input/case.h"
 #include "harness/input/json_view.h"
-#include "harness/base/statistic.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The case with the inner analysis in place of the study.
 Document with_inner_analysis(Document document) {
@@ -20,8 +19,8 @@ Document with_inner_analysis(Document document) {
   return document;
 }
 
-double status_code(Status status) {
-  return status == Status::solved ? 0 : status == Status::singular ? 1 : 2;
+double status_code(solver::Status status) {
+  return status == solver::Status::solved ? 0 : status == solver::Status::singular ? 1 : 2;
 }
 
 /// A number and its round-off error as far as it is known (else negative).
@@ -30,7 +29,8 @@ struct KeptQuantity {
 };
 
 /// The one number of a quantity that is kept. @throws InputError  where there is none.
-KeptQuantity number_of(const Quantities& quantities, const std::string& name, const JsonView& keep) {
+KeptQuantity number_of(const Quantities& quantities, const std::string& name,
+                       const JsonView& keep) {
   const auto found = quantities.find(name);
   if (found == quantities.end()) {
     std::string some;
@@ -53,12 +53,12 @@ KeptQuantity number_of(const Quantities& quantities, const std::string& name, co
 }
 
 std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, const JsonView& keep,
-                             const References& references) {
+                                     const References& references) {
   if (!keep.has("reference")) {
     const KeptQuantity& one = keep.text("against") == "first" ? kept.front() : kept.back();
     return std::vector<double>(kept.size(), one.value);
   }
-  const Reference& reference = references.get(keep["reference"]);
+  const references::Reference& reference = references.get(keep["reference"]);
   if (reference.values.size() != kept.size()) {
     throw keep["reference"].error("expected a reference of " + std::to_string(kept.size()) +
                                   " values (got " + std::to_string(reference.values.size()) + ")");
@@ -74,7 +74,8 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
   const std::vector<double> reference_solution = reference_values(kept, keep, references);
   double min_error = std::numeric_limits<double>::infinity(), best = kNaN;
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    const double error = std::abs(kept[i].value - reference_solution[i]) / std::abs(reference_solution[i]);
+    const double error =
+        std::abs(kept[i].value - reference_solution[i]) / std::abs(reference_solution[i]);
     record.add("relative_error", name, error);
     if (error < min_error) {
       min_error = error;
@@ -97,12 +98,12 @@ std::vector<Level> trajectory_levels(const Document& document, const JsonView& s
   if (!case_model.path) throw study["trajectory"].error("expected a model with a trajectory");
   const Origin written = document.origin("/model/trajectory");
   std::vector<Level> found;
-  for (const TrajectoryPoint& point : case_model.motion) {
-    const Pose& pose = point.pose;
+  for (const solver::TrajectoryPoint& point : case_model.motion) {
+    const solver::Pose& pose = point.pose;
     const Json place = {{"x_m", pose.x}, {"y_m", pose.y}, {"phi_rad", pose.phi}};
     found.push_back({point.time, document});
     found.back().document.apply_patch(written.file, written.pointer,
-                              {{"model", {{"trajectory", nullptr}, {"pose", place}}}});
+                                      {{"model", {{"trajectory", nullptr}, {"pose", place}}}});
   }
   return found;
 }
@@ -137,7 +138,8 @@ StepResult analyse_study(const Document& document, const References& references,
     record.add("status", "", status_code(found.outcome.status));
     for (std::size_t k = 0; k < keep.size(); ++k) {
       const auto& [name, place] = keep[k];
-      kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place) : KeptQuantity{});
+      kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place)
+                                               : KeptQuantity{});
     }
     result.counters += found.counters;
     if (found.drawing) result.drawing = std::move(found.drawing);
@@ -150,4 +152,4 @@ StepResult analyse_study(const Document& document, const References& references,
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,22 +6,22 @@
 #include "harness/analysis/motion_history.h"
 #include "harness/scene/outputs.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Displacements, velocities and, where an output asks for them, section forces of a sample.
-MovingState state_of(const System& system, const MotionHistory& motion, Index sample,
-                     bool with_forces) {
+MovingState state_of(const solver::System& system, const MotionHistory& motion,
+                     solver::Index sample, bool with_forces) {
   MovingState state;
-  state.displacement = node_motion(system, motion.q.col(sample));
-  state.velocity = node_motion(system, motion.v.col(sample));
-  state.acceleration = node_motion(system, motion.a.col(sample));
+  state.displacement = solver::node_motion(system, motion.q.col(sample));
+  state.velocity = solver::node_motion(system, motion.v.col(sample));
+  state.acceleration = solver::node_motion(system, motion.a.col(sample));
   if (!with_forces) return state;
-  ElasticState elastic;
+  solver::ElasticState elastic;
   elastic.u = system.T * motion.q.col(sample);
   elastic.acceleration = system.T * motion.a.col(sample);
   elastic.load_factor = motion.load_factor[static_cast<std::size_t>(sample)];
-  recover(system, elastic, state.forces);
+  postprocess(system, elastic, state.forces);
   return state;
 }
 
@@ -42,7 +42,7 @@ class EnergyDrift {
   double start_ = -1, drift_ = 0, max_kinetic_ = 0;
 };
 
-void record_energy(const System& system, const MotionHistory& motion, Index sample,
+void record_energy(const solver::System& system, const MotionHistory& motion, solver::Index sample,
                    EnergyDrift& drift, Recorder& record) {
   const Eigen::VectorXd q = motion.q.col(sample);
   const Eigen::VectorXd v = motion.v.col(sample);
@@ -56,7 +56,8 @@ void record_energy(const System& system, const MotionHistory& motion, Index samp
 void record_peaks(const MotionHistory& motion, const std::vector<Output>& outputs,
                   const Eigen::MatrixXd& values, Recorder& record) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const Peak found = peak(motion.time, values.row(static_cast<Index>(i)).transpose());
+    const solver::Peak found =
+        solver::peak(motion.time, values.row(static_cast<solver::Index>(i)).transpose());
     record.add(outputs[i].prefixed("peak_"), "", found.value);
     record.add("peak_time_s", outputs[i].name, found.time);
   }
@@ -64,10 +65,10 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
 
 }  // namespace
 
-StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
-                             bool draw, Recorder& record) {
+StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model,
+                             std::size_t step, bool draw, Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model at one place");
-  const System system = assemble(build_model(case_model, step));
+  const solver::System system = solver::assemble(build_model(case_model, step));
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const MotionHistory motion = compute_motion(analysis, system);
   StepResult result{motion.outcome, motion.counters, std::nullopt};
@@ -77,10 +78,10 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
                                        [](const Output& one) { return one.needs_forces(); });
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
-  for (Index sample = 0; sample < values.cols(); ++sample) {
+  for (solver::Index sample = 0; sample < values.cols(); ++sample) {
     const MovingState state = state_of(system, motion, sample, with_forces);
     record.add("time_s", "", motion.time[static_cast<std::size_t>(sample)]);
-    for (Index i = 0; i < values.rows(); ++i) {
+    for (solver::Index i = 0; i < values.rows(); ++i) {
       const Output& output = outputs[static_cast<std::size_t>(i)];
       values(i, sample) = value_of(output, system.model, state);
       record.add(output.name, "", values(i, sample));
@@ -94,4 +95,4 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

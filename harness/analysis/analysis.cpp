@@ -3,15 +3,17 @@
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/input/json_view.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-StepResult analyse_step(const std::string& kind, const JsonView& analysis, const CaseModel& case_model,
-                        std::size_t step, bool draw, Recorder& record) {
+StepResult analyse_step(const std::string& kind, const JsonView& analysis,
+                        const CaseModel& case_model, std::size_t step, bool draw,
+                        Recorder& record) {
   if (kind == "modes") return analyse_modes(analysis, case_model, step, draw, record);
   if (kind == "statics") return analyse_statics(case_model, step, draw, record);
   if (kind == "buckling") return analyse_buckling(analysis, case_model, step, draw, record);
-  if (kind == "large-statics") return analyse_large_statics(analysis, case_model, step, draw, record);
+  if (kind == "large-statics")
+    return analyse_large_statics(analysis, case_model, step, draw, record);
   if (kind == "harmonic") return analyse_harmonic(analysis, case_model, step, draw, record);
   if (kind == "transient") return analyse_transient(analysis, case_model, step, draw, record);
   if (kind == "kinematics") return analyse_kinematics(case_model, step, draw, record);
@@ -19,8 +21,8 @@ StepResult analyse_step(const std::string& kind, const JsonView& analysis, const
 }
 
 /// Step by step along the path; ends where a step has no solution.
-StepResult analyse_steps(const std::string& kind, const JsonView& analysis, const CaseModel& case_model,
-                         bool draw, Recorder& record) {
+StepResult analyse_steps(const std::string& kind, const JsonView& analysis,
+                         const CaseModel& case_model, bool draw, Recorder& record) {
   StepResult all;
   for (std::size_t step = 0; step < case_model.steps(); ++step) {
     record_path(case_model, step, record);
@@ -34,10 +36,12 @@ StepResult analyse_steps(const std::string& kind, const JsonView& analysis, cons
   return all;
 }
 
-StepResult analyse_case_model(const std::string& kind, const JsonView& analysis, const CaseModel& case_model,
-                         bool draw, Recorder& record) {
-  if (kind == "inverse-dynamics") return analyse_inverse_dynamics(analysis, case_model, draw, record);
-  if (kind == "forward-dynamics") return analyse_forward_dynamics(analysis, case_model, draw, record);
+StepResult analyse_case_model(const std::string& kind, const JsonView& analysis,
+                              const CaseModel& case_model, bool draw, Recorder& record) {
+  if (kind == "inverse-dynamics")
+    return analyse_inverse_dynamics(analysis, case_model, draw, record);
+  if (kind == "forward-dynamics")
+    return analyse_forward_dynamics(analysis, case_model, draw, record);
   if (kind == "large-motion") return analyse_large_motion(analysis, case_model, draw, record);
   if (kind == "grnn") return analyse_grnn(analysis, case_model, draw, record);
   if (kind == "elastodynamics") return analyse_elastodynamics(analysis, case_model, draw, record);
@@ -61,14 +65,14 @@ AnalysisResult result_of(StepResult found, Recorder& record) {
 
 void record_path(const CaseModel& case_model, std::size_t step, Recorder& record) {
   if (!case_model.path) return;
-  const TrajectoryPoint& point = case_model.motion[step];
+  const solver::TrajectoryPoint& point = case_model.motion[step];
   record.add("time_s", "", point.time);
   record.add("pose_x_m", "", point.pose.x);
   record.add("pose_y_m", "", point.pose.y);
   record.add("pose_phi_rad", "", point.pose.phi);
 }
 
-Outcome at_point(const CaseModel& case_model, std::size_t step, Outcome outcome) {
+solver::Outcome at_point(const CaseModel& case_model, std::size_t step, solver::Outcome outcome) {
   if (case_model.path) outcome.reason.insert(0, "point " + std::to_string(step) + ": ");
   return outcome;
 }
@@ -111,9 +115,9 @@ AnalysisResult analyse(const Document& document, const References& references,
     result.analysis = kind;
     result.effects = std::move(choice.reasons);
     return result;
-  } catch (const ModelError& error) {
+  } catch (const solver::ModelError& error) {
     throw model_error(document, error);
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -3,15 +3,15 @@
 #include <optional>
 #include <string>
 
-#include "harness/input/document.h"
-#include "harness/scene/drawing.h"
-#include "harness/base/quantity.h"
-#include "harness/input/reference_library.h"
 #include "harness/analysis/case_effects.h"
+#include "harness/base/quantity.h"
+#include "harness/input/document.h"
+#include "harness/input/reference_library.h"
+#include "harness/scene/drawing.h"
 #include "solver/assembly/system.h"
 
 /// One computation: a case with its patches in, numbers out.
-namespace trammel {
+namespace trammel::harness {
 
 /// What to keep beside the numbers.
 struct AnalysisOptions {
@@ -26,10 +26,10 @@ struct EvaluationTime {
 };
 
 struct AnalysisResult {
-  Outcome outcome;
+  solver::Outcome outcome;
   Quantities quantities;
   std::optional<Drawing> drawing;
-  Counters counters;
+  solver::Counters counters;
   std::vector<EvaluationTime> timings = {};
   std::string analysis;               ///< its kind
   std::vector<EffectReason> effects;  ///< what the computation had, and why
@@ -42,4 +42,4 @@ struct AnalysisResult {
 /// The one key of "analysis": "modes", "statics", ...
 [[nodiscard]] std::string analysis_kind(const Document& document);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,21 +6,21 @@
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/analysis/rotating_state.h"
 #include "harness/base/table.h"
-#include "harness/scene/time_reader.h"
 #include "harness/base/text.h"
-#include "solver/effects/dynamic_effect_estimates.h"
+#include "harness/scene/time_reader.h"
 #include "solver/assembly/restrict_model_effects.h"
+#include "solver/effects/dynamic_effect_estimates.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-Effects& carried_by(EffectScope& scope, Effect effect) {
+solver::Effects& carried_by(solver::EffectScope& scope, solver::Effect effect) {
   return scope.dependents[static_cast<std::size_t>(effect)];
 }
 
 /// A word of the analysis itself that says whether there is an effect.
 struct EffectKey {
-  Effect effect;
+  solver::Effect effect;
   std::vector<const char*> place;  ///< below the analysis
   bool otherwise;                  ///< where nothing is said
 };
@@ -31,13 +31,13 @@ bool is_rotating(const Document& document) {
 
 std::vector<EffectKey> effect_keys(const Document& document) {
   const std::string kind = analysis_kind(document);
-  if (kind == "statics") return {{Effect::geometric_stiffening, {"second_order"}, false}};
+  if (kind == "statics") return {{solver::Effect::geometric_stiffening, {"second_order"}, false}};
   if (kind == "elastodynamics") {
-    return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
-            {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
+    return {{solver::Effect::inertia, {"effects", "elastic_inertia"}, true},
+            {solver::Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
   }
-  if (is_rotating(document)) return {{Effect::gyroscopic, {"rotating", "coriolis"}, true}};
-  return {{Effect::geometric_stiffening, {"prestressed"}, false}};
+  if (is_rotating(document)) return {{solver::Effect::gyroscopic, {"rotating", "coriolis"}, true}};
+  return {{solver::Effect::geometric_stiffening, {"prestressed"}, false}};
 }
 
 /// What the analysis says of it, if anything.
@@ -49,75 +49,86 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
   return place;
 }
 
-EffectScope statics_scope(const Model& model) {
-  EffectScope scope;
-  scope.applicable = applicable_effects(model).without(Effect::rotary_inertia);
-  if (!scope.applicable.has(Effect::gravity)) {
-    scope.applicable = scope.applicable.without(Effect::link_mass);
+solver::EffectScope statics_scope(const solver::Model& model) {
+  solver::EffectScope scope;
+  scope.applicable = solver::applicable_effects(model).without(solver::Effect::rotary_inertia);
+  if (!scope.applicable.has(solver::Effect::gravity)) {
+    scope.applicable = scope.applicable.without(solver::Effect::link_mass);
   }
-  scope.applicable =
-      scope.applicable.with(Effect::geometric_stiffening).with(Effect::large_displacement);
-  carried_by(scope, Effect::gravity) = Effects().with(Effect::link_mass);
-  const Effects large = Effects().with(Effect::large_displacement);
-  carried_by(scope, Effect::geometric_stiffening) = large;
-  if (is_axially_overconstrained(model)) carried_by(scope, Effect::axial_flexibility) = large;
+  scope.applicable = scope.applicable.with(solver::Effect::geometric_stiffening)
+                         .with(solver::Effect::large_displacement);
+  carried_by(scope, solver::Effect::gravity) = solver::Effects().with(solver::Effect::link_mass);
+  const solver::Effects large = solver::Effects().with(solver::Effect::large_displacement);
+  carried_by(scope, solver::Effect::geometric_stiffening) = large;
+  if (solver::is_axially_overconstrained(model))
+    carried_by(scope, solver::Effect::axial_flexibility) = large;
   return scope;
 }
 
-bool is_loaded(const Model& model) {
+bool is_loaded(const solver::Model& model) {
   const bool on_members = std::any_of(model.members.begin(), model.members.end(),
-                                      [](const Member& m) { return !m.load.isZero(0); });
+                                      [](const solver::Member& m) { return !m.load.isZero(0); });
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
-EffectScope modes_scope(const Model& model) {
-  EffectScope scope;
-  scope.applicable = applicable_effects(model).with(Effect::inertia);
-  scope.required = Effects().with(Effect::inertia);
-  if (is_loaded(model) || scope.applicable.has(Effect::gravity)) {
-    scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
+solver::EffectScope modes_scope(const solver::Model& model) {
+  solver::EffectScope scope;
+  scope.applicable = solver::applicable_effects(model).with(solver::Effect::inertia);
+  scope.required = solver::Effects().with(solver::Effect::inertia);
+  if (is_loaded(model) || scope.applicable.has(solver::Effect::gravity)) {
+    scope.applicable = scope.applicable.with(solver::Effect::geometric_stiffening);
   }
-  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
-  carried_by(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
+  carried_by(scope, solver::Effect::link_mass) =
+      solver::Effects().with(solver::Effect::rotary_inertia);
+  carried_by(scope, solver::Effect::geometric_stiffening) =
+      solver::Effects().with(solver::Effect::gravity);
   return scope;
 }
 
 /// Whatever the frame holds as it turns stays.
-EffectScope rotating_scope(const Document& document, const Model& model) {
-  EffectScope scope;
-  scope.applicable = applicable_effects(model).with(Effect::inertia).with(Effect::geometric_stiffening);
-  scope.required = Effects().with(Effect::inertia);
-  if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
+solver::EffectScope rotating_scope(const Document& document, const solver::Model& model) {
+  solver::EffectScope scope;
+  scope.applicable = solver::applicable_effects(model)
+                         .with(solver::Effect::inertia)
+                         .with(solver::Effect::geometric_stiffening);
+  scope.required = solver::Effects().with(solver::Effect::inertia);
+  if (scope.applicable.has(solver::Effect::gravity))
+    scope.required = scope.required.with(solver::Effect::gravity);
   const JsonView rotating = JsonView(document)["analysis"]["modes"]["rotating"];
   // Coriolis forces point out of the plane where the axis lies in it.
   if (rotating.get<std::string>("axis", "normal") == "normal") {
-    scope.applicable = scope.applicable.with(Effect::gyroscopic);
+    scope.applicable = scope.applicable.with(solver::Effect::gyroscopic);
   }
-  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  carried_by(scope, solver::Effect::link_mass) =
+      solver::Effects().with(solver::Effect::rotary_inertia);
   return scope;
 }
 
-EffectScope motion_scope(const Document& document, const Model& model) {
-  EffectScope scope;
-  scope.applicable = applicable_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
-  const RayleighDamping damping =
+solver::EffectScope motion_scope(const Document& document, const solver::Model& model) {
+  solver::EffectScope scope;
+  scope.applicable = solver::applicable_effects(model)
+                         .with(solver::Effect::inertia)
+                         .with(solver::Effect::gyroscopic);
+  const solver::RayleighDamping damping =
       read_rayleigh(JsonView(document)["analysis"]["elastodynamics"].find("damping"));
-  const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
+  const solver::Effects with_velocity =
+      solver::Effects().with(solver::Effect::damping).with(solver::Effect::gyroscopic);
   if (damping.mass != 0 || damping.stiffness != 0) {
-    scope.applicable = scope.applicable.with(Effect::damping);
+    scope.applicable = scope.applicable.with(solver::Effect::damping);
   }
   // Inextensible links turn, and constraints that turn with them cost more than stretch does.
-  if (scope.applicable.has(Effect::axial_flexibility)) {
-    scope.required = Effects().with(Effect::axial_flexibility);
+  if (scope.applicable.has(solver::Effect::axial_flexibility)) {
+    scope.required = solver::Effects().with(solver::Effect::axial_flexibility);
   }
-  carried_by(scope, Effect::inertia) = with_velocity;
-  carried_by(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  carried_by(scope, solver::Effect::inertia) = with_velocity;
+  carried_by(scope, solver::Effect::link_mass) =
+      solver::Effects().with(solver::Effect::rotary_inertia);
   return scope;
 }
 
 /// Without "effects": the parts' own words, and the analysis's.
-Effects stated_effects(const Document& document, const EffectScope& scope) {
-  Effects stated = scope.applicable.without(Effect::large_displacement);
+solver::Effects stated_effects(const Document& document, const solver::EffectScope& scope) {
+  solver::Effects stated = scope.applicable.without(solver::Effect::large_displacement);
   for (const EffectKey& effect_key : effect_keys(document)) {
     const auto specified = find_key(document, effect_key);
     if (specified ? specified->get<bool>() : effect_key.otherwise) continue;
@@ -127,33 +138,33 @@ Effects stated_effects(const Document& document, const EffectScope& scope) {
 }
 
 /// Why a scene does not have an effect.
-std::string describe_missing(Effect effect, const std::string& kind) {
+std::string describe_missing(solver::Effect effect, const std::string& kind) {
   switch (effect) {
-    case Effect::axial_flexibility:
+    case solver::Effect::axial_flexibility:
       return "no member both bends and stretches ('axial')";
-    case Effect::shear:
+    case solver::Effect::shear:
       return "the members do not shear ('beam')";
-    case Effect::rotary_inertia:
+    case solver::Effect::rotary_inertia:
       return kind == "statics" ? "nothing moves in statics"
                                : "the sections have no rotary inertia ('beam')";
-    case Effect::platform_flexibility:
+    case solver::Effect::platform_flexibility:
       return "there is no platform of triangles ('kind')";
-    case Effect::joint_compliance:
+    case solver::Effect::joint_compliance:
       return "no joint has a spring";
-    case Effect::link_mass:
+    case solver::Effect::link_mass:
       return kind == "statics" ? "no member has a weight" : "no member has a mass";
-    case Effect::gravity:
+    case solver::Effect::gravity:
       return "nothing has a weight ('gravity_m_s2')";
-    case Effect::inertia:
-    case Effect::gyroscopic:
+    case solver::Effect::inertia:
+    case solver::Effect::gyroscopic:
       return kind == "statics" ? "nothing moves in statics" : "the frame does not turn";
-    case Effect::damping:
+    case solver::Effect::damping:
       return kind == "statics" ? "nothing moves in statics"
              : kind == "modes" ? "modes are those of the undamped model"
                                : "there is no 'damping'";
-    case Effect::geometric_stiffening:
+    case solver::Effect::geometric_stiffening:
       return kind == "modes" ? "there are no loads" : "it belongs to the analysis 'large-motion'";
-    case Effect::large_displacement:
+    case solver::Effect::large_displacement:
       return kind == "modes" ? "modes are small motions"
                              : "it belongs to the analysis 'large-motion'";
   }
@@ -165,23 +176,24 @@ std::string percent(double share) {
 }
 
 /// Why an effect stays, whatever it is worth.
-const char* describe_required(Effect effect, const std::string& kind) {
-  return kind == "elastodynamics" && effect == Effect::axial_flexibility
+const char* describe_required(solver::Effect effect, const std::string& kind) {
+  return kind == "elastodynamics" && effect == solver::Effect::axial_flexibility
              ? "kept, for constraints that turn with the links cost more than it does"
              : "the analysis is of it";
 }
 
-std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope, Effects chosen,
-                                        const std::string& kind, const std::string& effect_key) {
+std::vector<EffectReason> reasons_without_estimates(const solver::EffectScope& scope,
+                                                    solver::Effects chosen, const std::string& kind,
+                                                    const std::string& effect_key) {
   std::vector<EffectReason> reasons;
-  for (const Effect effect : Effects::all().list()) {
+  for (const solver::Effect effect : solver::Effects::all().list()) {
     EffectReason one;
     one.effect = effect;
     one.applicable = scope.applicable.has(effect);
     one.active = one.applicable && chosen.has(effect);
-    one.why = !one.applicable                ? describe_missing(effect, kind)
+    one.why = !one.applicable              ? describe_missing(effect, kind)
               : scope.required.has(effect) ? describe_required(effect, kind)
-              : one.active                     ? effect_key
+              : one.active                 ? effect_key
                                            : "not " + effect_key;
     reasons.push_back(std::move(one));
   }
@@ -189,22 +201,24 @@ std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope, Ef
 }
 
 /// Names, which the schema has checked.
-Effects read_names(const JsonView& names, const EffectScope& scope, const std::string& kind) {
-  Effects chosen = scope.required;
+solver::Effects read_names(const JsonView& names, const solver::EffectScope& scope,
+                           const std::string& kind) {
+  solver::Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
-    const auto effect = effect_named(place.get<std::string>());
+    const auto effect = solver::effect_named(place.get<std::string>());
     if (!scope.applicable.has(*effect)) {
       throw place.error("expected an effect that the scene admits (got '" +
-                        std::string(name_of(*effect)) + "': " + describe_missing(*effect, kind) + ")");
+                        std::string(solver::name_of(*effect)) +
+                        "': " + describe_missing(*effect, kind) + ")");
     }
     chosen = chosen.with(*effect);
   }
-  for (const Effect effect : chosen.list()) {
-    for (const Effect carrier : scope.applicable.list()) {
+  for (const solver::Effect effect : chosen.list()) {
+    for (const solver::Effect carrier : scope.applicable.list()) {
       const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
       if (carried && !chosen.has(carrier)) {
-        throw names.error("expected '" + std::string(name_of(carrier)) + "' beside '" +
-                          std::string(name_of(effect)) + "', which is nothing without it");
+        throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' beside '" +
+                          std::string(solver::name_of(effect)) + "', which is nothing without it");
       }
     }
   }
@@ -212,30 +226,31 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const std::s
 }
 
 /// The whole model at a few of its poses, on a mesh that is good enough to decide by.
-std::vector<Model> sample_poses(const CaseModel& case_model) {
+std::vector<solver::Model> sample_poses(const CaseModel& case_model) {
   constexpr std::size_t kPoses = 4;
-  constexpr Index kElements = 8;
+  constexpr solver::Index kElements = 8;
   const std::size_t count = std::min(kPoses, case_model.steps());
-  std::vector<Model> models;
+  std::vector<solver::Model> models;
   for (std::size_t i = 0; i < count; ++i) {
     models.push_back(build_model(case_model, i * case_model.steps() / count));
-    for (Member& member : models.back().members) {
+    for (solver::Member& member : models.back().members) {
       member.elements = std::min(member.elements, kElements);
     }
   }
   return models;
 }
 
-std::string describe_decision(const EffectEstimate& estimate, bool active, double tolerance,
-                      const EffectScope& scope, Effects chosen) {
+std::string describe_decision(const solver::EffectEstimate& estimate, bool active, double tolerance,
+                              const solver::EffectScope& scope, solver::Effects chosen) {
   const std::string alone = percent(estimate.size());
   if (!active) {
     return "without it the results change by " + alone + ", within " + percent(tolerance) +
            (estimate.size() > 0 ? " together with all that is off" : "");
   }
-  for (const Effect carried : scope.dependents[static_cast<std::size_t>(estimate.effect)].list()) {
+  for (const solver::Effect carried :
+       scope.dependents[static_cast<std::size_t>(estimate.effect)].list()) {
     if (chosen.has(carried) && estimate.size() < tolerance) {
-      return std::string(name_of(carried)) + " needs it";
+      return std::string(solver::name_of(carried)) + " needs it";
     }
   }
   if (estimate.size() > tolerance) {
@@ -245,25 +260,28 @@ std::string describe_decision(const EffectEstimate& estimate, bool active, doubl
          percent(tolerance) + " less a tenth in hand";
 }
 
-EffectEstimates estimate(const Document& document, const CaseModel& case_model, const EffectScope& scope) {
+solver::EffectEstimates estimate(const Document& document, const CaseModel& case_model,
+                                 const solver::EffectScope& scope) {
   const std::string kind = analysis_kind(document);
   const JsonView analysis = JsonView(document)["analysis"][kind];
   if (kind == "elastodynamics") {
-    return estimate_motion_effects(read_elastodynamics(analysis, case_model), scope.applicable);
+    return solver::estimate_motion_effects(read_elastodynamics(analysis, case_model),
+                                           scope.applicable);
   }
-  const std::vector<Model> poses = sample_poses(case_model);
-  if (kind == "statics") return estimate_static_effects(poses, scope.applicable);
+  const std::vector<solver::Model> poses = sample_poses(case_model);
+  if (kind == "statics") return solver::estimate_static_effects(poses, scope.applicable);
   if (is_rotating(document)) {
-    return estimate_rotating_effects(poses.front(), scope.applicable, read_rotating_options(analysis),
-                                     read_speeds(analysis));
+    return solver::estimate_rotating_effects(
+        poses.front(), scope.applicable, read_rotating_options(analysis), read_speeds(analysis));
   }
-  return estimate_modal_effects(poses, scope.applicable, analysis["count"].get<Index>());
+  return solver::estimate_modal_effects(poses, scope.applicable,
+                                        analysis["count"].get<solver::Index>());
 }
 
 EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,
-                                  const EffectScope& scope, double tolerance) {
+                                  const solver::EffectScope& scope, double tolerance) {
   const std::string kind = analysis_kind(document);
-  const EffectEstimates estimates = estimate(document, case_model, scope);
+  const solver::EffectEstimates estimates = estimate(document, case_model, scope);
   EffectChoice choice;
   choice.tolerance = tolerance;
   choice.counters = estimates.counters;
@@ -272,7 +290,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
       scope, choice.chosen, kind,
       "decided: there is no linear solution to decide by (" + estimates.outcome.reason + ")");
   if (!estimates.outcome.solved()) return choice;
-  for (const EffectEstimate& estimate : estimates.effects) {
+  for (const solver::EffectEstimate& estimate : estimates.effects) {
     EffectReason& one = choice.reasons[static_cast<std::size_t>(estimate.effect)];
     if (scope.required.has(estimate.effect)) continue;
     one.number = estimate.number;
@@ -289,17 +307,18 @@ bool knows_effects(const Document& document) {
   return kind == "statics" || kind == "modes" || kind == "elastodynamics";
 }
 
-EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
-  const Model model = build_model(case_model, 0);
+solver::EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
+  const solver::Model model = build_model(case_model, 0);
   const std::string kind = analysis_kind(document);
-  EffectScope scope = kind == "statics"          ? statics_scope(model)
-                      : kind == "elastodynamics" ? motion_scope(document, model)
-                      : is_rotating(document)    ? rotating_scope(document, model)
-                                                 : modes_scope(model);
+  solver::EffectScope scope = kind == "statics"          ? statics_scope(model)
+                              : kind == "elastodynamics" ? motion_scope(document, model)
+                              : is_rotating(document)    ? rotating_scope(document, model)
+                                                         : modes_scope(model);
   if (!model.triangles.empty()) {
-    scope.applicable = scope.applicable.with(Effect::platform_flexibility);
+    scope.applicable = scope.applicable.with(solver::Effect::platform_flexibility);
     // Plates that are no platform are what there is.
-    if (!case_model.manipulator) scope.required = scope.required.with(Effect::platform_flexibility);
+    if (!case_model.manipulator)
+      scope.required = scope.required.with(solver::Effect::platform_flexibility);
   }
   return scope;
 }
@@ -309,11 +328,11 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   if (!knows_effects(document)) {
     if (requested)
       throw requested->error(std::string("expected an analysis that knows effects: ") +
-                         kAnalysesWithEffects);
+                             kAnalysesWithEffects);
     return {};
   }
   const std::string kind = analysis_kind(document);
-  const EffectScope scope = effect_scope(document, case_model);
+  const solver::EffectScope scope = effect_scope(document, case_model);
   EffectChoice choice;
   if (!requested) {
     choice.chosen = stated_effects(document, scope);
@@ -323,58 +342,62 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   for (const EffectKey& effect_key : effect_keys(document)) {
     const auto specified = find_key(document, effect_key);
     if (!specified) continue;
-    throw specified->error("expected 'effects' alone to say it: " + std::string(name_of(effect_key.effect)));
+    throw specified->error("expected 'effects' alone to say it: " +
+                           std::string(solver::name_of(effect_key.effect)));
   }
   if (requested->json().is_object()) {
-    return choose_automatically(document, case_model, scope, (*requested)["auto"].number("tolerance"));
+    return choose_automatically(document, case_model, scope,
+                                (*requested)["auto"].number("tolerance"));
   }
   choice.chosen = read_names(*requested, scope, kind);
   choice.reasons = reasons_without_estimates(scope, choice.chosen, kind, "asked for");
   return choice;
 }
 
-std::string describe_effect_number(Effect effect, const std::string& analysis) {
+std::string describe_effect_number(solver::Effect effect, const std::string& analysis) {
   const bool statics = analysis == "statics", motion = analysis == "elastodynamics";
   switch (effect) {
-    case Effect::axial_flexibility:
+    case solver::Effect::axial_flexibility:
       return statics ? "(r / L)^2, the squared slenderness" : "share of the strain energy";
-    case Effect::shear:
+    case solver::Effect::shear:
       return statics ? "12 E I / (kappa G A L^2)" : "share of the strain energy";
-    case Effect::platform_flexibility:
-    case Effect::joint_compliance:
+    case solver::Effect::platform_flexibility:
+    case solver::Effect::joint_compliance:
       return "share of the strain energy";
-    case Effect::rotary_inertia:
+    case solver::Effect::rotary_inertia:
       return "share of the kinetic energy";
-    case Effect::link_mass:
+    case solver::Effect::link_mass:
       return statics ? "weight of members over all loads, in energy"
                      : "share of the kinetic energy";
-    case Effect::gravity:
+    case solver::Effect::gravity:
       return statics  ? "other weights over all loads, in energy"
              : motion ? "weights over all loads, in energy"
                       : "share of the stiffness";
-    case Effect::geometric_stiffening:
+    case solver::Effect::geometric_stiffening:
       return statics ? "load over buckling load, tension positive" : "share of the stiffness";
-    case Effect::large_displacement:
+    case solver::Effect::large_displacement:
       return "largest rotation [rad]";
-    case Effect::inertia:
+    case solver::Effect::inertia:
       return motion ? "(speed of the path over the first frequency)^2" : "";
-    case Effect::damping:
+    case solver::Effect::damping:
       return "damping ratio of the first mode";
-    case Effect::gyroscopic:
+    case solver::Effect::gyroscopic:
       return motion ? "twice the fastest turning over the first frequency"
                     : "share of the stiffness";
   }
   return "";
 }
 
-Document with_effects(const Document& document, Effects effects) {
+Document with_effects(const Document& document, solver::Effects effects) {
   Document changed = document;
   Json names = Json::array();
-  for (const Effect effect : effects.list()) names.push_back(std::string(name_of(effect)));
+  for (const solver::Effect effect : effects.list())
+    names.push_back(std::string(solver::name_of(effect)));
   Json patch = {{"effects", names}};
   for (const EffectKey& effect_key : effect_keys(document)) {
     std::string pointer = "/analysis/" + analysis_kind(document);
-    const bool below = effect_key.place.size() > 1;  // what holds the word must not come from nothing
+    const bool below =
+        effect_key.place.size() > 1;  // what holds the word must not come from nothing
     if (below && !find_key(document, effect_key)) continue;
     for (const char* key : effect_key.place) pointer += std::string("/") + key;
     patch[JsonPointer(pointer)] = nullptr;
@@ -383,4 +406,4 @@ Document with_effects(const Document& document, Effects effects) {
   return changed;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

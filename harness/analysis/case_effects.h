@@ -8,11 +8,11 @@
 #include "harness/scene/case_model.h"
 #include "solver/effects/effect_estimates.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// One effect in a case, and why it is there or not.
 struct EffectReason {
-  Effect effect{};
+  solver::Effect effect{};
   bool applicable = false;  ///< what the parts and the analysis have at all
   bool active = false;
   std::optional<double> number;  ///< dimensionless; `describe_effect_number` says of what
@@ -22,10 +22,10 @@ struct EffectReason {
 
 /// What came of a case's "effects".
 struct EffectChoice {
-  Effects chosen = Effects::all();
+  solver::Effects chosen = solver::Effects::all();
   std::optional<double> tolerance;    ///< of "auto"
   std::vector<EffectReason> reasons;  ///< of every effect; empty where the analysis knows none
-  Counters counters;                  ///< what the choice has cost
+  solver::Counters counters;          ///< what the choice has cost
 };
 
 inline constexpr const char* kAnalysesWithEffects = "statics, modes or elastodynamics";
@@ -34,7 +34,8 @@ inline constexpr const char* kAnalysesWithEffects = "statics, modes or elastodyn
 [[nodiscard]] bool knows_effects(const Document& document);
 
 /// What the analysis of the whole scene can do with.
-[[nodiscard]] EffectScope effect_scope(const Document& document, const CaseModel& case_model);
+[[nodiscard]] solver::EffectScope effect_scope(const Document& document,
+                                               const CaseModel& case_model);
 
 /// Reads "effects": names, or {"auto": {"tolerance": ...}}; without it, what the words of the parts
 /// and of the analysis say. `case_model` is the whole scene, with all effects.
@@ -42,9 +43,10 @@ inline constexpr const char* kAnalysesWithEffects = "statics, modes or elastodyn
 [[nodiscard]] EffectChoice choose_effects(const Document& document, const CaseModel& case_model);
 
 /// What an effect's dimensionless number is.
-[[nodiscard]] std::string describe_effect_number(Effect effect, const std::string& analysis);
+[[nodiscard]] std::string describe_effect_number(solver::Effect effect,
+                                                 const std::string& analysis);
 
 /// The case with these effects asked for by name.
-[[nodiscard]] Document with_effects(const Document& document, Effects effects);
+[[nodiscard]] Document with_effects(const Document& document, solver::Effects effects);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,11 +1,12 @@
 #include "harness/analysis/analysis_kinds.h"
 
-namespace trammel {
+namespace trammel::harness {
 
-void compare_references(const JsonView& comparison, const References& references, Recorder& record) {
+void compare_references(const JsonView& comparison, const References& references,
+                        Recorder& record) {
   for (const auto& [name, pair] : comparison.entries()) {
-    const Reference& minuend = references.get(pair["of"]);
-    const Reference& subtrahend = references.get(pair["from"]);
+    const references::Reference& minuend = references.get(pair["of"]);
+    const references::Reference& subtrahend = references.get(pair["from"]);
     if (minuend.unit != subtrahend.unit || minuend.values.size() != subtrahend.values.size()) {
       throw pair.error("expected two references of one unit and length (got " +
                        std::to_string(minuend.values.size()) + " in " + minuend.unit + ", " +
@@ -19,4 +20,4 @@ void compare_references(const JsonView& comparison, const References& references
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

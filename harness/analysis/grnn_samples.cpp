@@ -6,17 +6,19 @@
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/scene/rigid_case_model.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 Eigen::MatrixXd read_rows(const JsonView& rows) {
   const std::size_t columns = rows[0].size();
-  Eigen::MatrixXd matrix(static_cast<Index>(rows.size()), static_cast<Index>(columns));
+  Eigen::MatrixXd matrix(static_cast<solver::Index>(rows.size()),
+                         static_cast<solver::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].size() != columns) {
       throw rows[i].error("expected " + std::to_string(columns) + " numbers as in the first row");
     }
     for (std::size_t j = 0; j < columns; ++j) {
-      matrix(static_cast<Index>(i), static_cast<Index>(j)) = rows[i][j].get<double>();
+      matrix(static_cast<solver::Index>(i), static_cast<solver::Index>(j)) =
+          rows[i][j].get<double>();
     }
   }
   return matrix;
@@ -28,14 +30,15 @@ GrnnSamples read_samples(const JsonView& samples) {
     throw samples["outputs"].error("expected as many rows as inputs have, " +
                                    std::to_string(read.inputs.rows()));
   }
-  for (Index j = 0; j < read.outputs.cols(); ++j) {
+  for (solver::Index j = 0; j < read.outputs.cols(); ++j) {
     read.columns.push_back({"", "", std::to_string(j + 1)});
   }
   return read;
 }
 
-PathSamples samples_of_path(const RigidManipulator& manipulator, const CaseModel& case_model) {
-  const auto count = static_cast<Index>(case_model.motion.size());
+PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
+                            const CaseModel& case_model) {
+  const auto count = static_cast<solver::Index>(case_model.motion.size());
   PathSamples result;
   GrnnSamples& samples = result.samples;
   samples.inputs.resize(count, 3);
@@ -44,16 +47,16 @@ PathSamples samples_of_path(const RigidManipulator& manipulator, const CaseModel
   for (const char* joint : {"A1", "A2", "A3"}) {
     samples.columns.push_back({"velocity", "_rad_per_s", joint});
   }
-  for (Index k = 0; k < count; ++k) {
-    const TrajectoryPoint& point = case_model.motion[static_cast<std::size_t>(k)];
-    const InverseDynamics found =
-        inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
+  for (solver::Index k = 0; k < count; ++k) {
+    const solver::TrajectoryPoint& point = case_model.motion[static_cast<std::size_t>(k)];
+    const solver::InverseDynamics found =
+        solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) {
       result.outcome = at_point(case_model, static_cast<std::size_t>(k), found.outcome);
       return result;
     }
     samples.inputs.row(k) = found.torque.transpose();
-    for (Index i = 0; i < 3; ++i) {
+    for (solver::Index i = 0; i < 3; ++i) {
       const double angle = found.q(i);
       const double before = k > 0 ? samples.outputs(k - 1, i) : angle;
       samples.outputs(k, i) = before + std::remainder(angle - before, 2 * std::numbers::pi);
@@ -63,4 +66,4 @@ PathSamples samples_of_path(const RigidManipulator& manipulator, const CaseModel
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -8,12 +8,12 @@
 #include "solver/manipulator/rigid_dynamics.h"
 
 /// What a network learns from and is asked about.
-namespace trammel {
+namespace trammel::harness {
 
 struct GrnnOutput {
   std::string quantity;  ///< angle, velocity; empty for samples without a meaning
-  std::string unit;  ///< as quantities' names carry it: "_rad"; empty where there is none
-  std::string item;    ///< A1, ... or the number of the column
+  std::string unit;      ///< as quantities' names carry it: "_rad"; empty where there is none
+  std::string item;      ///< A1, ... or the number of the column
 };
 
 struct GrnnSamples {
@@ -33,9 +33,10 @@ struct GrnnSamples {
 /// of the scene's path, outputs the angles and velocities of the active joints. Angles are
 /// continued over the jump at pi.
 struct PathSamples {
-  Outcome outcome;  ///< of the first point without a solution
+  solver::Outcome outcome;  ///< of the first point without a solution
   GrnnSamples samples;
 };
-[[nodiscard]] PathSamples samples_of_path(const RigidManipulator& manipulator, const CaseModel& case_model);
+[[nodiscard]] PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
+                                          const CaseModel& case_model);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,54 +2,54 @@
 
 #include "references/data/manufactured.h"
 #include "solver/assembly/field_error.h"
-#include "solver/model/outcome.h"
 #include "solver/assembly/system.h"
+#include "solver/model/outcome.h"
 
 /// Manufactured solutions on a mesh: loads from the closed form, solve, errors against the closed
 /// form.
-namespace trammel {
+namespace trammel::harness {
 
 struct MembraneTest {
-  manufactured::MembraneProblem problem;
-  double thickness = 0;  ///< [m]
-  Index cells = 1;       ///< along either side
+  references::manufactured::MembraneProblem problem;
+  double thickness = 0;     ///< [m]
+  solver::Index cells = 1;  ///< along either side
   bool six_nodes = false;
   double distortion = 0;  ///< of the mesh, in cells
 };
 
 /// The discrete model and its solution; q is empty where there is none.
 struct ManufacturedSolution {
-  Outcome outcome;
-  System system;
+  solver::Outcome outcome;
+  solver::System system;
   Eigen::VectorXd q;  ///< free coordinates
-  Counters counters;
+  solver::Counters counters;
 };
 
 struct MembraneTestResult {
   ManufacturedSolution solution;
-  MembraneErrors errors;
+  solver::MembraneErrors errors;
 };
 
 /// @throws ModelError  where the mesh has no meaning
 [[nodiscard]] MembraneTestResult run_membrane_test(const MembraneTest& test);
 
 struct BeamTest {
-  manufactured::BeamField field = manufactured::BeamField::smooth;
-  manufactured::ShearStrain shear = manufactured::ShearStrain::none;
-  Section section;
+  references::manufactured::BeamField field = references::manufactured::BeamField::smooth;
+  references::manufactured::ShearStrain shear = references::manufactured::ShearStrain::none;
+  solver::Section section;
   double length = 0;     ///< along the direction (4, 3) / 5, so that no coordinate is left out [m]
   double amplitude = 0;  ///< [m]
   double omega = 0;      ///< [rad/s]
-  Index cells = 1;
+  solver::Index cells = 1;
   double distortion = 0;  ///< of the mesh, in cells
 };
 
 struct BeamTestResult {
   ManufacturedSolution solution;
-  BeamErrors errors;
+  solver::BeamErrors errors;
 };
 
 /// @throws ModelError  where the mesh has no meaning
 [[nodiscard]] BeamTestResult run_beam_test(const BeamTest& test);
 
-}  // namespace trammel
+}  // namespace trammel::harness

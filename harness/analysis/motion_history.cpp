@@ -6,19 +6,19 @@
 #include <numbers>
 
 #include "harness/scene/damping_reader.h"
-#include "harness/scene/material_reader.h"
 #include "harness/scene/joint_reader.h"
+#include "harness/scene/material_reader.h"
 #include "solver/assembly/damping.h"
-#include "solver/time/modal_superposition.h"
 #include "solver/modes/modes.h"
+#include "solver/time/modal_superposition.h"
 #include "solver/time/rotating_frame_transient.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 using Eigen::VectorXd;
 
-PiecewiseLinearLoad read_load(const JsonView& transient, const VectorXd& pattern) {
+solver::PiecewiseLinearLoad read_load(const JsonView& transient, const Eigen::VectorXd& pattern) {
   const auto history = transient.find("load_history");
   if (!history) return {pattern, {0.0}, Eigen::MatrixXd::Ones(1, 1)};
   const auto time = (*history)["time_s"].get<std::vector<double>>();
@@ -37,24 +37,26 @@ PiecewiseLinearLoad read_load(const JsonView& transient, const VectorXd& pattern
           Eigen::Map<const Eigen::RowVectorXd>(factor.data(), std::ssize(factor)).eval()};
 }
 
-double factor_at(const PiecewiseLinearLoad& load, double time) {
-  VectorXd factor;
-  const PiecewiseLinearLoad one{Eigen::MatrixXd::Ones(1, 1), load.time, load.factor};
+double factor_at(const solver::PiecewiseLinearLoad& load, double time) {
+  Eigen::VectorXd factor;
+  const solver::PiecewiseLinearLoad one{Eigen::MatrixXd::Ones(1, 1), load.time, load.factor};
   one.at(time, factor);
   return factor[0];
 }
 
-TimeScheme read_scheme(const JsonView& transient) {
+solver::TimeScheme read_scheme(const JsonView& transient) {
   const auto method = transient.find("method");
-  if (!method) return average_acceleration();
+  if (!method) return solver::average_acceleration();
   if (const auto stated = method->find("newmark")) {
-    return newmark(stated->number("beta"), stated->number("gamma"));
+    return solver::newmark(stated->number("beta"), stated->number("gamma"));
   }
-  if (method->has("hht_alpha")) return hht_alpha(method->number("hht_alpha"));
-  if (method->has("spectral_radius")) return generalized_alpha(method->number("spectral_radius"));
+  if (method->has("hht_alpha")) return solver::hht_alpha(method->number("hht_alpha"));
+  if (method->has("spectral_radius"))
+    return solver::generalized_alpha(method->number("spectral_radius"));
   const auto word = method->get<std::string>();
-  if (word == "linear-acceleration") return linear_acceleration();
-  return word == "central-difference" ? central_difference() : average_acceleration();
+  if (word == "linear-acceleration") return solver::linear_acceleration();
+  return word == "central-difference" ? solver::central_difference()
+                                      : solver::average_acceleration();
 }
 
 bool superposes(const JsonView& transient) {
@@ -62,28 +64,29 @@ bool superposes(const JsonView& transient) {
 }
 
 struct InitialState {
-  VectorXd q0, v0;
+  Eigen::VectorXd q0, v0;
 };
 
 /// The motion of the free coordinates that comes nearest to a velocity of every node, exact where
 /// constraints allow it.
-VectorXd uniform_motion(const System& system, const Vector2d& velocity) {
-  VectorXd wanted = VectorXd::Zero(system.coordinates.size);
+Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector2d& velocity) {
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const auto& node : system.coordinates.node) {
     wanted[node[0]] = velocity.x();
     wanted[node[1]] = velocity.y();
   }
-  const SparseMatrix normal = SparseMatrix(system.T.transpose()) * system.T;
-  Factorization factorization;
+  const solver::SparseMatrix normal = solver::SparseMatrix(system.T.transpose()) * system.T;
+  solver::Factorization factorization;
   factorization.compute(normal);
   return factorization.solve(system.T.transpose() * wanted);
 }
 
-InitialState read_initial(const JsonView& transient, const System& system, Outcome& outcome) {
+InitialState read_initial(const JsonView& transient, const solver::System& system,
+                          solver::Outcome& outcome) {
   const auto initial = transient.find("initial");
   if (!initial || initial->json() == "rest") return {};
   if (initial->json() == "static") {
-    const StaticSolution statics = solve_statics(system);
+    const solver::StaticSolution statics = solver::solve_statics(system);
     outcome = statics.outcome;
     return {statics.q, {}};
   }
@@ -109,12 +112,12 @@ std::vector<double> sample_times(const JsonView& transient) {
 }
 
 /// The axes that the motion is seen from.
-PrescribedRotation read_axes(const JsonView& transient) {
+solver::PrescribedRotation read_axes(const JsonView& transient) {
   for (const char* key : {"load_history", "initial"}) {
     if (transient.has(key)) throw transient[key].error("expected it without 'turning_axes'");
   }
   const JsonView place = transient["turning_axes"];
-  PrescribedRotation axes;
+  solver::PrescribedRotation axes;
   axes.speed = [law = read_law(place["law"])](double time) {
     const std::array<double, 3> motion = law(time);
     return std::array<double, 2>{motion[1], motion[2]};
@@ -126,7 +129,7 @@ PrescribedRotation read_axes(const JsonView& transient) {
 
 class Motion {
  public:
-  Motion(const JsonView& transient, const System& system)
+  Motion(const JsonView& transient, const solver::System& system)
       : transient_(transient), system_(system), load_(read_load(transient, system.f)) {}
 
   MotionHistory run() {
@@ -145,17 +148,17 @@ class Motion {
 
  private:
   void integrate() {
-    EquationOfMotion equation;
+    solver::EquationOfMotion equation;
     equation.M = system_.M;
     equation.K = system_.K;
     if (!damp(equation)) return;
     if (transient_.has("turning_axes")) {
-      history_.outcome = add_rotating_frame_terms(system_, read_axes(transient_), equation);
+      history_.outcome = solver::add_rotating_frame_terms(system_, read_axes(transient_), equation);
       if (!history_.outcome.solved()) return;
     } else {
       load_.apply_to(equation);
     }
-    TransientOptions options;
+    solver::TransientOptions options;
     options.end = transient_.number("duration_s");
     options.step = transient_.number("step_s");
     options.scheme = read_scheme(transient_);
@@ -163,9 +166,9 @@ class Motion {
     options.q0 = initial_.q0;
     options.v0 = initial_.v0;
     if (const auto control = transient_.find("error_control")) {
-      options.adaptive = ErrorControl{control->number("relative")};
+      options.adaptive = solver::ErrorControl{control->number("relative")};
     }
-    TransientHistory found = solve_transient(equation, options);
+    solver::TransientHistory found = solver::solve_transient(equation, options);
     history_.outcome = found.summary.outcome;
     history_.steps = found.summary.accepted;
     history_.counters += found.summary.counters;
@@ -175,18 +178,19 @@ class Motion {
   }
 
   /// False where the damped modes are not found.
-  bool damp(EquationOfMotion& equation) {
-    HarmonicDamping damping = read_damping(transient_);
-    equation.C = damping_matrix(damping.rayleigh, system_.M, system_.K);
+  bool damp(solver::EquationOfMotion& equation) {
+    solver::HarmonicDamping damping = read_damping(transient_);
+    equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
     if (damping.modal_ratio.empty()) return true;
-    const ModalSolution modes =
-        solve_modes(system_, {std::ssize(damping.modal_ratio), EigenMethod::automatic});
+    const solver::ModalSolution modes = solver::solve_modes(
+        system_, {std::ssize(damping.modal_ratio), solver::EigenMethod::automatic});
     history_.outcome = modes.outcome;
     if (!modes.outcome.solved()) return false;
     damping = read_damping(transient_, modes.frequency.size());
-    const Eigen::Map<const VectorXd> ratio(damping.modal_ratio.data(), modes.frequency.size());
-    equation.C +=
-        modal_damping_matrix(system_.M, 2 * std::numbers::pi * modes.frequency, modes.shape, ratio);
+    const Eigen::Map<const Eigen::VectorXd> ratio(damping.modal_ratio.data(),
+                                                  modes.frequency.size());
+    equation.C += solver::modal_damping_matrix(system_.M, 2 * std::numbers::pi * modes.frequency,
+                                               modes.shape, ratio);
     return true;
   }
 
@@ -197,14 +201,14 @@ class Motion {
     if (transient_.has("turning_axes")) {
       throw transient_["turning_axes"].error("expected it without 'modal-superposition'");
     }
-    const ModalBasis basis = all_modes(system_.M, system_.K);
-    const HarmonicDamping damping = read_damping(transient_, basis.omega.size());
-    VectorXd decay = decay_rates(damping.rayleigh, basis.omega);
-    for (Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {
+    const solver::ModalBasis basis = solver::all_modes(system_.M, system_.K);
+    const solver::HarmonicDamping damping = read_damping(transient_, basis.omega.size());
+    Eigen::VectorXd decay = solver::decay_rates(damping.rayleigh, basis.omega);
+    for (solver::Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {
       decay[i] += damping.modal_ratio[static_cast<std::size_t>(i)] * basis.omega[i];
     }
-    ModalResponse response =
-        superpose(basis, decay, system_.M, load_, history_.time, initial_.q0, initial_.v0);
+    solver::ModalResponse response =
+        solver::superpose(basis, decay, system_.M, load_, history_.time, initial_.q0, initial_.v0);
     history_.q = std::move(response.q);
     history_.v = std::move(response.v);
     history_.a = std::move(response.a);
@@ -212,35 +216,35 @@ class Motion {
   }
 
   /// What acts on coordinates without mass moves no mode: they follow it at once.
-  void add_massless(const ModalBasis& basis) {
-    const VectorXd rest =
+  void add_massless(const solver::ModalBasis& basis) {
+    const Eigen::VectorXd rest =
         system_.f - system_.M * (basis.shape * (basis.shape.transpose() * system_.f));
     if (!(rest.norm() > 1e-9 * system_.f.norm())) return;
-    Factorization K;
+    solver::Factorization K;
     K.compute(system_.K);
     ++history_.counters.factorizations;
     if (!K.exists()) return;
-    const VectorXd shape = K.solve(rest);
-    for (Index i = 0; i < history_.q.cols(); ++i) {
+    const Eigen::VectorXd shape = K.solve(rest);
+    for (solver::Index i = 0; i < history_.q.cols(); ++i) {
       history_.q.col(i) += history_.load_factor[static_cast<std::size_t>(i)] * shape;
     }
   }
 
   const JsonView& transient_;
-  const System& system_;
-  PiecewiseLinearLoad load_;
+  const solver::System& system_;
+  solver::PiecewiseLinearLoad load_;
   InitialState initial_;
   MotionHistory history_;
 };
 
 }  // namespace
 
-MotionHistory compute_motion(const JsonView& transient, const System& system) {
+MotionHistory compute_motion(const JsonView& transient, const solver::System& system) {
   try {
     return Motion(transient, system).run();
-  } catch (const ModelError& error) {
+  } catch (const solver::ModelError& error) {
     throw transient.error(error.what());
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,12 +6,12 @@
 #include "solver/statics/postprocessing.h"
 #include "solver/time/transient.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// The motion of a model at its sample times.
 struct MotionHistory {
-  Outcome outcome;
-  Counters counters;
+  solver::Outcome outcome;
+  solver::Counters counters;
   std::vector<double> time;         ///< [s]
   std::vector<double> load_factor;  ///< of all loads, at those times
   Eigen::MatrixXd q, v, a;          ///< free coordinate x time
@@ -20,6 +20,6 @@ struct MotionHistory {
 
 /// As the key "transient" of the analysis says.
 /// @throws InputError  for a history or damping without meaning.
-[[nodiscard]] MotionHistory compute_motion(const JsonView& transient, const System& system);
+[[nodiscard]] MotionHistory compute_motion(const JsonView& transient, const solver::System& system);
 
-}  // namespace trammel
+}  // namespace trammel::harness

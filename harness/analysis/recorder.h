@@ -4,7 +4,7 @@
 
 #include "harness/base/quantity.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Collects quantities: each call adds one number at the end of its quantity, so that a path ends
 /// up with one number a point.
@@ -22,4 +22,4 @@ class Recorder {
   Quantities quantities_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -3,16 +3,16 @@
 #include "harness/analysis/analysis_kinds.h"
 #include "solver/modes/rotating_modes.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Modes in a steadily rotating frame, key "rotating" of the modes: at one speed, or one number a
 /// speed. Not solved: the first speed without a steady state.
 /// @param effects  of which Coriolis forces and stiffening by tension are decided here
-[[nodiscard]] StepResult analyse_rotating(const JsonView& modes, const System& system,
-                                          Effects effects, bool draw, Recorder& record);
+[[nodiscard]] StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
+                                          solver::Effects effects, bool draw, Recorder& record);
 
 /// All that the case says but for the effects and the speed.
-[[nodiscard]] RotatingOptions read_rotating_options(const JsonView& modes);
+[[nodiscard]] solver::RotatingOptions read_rotating_options(const JsonView& modes);
 [[nodiscard]] std::vector<double> read_speeds(const JsonView& modes);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 
 #include "harness/base/errors.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,4 +40,4 @@ const fs::path& data_root() {
   return folder;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,6 +1,6 @@
 #include "harness/base/diagnostic.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 bool is_diagnostic(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
@@ -8,4 +8,4 @@ bool is_diagnostic(const std::string& name) {
          head.rfind("constraint_gap", 0) == 0;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -9,7 +9,7 @@
 #include "trammel_build.h"
 #include "trammel_commit.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 std::string date() {
@@ -68,4 +68,4 @@ Json environment() {
           {"system", line_of("/etc/os-release", "PRETTY_NAME")}};
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,9 +2,9 @@
 
 #include "harness/base/json.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// What produced the numbers: version, commit, date, compiler and flags, libraries, processor.
 [[nodiscard]] Json environment();
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Bad input or bad usage: what() is one line that says where, and what was expected. Exit 2.
 class InputError : public std::runtime_error {
@@ -14,4 +14,4 @@ class InputError : public std::runtime_error {
       : std::runtime_error(file + ": " + (pointer.empty() ? "/" : pointer) + ": " + message) {}
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -8,7 +8,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr std::size_t kMaxDepth = 100;
@@ -162,4 +162,4 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   if (error) throw InputError(file.string() + ": expected a place that can be written");
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 
 #include "harness/base/json.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Reads one JSON document, strictly: UTF-8, no duplicate keys, no number beyond a double.
 /// @throws InputError  with the byte offset where the text is not JSON, with the JSON pointer of a
@@ -22,4 +22,4 @@ namespace trammel {
 /// @throws InputError  where the folder or file cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
-}  // namespace trammel
+}  // namespace trammel::harness

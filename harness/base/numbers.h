@@ -2,8 +2,8 @@
 
 #include <limits>
 
-namespace trammel {
+namespace trammel::harness {
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-namespace trammel {
+namespace trammel::harness {
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
@@ -23,4 +23,4 @@ void Progress::show(std::size_t done, std::size_t all) {
   shown_ = true;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace trammel {
+namespace trammel::harness {
 
 /// A bar on standard error while things are computed; nothing where that is no terminal.
 class Progress {
@@ -18,4 +18,4 @@ class Progress {
   bool shown_ = false;
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -3,7 +3,7 @@
 #include <set>
 #include <utility>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Longest first, so that "_N_m" is not read as "_m".
@@ -62,4 +62,4 @@ bool is_count(const std::string& name) {
   return counts.count(name) > 0;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

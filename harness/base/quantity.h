@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Numbers under one name. The name carries the unit as its last words, and what it belongs to
 /// after a colon: displacement_x_m:P.
@@ -23,4 +23,4 @@ using Quantities = std::map<std::string, Quantity>;
 /// Whether a quantity counts things, so that it has no order of convergence.
 [[nodiscard]] bool is_count(const std::string& name);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace trammel {
+namespace trammel::harness {
 
 double statistic_of(const std::string& name, const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -33,4 +33,10 @@ double statistic_of(const std::string& name, const std::vector<double>& values) 
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace trammel
+double max_abs(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+}  // namespace trammel::harness

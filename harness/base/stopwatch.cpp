@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 double thread_seconds() {
@@ -23,4 +23,4 @@ double Stopwatch::cpu_s() const {
   return thread_seconds() - cpu_;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Wall time, and processor time of the calling thread, since it was made [s].
 class Stopwatch {
@@ -16,4 +16,4 @@ class Stopwatch {
   double cpu_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <sstream>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Characters, not bytes, of UTF-8.
@@ -60,4 +60,4 @@ std::string wrapped(const std::string& text, const std::string& indent, std::siz
   return line.empty() ? all : all + indent + line + "\n";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Columns of text for a terminal: the first ones flush left, numbers flush right.
 class Table {
@@ -25,4 +25,4 @@ class Table {
 [[nodiscard]] std::string wrapped(const std::string& text, const std::string& indent,
                                   std::size_t width = 96);
 
-}  // namespace trammel
+}  // namespace trammel::harness

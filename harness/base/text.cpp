@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace trammel {
+namespace trammel::harness {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
@@ -81,4 +81,4 @@ std::string printable(std::string text, std::size_t length) {
   return text;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Small words for messages.
-namespace trammel {
+namespace trammel::harness {
 
 /// Number of single-character insertions, deletions, substitutions and swaps of neighbours.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
@@ -34,4 +34,4 @@ namespace trammel {
 /// Bytes that a terminal or a line cannot hold become '?', long text is cut.
 [[nodiscard]] std::string printable(std::string text, std::size_t length = 60);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,7 +6,7 @@
 
 #include "harness/base/stopwatch.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr int kMaxRunsEach = 1000;
@@ -79,4 +79,4 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& w
   return timings;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

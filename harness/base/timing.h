@@ -5,7 +5,7 @@
 #include <vector>
 
 /// Measuring how long computations take, so that what is compared is measured alike.
-namespace trammel {
+namespace trammel::harness {
 
 struct TimingOptions {
   int repeats = 7;         ///< at least this many are needed for quartiles that mean something
@@ -43,4 +43,4 @@ inline constexpr double kMaxSpread = 0.25;
 /// 0 ... n - 1 in an order that is the same on every machine.
 [[nodiscard]] std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t& state);
 
-}  // namespace trammel
+}  // namespace trammel::harness

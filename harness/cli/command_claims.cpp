@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <iostream>
 
-#include "harness/input/catalogue.h"
-#include "harness/cli/commands.h"
 #include "harness/base/json_file.h"
-#include "harness/run/claims.h"
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
+#include "harness/input/catalogue.h"
+#include "harness/run/claims.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// "0.99998 (circle-load)" or "0.0051 ... 0.0079 (circle-load)".
@@ -29,9 +29,10 @@ void print_claim(const Claim& claim) {
   if (!claim.as_expected()) std::cout << "  ** recorded: " << to_text(claim.expected) << " **";
   std::cout << '\n' << wrapped(claim.claim, "   ");
   for (const Interpretation& interpretation : claim.interpretations) {
-    std::cout << wrapped(to_text(interpretation.verdict) + ": " + interpretation.what +
-                             (interpretation.entries.empty() ? "" : ": " + measured(interpretation)),
-                         "     ");
+    std::cout << wrapped(
+        to_text(interpretation.verdict) + ": " + interpretation.what +
+            (interpretation.entries.empty() ? "" : ": " + measured(interpretation)),
+        "     ");
   }
   if (!claim.undecidable.empty()) std::cout << wrapped(claim.undecidable, "     ");
 }
@@ -57,4 +58,4 @@ int claims_command(unsigned jobs, bool json) {
   return claim_set.as_expected() ? 0 : 1;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

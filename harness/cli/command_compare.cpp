@@ -2,18 +2,18 @@
 #include <cmath>
 #include <iostream>
 
-#include "harness/input/catalogue.h"
-#include "harness/cli/commands.h"
-#include "harness/run/cost_results.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/studies/mode_match.h"
-#include "harness/run/run.h"
-#include "harness/input/schema.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
+#include "harness/input/catalogue.h"
+#include "harness/input/schema.h"
+#include "harness/run/cost_results.h"
+#include "harness/run/run.h"
+#include "harness/studies/mode_match.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 using Named = std::map<std::string, std::vector<double>>;
@@ -274,4 +274,4 @@ int compare_command(const std::string& a, const std::string& b) {
   return 0;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

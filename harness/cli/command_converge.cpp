@@ -1,15 +1,15 @@
 #include <cmath>
 #include <iostream>
 
-#include "harness/input/catalogue.h"
-#include "harness/cli/commands.h"
 #include "harness/base/errors.h"
-#include "harness/cli/print_uncertainty.h"
-#include "harness/run/run.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
+#include "harness/cli/print_uncertainty.h"
+#include "harness/input/catalogue.h"
+#include "harness/run/run.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 std::string note(const Convergence& found, std::size_t k) {
@@ -64,7 +64,8 @@ int converge_command(const std::string& name, const std::string& variant, unsign
   }
   if (!variant.empty()) (void)patched(given, variant);
   const References references;
-  const std::vector<Run> runs = run_cases({given}, references, {variant, jobs, TrackedQuantities::all, {}});
+  const std::vector<Run> runs =
+      run_cases({given}, references, {variant, jobs, TrackedQuantities::all, {}});
   for (const Run& run : runs) {
     if (run.error != Run::RunError::none) {
       std::cerr << run.reason << '\n';
@@ -80,4 +81,4 @@ int converge_command(const std::string& name, const std::string& variant, unsign
   return exit_status(runs) == 3 ? 3 : 0;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

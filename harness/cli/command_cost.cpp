@@ -2,17 +2,17 @@
 #include <iostream>
 #include <set>
 
-#include "harness/input/catalogue.h"
-#include "harness/cli/commands.h"
-#include "harness/run/cost_results.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/progress.h"
-#include "harness/run/results.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
+#include "harness/input/catalogue.h"
+#include "harness/run/cost_results.h"
+#include "harness/run/results.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,14 +86,18 @@ void print_settings(const MeasuredStudy& measured) {
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
     const MeasuredSetting& measurement = measured.settings[i];
-    const bool on_pareto_front = std::any_of(measured.pareto_front.begin(), measured.pareto_front.end(),
-                                      [i](const CostPoint& point) { return point.setting == i; });
+    const bool on_pareto_front =
+        std::any_of(measured.pareto_front.begin(), measured.pareto_front.end(),
+                    [i](const CostPoint& point) { return point.setting == i; });
     const std::string& title = measured.study.settings[i].title;
-    table.add({title, measurement.error ? rounded(measurement.error->get(measured.study.norm), 3) : "-",
-               rounded(measurement.relative, 3), measurement.timing ? rounded(measurement.timing->spread(), 2) : "-",
-               rounded(measurement.cpu_s, 3), std::to_string(measurement.counters.element_evaluations),
-               std::to_string(measurement.counters.factorizations), std::to_string(measurement.counters.solves),
-               std::to_string(measurement.counters.steps), mark(measurement, on_pareto_front)});
+    table.add(
+        {title, measurement.error ? rounded(measurement.error->get(measured.study.norm), 3) : "-",
+         rounded(measurement.relative, 3),
+         measurement.timing ? rounded(measurement.timing->spread(), 2) : "-",
+         rounded(measurement.cpu_s, 3), std::to_string(measurement.counters.element_evaluations),
+         std::to_string(measurement.counters.factorizations),
+         std::to_string(measurement.counters.solves), std::to_string(measurement.counters.steps),
+         mark(measurement, on_pareto_front)});
     if (!measurement.reason.empty()) reasons.push_back(title + ": " + measurement.reason);
   }
   table.print(std::cout, "  ");
@@ -115,8 +119,9 @@ void print(const MeasuredStudy& measured) {
   const CostStudy& study = measured.study;
   std::cout << study.family << ": " << study.title << '\n'
             << wrapped("Error (" + std::string(to_string(study.norm)) + ") against " +
-                           study.reference_description + ", " + study.scale_description + "; time relative to '" +
-                           study.settings[study.baseline].title + "'; * on the efficient front.",
+                           study.reference_description + ", " + study.scale_description +
+                           "; time relative to '" + study.settings[study.baseline].title +
+                           "'; * on the efficient front.",
                        "  ");
   print_settings(measured);
   print_cheapest(measured);
@@ -184,4 +189,4 @@ Json quick_cost(const References& references, std::vector<std::string>& error_me
   return cost_json(measured, SweepExtent::quick, options.timing);
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,18 +2,18 @@
 #include <cmath>
 #include <iostream>
 
-#include "harness/input/catalogue.h"
-#include "harness/cli/commands.h"
-#include "harness/studies/effect_study.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/cli/print_effects.h"
 #include "harness/base/progress.h"
-#include "harness/studies/random_scenes.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
+#include "harness/cli/print_effects.h"
+#include "harness/input/catalogue.h"
+#include "harness/studies/effect_study.h"
+#include "harness/studies/random_scenes.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 std::string percent(double share) {
@@ -28,9 +28,9 @@ std::string kinds_of(const Changes& changes) {
   return text;
 }
 
-std::string names_of(const std::vector<Effect>& effects) {
+std::string names_of(const std::vector<solver::Effect>& effects) {
   std::vector<std::string> names;
-  for (const Effect effect : effects) names.emplace_back(name_of(effect));
+  for (const solver::Effect effect : effects) names.emplace_back(solver::name_of(effect));
   return join(names, "and");
 }
 
@@ -55,7 +55,7 @@ void print_singles(const EffectStudy& study) {
       {"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
   add_row(table, "nothing", study.full, study.full);
   for (const Ablation& ablation : study.singles) {
-    const Effects with_dependents = study.full.effects.without(ablation.run.effects);
+    const solver::Effects with_dependents = study.full.effects.without(ablation.run.effects);
     add_row(table, names_of(with_dependents.list()), ablation.run, study.full);
   }
   add_row(table, "all but the chosen", study.chosen, study.full);
@@ -66,7 +66,7 @@ void print_singles(const EffectStudy& study) {
 
 /// Pairs whose joint change is not the larger, nor the sum, of the two.
 void print_pairs(const EffectStudy& study) {
-  const auto single = [&](Effect effect) {
+  const auto single = [&](solver::Effect effect) {
     for (const Ablation& ablation : study.singles) {
       if (ablation.effects.front() == effect) return max_change(ablation.run.changes);
     }
@@ -132,9 +132,9 @@ void count_result(const EffectStudy& study, const std::string& name, HitCounts& 
   if (study.within_tolerance()) ++counts.within;
   if (study.is_minimal()) ++counts.minimal;
   if (!study.within_tolerance()) {
-    counts.misses.push_back(name + ": off by " + percent(max_change(study.chosen.changes)) + " % (" +
-                           kinds_of(study.chosen.changes) + ") with " +
-                           effect_names(study.choice.chosen));
+    counts.misses.push_back(name + ": off by " + percent(max_change(study.chosen.changes)) +
+                            " % (" + kinds_of(study.chosen.changes) + ") with " +
+                            effect_names(study.choice.chosen));
   }
   if (study.is_minimal()) return;
   for (const Ablation& ablation : study.from_chosen) {
@@ -142,8 +142,8 @@ void count_result(const EffectStudy& study, const std::string& name, HitCounts& 
     if (change > study.tolerance) continue;
     const auto& reason = study.choice.reasons[static_cast<std::size_t>(ablation.effects.front())];
     counts.misses.push_back(name + ": could do without " + names_of(ablation.effects) + ", " +
-                           percent(change) + " %; estimated " + percent(reason.change.value_or(0)) +
-                           " %");
+                            percent(change) + " %; estimated " +
+                            percent(reason.change.value_or(0)) + " %");
   }
 }
 
@@ -185,7 +185,7 @@ int labelled_effects_command(const EffectsCommand& command) {
     if (!study.full.outcome.solved()) continue;
     ++scenes;
     within = within && study.within_tolerance();
-    const Counters &chosen = study.chosen.counters, &full = study.full.counters;
+    const solver::Counters &chosen = study.chosen.counters, &full = study.full.counters;
     table.add({given.id(), effect_names(study.choice.chosen),
                percent(max_change(study.chosen.changes)), percent(study.tolerance),
                study.is_minimal() ? "yes" : "no", ratio(study.chosen.cpu_s, study.full.cpu_s),
@@ -208,7 +208,7 @@ int random_effects_command(const EffectsCommand& command) {
     for (std::uint64_t n = 0; counts.scenes < command.random && n < 2 * command.random; ++n) {
       const Document document = random_case(command, n);
       count_result(study_effects(document, {command.tolerance, false, 0}),
-            document.value().at("id").get<std::string>(), counts);
+                   document.value().at("id").get<std::string>(), counts);
       progress.show(counts.scenes, command.random);
     }
   }
@@ -228,4 +228,4 @@ int random_effects_command(const EffectsCommand& command) {
   return share(counts.within) >= 0.99 && share(counts.minimal) >= 0.9 ? 0 : 1;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -7,12 +7,12 @@
 #include <iostream>
 #include <thread>
 
-#include "harness/cli/commands.h"
 #include "harness/base/errors.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
 #include "trammel_build.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr const char* kAbout =
@@ -258,4 +258,4 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

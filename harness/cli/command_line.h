@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace trammel {
+namespace trammel::harness {
 
 /// What the harness cannot know: how results become a page and a JUnit file.
 struct Renderers {
@@ -22,4 +22,4 @@ struct Renderers {
 [[nodiscard]] int run_command_line(const std::vector<std::string>& arguments,
                                    const Renderers& renderers);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,20 +1,20 @@
 #include <iostream>
 
 #include "harness/analysis/analysis.h"
+#include "harness/analysis/case_effects.h"
+#include "harness/base/json_file.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+#include "harness/cli/commands.h"
+#include "harness/cli/print_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/check.h"
-#include "harness/cli/commands.h"
 #include "harness/input/json_view.h"
-#include "harness/base/json_file.h"
-#include "harness/cli/print_effects.h"
 #include "harness/input/reference_library.h"
-#include "harness/scene/case_model.h"
-#include "harness/analysis/case_effects.h"
-#include "harness/base/table.h"
 #include "harness/judge/validation_uncertainty.h"
-#include "harness/base/text.h"
+#include "harness/scene/case_model.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 std::string family_of(const Case& given) {
@@ -47,29 +47,29 @@ std::string describe_model(const Document& document) {
   if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
   if (kind == "grnn" && !document.value().contains("model")) return "none: samples of its own";
   const CaseModel case_model = read_case_model(document);
-  const Model model = build_bare_model(case_model, 0);
+  const solver::Model model = build_bare_model(case_model, 0);
   std::string text;
   if (case_model.manipulator) {
     const auto& platform = case_model.manipulator->platform;
-    text = platform.kind == PlatformDesign::Kind::rigid
+    text = platform.kind == solver::PlatformDesign::Kind::rigid
                ? "3-RRR manipulator with a rigid platform"
                : "3-RRR manipulator with a platform of triangles";
-    const Pose& pose = case_model.motion.front().pose;
+    const solver::Pose& pose = case_model.motion.front().pose;
     text += case_model.path ? ", along " + count_of(case_model.motion.size(), "pose")
-                       : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
-                             " m, phi = " + shortest(pose.phi) + " rad";
+                            : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
+                                  " m, phi = " + shortest(pose.phi) + " rad";
   } else {
     text = "planar model";
   }
-  Index elements = 0;
-  for (const Member& member : model.members) elements += member.elements;
+  solver::Index elements = 0;
+  for (const solver::Member& member : model.members) elements += member.elements;
   text += "; " + count_of(model.nodes.size(), "node") + ", " +
           count_of(model.members.size(), "member") + " in " +
           count_of(static_cast<std::size_t>(elements), "element");
   if (!model.triangles.empty()) text += ", " + count_of(model.triangles.size(), "triangle");
   if (!model.masses.empty()) text += ", " + count_of(model.masses.size(), "point mass");
   if (!model.springs.empty()) text += ", " + count_of(model.springs.size(), "spring");
-  const large::LargeMotionModel& more = case_model.joint_elements;
+  const solver::large_motion::LargeMotionModel& more = case_model.joint_elements;
   if (!more.line_springs.empty()) text += ", " + count_of(more.line_springs.size(), "line spring");
   if (!more.sliders.empty()) text += ", " + count_of(more.sliders.size(), "slider");
   if (!model.loads.empty()) text += ", " + count_of(model.loads.size(), "load");
@@ -150,7 +150,7 @@ void describe_references(const References& references) {
   if (used.empty()) return;
   std::cout << "\nReferences\n";
   for (const auto& [id, cited] : used) {
-    const Reference& reference = cited.reference;
+    const references::Reference& reference = cited.reference;
     std::cout << "  " << id << "  (" << to_string(reference.kind) << ", "
               << count_of(reference.values.size(), "value") << " in " << reference.unit << ")\n"
               << wrapped(reference.title, "      ")
@@ -179,8 +179,8 @@ int list_cases(const std::vector<std::string>& labels, bool json) {
     for (const std::string& label : test_case.labels()) {
       labels_text += (labels_text.empty() ? "" : ",") + label;
     }
-    table.add({test_case.id(), analysis_kind(test_case.document), std::to_string(test_case.variants().size()),
-               labels_text, test_case.title()});
+    table.add({test_case.id(), analysis_kind(test_case.document),
+               std::to_string(test_case.variants().size()), labels_text, test_case.title()});
   }
   table.print(std::cout);
   std::cout << count_of(cases.size(), "case") << '\n';
@@ -229,4 +229,4 @@ int describe_case(const std::string& name, bool json) {
   return 0;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,20 +2,20 @@
 #include <iostream>
 #include <map>
 
-#include "harness/input/catalogue.h"
-#include "harness/cli/commands.h"
 #include "harness/base/diagnostic.h"
 #include "harness/base/errors.h"
-#include "harness/judge/judge.h"
-#include "harness/run/claims.h"
-#include "harness/cli/print_uncertainty.h"
 #include "harness/base/progress.h"
-#include "harness/run/results.h"
+#include "harness/base/statistic.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/base/statistic.h"
+#include "harness/cli/commands.h"
+#include "harness/cli/print_uncertainty.h"
+#include "harness/input/catalogue.h"
+#include "harness/judge/evaluate_check.h"
+#include "harness/run/claims.h"
+#include "harness/run/results.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Cases to run, and the runs of those that could not even be read.
@@ -80,14 +80,14 @@ struct CheckSummary {
 std::vector<CheckSummary> summarise_checks(const Run& run) {
   std::vector<CheckSummary> told;
   for (const CheckResult& check_result : run.check_results) {
-    auto same = std::find_if(told.begin(), told.end(),
-                             [&](const CheckSummary& check) { return check.worst->name == check_result.name; });
+    auto same = std::find_if(told.begin(), told.end(), [&](const CheckSummary& check) {
+      return check.worst->name == check_result.name;
+    });
     if (same == told.end()) same = told.insert(told.end(), {&check_result, 0});
     CheckSummary& check = *same;
     ++check.entries;
     const auto rank = [](const CheckResult& judged) {
-      return std::pair(fails_gate(judged.verdict) ? 1 : 0,
-                       std::abs(judged.difference.value_or(0)));
+      return std::pair(fails_gate(judged.verdict) ? 1 : 0, std::abs(judged.difference.value_or(0)));
     };
     if (rank(check_result) > rank(*check.worst)) check.worst = &check_result;
   }
@@ -99,7 +99,8 @@ int digits_of(const CheckResult& check_result) {
   constexpr int least = 3, most = 12;
   if (!check_result.window || check_result.symmetric) return least;
   const double low = check_result.window->low, high = check_result.window->high;
-  const auto judged = check_result.measure == "bound" ? check_result.computed : check_result.difference;
+  const auto judged =
+      check_result.measure == "bound" ? check_result.computed : check_result.difference;
   const auto apart = [](double a, double b, int digits) {
     return a == b || !std::isfinite(a) || !std::isfinite(b) ||
            rounded(a, digits) != rounded(b, digits);
@@ -124,7 +125,8 @@ std::string tolerance_text(const CheckResult& check_result) {
 }
 
 std::string verdict_text(const CheckResult& check_result) {
-  if (check_result.verdict == Verdict::pass && check_result.expectation == Expectation::known_discrepancy) {
+  if (check_result.verdict == Verdict::pass &&
+      check_result.expectation == Expectation::known_discrepancy) {
     return "known";
   }
   return to_string(check_result.verdict);
@@ -165,11 +167,15 @@ void print_run(const Run& run) {
   for (const CheckSummary& told : summarise_checks(run)) {
     const CheckResult& check_result = *told.worst;
     std::string quantity = check_result.quantity;
-    if (check_result.index && told.entries > 1) quantity += "[" + std::to_string(*check_result.index) + "]";
+    if (check_result.index && told.entries > 1)
+      quantity += "[" + std::to_string(*check_result.index) + "]";
     if (!check_result.statistic.empty()) quantity.insert(0, check_result.statistic + " ");
-    table.add({verdict_text(check_result), check_result.name, quantity, check_result.computed ? rounded(*check_result.computed, 8) : "",
-               check_result.expected ? rounded(*check_result.expected, 8) : "",
-               check_result.difference ? rounded(*check_result.difference, digits_of(check_result)) : "", tolerance_text(check_result)});
+    table.add(
+        {verdict_text(check_result), check_result.name, quantity,
+         check_result.computed ? rounded(*check_result.computed, 8) : "",
+         check_result.expected ? rounded(*check_result.expected, 8) : "",
+         check_result.difference ? rounded(*check_result.difference, digits_of(check_result)) : "",
+         tolerance_text(check_result)});
     const bool said_above = check_result.quantity == "status" && !run.reason.empty();
     if (fails_gate(check_result.verdict) && !check_result.message.empty() && !said_above) {
       messages.push_back(check_result.name + ": " + check_result.message);
@@ -222,8 +228,9 @@ Selection select(const RunCommand& command) {
   Selection selection = load(files);
   if (!command.labels.empty()) {
     for (Case& test_case : load_catalogue(command.labels)) {
-      const bool there = std::any_of(selection.cases.begin(), selection.cases.end(),
-                                     [&](const Case& other) { return other.id() == test_case.id(); });
+      const bool there =
+          std::any_of(selection.cases.begin(), selection.cases.end(),
+                      [&](const Case& other) { return other.id() == test_case.id(); });
       if (!there) selection.cases.push_back(std::move(test_case));
     }
   }
@@ -234,8 +241,9 @@ Selection select(const RunCommand& command) {
 
 void print_failed_runs(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
-    const bool broken = std::any_of(run.check_results.begin(), run.check_results.end(),
-                                    [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
+    const bool broken = std::any_of(
+        run.check_results.begin(), run.check_results.end(),
+        [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
     if (broken && run.error == Run::RunError::none) print_run(run);
   }
 }
@@ -304,7 +312,8 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
     std::cerr << "claim " << claim.id << ": expected the recorded verdict, "
               << to_text(claim.expected) << " (got " << to_text(claim.verdict) << ")\n";
   }
-  return std::max({exit_status(runs), error_messages.empty() ? 0 : 2, claim_set.as_expected() ? 0 : 1});
+  return std::max(
+      {exit_status(runs), error_messages.empty() ? 0 : 2, claim_set.as_expected() ? 0 : 1});
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

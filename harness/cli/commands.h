@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "harness/cli/command_line.h"
 #include "harness/base/json.h"
+#include "harness/cli/command_line.h"
 #include "harness/input/reference_library.h"
 
 /// The commands behind the words. Each returns the exit status, and throws InputError.
-namespace trammel {
+namespace trammel::harness {
 
 struct RunCommand {
   std::vector<std::string> cases;   ///< names or files
@@ -57,6 +57,7 @@ int report_command(const RunCommand& command, const Renderers& renderers);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.
 /// @param error_messages  gets a line for each study that could not be measured
-[[nodiscard]] Json quick_cost(const References& references, std::vector<std::string>& error_messages);
+[[nodiscard]] Json quick_cost(const References& references,
+                              std::vector<std::string>& error_messages);
 
-}  // namespace trammel
+}  // namespace trammel::harness

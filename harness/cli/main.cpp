@@ -4,5 +4,6 @@
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  return trammel::run_command_line(arguments, {trammel::write_report, trammel::write_junit});
+  return trammel::harness::run_command_line(
+      arguments, {trammel::reports::write_report, trammel::reports::write_junit});
 }

@@ -5,11 +5,11 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 
-std::string effect_names(Effects effects) {
+std::string effect_names(solver::Effects effects) {
   std::vector<std::string> names;
-  for (const Effect effect : effects.list()) names.emplace_back(name_of(effect));
+  for (const solver::Effect effect : effects.list()) names.emplace_back(solver::name_of(effect));
   return names.empty() ? "none" : join(names, "and");
 }
 
@@ -18,7 +18,8 @@ namespace {
 std::string names_where(const EffectChoice& choice, bool active, bool applicable) {
   std::vector<std::string> names;
   for (const EffectReason& reason : choice.reasons) {
-    if (reason.active == active && (active || reason.applicable == applicable)) names.emplace_back(name_of(reason.effect));
+    if (reason.active == active && (active || reason.applicable == applicable))
+      names.emplace_back(solver::name_of(reason.effect));
   }
   return names.empty() ? "none" : join(names, "and");
 }
@@ -38,24 +39,24 @@ void print_effects(const EffectChoice& choice, const std::string& analysis) {
   std::cout << "\nEffects, those that a tolerance of " << *choice.tolerance << " calls for\n";
   Table table({"effect", "", ">number", "which is", ">change without [%]"});
   for (const EffectReason& reason : choice.reasons) {
-    table.add({std::string(name_of(reason.effect)),
-               reason.active         ? "on"
+    table.add({std::string(solver::name_of(reason.effect)),
+               reason.active       ? "on"
                : reason.applicable ? "off"
-                              : "-",
+                                   : "-",
                reason.number ? rounded(*reason.number, 3) : "",
                reason.number ? describe_effect_number(reason.effect, analysis) : "",
                reason.change ? rounded(100 * *reason.change, 3) : ""});
   }
   table.print(std::cout, "  ");
   for (const EffectReason& reason : choice.reasons) {
-    const std::string name(name_of(reason.effect));
+    const std::string name(solver::name_of(reason.effect));
     std::cout << wrapped(name + ": " +
-                             (reason.active         ? "on, "
+                             (reason.active       ? "on, "
                               : reason.applicable ? "off, "
-                                             : "not there, ") +
+                                                  : "not there, ") +
                              reason.why,
                          "      ");
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

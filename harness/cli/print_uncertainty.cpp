@@ -6,7 +6,7 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 std::string percent(double share) {
@@ -57,8 +57,8 @@ void print_validation_summary(const std::vector<Run>& runs, std::ostream& out) {
 void print_numerical_uncertainty(const NumericalUncertaintySummary& summary, std::ostream& out) {
   if (summary.levels == 0) return;
   out << "bands of numerical uncertainty hold the exact value on " << summary.hits << " of "
-      << summary.levels << " levels (" << percent(summary.hit_rate()) << "), median band over error "
-      << rounded(summary.median_ratio, 3);
+      << summary.levels << " levels (" << percent(summary.hit_rate())
+      << "), median band over error " << rounded(summary.median_ratio, 3);
   if (summary.fails()) {
     out << ": FAIL, expected at least " << percent(kMinHitRate) << " and at most "
         << rounded(kMaxMedianRatio);
@@ -66,4 +66,4 @@ void print_numerical_uncertainty(const NumericalUncertaintySummary& summary, std
   out << '\n';
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 
 #include "harness/run/run.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// The validation comparison of one run as a table: S, D, E with its uncertainties, the input that
 /// matters most, and the verdict in words. Nothing where the case does not ask for it.
@@ -19,4 +19,4 @@ void print_validation_summary(const std::vector<Run>& runs, std::ostream& out);
 /// where no exact value tells.
 void print_numerical_uncertainty(const NumericalUncertaintySummary& summary, std::ostream& out);
 
-}  // namespace trammel
+}  // namespace trammel::harness

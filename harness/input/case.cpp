@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "harness/base/json_file.h"
+#include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/json_view.h"
-#include "harness/base/json_file.h"
 #include "harness/input/schema.h"
-#include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,7 +19,8 @@ Json inherited(const Json& base) {
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {
     if (base.contains(key)) inherited_keys[key] = base.at(key);
   }
-  if (!inherited_keys.contains("variants") || !inherited_keys["variants"].is_object()) return inherited_keys;
+  if (!inherited_keys.contains("variants") || !inherited_keys["variants"].is_object())
+    return inherited_keys;
   for (auto& variant : inherited_keys["variants"]) {
     if (!variant.is_object()) continue;
     variant.erase("checks");
@@ -87,7 +88,7 @@ InputError no_such_place(const JsonView& pointer, const std::string& guess) {
 /// What the schema has against a key that a pointer names and the document does not have: nothing
 /// where the key is one that stands for a default, as /model/elements.
 std::optional<SchemaError> schema_error_of_new_key(const Json& document, const JsonPointer& pointer,
-                                      const Json& value) {
+                                                   const Json& value) {
   const SchemaError nowhere{pointer.to_string(), ""};
   if (pointer.empty() || !document.contains(pointer.parent_pointer())) return nowhere;
   if (!document.at(pointer.parent_pointer()).is_object()) return nowhere;
@@ -106,7 +107,8 @@ void require_place(const Document& document, const JsonView& pointer, const Json
     const auto schema_error = schema_error_of_new_key(document.value(), place, value);
     if (!schema_error) return;
     const auto guess = schema_error->message.find("; did you mean");
-    throw no_such_place(pointer, guess == std::string::npos ? "" : schema_error->message.substr(guess));
+    throw no_such_place(pointer,
+                        guess == std::string::npos ? "" : schema_error->message.substr(guess));
   } catch (const Json::exception&) {
     throw no_such_place(pointer, "");
   }
@@ -231,4 +233,4 @@ std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
   return found;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

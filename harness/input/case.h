@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "harness/input/json_view.h"
 #include "harness/input/document.h"
+#include "harness/input/json_view.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// A case file, with what it extends; obeys the schema.
 struct Case {
@@ -52,4 +52,4 @@ struct Level {
 /// The same of any place with values, and pointers or patches.
 [[nodiscard]] std::vector<Level> levels(const Document& variant, const JsonView& sweep);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -7,7 +7,7 @@
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ std::vector<Case> load_catalogue(const std::vector<std::string>& labels) {
   return chosen;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
@@ -66,7 +66,8 @@ Json followed(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }
 
-OrderCriterion read_order(const JsonView& place, const std::string& quantity, const Json& document) {
+OrderCriterion read_order(const JsonView& place, const std::string& quantity,
+                          const Json& document) {
   OrderCriterion order;
   order.sweep = place.text("sweep");
   const Json sweeps = document.value("sweeps", Json::object());
@@ -288,4 +289,4 @@ const char* to_string(Expectation expectation) {
   return "";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -7,7 +7,7 @@
 #include "harness/input/json_view.h"
 
 /// What a case asks to be judged, as read from "checks".
-namespace trammel {
+namespace trammel::harness {
 
 enum class Role { verification, validation, regression };
 
@@ -74,4 +74,4 @@ struct Check {
 [[nodiscard]] const char* to_string(Measure measure);
 [[nodiscard]] const char* to_string(Expectation expectation);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,7 +4,7 @@
 
 #include "harness/input/schema.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 namespace {
 
@@ -38,7 +38,8 @@ void Document::apply_patch(const std::string& file, const std::string& origin, c
   layers_.push_back({file, origin, patch, false});
 }
 
-void Document::apply_value_patch(const std::string& file, const std::string& origin, const Json& patch) {
+void Document::apply_value_patch(const std::string& file, const std::string& origin,
+                                 const Json& patch) {
   apply_patch(file, origin, patch);
   layers_.back().is_value = true;
 }
@@ -62,7 +63,8 @@ InputError Document::error(const std::string& pointer, const std::string& messag
 }
 
 void Document::validate(const std::string& schema) const {
-  if (const auto schema_error = find_schema_error(value_, schema)) throw error(schema_error->pointer, schema_error->message);
+  if (const auto schema_error = find_schema_error(value_, schema))
+    throw error(schema_error->pointer, schema_error->message);
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

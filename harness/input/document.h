@@ -6,7 +6,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/json.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Where something was written.
 struct Origin {
@@ -48,4 +48,4 @@ class Document {
   std::vector<Layer> layers_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,6 +1,6 @@
 #include "harness/input/json_view.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 bool JsonView::has(const std::string& key) const {
   return json_->is_object() && json_->contains(key);
@@ -30,9 +30,9 @@ std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
   }
   for (const auto& item : json_->items()) {
     found.emplace_back(item.key(), JsonView(*document_, item.value(),
-                                          (JsonPointer(pointer_) / item.key()).to_string()));
+                                            (JsonPointer(pointer_) / item.key()).to_string()));
   }
   return found;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,7 +6,7 @@
 
 #include "harness/input/document.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// A place in a document that has passed its schema: reads values, and complains about them by
 /// their file and pointer.
@@ -52,4 +52,4 @@ class JsonView {
   std::string pointer_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,10 +4,10 @@
 
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
-#include "harness/input/schema.h"
 #include "harness/base/text.h"
+#include "harness/input/schema.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,31 +35,32 @@ CitedReference read(const fs::path& file) {
     throw InputError(file.string(), schema_error->pointer, schema_error->message);
   }
   try {
-    CitedReference cited{read_reference(nlohmann::json(json), file.string()), {}};
+    CitedReference cited{references::read_reference(nlohmann::json(json), file.string()), {}};
     if (cited.reference.id != file.stem().string()) {
       throw InputError(file.string(), "/id",
                        "expected the file's name, '" + file.stem().string() + "'");
     }
     cited.source.text = cited.reference.source;
     for (const fs::path& folder : {file.parent_path(), stored().parent_path()}) {
-      const Bibliography sources = load_bibliography(folder / "bibliography.json");
+      const references::Bibliography sources =
+          references::load_bibliography(folder / "bibliography.json");
       const auto found = sources.find(cited.reference.source);
       if (found == sources.end()) continue;
       cited.source = found->second;
       break;
     }
     return cited;
-  } catch (const ReferenceError& error) {
+  } catch (const references::ReferenceError& error) {
     throw InputError(error.what());
   }
 }
 
 }  // namespace
 
-const Reference& References::get(const JsonView& id) const {
+const references::Reference& References::get(const JsonView& id) const {
   const auto name = id.get<std::string>();
   const std::lock_guard<std::mutex> guard(lock_);
-  if (stored_.empty()) stored_ = reference_files(stored());
+  if (stored_.empty()) stored_ = references::reference_files(stored());
   std::vector<fs::path> files = places_beside(name, id.document().origin(id.pointer()).file);
   if (const auto file = stored_.find(name); file != stored_.end()) files.push_back(file->second);
   for (const fs::path& file : files) {
@@ -82,4 +83,4 @@ std::map<std::string, CitedReference> References::used() const {
   return by_name;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

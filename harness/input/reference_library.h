@@ -10,12 +10,12 @@
 #include "references/data/bibliography.h"
 #include "references/data/reference.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// A reference with what its source key stands for.
 struct CitedReference {
-  Reference reference;
-  Source source;
+  references::Reference reference;
+  references::Source source;
 };
 
 /// References by name, read once: from beside the case file, else from the catalogue. Safe to ask
@@ -24,7 +24,7 @@ class References {
  public:
   /// @param id      a place that holds the name
   /// @throws InputError  where there is no such reference or its file is broken.
-  [[nodiscard]] const Reference& get(const JsonView& id) const;
+  [[nodiscard]] const references::Reference& get(const JsonView& id) const;
 
   /// All that were asked for so far, by name.
   [[nodiscard]] std::map<std::string, CitedReference> used() const;
@@ -35,4 +35,4 @@ class References {
   mutable std::map<std::filesystem::path, CitedReference> read_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

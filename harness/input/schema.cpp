@@ -11,7 +11,7 @@
 #include "harness/base/json_file.h"
 #include "harness/input/schema_diagnostics.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 using valijson::adapters::NlohmannJsonAdapter;
@@ -60,4 +60,4 @@ std::optional<SchemaError> find_schema_error(const Json& document, const std::st
   return explain(loaded.text, plain, path_of(deepest));
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,7 +6,7 @@
 #include "harness/base/json.h"
 
 /// Checking documents against the JSON Schemas of cases/schema.
-namespace trammel {
+namespace trammel::harness {
 
 /// What is wrong, and where.
 struct SchemaError {
@@ -16,6 +16,7 @@ struct SchemaError {
 
 /// The deepest fault of a document, empty when it obeys the schema.
 /// @param schema  "case", "cost", "reference" or "results"
-[[nodiscard]] std::optional<SchemaError> find_schema_error(const Json& document, const std::string& schema);
+[[nodiscard]] std::optional<SchemaError> find_schema_error(const Json& document,
+                                                           const std::string& schema);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 using Plain = nlohmann::json;
@@ -136,7 +136,7 @@ std::vector<std::string> allowed_keys(const Rules& rules) {
 }
 
 std::string all_quoted(std::vector<std::string> names, const char* last) {
-  for (std::string& name : names) name = trammel::quoted(name);
+  for (std::string& name : names) name = harness::quoted(name);
   return join(names, last);
 }
 
@@ -146,14 +146,15 @@ std::string got_keys(const Plain& object) {
 }
 
 SchemaError unknown_key(const Plain::json_pointer& pointer, const std::string& key,
-                  const std::vector<std::string>& allowed) {
+                        const std::vector<std::string>& allowed) {
   std::string message = "expected no key of that name";
   const std::string guess = did_you_mean(key, allowed);
   message += guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess;
   return {(pointer / key).to_string(), message};
 }
 
-SchemaError explain_object(const Plain::json_pointer& pointer, const Plain& object, const Rules& rules) {
+SchemaError explain_object(const Plain::json_pointer& pointer, const Plain& object,
+                           const Rules& rules) {
   const std::vector<std::string> allowed = allowed_keys(rules);
   for (const auto& item : object.items()) {
     const bool known = std::find(allowed.begin(), allowed.end(), item.key()) != allowed.end();
@@ -183,7 +184,8 @@ SchemaError explain_object(const Plain::json_pointer& pointer, const Plain& obje
 
 }  // namespace
 
-SchemaError explain(const Plain& schema, const Plain& document, const std::vector<std::string>& path) {
+SchemaError explain(const Plain& schema, const Plain& document,
+                    const std::vector<std::string>& path) {
   Rules rules;
   open(schema, schema, rules);
   const Plain* value = &document;
@@ -217,4 +219,4 @@ SchemaError explain(const Plain& schema, const Plain& document, const std::vecto
   return {pointer.to_string(), message};
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
-namespace trammel {
+#include "harness/base/numbers.h"
+
+namespace trammel::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// A tenth: of the order, for neighbours to agree and for theory to be met.
 constexpr double kOrderTolerance = 0.1;
 
@@ -46,9 +47,9 @@ double order_of_errors(double coarse, double fine, double h_coarse, double h_fin
 }
 
 /// Works on the levels that have a value.
-class Study {
+class ConvergenceStudy {
  public:
-  explicit Study(const Series& series) : series_(series) {
+  explicit ConvergenceStudy(const Series& series) : series_(series) {
     for (std::size_t i = 0; i < series.values.size(); ++i) {
       if (!std::isfinite(series.values[i])) {
         result_.broken = result_.broken || !level_.empty();
@@ -170,8 +171,8 @@ class Study {
       signed_error.push_back((v_[k] - *reference) / std::abs(*reference));
       usable.push_back(!at_floor_[k]);
     }
-    result_.two_term =
-        fit_two_terms(h_, signed_error, usable, {*series_.theory, *series_.lower}, kTwoTermTolerance);
+    result_.two_term = fit_two_terms(h_, signed_error, usable, {*series_.theory, *series_.lower},
+                                     kTwoTermTolerance);
     if (result_.two_term && result_.two_term->worst <= kTwoTermTolerance) {
       in_range_ = result_.two_term->used;
     }
@@ -224,7 +225,7 @@ std::optional<double> slope(const std::vector<double>& size, const std::vector<d
 }
 
 Convergence analyse_convergence(const Series& series) {
-  return Study(series).run();
+  return ConvergenceStudy(series).run();
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -6,7 +6,7 @@
 
 #include "harness/judge/two_term.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// One number followed along a refinement, coarse to fine. NaN where a level does not have it.
 struct Series {
@@ -45,9 +45,9 @@ struct Convergence {
   bool broken = false;  ///< a level after the first finite one has no finite value
 };
 
-/// ObservedQuantity orders, asymptotic range, Richardson extrapolation (L. F. Richardson 1911) and the grid
-/// convergence index (P. J. Roache, J. Fluids Eng. 116, 1994; I. B. Celik et al., J. Fluids Eng.
-/// 130, 078001, 2008).
+/// ObservedQuantity orders, asymptotic range, Richardson extrapolation (L. F. Richardson 1911) and
+/// the grid convergence index (P. J. Roache, J. Fluids Eng. 116, 1994; I. B. Celik et al., J.
+/// Fluids Eng. 130, 078001, 2008).
 [[nodiscard]] Convergence analyse_convergence(const Series& series);
 
 /// Slope of log error over log size on the chosen levels (least squares); nothing below two levels.
@@ -61,4 +61,4 @@ inline constexpr double kTwoTermTolerance = 0.05;
 /// How many times the round-off error an error must be to say anything about the discretisation.
 inline constexpr double kRoundoffMargin = 100;
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr double kStep = 1.0 / 16;
@@ -107,4 +107,4 @@ SampledUncertainty uncertainty_by_sampling(const Response& response,
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -9,7 +9,7 @@
 /// anywhere within +-half_width of its value, all places equally likely, inputs independent of each
 /// other: its standard uncertainty is half_width / sqrt(3).
 /// Source: JCGM 100:2008 (GUM) 4.3.7 and 5.1; JCGM 101:2008 for the sampling.
-namespace trammel {
+namespace trammel::harness {
 
 /// The outputs with every input moved by its offset (unit of the input); empty where the model has
 /// no solution there.
@@ -45,4 +45,4 @@ struct SampledUncertainty {
                                                          const std::vector<double>& half_widths,
                                                          int count, std::uint64_t seed);
 
-}  // namespace trammel
+}  // namespace trammel::harness

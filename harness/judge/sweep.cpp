@@ -4,23 +4,23 @@
 #include <cmath>
 #include <limits>
 
-#include "harness/input/case.h"
 #include "harness/base/diagnostic.h"
-#include "harness/judge/judge.h"
+#include "harness/base/numbers.h"
 #include "harness/base/statistic.h"
+#include "harness/input/case.h"
+#include "harness/judge/evaluate_check.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Entries of an array that are followed when nobody says which.
-constexpr std::size_t kMaxEntries = 16;
+constexpr std::size_t kMaxTrackedEntries = 16;
 
 /// A quantity to follow, and where its exact values stand.
 struct TrackedQuantity {
   std::string quantity, statistic;
   std::vector<std::size_t> index, reference_index;
-  const Reference* reference = nullptr;
+  const references::Reference* reference = nullptr;
   bool is_error = false;
   std::optional<double> theory = std::nullopt;
 };
@@ -32,15 +32,17 @@ std::vector<std::size_t> indices(const JsonView& place, const char* key) {
   return {stated->get<std::size_t>()};
 }
 
-bool is_exact(const Reference& reference) {
-  return reference.kind == ReferenceKind::exact || reference.kind == ReferenceKind::computed;
+bool is_exact(const references::Reference& reference) {
+  return reference.kind == references::ReferenceKind::exact ||
+         reference.kind == references::ReferenceKind::computed;
 }
 
 std::vector<TrackedQuantity> named_by_sweep(const JsonView& place, const References& references) {
   std::vector<TrackedQuantity> tracked_quantities;
   for (const auto& [name, entry] : place.entries()) {
-    TrackedQuantity tracked_quantity{name, entry.get<std::string>("statistic", ""), indices(entry, "index"),
-                 indices(entry, "reference_index"), nullptr};
+    TrackedQuantity tracked_quantity{name, entry.get<std::string>("statistic", ""),
+                                     indices(entry, "index"), indices(entry, "reference_index"),
+                                     nullptr};
     tracked_quantity.is_error = entry.get("is_error", false);
     if (entry.has("theory_order")) tracked_quantity.theory = entry.number("theory_order");
     if (entry.has("reference")) tracked_quantity.reference = &references.get(entry["reference"]);
@@ -50,19 +52,23 @@ std::vector<TrackedQuantity> named_by_sweep(const JsonView& place, const Referen
 }
 
 /// What the checks look at, each once; a check with true values before one without.
-std::vector<TrackedQuantity> named_by_checks(const Document& document, const std::vector<Check>& checks,
-                                      const References& references) {
+std::vector<TrackedQuantity> named_by_checks(const Document& document,
+                                             const std::vector<Check>& checks,
+                                             const References& references) {
   std::vector<TrackedQuantity> tracked_quantities;
   const JsonView places = JsonView(document)["checks"];
   for (const Check& check : checks) {
-    TrackedQuantity tracked_quantity{check.quantity, check.statistic, check.index, check.reference_index, nullptr};
+    TrackedQuantity tracked_quantity{check.quantity, check.statistic, check.index,
+                                     check.reference_index, nullptr};
     if (!check.reference.empty()) {
-      const Reference& reference = references.get(places[check.name]["reference"]);
+      const references::Reference& reference = references.get(places[check.name]["reference"]);
       if (is_exact(reference)) tracked_quantity.reference = &reference;
     }
-    const auto same = std::find_if(tracked_quantities.begin(), tracked_quantities.end(), [&](const TrackedQuantity& other) {
-      return other.quantity == tracked_quantity.quantity && other.statistic == tracked_quantity.statistic;
-    });
+    const auto same = std::find_if(tracked_quantities.begin(), tracked_quantities.end(),
+                                   [&](const TrackedQuantity& other) {
+                                     return other.quantity == tracked_quantity.quantity &&
+                                            other.statistic == tracked_quantity.statistic;
+                                   });
     if (same == tracked_quantities.end()) {
       tracked_quantities.push_back(std::move(tracked_quantity));
     } else if (same->reference == nullptr && tracked_quantity.reference != nullptr) {
@@ -76,7 +82,9 @@ void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& track
   for (const auto& item : sweep.levels.back().result.quantities) {
     if (is_diagnostic(item.first)) continue;
     const bool known = std::any_of(tracked_quantities.begin(), tracked_quantities.end(),
-                                   [&](const TrackedQuantity& tracked_quantity) { return tracked_quantity.quantity == item.first; });
+                                   [&](const TrackedQuantity& tracked_quantity) {
+                                     return tracked_quantity.quantity == item.first;
+                                   });
     if (!known) tracked_quantities.push_back({item.first, "", {}, {}, nullptr});
   }
 }
@@ -87,8 +95,8 @@ double size_of(const std::string& measures, double parameter) {
 }
 
 /// The value (and its round-off) that a level has for one entry.
-std::pair<double, double> entry_of(const AnalysisResult& result, const TrackedQuantity& tracked_quantity,
-                                   std::size_t index) {
+std::pair<double, double> entry_of(const AnalysisResult& result,
+                                   const TrackedQuantity& tracked_quantity, std::size_t index) {
   const auto found = result.quantities.find(tracked_quantity.quantity);
   if (found == result.quantities.end()) return {kNaN, 0};
   const Quantity& quantity = found->second;
@@ -115,13 +123,14 @@ std::vector<std::size_t> entries(const Sweep& sweep, const TrackedQuantity& trac
     const auto found = level.result.quantities.find(tracked_quantity.quantity);
     if (found != level.result.quantities.end()) most = std::max(most, found->second.values.size());
   }
-  std::vector<std::size_t> all(std::min(most, kMaxEntries));
+  std::vector<std::size_t> all(std::min(most, kMaxTrackedEntries));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   return all;
 }
 
 std::optional<double> exact_of(const TrackedQuantity& tracked_quantity, std::size_t position) {
-  if (tracked_quantity.reference == nullptr || tracked_quantity.reference->unit != unit_of(tracked_quantity.quantity)) {
+  if (tracked_quantity.reference == nullptr ||
+      tracked_quantity.reference->unit != unit_of(tracked_quantity.quantity)) {
     return std::nullopt;
   }
   const auto& chosen = tracked_quantity.reference_index;
@@ -131,8 +140,9 @@ std::optional<double> exact_of(const TrackedQuantity& tracked_quantity, std::siz
   return tracked_quantity.reference->values[at];
 }
 
-Series track_entry(const Sweep& sweep, const JsonView& place, const TrackedQuantity& tracked_quantity,
-                    std::size_t index, std::size_t position) {
+Series track_entry(const Sweep& sweep, const JsonView& place,
+                   const TrackedQuantity& tracked_quantity, std::size_t index,
+                   std::size_t position) {
   Series series;
   series.sweep = sweep.name;
   series.quantity = tracked_quantity.quantity;
@@ -216,4 +226,4 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
   return found;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -8,7 +8,7 @@
 #include "harness/judge/convergence.h"
 
 /// Refinement sweeps: the same computation level by level.
-namespace trammel {
+namespace trammel::harness {
 
 struct SweepLevel {
   double parameter = 0;
@@ -31,6 +31,7 @@ enum class TrackedQuantities {
 
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,
-                                                   const References& references, TrackedQuantities tracked);
+                                                   const References& references,
+                                                   TrackedQuantities tracked);
 
-}  // namespace trammel
+}  // namespace trammel::harness

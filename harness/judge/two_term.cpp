@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Least squares for 1 = (a h^p + b h^q) / error over levels first, first + 1, ...
@@ -81,4 +81,4 @@ double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<do
   return v[2] - a - b;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

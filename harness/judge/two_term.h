@@ -7,7 +7,7 @@
 /// Errors that are the sum of two powers, a h^p + b h^q: bending elements of order 4 joined by
 /// linear axial interpolation of order 2, or a Timoshenko element, whose shear takes over on short
 /// elements. Between the two no single order is observed.
-namespace trammel {
+namespace trammel::harness {
 
 struct TwoTermLaw {
   double p = 4, q = 2;  ///< orders, p > q > 0
@@ -34,4 +34,4 @@ struct TwoTermFit {
 [[nodiscard]] double extrapolate_two_terms(const std::array<double, 3>& h,
                                            const std::array<double, 3>& v, const TwoTermLaw& law);
 
-}  // namespace trammel
+}  // namespace trammel::harness

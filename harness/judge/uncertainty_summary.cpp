@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace trammel {
+namespace trammel::harness {
 
 double NumericalUncertaintySummary::hit_rate() const {
   return levels == 0 ? std::numeric_limits<double>::quiet_NaN()
@@ -12,11 +12,11 @@ double NumericalUncertaintySummary::hit_rate() const {
 }
 
 bool NumericalUncertaintySummary::fails() const {
-  return levels >= kMinLevels &&
-         !(hit_rate() >= kMinHitRate && median_ratio <= kMaxMedianRatio);
+  return levels >= kMinLevels && !(hit_rate() >= kMinHitRate && median_ratio <= kMaxMedianRatio);
 }
 
-NumericalUncertaintySummary summarise_numerical_uncertainty(const std::vector<const Convergence*>& studies) {
+NumericalUncertaintySummary summarise_numerical_uncertainty(
+    const std::vector<const Convergence*>& studies) {
   NumericalUncertaintySummary summary;
   std::vector<double> ratios;
   for (const Convergence* found : studies) {
@@ -40,4 +40,4 @@ NumericalUncertaintySummary summarise_numerical_uncertainty(const std::vector<co
   return summary;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

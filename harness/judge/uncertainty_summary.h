@@ -5,7 +5,7 @@
 
 #include "harness/judge/convergence.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// How good the bands of numerical uncertainty are, where exact values tell: how often they hold
 /// the exact value, and how much wider than needed they are. A band that is always right because it
@@ -29,6 +29,7 @@ inline constexpr double kMaxMedianRatio = 3;
 /// Below so many levels one miss decides; then nothing is judged.
 inline constexpr std::size_t kMinLevels = 100;
 
-[[nodiscard]] NumericalUncertaintySummary summarise_numerical_uncertainty(const std::vector<const Convergence*>& studies);
+[[nodiscard]] NumericalUncertaintySummary summarise_numerical_uncertainty(
+    const std::vector<const Convergence*>& studies);
 
-}  // namespace trammel
+}  // namespace trammel::harness

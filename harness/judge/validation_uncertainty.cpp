@@ -6,14 +6,14 @@
 #include <limits>
 #include <optional>
 
+#include "harness/base/numbers.h"
+#include "harness/base/text.h"
 #include "harness/input/case.h"
 #include "harness/judge/convergence.h"
-#include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// From a band of about 95 % to a standard uncertainty: the error lies on one side of the computed
 /// value, near the edge of the band. Source: ASME V&V 20-2009, section 2 (k = 1.1 to 1.15).
 constexpr double kGciToStandard = 1.15;
@@ -22,7 +22,7 @@ constexpr double kGciToStandard = 1.15;
 struct Place {
   const Check* check = nullptr;
   std::size_t index = 0, reference_index = 0;
-  const Reference* reference = nullptr;
+  const references::Reference* reference = nullptr;
 };
 
 std::vector<Place> compared_places(const std::vector<Check>& checks, const JsonView& root,
@@ -33,7 +33,8 @@ std::vector<Place> compared_places(const std::vector<Check>& checks, const JsonV
         check.role == Role::validation && !check.reference.empty() && check.statistic.empty();
     const auto found = quantities.find(check.quantity);
     if (!compared || found == quantities.end()) continue;
-    const Reference& reference = references.get(root["checks"][check.name]["reference"]);
+    const references::Reference& reference =
+        references.get(root["checks"][check.name]["reference"]);
     const std::size_t count = check.index.empty() ? reference.values.size() : check.index.size();
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t index = check.index.empty() ? k : check.index[k];
@@ -58,7 +59,8 @@ Document moved(const Document& document, const std::vector<std::string>& pointer
   for (const std::string& pointer : pointers) {
     const double value = document.value().at(JsonPointer(pointer)).get<double>();
     const Origin written = document.origin(pointer);
-    copy.apply_value_patch(written.file, written.pointer, patch_at(copy.value(), pointer, move(value)));
+    copy.apply_value_patch(written.file, written.pointer,
+                           patch_at(copy.value(), pointer, move(value)));
   }
   return copy;
 }
@@ -79,7 +81,7 @@ std::vector<StatedInput> read_inputs(const JsonView& place, const References& re
       throw entry.error("expected either 'half_width' or 'reference'");
     }
     if (entry.has("reference")) {
-      const Reference& reference = references.get(entry["reference"]);
+      const references::Reference& reference = references.get(entry["reference"]);
       input.half_width = reference.uncertainty.at(0);
       if (!reference.printed.empty()) {
         input.why = "half a unit in the last place of '" + reference.printed[0] + "'";
@@ -99,10 +101,10 @@ std::vector<StatedInput> read_inputs(const JsonView& place, const References& re
   return inputs;
 }
 
-class Study {
+class ValidationStudy {
  public:
-  Study(const Document& document, const AnalysisResult& result, const std::vector<Check>& checks,
-        const References& references)
+  ValidationStudy(const Document& document, const AnalysisResult& result,
+                  const std::vector<Check>& checks, const References& references)
       : document_(document),
         stated_(JsonView(document)["uncertainty"]),
         references_(references),
@@ -182,7 +184,8 @@ class Study {
     }
   }
 
-  void estimate(const std::string& name, const JsonView& place, const std::vector<double>& parameter,
+  void estimate(const std::string& name, const JsonView& place,
+                const std::vector<double>& parameter,
                 const std::vector<std::vector<double>>& levels, std::vector<double>& squares) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Series series;
@@ -191,7 +194,7 @@ class Study {
       series.values = {levels[0][i], levels[1][i], levels[2][i]};
       series.roundoff = {0, 0, 0};
       if (place.has("theory_order")) series.theory = place.number("theory_order");
-      const Convergence found = trammel::analyse_convergence(series);
+      const Convergence found = harness::analyse_convergence(series);
       NumericalEstimate one;
       one.refinement = name;
       one.quantity = places_[i].check->quantity;
@@ -325,10 +328,11 @@ std::vector<StatedInput> stated_inputs(const Document& document, const Reference
   return read_inputs(JsonView(document)["uncertainty"]["inputs"], references);
 }
 
-ValidationUncertainty evaluate_validation_uncertainty(const Document& document, const AnalysisResult& result,
-                                       const std::vector<Check>& checks,
-                                       const References& references) {
-  return Study(document, result, checks, references).run();
+ValidationUncertainty evaluate_validation_uncertainty(const Document& document,
+                                                      const AnalysisResult& result,
+                                                      const std::vector<Check>& checks,
+                                                      const References& references) {
+  return ValidationStudy(document, result, checks, references).run();
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -11,7 +11,7 @@
 /// The validation comparison of ASME V&V 20-2009 for the checks of a run that have the role
 /// validation: what the refinement, the printed digits of the inputs and those of the reference
 /// explain of the difference, and what is left to the model. Asked for by "uncertainty" in a case.
-namespace trammel {
+namespace trammel::harness {
 
 /// An input known to so many digits, as the case states it.
 struct StatedInput {
@@ -64,9 +64,8 @@ struct ValidationUncertainty {
 
 /// @param document  case or variant, solved with `result`; has "uncertainty"
 /// @throws InputError  where a pointer leads nowhere or a patched model has no meaning.
-[[nodiscard]] ValidationUncertainty evaluate_validation_uncertainty(const Document& document,
-                                                     const AnalysisResult& result,
-                                                     const std::vector<Check>& checks,
-                                                     const References& references);
+[[nodiscard]] ValidationUncertainty evaluate_validation_uncertainty(
+    const Document& document, const AnalysisResult& result, const std::vector<Check>& checks,
+    const References& references);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr double kRepeated = 1e-6;
@@ -27,7 +27,8 @@ Validation compare(const Comparison& c) {
     return v;
   }
   const bool within = v.low <= 0 && v.high >= 0;
-  v.verdict = within ? ValidationVerdict::within_validation_uncertainty : ValidationVerdict::beyond_validation_uncertainty;
+  v.verdict = within ? ValidationVerdict::within_validation_uncertainty
+                     : ValidationVerdict::beyond_validation_uncertainty;
   return v;
 }
 
@@ -81,7 +82,8 @@ std::string contradiction(const Spread& spread, std::size_t first, std::size_t e
 
 }  // namespace
 
-std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& row, const std::string& unit) {
+std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& row,
+                                                const std::string& unit) {
   std::vector<Validation> verdicts;
   for (std::size_t first = 0; first < row.size();) {
     const std::size_t end = end_of_repeated(row, first);
@@ -91,7 +93,8 @@ std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& r
       const double noise = kCoverageFactor * v.u_val;
       const bool between =
           row[i].simulation >= spread.low - noise && row[i].simulation <= spread.high + noise;
-      if (v.verdict == ValidationVerdict::beyond_validation_uncertainty && spread.beyond_digits && between) {
+      if (v.verdict == ValidationVerdict::beyond_validation_uncertainty && spread.beyond_digits &&
+          between) {
         v.verdict = ValidationVerdict::reference_inconsistent;
         v.text = contradiction(spread, first, end, unit);
       } else {
@@ -118,4 +121,4 @@ std::string to_string(ValidationVerdict verdict) {
   return "undecided";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

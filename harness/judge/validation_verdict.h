@@ -5,7 +5,7 @@
 
 /// The validation comparison of ASME V&V 20-2009: E = S - D, and how much of it the numerical
 /// error, the inputs and the printed digits of the reference can explain.
-namespace trammel {
+namespace trammel::harness {
 
 /// A computed value and what it is compared with; u are standard uncertainties, all in one unit.
 struct Comparison {
@@ -17,7 +17,12 @@ struct Comparison {
 };
 
 /// undecided: a number is missing, and nothing is claimed.
-enum class ValidationVerdict { within_validation_uncertainty, beyond_validation_uncertainty, reference_inconsistent, undecided };
+enum class ValidationVerdict {
+  within_validation_uncertainty,
+  beyond_validation_uncertainty,
+  reference_inconsistent,
+  undecided
+};
 
 struct Validation {
   double difference = 0;  ///< E = S - D
@@ -38,9 +43,9 @@ inline constexpr double kCoverageFactor = 2;
 /// model's value lies beyond all of them, the model is off all the same.
 /// @param unit  for the words
 [[nodiscard]] std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& row,
-                                                const std::string& unit);
+                                                              const std::string& unit);
 
 /// "within-noise", "model-off", "reference-contradicts-itself", "undecided"
 [[nodiscard]] std::string to_string(ValidationVerdict verdict);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -10,7 +10,7 @@
 #include "harness/base/json_file.h"
 #include "harness/base/statistic.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr const char* kClaimsFile = "varalakshmi-2017.json";
@@ -39,7 +39,8 @@ Window read_window(const JsonView& interval) {
 Rule read_rule(const JsonView& interpretation) {
   Rule rule;
   rule.jointly = interpretation.get("jointly", false);
-  const auto read = [&](const char* key, std::optional<Window>& window, InterpretationVerdict verdict) {
+  const auto read = [&](const char* key, std::optional<Window>& window,
+                        InterpretationVerdict verdict) {
     if (!interpretation.has(key)) return;
     if (!interpretation[key].json().is_string()) {
       window = read_window(interpretation[key]);
@@ -82,13 +83,15 @@ std::optional<double> metric_of(const std::string& metric, const CheckResult& ch
 
 void add_checks(const JsonView& interpretation, const Run& run, Interpretation& found) {
   for (const CheckResult& check_result : run.check_results) {
-    const bool named = interpretation.has("check") && matches(check_result.name, interpretation.text("check"));
-    const bool against = interpretation.has("reference") && check_result.reference == interpretation.text("reference");
+    const bool named =
+        interpretation.has("check") && matches(check_result.name, interpretation.text("check"));
+    const bool against = interpretation.has("reference") &&
+                         check_result.reference == interpretation.text("reference");
     if (!named && !against) continue;
     if (interpretation.has("index")) {
       const auto index = interpretation["index"].get<std::vector<std::size_t>>();
-      const bool chosen =
-          check_result.index && std::find(index.begin(), index.end(), *check_result.index) != index.end();
+      const bool chosen = check_result.index &&
+                          std::find(index.begin(), index.end(), *check_result.index) != index.end();
       if (!chosen) continue;
     }
     const auto value = metric_of(found.metric, check_result);
@@ -114,7 +117,7 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
     for (const auto i : interpretation["index"].get<std::vector<std::size_t>>()) {
       if (i >= all.size()) {
         throw interpretation["index"].error("expected entries that " + name + " has, which are " +
-                                     std::to_string(all.size()));
+                                            std::to_string(all.size()));
       }
       values.push_back(all[i]);
     }
@@ -125,7 +128,8 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
     std::adjacent_difference(values.begin(), values.end(), values.begin());
     values.erase(values.begin());
   }
-  if (interpretation.has("statistic")) values = {statistic_of(interpretation.text("statistic"), values)};
+  if (interpretation.has("statistic"))
+    values = {statistic_of(interpretation.text("statistic"), values)};
   found.unit = unit_of(name);
   for (const double value : values) {
     if (std::isfinite(value)) {
@@ -138,7 +142,8 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
 
 /// One verdict for each entry, or for each check: it confirms where all its entries do, and
 /// contradicts where one does.
-std::vector<InterpretationVerdict> verdicts_of(const Rule& rule, const std::vector<InterpretationEntry>& entries) {
+std::vector<InterpretationVerdict> verdicts_of(const Rule& rule,
+                                               const std::vector<InterpretationEntry>& entries) {
   std::vector<InterpretationVerdict> verdicts;
   const InterpretationEntry* before = nullptr;
   for (const InterpretationEntry& entry : entries) {
@@ -156,7 +161,8 @@ std::vector<InterpretationVerdict> verdicts_of(const Rule& rule, const std::vect
   return verdicts;
 }
 
-InterpretationVerdict verdict_of(const Rule& rule, const std::vector<InterpretationEntry>& entries) {
+InterpretationVerdict verdict_of(const Rule& rule,
+                                 const std::vector<InterpretationEntry>& entries) {
   const std::vector<InterpretationVerdict> each = verdicts_of(rule, entries);
   const std::set<InterpretationVerdict> verdicts(each.begin(), each.end());
   if (verdicts.empty()) return InterpretationVerdict::not_measured;
@@ -166,7 +172,7 @@ InterpretationVerdict verdict_of(const Rule& rule, const std::vector<Interpretat
 }
 
 Interpretation evaluate_interpretation(const std::string& name, const JsonView& interpretation,
-                            const std::vector<Run>& runs) {
+                                       const std::vector<Run>& runs) {
   Interpretation found;
   found.name = name;
   found.what = interpretation.text("what");
@@ -210,8 +216,9 @@ ClaimVerdict verdict_of(const std::vector<Interpretation>& interpretations, bool
         return ClaimVerdict::cannot_be_decided;
     }
   }
-  const bool some =
-      verdicts.count(InterpretationVerdict::confirms) + verdicts.count(InterpretationVerdict::in_part) > 0;
+  const bool some = verdicts.count(InterpretationVerdict::confirms) +
+                        verdicts.count(InterpretationVerdict::in_part) >
+                    0;
   return some && !alternatives ? ClaimVerdict::confirmed_in_part : ClaimVerdict::cannot_be_decided;
 }
 
@@ -240,8 +247,8 @@ Claim evaluate_claim(const std::string& id, const JsonView& claim, const std::ve
   for (const auto& [name, interpretation] : claim["readings"].entries()) {
     found.interpretations.push_back(evaluate_interpretation(name, interpretation, runs));
   }
-  found.verdict =
-      verdict_of(found.interpretations, claim.get<std::string>("together", "parts") == "alternatives");
+  found.verdict = verdict_of(found.interpretations,
+                             claim.get<std::string>("together", "parts") == "alternatives");
   return found;
 }
 
@@ -278,13 +285,16 @@ std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& c
   std::vector<JsonView> interpretations;
   for (const auto& [id, claim] : JsonView(claim_set)["claims"].entries()) {
     if (!claim.has("readings")) continue;
-    for (const auto& [name, interpretation] : claim["readings"].entries()) interpretations.push_back(interpretation);
+    for (const auto& [name, interpretation] : claim["readings"].entries())
+      interpretations.push_back(interpretation);
   }
   std::vector<Case> cases;
-  std::copy_if(catalogue.begin(), catalogue.end(), std::back_inserter(cases), [&](const Case& test_case) {
-    return std::any_of(interpretations.begin(), interpretations.end(),
-                       [&](const JsonView& interpretation) { return rests_on(interpretation, test_case); });
-  });
+  std::copy_if(
+      catalogue.begin(), catalogue.end(), std::back_inserter(cases), [&](const Case& test_case) {
+        return std::any_of(
+            interpretations.begin(), interpretations.end(),
+            [&](const JsonView& interpretation) { return rests_on(interpretation, test_case); });
+      });
   return cases;
 }
 
@@ -330,7 +340,8 @@ std::string to_text(InterpretationVerdict verdict) {
 }
 
 Json to_json(const ClaimSet& claim_set) {
-  Json json = {{"title", claim_set.title}, {"follows", claim_set.as_expected()}, {"claims", Json::array()}};
+  Json json = {
+      {"title", claim_set.title}, {"follows", claim_set.as_expected()}, {"claims", Json::array()}};
   for (const Claim& claim : claim_set.claims) {
     Json one = {{"id", claim.id},
                 {"claim", claim.claim},
@@ -342,15 +353,15 @@ Json to_json(const ClaimSet& claim_set) {
                 {"readings", Json::array()}};
     for (const Interpretation& interpretation : claim.interpretations) {
       Json interpretation_json = {{"what", interpretation.what},
-                  {"take", interpretation.metric},
-                  {"unit", interpretation.unit},
-                  {"verdict", to_text(interpretation.verdict)},
-                  {"entries", Json::array()}};
+                                  {"take", interpretation.metric},
+                                  {"unit", interpretation.unit},
+                                  {"verdict", to_text(interpretation.verdict)},
+                                  {"entries", Json::array()}};
       for (const InterpretationEntry& entry : interpretation.entries) {
         interpretation_json["entries"].push_back({{"case", entry.case_id},
-                                  {"variant", entry.variant},
-                                  {"name", entry.name},
-                                  {"value", entry.value}});
+                                                  {"variant", entry.variant},
+                                                  {"name", entry.name},
+                                                  {"value", entry.value}});
       }
       one["readings"].push_back(std::move(interpretation_json));
     }
@@ -359,4 +370,4 @@ Json to_json(const ClaimSet& claim_set) {
   return json;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

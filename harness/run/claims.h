@@ -6,9 +6,9 @@
 
 #include "harness/run/run.h"
 
-/// The ledger of a publication's claims: from results, by the rules of cases/paper/claims/, to a verdict
-/// for each claim.
-namespace trammel {
+/// The ledger of a publication's claims: from results, by the rules of cases/paper/claims/, to a
+/// verdict for each claim.
+namespace trammel::harness {
 
 /// What the entries of a reading come to.
 enum class InterpretationVerdict { confirms, contradicts, in_part, undecided, not_measured };
@@ -71,4 +71,4 @@ struct ClaimSet {
 /// What results.json says of it.
 [[nodiscard]] Json to_json(const ClaimSet& claim_set);
 
-}  // namespace trammel
+}  // namespace trammel::harness

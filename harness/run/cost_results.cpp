@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json error_json(const std::optional<ErrorNorms>& error) {
   if (!error) return nullptr;
-  return {{"max", number(error->max)}, {"rms", number(error->rms)}, {"mean", number(error->mean)}};
+  return {{"max", number_or_null(error->max)},
+          {"rms", number_or_null(error->rms)},
+          {"mean", number_or_null(error->mean)}};
 }
 
 Json time_json(const std::optional<Timing>& timing) {
@@ -29,12 +27,12 @@ Json setting_json(const Setting& setting, const MeasuredSetting& measured, bool 
   return {{"curve", setting.curve},
           {"curve_title", setting.curve_title},
           {"title", setting.title},
-          {"value", setting.value ? number(*setting.value) : Json(nullptr)},
+          {"value", setting.value ? number_or_null(*setting.value) : Json(nullptr)},
           {"standing", to_string(measured.status)},
           {"reason", measured.reason},
           {"error", error_json(measured.error)},
           {"cpu_s", measured.cpu_s},
-          {"relative_time", number(measured.relative)},
+          {"relative_time", number_or_null(measured.relative)},
           {"time", time_json(measured.timing)},
           {"counters",
            {{"element_evaluations", measured.counters.element_evaluations},
@@ -64,9 +62,11 @@ Json study_json(const MeasuredStudy& measured) {
   json["wall_s"] = measured.wall_s;
   json["settings"] = Json::array();
   for (std::size_t i = 0; i < study.settings.size(); ++i) {
-    const bool on_pareto_front = std::any_of(measured.pareto_front.begin(), measured.pareto_front.end(),
-                                      [i](const CostPoint& point) { return point.setting == i; });
-    json["settings"].push_back(setting_json(study.settings[i], measured.settings[i], on_pareto_front));
+    const bool on_pareto_front =
+        std::any_of(measured.pareto_front.begin(), measured.pareto_front.end(),
+                    [i](const CostPoint& point) { return point.setting == i; });
+    json["settings"].push_back(
+        setting_json(study.settings[i], measured.settings[i], on_pareto_front));
   }
   json["cheapest"] = Json::array();
   for (const double error : target_errors()) {
@@ -106,4 +106,4 @@ std::vector<CostPoint> cost_points(const Json& study) {
   return points;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

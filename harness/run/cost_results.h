@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "harness/studies/cost.h"
 #include "harness/base/json.h"
+#include "harness/studies/cost.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// The "cost" of results.json, by its schema.
 [[nodiscard]] Json cost_json(const std::vector<MeasuredStudy>& studies, SweepExtent extent,
@@ -14,4 +14,4 @@ namespace trammel {
 /// The points of a study of results.json that are used for its front.
 [[nodiscard]] std::vector<CostPoint> cost_points(const Json& study);
 
-}  // namespace trammel
+}  // namespace trammel::harness

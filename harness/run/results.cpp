@@ -6,35 +6,32 @@
 #include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
+Json number_or_null(const std::optional<double>& value) {
+  return value ? number_or_null(*value) : Json(nullptr);
 }
 
 Json numbers(const std::vector<double>& values) {
   Json array = Json::array();
-  for (const double value : values) array.push_back(number(value));
+  for (const double value : values) array.push_back(number_or_null(value));
   return array;
 }
 
-Json points(const std::vector<Vector2d>& all) {
+Json points(const std::vector<Eigen::Vector2d>& all) {
   Json array = Json::array();
-  for (const Vector2d& point : all) array.push_back({number(point.x()), number(point.y())});
+  for (const Eigen::Vector2d& point : all)
+    array.push_back({number_or_null(point.x()), number_or_null(point.y())});
   return array;
 }
 
 Json tolerance(const CheckResult& check_result) {
   if (!check_result.window) return nullptr;
-  if (check_result.symmetric) return number(check_result.window->high);
-  return {number(check_result.window->low), number(check_result.window->high)};
+  if (check_result.symmetric) return number_or_null(check_result.window->high);
+  return {number_or_null(check_result.window->low), number_or_null(check_result.window->high)};
 }
 
 Json check_result_json(const CheckResult& check_result) {
@@ -43,15 +40,16 @@ Json check_result_json(const CheckResult& check_result) {
   json["quantity"] = check_result.quantity;
   json["index"] = check_result.index ? Json(*check_result.index) : Json(nullptr);
   if (!check_result.statistic.empty()) json["statistic"] = check_result.statistic;
-  json["computed"] = number(check_result.computed);
-  json["expected"] = number(check_result.expected);
+  json["computed"] = number_or_null(check_result.computed);
+  json["expected"] = number_or_null(check_result.expected);
   json["unit"] = check_result.unit;
   if (!check_result.reference.empty()) json["reference"] = check_result.reference;
   if (!check_result.against_variant.empty()) json["against_variant"] = check_result.against_variant;
-  if (!check_result.against_quantity.empty()) json["against_quantity"] = check_result.against_quantity;
+  if (!check_result.against_quantity.empty())
+    json["against_quantity"] = check_result.against_quantity;
   json["role"] = to_string(check_result.role);
   json["measure"] = check_result.measure;
-  json["difference"] = number(check_result.difference);
+  json["difference"] = number_or_null(check_result.difference);
   json["tolerance"] = tolerance(check_result);
   json["why"] = check_result.why;
   json["expectation"] = to_string(check_result.expectation);
@@ -69,30 +67,30 @@ Json convergence(const Convergence& found) {
   if (!series.statistic.empty()) json["statistic"] = series.statistic;
   json["values"] = numbers(series.values);
   if (!series.reference.empty()) json["reference"] = series.reference;
-  json["exact"] = number(series.exact);
+  json["exact"] = number_or_null(series.exact);
   json["error"] = numbers(found.error);
   json["roundoff"] = numbers(series.roundoff);
   json["order"] = numbers(found.order);
   json["in_asymptotic_range"] = found.in_asymptotic_range;
   json["at_roundoff_floor"] = found.at_roundoff_floor;
-  json["theory_order"] = number(series.theory);
-  if (series.lower) json["lower_order"] = number(series.lower);
+  json["theory_order"] = number_or_null(series.theory);
+  if (series.lower) json["lower_order"] = number_or_null(series.lower);
   if (found.two_term) {
-    json["two_term"] = {
-        {"coefficients",
-         {number(found.two_term->coefficient[0]), number(found.two_term->coefficient[1])}},
-        {"worst", number(found.two_term->worst)},
-        {"used", found.two_term->used}};
+    json["two_term"] = {{"coefficients",
+                         {number_or_null(found.two_term->coefficient[0]),
+                          number_or_null(found.two_term->coefficient[1])}},
+                        {"worst", number_or_null(found.two_term->worst)},
+                        {"used", found.two_term->used}};
   }
-  json["fitted_order"] = number(found.fitted_order);
-  json["richardson"] = number(found.richardson);
+  json["fitted_order"] = number_or_null(found.fitted_order);
+  json["richardson"] = number_or_null(found.richardson);
   json["band"] = numbers(found.gci);
   json["factor"] = numbers(found.factor);
   return json;
 }
 
 Json interval(const Validation& validation) {
-  return {number(validation.low), number(validation.high)};
+  return {number_or_null(validation.low), number_or_null(validation.high)};
 }
 
 Json comparison(const ComparedEntry& entry, const std::vector<StatedInput>& inputs) {
@@ -101,27 +99,27 @@ Json comparison(const ComparedEntry& entry, const std::vector<StatedInput>& inpu
                {"index", entry.index},
                {"unit", entry.unit},
                {"reference", entry.reference},
-               {"simulation", number(entry.comparison.simulation)},
-               {"expected", number(entry.comparison.reference)},
-               {"u_num", number(entry.comparison.u_num)},
-               {"u_input", number(entry.comparison.u_input)},
-               {"u_input_sampled", number(entry.u_input_sampled)},
-               {"u_reference", number(entry.comparison.u_reference)},
+               {"simulation", number_or_null(entry.comparison.simulation)},
+               {"expected", number_or_null(entry.comparison.reference)},
+               {"u_num", number_or_null(entry.comparison.u_num)},
+               {"u_input", number_or_null(entry.comparison.u_input)},
+               {"u_input_sampled", number_or_null(entry.u_input_sampled)},
+               {"u_reference", number_or_null(entry.comparison.u_reference)},
                {"contributions", Json::object()}};
   for (std::size_t k = 0; k < inputs.size(); ++k) {
-    json["contributions"][inputs[k].name] = number(entry.contribution[k]);
+    json["contributions"][inputs[k].name] = number_or_null(entry.contribution[k]);
   }
   json["dominant_input"] = entry.dominant;
-  json["dominant_share"] = number(entry.dominant_share);
+  json["dominant_share"] = number_or_null(entry.dominant_share);
   json["spread"] = numbers(entry.spread);
-  json["difference"] = number(entry.validation.difference);
-  json["u_val"] = number(entry.validation.u_val);
+  json["difference"] = number_or_null(entry.validation.difference);
+  json["u_val"] = number_or_null(entry.validation.u_val);
   json["interval"] = interval(entry.validation);
   json["verdict"] = to_string(entry.validation.verdict);
   json["words"] = entry.validation.text;
-  json["literal"] = {{"u_input", number(entry.literal_comparison.u_input)},
-                     {"u_input_sampled", number(entry.u_input_literal_sampled)},
-                     {"u_val", number(entry.literal.u_val)},
+  json["literal"] = {{"u_input", number_or_null(entry.literal_comparison.u_input)},
+                     {"u_input_sampled", number_or_null(entry.u_input_literal_sampled)},
+                     {"u_val", number_or_null(entry.literal.u_val)},
                      {"interval", interval(entry.literal)},
                      {"verdict", to_string(entry.literal.verdict)},
                      {"words", entry.literal.text}};
@@ -139,7 +137,7 @@ Json uncertainty(const ValidationUncertainty& found) {
   for (const StatedInput& input : found.inputs) {
     json["inputs"].push_back({{"name", input.name},
                               {"pointers", input.pointers},
-                              {"half_width", number(input.half_width)},
+                              {"half_width", number_or_null(input.half_width)},
                               {"nominal", input.nominal},
                               {"why", input.why}});
   }
@@ -149,9 +147,9 @@ Json uncertainty(const ValidationUncertainty& found) {
                                  {"index", estimate.index},
                                  {"parameter", numbers(estimate.parameter)},
                                  {"values", numbers(estimate.values)},
-                                 {"order", number(estimate.order)},
-                                 {"factor", number(estimate.factor)},
-                                 {"half_width", number(estimate.half_width)}});
+                                 {"order", number_or_null(estimate.order)},
+                                 {"factor", number_or_null(estimate.factor)},
+                                 {"half_width", number_or_null(estimate.half_width)}});
   }
   for (const ComparedEntry& entry : found.entries) {
     json["comparisons"].push_back(comparison(entry, found.inputs));
@@ -159,7 +157,7 @@ Json uncertainty(const ValidationUncertainty& found) {
   return json;
 }
 
-Json drawing(const Drawing& drawn) {
+Json drawing_json(const Drawing& drawn) {
   Json json = {{"nodes_m", points(drawn.nodes)},
                {"members", drawn.members},
                {"triangles", drawn.triangles},
@@ -181,7 +179,7 @@ Json drawing(const Drawing& drawn) {
 }
 
 Json cost(const Run& run) {
-  const Counters& counters = run.result.counters;
+  const solver::Counters& counters = run.result.counters;
   Json json = {{"wall_s", run.wall_s},
                {"cpu_s", run.cpu_s},
                {"counters",
@@ -200,16 +198,16 @@ Json cost(const Run& run) {
 Json effects(const Run& run) {
   Json list = Json::array();
   for (const EffectReason& reason : run.result.effects) {
-    Json json = {{"effect", std::string(name_of(reason.effect))},
+    Json json = {{"effect", std::string(solver::name_of(reason.effect))},
                  {"admitted", reason.applicable},
                  {"on", reason.active},
                  {"why", reason.why},
                  {"evaluations", run.result.counters.evaluations(reason.effect)}};
     if (reason.number) {
-      json["number"] = number(reason.number);
+      json["number"] = number_or_null(reason.number);
       json["number_of"] = describe_effect_number(reason.effect, run.result.analysis);
     }
-    if (reason.change) json["change"] = number(reason.change);
+    if (reason.change) json["change"] = number_or_null(reason.change);
     list.push_back(std::move(json));
   }
   return list;
@@ -221,14 +219,15 @@ Json run_json(const Run& run) {
   for (const auto& [name, quantity] : run.result.quantities) {
     json["quantities"][name] = numbers(quantity.values);
   }
-  for (const CheckResult& check_result : run.check_results) json["checks"].push_back(check_result_json(check_result));
+  for (const CheckResult& check_result : run.check_results)
+    json["checks"].push_back(check_result_json(check_result));
   json["convergence"] = Json::array();
   for (const Convergence& found : run.convergence) {
     json["convergence"].push_back(convergence(found));
   }
   if (!run.uncertainty.empty()) json["uncertainty"] = uncertainty(run.uncertainty);
   if (!run.result.effects.empty()) json["effects"] = effects(run);
-  if (run.result.drawing) json["drawing"] = drawing(*run.result.drawing);
+  if (run.result.drawing) json["drawing"] = drawing_json(*run.result.drawing);
   json["cost"] = cost(run);
   return json;
 }
@@ -248,7 +247,7 @@ Json case_json(const Case& given) {
 }
 
 Json reference_json(const CitedReference& cited) {
-  const Reference& reference = cited.reference;
+  const references::Reference& reference = cited.reference;
   Json json = {{"title", reference.title},
                {"kind", to_string(reference.kind)},
                {"unit", reference.unit},
@@ -277,12 +276,13 @@ Json results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
   for (const auto& [id, cited] : references.used()) {
     results["references"][id] = reference_json(cited);
   }
-  if (const NumericalUncertaintySummary summary = numerical_uncertainty_of(runs); summary.levels > 0) {
+  if (const NumericalUncertaintySummary summary = numerical_uncertainty_of(runs);
+      summary.levels > 0) {
     results["bands"] = {{"levels", summary.levels},
                         {"hits", summary.hits},
-                        {"hit_rate", number(summary.hit_rate())},
+                        {"hit_rate", number_or_null(summary.hit_rate())},
                         {"least_hit_rate", kMinHitRate},
-                        {"median_ratio", number(summary.median_ratio)},
+                        {"median_ratio", number_or_null(summary.median_ratio)},
                         {"largest_median_ratio", kMaxMedianRatio},
                         {"levels_to_judge", kMinLevels},
                         {"holds", !summary.fails()}};
@@ -313,4 +313,4 @@ void require_writable(const fs::path& folder) {
     throw InputError("--out " + folder.string() + ": expected a folder that can be written");
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 
 #include "harness/run/run.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// results.json of the runs, by cases/schema/results.schema.json. Numbers that are not finite are
 /// null.
@@ -20,4 +20,4 @@ std::filesystem::path write_results(const Json& results, const std::filesystem::
 /// @throws InputError
 void require_writable(const std::filesystem::path& folder);
 
-}  // namespace trammel
+}  // namespace trammel::harness

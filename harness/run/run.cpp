@@ -10,7 +10,7 @@
 
 #include "harness/base/stopwatch.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// A computation to do: one asked for, or one that a check of another variant looks at.
@@ -22,13 +22,13 @@ struct Task {
   Run run;
 };
 
-const char* status_name(Status status) {
+const char* status_name(solver::Status status) {
   switch (status) {
-    case Status::solved:
+    case solver::Status::solved:
       return "solved";
-    case Status::singular:
+    case solver::Status::singular:
       return "singular";
-    case Status::not_converged:
+    case solver::Status::not_converged:
       return "not-converged";
   }
   return "error";
@@ -48,9 +48,11 @@ void run_guarded(Run& run, const Work& work) {
   } catch (const InputError& error) {
     mark_failed(run, error.what(), Run::RunError::input);
   } catch (const std::bad_alloc&) {
-    mark_failed(run, run.case_id + ": expected a model that fits into memory", Run::RunError::input);
+    mark_failed(run, run.case_id + ": expected a model that fits into memory",
+                Run::RunError::input);
   } catch (const std::exception& error) {
-    mark_failed(run, std::string("a fault of trammel itself: ") + error.what(), Run::RunError::internal);
+    mark_failed(run, std::string("a fault of trammel itself: ") + error.what(),
+                Run::RunError::internal);
   }
 }
 
@@ -104,8 +106,8 @@ void compute(Task& task, const References& references) {
 }
 
 void compare_for_validation(Task& task, const References& references) {
-  const bool wanted =
-      task.requested && task.run.status == "solved" && task.document.value().contains("uncertainty");
+  const bool wanted = task.requested && task.run.status == "solved" &&
+                      task.document.value().contains("uncertainty");
   if (!wanted) return;
   const Stopwatch watch;
   run_guarded(task.run, [&] {
@@ -155,7 +157,7 @@ bool evaluate_status_check(const Task& task, Run& run) {
 }
 
 void evaluate_checks(Task& task, const std::vector<Task>& tasks, const References& references,
-                const RunOptions& options) {
+                     const RunOptions& options) {
   Run& run = task.run;
   if (run.status == "error") {
     for (const Check& check : task.checks) {
@@ -179,7 +181,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
     return nullptr;
   };
   const CheckContext context{task.document, run.result.quantities, run.convergence, references,
-                          quantities_of};
+                             quantities_of};
   for (const Check& check : task.checks) {
     const bool solved = run.status == "solved";
     auto judged =
@@ -200,7 +202,8 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   }
   compute_all(tasks, references, options);
   for (Task& task : tasks) {
-    if (task.requested) run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
+    if (task.requested)
+      run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
   }
   std::vector<Run> runs;
   for (Task& task : tasks) {
@@ -222,11 +225,12 @@ int exit_status(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.error == Run::RunError::internal) worst = std::max(worst, 3);
     if (run.error == Run::RunError::input) worst = std::max(worst, 2);
-    const bool broken = std::any_of(run.check_results.begin(), run.check_results.end(),
-                                    [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
+    const bool broken = std::any_of(
+        run.check_results.begin(), run.check_results.end(),
+        [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
     if (broken) worst = std::max(worst, 1);
   }
   return worst;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

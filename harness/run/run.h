@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "harness/judge/uncertainty_summary.h"
 #include "harness/input/case.h"
-#include "harness/judge/judge.h"
+#include "harness/judge/evaluate_check.h"
 #include "harness/judge/sweep.h"
+#include "harness/judge/uncertainty_summary.h"
 #include "harness/judge/validation_uncertainty.h"
 
 /// Runs cases: every (case, variant) is one independent computation.
-namespace trammel {
+namespace trammel::harness {
 
 struct RunOptions {
   std::string variant;  ///< empty: all
@@ -50,4 +50,4 @@ struct Run {
 /// fault.
 [[nodiscard]] int exit_status(const std::vector<Run>& runs);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,13 +1,13 @@
 #include "harness/scene/case_model.h"
 
 #include "harness/scene/frame_reader.h"
-#include "harness/scene/manipulator_reader.h"
 #include "harness/scene/joint_reader.h"
-#include "solver/large_motion/system/linear_joints.h"
+#include "harness/scene/manipulator_reader.h"
 #include "solver/assembly/restrict_model_effects.h"
+#include "solver/large_motion/system/linear_joints.h"
 #include "solver/manipulator/restrict_design_effects.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 template <class T>
@@ -33,34 +33,38 @@ CaseModel read_case_model(const Document& document) {
     }
   }
   try {
-    const Model bare = case_model.manipulator
-                           ? build_manipulator(*case_model.manipulator, case_model.motion.front().pose)
-                           : Model();
+    const solver::Model bare =
+        case_model.manipulator
+            ? solver::build_manipulator(*case_model.manipulator, case_model.motion.front().pose)
+            : solver::Model();
     case_model.structure = read_structure(model, bare.nodes);
     case_model.joint_elements = read_joint_elements(model, build_bare_model(case_model, 0));
-  } catch (const ModelError& error) {
+  } catch (const solver::ModelError& error) {
     throw model_error(document, error);
   }
   return case_model;
 }
 
-Model build_model(const CaseModel& case_model, std::size_t step) {
-  Model model = build_bare_model(case_model, step);
-  for (const large::Slider& slider : case_model.joint_elements.sliders) add_linear_slider(model, slider);
-  const bool only_large =
-      !case_model.joint_elements.line_springs.empty() || !case_model.joint_elements.follower_loads.empty();
+solver::Model build_model(const CaseModel& case_model, std::size_t step) {
+  solver::Model model = build_bare_model(case_model, step);
+  for (const solver::large_motion::Slider& slider : case_model.joint_elements.sliders)
+    solver::add_linear_slider(model, slider);
+  const bool only_large = !case_model.joint_elements.line_springs.empty() ||
+                          !case_model.joint_elements.follower_loads.empty();
   if (only_large) {
-    throw ModelError("line springs and follower loads need large-statics or large-motion");
+    throw solver::ModelError("line springs and follower loads need large-statics or large-motion");
   }
   return model;
 }
 
-Model build_bare_model(const CaseModel& case_model, std::size_t step) {
-  if (!case_model.manipulator) return restrict_effects(case_model.structure, case_model.effects);
-  Model model =
-      build_manipulator(restrict_effects(*case_model.manipulator, case_model.effects), case_model.motion.at(step).pose);
-  const auto plates = static_cast<Index>(model.plates.size());
-  for (Triangle triangle : case_model.structure.triangles) {
+solver::Model build_bare_model(const CaseModel& case_model, std::size_t step) {
+  if (!case_model.manipulator)
+    return solver::restrict_effects(case_model.structure, case_model.effects);
+  solver::Model model = solver::build_manipulator(
+      solver::restrict_effects(*case_model.manipulator, case_model.effects),
+      case_model.motion.at(step).pose);
+  const auto plates = static_cast<solver::Index>(model.plates.size());
+  for (solver::Triangle triangle : case_model.structure.triangles) {
     triangle.plate += plates;
     model.triangles.push_back(triangle);
   }
@@ -73,15 +77,15 @@ Model build_bare_model(const CaseModel& case_model, std::size_t step) {
   append(model.supports, case_model.structure.supports);
   append(model.constraints, case_model.structure.constraints);
   append(model.loads, case_model.structure.loads);
-  for (EdgeLoad load : case_model.structure.edge_loads) {
+  for (solver::EdgeLoad load : case_model.structure.edge_loads) {
     load.plate += plates;
     model.edge_loads.push_back(load);
   }
   model.gravity = case_model.structure.gravity;
-  return restrict_effects(std::move(model), case_model.effects);
+  return solver::restrict_effects(std::move(model), case_model.effects);
 }
 
-InputError model_error(const Document& document, const ModelError& error) {
+InputError model_error(const Document& document, const solver::ModelError& error) {
   const std::string text = error.what();
   const JsonView model = JsonView(document)["model"];
   for (const char* kind :
@@ -100,4 +104,4 @@ InputError model_error(const Document& document, const ModelError& error) {
   return place.error("expected a model that has a meaning: " + text);
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,25 +4,25 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
-#include "solver/model/effects.h"
 #include "solver/large_motion/system/large_motion_model.h"
 #include "solver/manipulator/manipulator.h"
-#include "solver/model/model.h"
 #include "solver/manipulator/trajectory.h"
+#include "solver/model/effects.h"
+#include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// What the "model" of a case describes, ready to be built at each of its poses.
 struct CaseModel {
-  std::optional<ManipulatorDesign> manipulator;
+  std::optional<solver::ManipulatorDesign> manipulator;
   /// Of the platform: one pose at rest, or the points of the path.
-  std::vector<TrajectoryPoint> motion;
-  std::optional<Path> path;  ///< where there is one, every quantity has one number a point
+  std::vector<solver::TrajectoryPoint> motion;
+  std::optional<solver::Path> path;  ///< where there is one, every quantity has one number a point
   /// Everything else. Its indices count the manipulator's nodes first, then its own.
-  Model structure;
+  solver::Model structure;
   /// Sliders, line springs and follower loads, which the linear tiers know only in part.
-  large::LargeMotionModel joint_elements;
-  Effects effects = Effects::all();  ///< what `build_model` keeps
+  solver::large_motion::LargeMotionModel joint_elements;
+  solver::Effects effects = solver::Effects::all();  ///< what `build_model` keeps
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
 };
@@ -35,12 +35,12 @@ struct CaseModel {
 /// The planar model at a pose of the path (0 where there is none), with the scene's effects, for
 /// the linear tiers: sliders are linear constraints.
 /// @throws ModelError  where the scene has line springs or follower loads.
-[[nodiscard]] Model build_model(const CaseModel& case_model, std::size_t step);
+[[nodiscard]] solver::Model build_model(const CaseModel& case_model, std::size_t step);
 
 /// The same for large motion, which takes the mechanism by itself.
-[[nodiscard]] Model build_bare_model(const CaseModel& case_model, std::size_t step);
+[[nodiscard]] solver::Model build_bare_model(const CaseModel& case_model, std::size_t step);
 
 /// The error of a model that the solver refused, at the part that its message names.
-[[nodiscard]] InputError model_error(const Document& document, const ModelError& error);
+[[nodiscard]] InputError model_error(const Document& document, const solver::ModelError& error);
 
-}  // namespace trammel
+}  // namespace trammel::harness

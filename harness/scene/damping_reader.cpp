@@ -2,11 +2,11 @@
 
 #include <iterator>
 
-namespace trammel {
+namespace trammel::harness {
 
 namespace {
 
-std::size_t count_of(const JsonView& modal, std::optional<Index> known) {
+std::size_t count_of(const JsonView& modal, std::optional<solver::Index> known) {
   if (!modal.has("modes")) throw modal.error("expected the key 'modes': how many have the ratio");
   const JsonView stated = modal["modes"];
   if (!stated.json().is_string()) return stated.get<std::size_t>();
@@ -16,8 +16,8 @@ std::size_t count_of(const JsonView& modal, std::optional<Index> known) {
 
 }  // namespace
 
-HarmonicDamping read_damping(const JsonView& analysis, std::optional<Index> modes) {
-  HarmonicDamping read;
+solver::HarmonicDamping read_damping(const JsonView& analysis, std::optional<solver::Index> modes) {
+  solver::HarmonicDamping read;
   const auto damping = analysis.find("damping");
   if (!damping) return read;
   if (const auto rayleigh = damping->find("rayleigh")) {
@@ -40,4 +40,4 @@ HarmonicDamping read_damping(const JsonView& analysis, std::optional<Index> mode
   return read;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

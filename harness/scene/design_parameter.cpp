@@ -3,25 +3,25 @@
 #include <algorithm>
 #include <map>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-using Quantity = DesignParameter::Quantity;
+using Quantity = solver::DesignParameter::Quantity;
 
-void choose(const std::string& link, DesignParameter& parameter) {
+void choose(const std::string& link, solver::DesignParameter& parameter) {
   const auto limb = static_cast<std::size_t>(link[1] - '1');
   (link[0] == 'A' ? parameter.proximal : parameter.distal)[limb] = true;
 }
 
 }  // namespace
 
-DesignParameter read_design_parameter(const JsonView& parameter) {
+solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   static const std::map<std::string, Quantity> quantities = {{"length", Quantity::length},
-                                                        {"thickness", Quantity::thickness},
-                                                        {"width", Quantity::width},
-                                                        {"E", Quantity::E},
-                                                        {"density", Quantity::density}};
-  DesignParameter read{.quantity = quantities.at(parameter.text("of"))};
+                                                             {"thickness", Quantity::thickness},
+                                                             {"width", Quantity::width},
+                                                             {"E", Quantity::E},
+                                                             {"density", Quantity::density}};
+  solver::DesignParameter read{.quantity = quantities.at(parameter.text("of"))};
   read.platform = parameter.get("platform", false);
   if (const auto links = parameter.find("links")) {
     read.proximal.fill(false);
@@ -55,4 +55,4 @@ std::string sensitivity_name(Quantity quantity) {
   return "sensitivity_Hz_per_m";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

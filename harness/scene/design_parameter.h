@@ -6,13 +6,13 @@
 #include "solver/sensitivity/sensitivity.h"
 
 /// Numbers of the manipulator's design, as cases name them.
-namespace trammel {
+namespace trammel::harness {
 
 /// {"of": "length", "links": ["A1-B1", ...], "platform": false}
 /// @throws InputError  where it names no number: the length or width of a platform alone.
-[[nodiscard]] DesignParameter read_design_parameter(const JsonView& parameter);
+[[nodiscard]] solver::DesignParameter read_design_parameter(const JsonView& parameter);
 
 /// "sensitivity_Hz_per_m", by the parameter's unit.
-[[nodiscard]] std::string sensitivity_name(DesignParameter::Quantity quantity);
+[[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Quantity quantity);
 
-}  // namespace trammel
+}  // namespace trammel::harness

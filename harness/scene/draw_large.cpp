@@ -2,38 +2,41 @@
 
 #include "solver/large_motion/solve/state_results.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// The model's nodes, then the members' inner points, first to second node.
-std::vector<Vector2d> places(const large::GeometricallyExactSystem& system, const Eigen::VectorXd& q) {
-  const Model& model = system.model();
+std::vector<Eigen::Vector2d> places(const solver::large_motion::GeometricallyExactSystem& system,
+                                    const Eigen::VectorXd& q) {
+  const solver::Model& model = system.model();
   const Eigen::MatrixX3d motion = node_motion(system, q);
-  std::vector<Vector2d> nodes;
+  std::vector<Eigen::Vector2d> nodes;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     nodes.emplace_back(model.nodes[i].position +
-                       motion.row(static_cast<Index>(i)).head<2>().transpose());
+                       motion.row(static_cast<solver::Index>(i)).head<2>().transpose());
   }
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const Eigen::MatrixX2d line = member_node_positions(system, q, static_cast<Index>(m));
-    for (Index i = 1; i + 1 < line.rows(); ++i) nodes.emplace_back(line.row(i).transpose());
+    const Eigen::MatrixX2d line = member_node_positions(system, q, static_cast<solver::Index>(m));
+    for (solver::Index i = 1; i + 1 < line.rows(); ++i) nodes.emplace_back(line.row(i).transpose());
   }
   return nodes;
 }
 
 }  // namespace
 
-std::optional<Drawing> draw_large_model(const large::GeometricallyExactSystem& system, bool is_manipulator) {
-  const Model& model = system.model();
+std::optional<Drawing> draw_large_model(
+    const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator) {
+  const solver::Model& model = system.model();
   const Eigen::VectorXd reference = system.reference_state().q;
   Drawing drawing;
   drawing.nodes = places(system, reference);
   if (drawing.nodes.size() > kMaxDrawnNodes) return std::nullopt;
   std::size_t inner = model.nodes.size();
   for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const Index points = member_node_positions(system, reference, static_cast<Index>(m)).rows();
+    const solver::Index points =
+        member_node_positions(system, reference, static_cast<solver::Index>(m)).rows();
     auto before = static_cast<std::size_t>(model.members[m].nodes[0]);
-    for (Index i = 1; i + 1 < points; ++i, ++inner) {
+    for (solver::Index i = 1; i + 1 < points; ++i, ++inner) {
       drawing.members.push_back({before, inner});
       before = inner;
     }
@@ -43,9 +46,9 @@ std::optional<Drawing> draw_large_model(const large::GeometricallyExactSystem& s
   return drawing;
 }
 
-Drawing::Pose draw_large_pose(const large::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
-                              const std::string& label) {
+Drawing::Pose draw_large_pose(const solver::large_motion::GeometricallyExactSystem& system,
+                              const Eigen::VectorXd& q, const std::string& label) {
   return {label, places(system, q)};
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

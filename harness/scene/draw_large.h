@@ -6,14 +6,15 @@
 #include "solver/large_motion/system/geometrically_exact_system.h"
 
 /// Pictures of models in large motion: places, never magnified.
-namespace trammel {
+namespace trammel::harness {
 
 /// The model in its own pose; nothing where there are more nodes than a picture can show.
-[[nodiscard]] std::optional<Drawing> draw_large_model(const large::GeometricallyExactSystem& system,
-                                                      bool is_manipulator);
+[[nodiscard]] std::optional<Drawing> draw_large_model(
+    const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
 
 /// Where the drawing's nodes are at coordinates q.
-[[nodiscard]] Drawing::Pose draw_large_pose(const large::GeometricallyExactSystem& system,
-                                            const Eigen::VectorXd& q, const std::string& label);
+[[nodiscard]] Drawing::Pose draw_large_pose(
+    const solver::large_motion::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
+    const std::string& label);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,15 +4,16 @@
 
 #include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr std::size_t kMaxNodesWithMidpoints = 1500;
 constexpr std::size_t kPointsPerMember = 12;
 
 /// Pieces that an element is drawn in.
-std::size_t pieces(const System& system, const FrameElement& element) {
-  const auto elements = to_size(system.model.members[to_size(element.member)].elements);
+std::size_t pieces(const solver::System& system, const solver::FrameElement& element) {
+  const auto elements =
+      solver::to_size(system.model.members[solver::to_size(element.member)].elements);
   if (element.is_bar()) return 1;
   return std::max<std::size_t>(1, (kPointsPerMember + elements - 1) / elements);
 }
@@ -20,35 +21,38 @@ std::size_t pieces(const System& system, const FrameElement& element) {
 /// Nodes of the mesh in the order in which they are drawn, and back (-1: not drawn).
 struct DrawnNodes {
   std::vector<std::size_t> mesh;
-  std::vector<Index> number;
+  std::vector<solver::Index> number;
 
-  [[nodiscard]] std::size_t index_of(Index node) const { return to_size(number[to_size(node)]); }
+  [[nodiscard]] std::size_t index_of(solver::Index node) const {
+    return solver::to_size(number[solver::to_size(node)]);
+  }
 };
 
-DrawnNodes drawn_nodes(const System& system) {
+DrawnNodes drawn_nodes(const solver::System& system) {
   DrawnNodes drawn;
   drawn.number.assign(system.mesh.positions.size(), 0);
   if (drawn.number.size() > kMaxNodesWithMidpoints) {
-    for (const Triangle& triangle : system.model.triangles) {
+    for (const solver::Triangle& triangle : system.model.triangles) {
       for (std::size_t k = 3; triangle.quadratic() && k < 6; ++k) {
-        const Index middle = triangle.nodes[k];
-        if (system.model.nodes[to_size(middle)].name.empty()) drawn.number[to_size(middle)] = -1;
+        const solver::Index middle = triangle.nodes[k];
+        if (system.model.nodes[solver::to_size(middle)].name.empty())
+          drawn.number[solver::to_size(middle)] = -1;
       }
     }
   }
   for (std::size_t i = 0; i < drawn.number.size(); ++i) {
     if (drawn.number[i] < 0) continue;
-    drawn.number[i] = static_cast<Index>(drawn.mesh.size());
+    drawn.number[i] = static_cast<solver::Index>(drawn.mesh.size());
     drawn.mesh.push_back(i);
   }
   return drawn;
 }
 
-void draw_members(const System& system, const DrawnNodes& drawn, Drawing& drawing) {
-  for (const FrameElement& element : system.mesh.frame) {
+void draw_members(const solver::System& system, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const solver::FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
-    const Vector2d start = system.mesh.positions[to_size(element.nodes[0])];
-    const Vector2d span = system.mesh.positions[to_size(element.nodes[1])] - start;
+    const Eigen::Vector2d start = system.mesh.positions[solver::to_size(element.nodes[0])];
+    const Eigen::Vector2d span = system.mesh.positions[solver::to_size(element.nodes[1])] - start;
     std::size_t before = drawn.index_of(element.nodes[0]);
     for (std::size_t k = 1; k < count; ++k) {
       drawing.nodes.emplace_back(start +
@@ -60,48 +64,50 @@ void draw_members(const System& system, const DrawnNodes& drawn, Drawing& drawin
   }
 }
 
-void draw_triangles(const Model& model, const DrawnNodes& drawn, Drawing& drawing) {
-  for (const Triangle& triangle : model.triangles) {
+void draw_triangles(const solver::Model& model, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const solver::Triangle& triangle : model.triangles) {
     std::vector<std::size_t>& around = drawing.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       around.push_back(drawn.index_of(triangle.nodes[k]));
-      const Index middle = triangle.nodes[3 + k];
-      if (middle >= 0 && drawn.number[to_size(middle)] >= 0) around.push_back(drawn.index_of(middle));
+      const solver::Index middle = triangle.nodes[3 + k];
+      if (middle >= 0 && drawn.number[solver::to_size(middle)] >= 0)
+        around.push_back(drawn.index_of(middle));
     }
   }
 }
 
 /// A rigid body is a bar to its one node, or a fan of triangles about its reference.
-void draw_rigid_bodies(const Model& model, const DrawnNodes& drawn, Drawing& drawing) {
-  for (const RigidBody& body : model.rigid_bodies) {
+void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const solver::RigidBody& body : model.rigid_bodies) {
     const std::size_t reference = drawn.index_of(body.reference);
     const std::size_t count = body.attached.size();
     if (count == 1) drawing.members.push_back({reference, drawn.index_of(body.attached.front())});
     for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k) {
-      drawing.triangles.push_back(
-          {reference, drawn.index_of(body.attached[k]), drawn.index_of(body.attached[(k + 1) % count])});
+      drawing.triangles.push_back({reference, drawn.index_of(body.attached[k]),
+                                   drawn.index_of(body.attached[(k + 1) % count])});
     }
   }
 }
 
 /// One joint a node; the one that says most wins.
-void draw_joints(const Model& model, bool is_manipulator, const DrawnNodes& drawn,
+void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
                  Drawing& drawing) {
   std::vector<std::string> kind(model.nodes.size());
-  for (const Member& member : model.members) {
+  for (const solver::Member& member : model.members) {
     for (std::size_t end = 0; end < 2; ++end) {
-      std::string& word = kind[to_size(member.nodes[end])];
-      if (member.ends[end].fixity == EndFixity::hinged) word = "hinged";
-      if (member.ends[end].fixity == EndFixity::sprung) word = "sprung";
+      std::string& word = kind[solver::to_size(member.nodes[end])];
+      if (member.ends[end].fixity == solver::EndFixity::hinged) word = "hinged";
+      if (member.ends[end].fixity == solver::EndFixity::sprung) word = "sprung";
     }
   }
-  for (const RigidBody& body : model.rigid_bodies) {
-    std::string& word = kind[to_size(body.reference)];
+  for (const solver::RigidBody& body : model.rigid_bodies) {
+    std::string& word = kind[solver::to_size(body.reference)];
     if (word.empty()) word = "rigid";
   }
-  for (const Support& support : model.supports) {
-    const bool named = !support.name.empty() && !model.nodes[to_size(support.node)].name.empty();
-    if (named) kind[to_size(support.node)] = "support";
+  for (const solver::Support& support : model.supports) {
+    const bool named =
+        !support.name.empty() && !model.nodes[solver::to_size(support.node)].name.empty();
+    if (named) kind[solver::to_size(support.node)] = "support";
   }
   if (is_manipulator) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -113,11 +119,12 @@ void draw_joints(const Model& model, bool is_manipulator, const DrawnNodes& draw
   }
   for (std::size_t i = 0; i < kind.size(); ++i) {
     if (kind[i].empty()) continue;
-    drawing.joints.push_back({drawn.index_of(static_cast<Index>(i)), kind[i], model.nodes[i].name});
+    drawing.joints.push_back(
+        {drawn.index_of(static_cast<solver::Index>(i)), kind[i], model.nodes[i].name});
   }
 }
 
-void draw_parts(const Model& model, bool is_manipulator, const DrawnNodes& drawn,
+void draw_parts(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
                 Drawing& drawing) {
   draw_triangles(model, drawn, drawing);
   draw_rigid_bodies(model, drawn, drawing);
@@ -126,23 +133,24 @@ void draw_parts(const Model& model, bool is_manipulator, const DrawnNodes& drawn
 
 }  // namespace
 
-void draw_parts(const Model& model, bool is_manipulator, Drawing& drawing) {
+void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing) {
   DrawnNodes all;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     all.mesh.push_back(i);
-    all.number.push_back(static_cast<Index>(i));
+    all.number.push_back(static_cast<solver::Index>(i));
   }
   draw_parts(model, is_manipulator, all, drawing);
 }
 
-Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& u, double s) {
+Eigen::Vector2d displacement_along(const solver::FrameElement& element, const Eigen::VectorXd& u,
+                                   double s) {
   const auto value = [&](std::size_t k) {
     return element.coordinates[k] < 0 ? 0 : u[element.coordinates[k]];
   };
-  const Vector2d t = element.direction;
-  const Vector2d n(-t.y(), t.x());
-  const Vector2d first(value(0), value(1));
-  const Vector2d second(value(3), value(4));
+  const Eigen::Vector2d t = element.direction;
+  const Eigen::Vector2d n(-t.y(), t.x());
+  const Eigen::Vector2d first(value(0), value(1));
+  const Eigen::Vector2d second(value(3), value(4));
   const double along = (1 - s) * first.dot(t) + s * second.dot(t);
   const double l = element.length;
   const double across =
@@ -151,7 +159,7 @@ Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& 
   return along * t + across * n;
 }
 
-std::optional<Drawing> draw_model(const System& system, bool is_manipulator) {
+std::optional<Drawing> draw_model(const solver::System& system, bool is_manipulator) {
   Drawing drawing;
   const DrawnNodes drawn = drawn_nodes(system);
   if (drawn.mesh.size() > kMaxDrawnNodes) return std::nullopt;
@@ -162,7 +170,7 @@ std::optional<Drawing> draw_model(const System& system, bool is_manipulator) {
   return drawing;
 }
 
-Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
+Drawing::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
                           const std::string& label) {
   const Eigen::VectorXd u = system.T * q;
   Drawing::Shape shape{label, {}};
@@ -170,7 +178,7 @@ Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
     const auto& coordinates = system.coordinates.node[node];
     shape.displacement.emplace_back(u[coordinates[0]], u[coordinates[1]]);
   }
-  for (const FrameElement& element : system.mesh.frame) {
+  for (const solver::FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
     for (std::size_t k = 1; k < count; ++k) {
       shape.displacement.push_back(
@@ -180,11 +188,11 @@ Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
   return shape;
 }
 
-Drawing draw_manipulator(const ManipulatorGeometry& geometry,
-                         const std::vector<TrajectoryPoint>& motion) {
-  const auto nodes_at = [&](const Pose& pose) {
-    const Posture posture = inverse_kinematics(geometry, pose);
-    std::vector<Vector2d> nodes(geometry.base.begin(), geometry.base.end());
+Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
+                         const std::vector<solver::TrajectoryPoint>& motion) {
+  const auto nodes_at = [&](const solver::Pose& pose) {
+    const solver::Posture posture = solver::inverse_kinematics(geometry, pose);
+    std::vector<Eigen::Vector2d> nodes(geometry.base.begin(), geometry.base.end());
     nodes.insert(nodes.end(), posture.B.begin(), posture.B.end());
     nodes.insert(nodes.end(), posture.C.begin(), posture.C.end());
     nodes.emplace_back(pose.x, pose.y);
@@ -209,4 +217,4 @@ Drawing draw_manipulator(const ManipulatorGeometry& geometry,
   return drawing;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "solver/manipulator/kinematics.h"
 #include "solver/assembly/system.h"
+#include "solver/manipulator/kinematics.h"
 #include "solver/manipulator/trajectory.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// What a picture of the model needs: the mesh, its joints, and shapes on it.
 struct Drawing {
@@ -20,13 +20,13 @@ struct Drawing {
   };
   struct Shape {
     std::string label;
-    std::vector<Vector2d> displacement;  ///< one a node [m]
+    std::vector<Eigen::Vector2d> displacement;  ///< one a node [m]
   };
   struct Pose {
     std::string label;
-    std::vector<Vector2d> nodes;  ///< [m]
+    std::vector<Eigen::Vector2d> nodes;  ///< [m]
   };
-  std::vector<Vector2d> nodes;                      ///< [m]
+  std::vector<Eigen::Vector2d> nodes;               ///< [m]
   std::vector<std::array<std::size_t, 2>> members;  ///< elements
   std::vector<std::vector<std::size_t>> triangles;  ///< round their corners, and middles if drawn
   std::vector<Joint> joints;
@@ -38,24 +38,24 @@ struct Drawing {
 inline constexpr std::size_t kMaxDrawnNodes = 4000;
 
 /// Adds triangles, rigid bodies and joints of a drawing that begins with all nodes of the model.
-void draw_parts(const Model& model, bool is_manipulator, Drawing& drawing);
+void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing);
 
 /// The mesh of a model, members smoothed by points inside their elements. A fine mesh is drawn
 /// without the middles of its six-node triangles; nothing where there still are more nodes than a
 /// picture can show.
-[[nodiscard]] std::optional<Drawing> draw_model(const System& system, bool is_manipulator);
+[[nodiscard]] std::optional<Drawing> draw_model(const solver::System& system, bool is_manipulator);
 
 /// Displacements of the drawing's nodes under the free coordinates q: inside elements by the cubic
 /// shape functions of the Euler-Bernoulli beam.
-[[nodiscard]] Drawing::Shape draw_shape(const System& system, const Eigen::VectorXd& q,
+[[nodiscard]] Drawing::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
                                         const std::string& label);
 
 /// Displacement at s in [0, 1] along an element, from the unconstrained coordinates u = T q [m].
-[[nodiscard]] Vector2d displacement_along(const FrameElement& element, const Eigen::VectorXd& u,
-                                          double s);
+[[nodiscard]] Eigen::Vector2d displacement_along(const solver::FrameElement& element,
+                                                 const Eigen::VectorXd& u, double s);
 
 /// A rigid manipulator at the first point and at a few more of the path.
-[[nodiscard]] Drawing draw_manipulator(const ManipulatorGeometry& geometry,
-                                       const std::vector<TrajectoryPoint>& motion);
+[[nodiscard]] Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
+                                       const std::vector<solver::TrajectoryPoint>& motion);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,11 +1,11 @@
 #include "harness/scene/eigen_path.h"
 
-namespace trammel {
+namespace trammel::harness {
 
-EigenMethod read_eigen_path(const JsonView& analysis) {
+solver::EigenMethod read_eigen_path(const JsonView& analysis) {
   const std::string path = analysis.get<std::string>("path", "automatic");
-  if (path == "dense") return EigenMethod::dense;
-  return path == "sparse" ? EigenMethod::sparse : EigenMethod::automatic;
+  if (path == "dense") return solver::EigenMethod::dense;
+  return path == "sparse" ? solver::EigenMethod::sparse : solver::EigenMethod::automatic;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

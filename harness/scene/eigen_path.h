@@ -3,9 +3,9 @@
 #include "harness/input/json_view.h"
 #include "solver/linalg/eigenpairs.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Key "path" of an analysis: automatic, dense or sparse.
-[[nodiscard]] EigenMethod read_eigen_path(const JsonView& analysis);
+[[nodiscard]] solver::EigenMethod read_eigen_path(const JsonView& analysis);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -7,11 +7,11 @@
 
 #include "harness/scene/material_reader.h"
 #include "harness/scene/member_chain.h"
-#include "harness/scene/symbol_table.h"
 #include "harness/scene/plate_reader.h"
+#include "harness/scene/symbol_table.h"
 #include "solver/large_motion/system/linear_joints.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// A, I and c of one of the three ways to give a cross-section.
@@ -46,11 +46,11 @@ Shape read_shape(const JsonView& section) {
   return {section.number("area_m2"), second_moment, section.get("half_depth_m", unknown)};
 }
 
-Section read_section(const JsonView& section, const SymbolTable& symbols) {
-  const Material material = look_up(symbols.material, section["material"], "a material");
+solver::Section read_section(const JsonView& section, const SymbolTable& symbols) {
+  const solver::Material material = look_up(symbols.material, section["material"], "a material");
   const Shape shape = read_shape(section);
   const double shear_modulus = material.E / (2 * (1 + material.nu));
-  Section read;
+  solver::Section read;
   read.EA = material.E * shape.area;
   read.EI = material.E * shape.second_moment;
   read.kappa_GA = section.get("shear_coefficient", 5.0 / 6.0) * shear_modulus * shape.area;
@@ -62,20 +62,23 @@ Section read_section(const JsonView& section, const SymbolTable& symbols) {
   return read;
 }
 
-MemberEnd read_end(const JsonView& end) {
+solver::MemberEnd read_end(const JsonView& end) {
   if (end.json().is_object()) {
-    return {EndFixity::sprung, end.number("spring_N_m_per_rad"), 0};
+    return {solver::EndFixity::sprung, end.number("spring_N_m_per_rad"), 0};
   }
-  return {end.get<std::string>() == "hinged" ? EndFixity::hinged : EndFixity::welded, 0, 0};
+  return {
+      end.get<std::string>() == "hinged" ? solver::EndFixity::hinged : solver::EndFixity::welded, 0,
+      0};
 }
 
-Member read_member(const std::string& name, const JsonView& place, const SymbolTable& symbols,
-                   const std::vector<Node>& nodes, Index elements) {
-  Member member;
+solver::Member read_member(const std::string& name, const JsonView& place,
+                           const SymbolTable& symbols, const std::vector<solver::Node>& nodes,
+                           solver::Index elements) {
+  solver::Member member;
   member.name = name;
   member.nodes = {symbols.find_node(place["nodes"][0]), symbols.find_node(place["nodes"][1])};
-  const Vector2d span = nodes[static_cast<std::size_t>(member.nodes[1])].position -
-                        nodes[static_cast<std::size_t>(member.nodes[0])].position;
+  const Eigen::Vector2d span = nodes[static_cast<std::size_t>(member.nodes[1])].position -
+                               nodes[static_cast<std::size_t>(member.nodes[0])].position;
   if (!(span.norm() > 0)) {
     throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
   }
@@ -85,7 +88,7 @@ Member read_member(const std::string& name, const JsonView& place, const SymbolT
                            : member.section;
   member.theory = read_beam_theory(place);
   member.mass = read_mass_matrix(place);
-  member.elements = place.get<Index>("elements", elements);
+  member.elements = place.get<solver::Index>("elements", elements);
   member.axially_flexible = read_axial(place);
   if (place.has("ends")) member.ends = {read_end(place["ends"][0]), read_end(place["ends"][1])};
   if (place.has("load_N_per_m")) member.load = read_point(place["load_N_per_m"]);
@@ -115,27 +118,29 @@ MemberChain read_chain(const JsonView& place) {
   return chain;
 }
 
-void read_members(const JsonView& members, const SymbolTable& symbols, Index elements, Model& structure) {
+void read_members(const JsonView& members, const SymbolTable& symbols, solver::Index elements,
+                  solver::Model& structure) {
   for (const auto& [name, place] : members.entries()) {
-    const Member member = read_member(name, place, symbols, structure.nodes, elements);
+    const solver::Member member = read_member(name, place, symbols, structure.nodes, elements);
     const MemberChain chain = read_chain(place);
     if (!chain.needed()) {
       structure.members.push_back(member);
       continue;
     }
-    const auto at = [&](std::size_t end) -> Vector2d {
+    const auto at = [&](std::size_t end) -> Eigen::Vector2d {
       return structure.nodes[static_cast<std::size_t>(member.nodes[end])].position;
     };
     try {
       add_chain(member, chain, at(0), at(1), std::ssize(structure.nodes), structure);
-    } catch (const ModelError& error) {
+    } catch (const solver::ModelError& error) {
       throw place["arc_center_m"].error(error.what());
     }
   }
 }
 
-RigidBody read_rigid_body(const std::string& name, const JsonView& place, const SymbolTable& symbols) {
-  RigidBody body{name, symbols.find_node(place["reference"]), {}};
+solver::RigidBody read_rigid_body(const std::string& name, const JsonView& place,
+                                  const SymbolTable& symbols) {
+  solver::RigidBody body{name, symbols.find_node(place["reference"]), {}};
   for (const auto& entry : place["nodes"].entries()) {
     body.attached.push_back(symbols.find_node(entry.second));
     if (body.attached.back() == body.reference) {
@@ -145,8 +150,8 @@ RigidBody read_rigid_body(const std::string& name, const JsonView& place, const 
   return body;
 }
 
-PointMass read_point_mass(const JsonView& place, const SymbolTable& symbols) {
-  PointMass mass;
+solver::PointMass read_point_mass(const JsonView& place, const SymbolTable& symbols) {
+  solver::PointMass mass;
   mass.node = symbols.find_node(place["node"]);
   mass.mass = place.number("mass_kg");
   mass.inertia = place.get("inertia_kg_m2", 0.0);
@@ -154,8 +159,9 @@ PointMass read_point_mass(const JsonView& place, const SymbolTable& symbols) {
   return mass;
 }
 
-Spring read_spring(const std::string& name, const JsonView& place, const SymbolTable& symbols) {
-  Spring spring;
+solver::Spring read_spring(const std::string& name, const JsonView& place,
+                           const SymbolTable& symbols) {
+  solver::Spring spring;
   spring.name = name;
   for (std::size_t i = 0; i < place["nodes"].size(); ++i) {
     spring.nodes[i] = symbols.find_node(place["nodes"][i]);
@@ -167,8 +173,9 @@ Spring read_spring(const std::string& name, const JsonView& place, const SymbolT
   return spring;
 }
 
-void read_pin(const std::string& name, const JsonView& place, const SymbolTable& symbols, Model& model) {
-  std::array<Index, 2> nodes{};
+void read_pin(const std::string& name, const JsonView& place, const SymbolTable& symbols,
+              solver::Model& model) {
+  std::array<solver::Index, 2> nodes{};
   for (std::size_t i = 0; i < 2; ++i) nodes[i] = symbols.find_node(place["nodes"][i]);
   const double apart = (model.nodes[static_cast<std::size_t>(nodes[0])].position -
                         model.nodes[static_cast<std::size_t>(nodes[1])].position)
@@ -177,7 +184,7 @@ void read_pin(const std::string& name, const JsonView& place, const SymbolTable&
     throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
                                " m between them)");
   }
-  add_pin(model, name, nodes);
+  solver::add_pin(model, name, nodes);
 }
 
 /// Calls `read(name, place)` for every entry of an object that may be missing.
@@ -189,12 +196,13 @@ void each(const JsonView& model, const char* key, const Read& read) {
 }
 
 /// Every node on an edge; motions that are already taken away are left out.
-void support_edge(const std::string& name, const JsonView& place, const Edge& edge, Model& model) {
+void support_edge(const std::string& name, const JsonView& place, const Edge& edge,
+                  solver::Model& model) {
   const std::array<bool, 3> fixed = read_motions(place);
   if (fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
-  for (const Index node : nodes_of(edge)) {
-    Support support{name, node, fixed};
-    for (const Support& other : model.supports) {
+  for (const solver::Index node : nodes_of(edge)) {
+    solver::Support support{name, node, fixed};
+    for (const solver::Support& other : model.supports) {
       if (other.node != node) continue;
       for (std::size_t k = 0; k < 3; ++k) support.fixed[k] = support.fixed[k] && !other.fixed[k];
     }
@@ -203,11 +211,12 @@ void support_edge(const std::string& name, const JsonView& place, const Edge& ed
 }
 
 /// Those of nodes first: they keep their reactions where an edge is supported as well.
-void read_supports(const JsonView& model, const SymbolTable& symbols, Model& structure) {
+void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
   each(model, "supports", [&](const std::string& name, const JsonView& place) {
     if (symbols.edge.count(name) > 0) return;
     const char* what = symbols.edge.empty() ? "a node" : "a node or edge";
-    structure.supports.push_back({name, look_up(symbols.node, name, place, what), read_motions(place)});
+    structure.supports.push_back(
+        {name, look_up(symbols.node, name, place, what), read_motions(place)});
   });
   each(model, "supports", [&](const std::string& name, const JsonView& place) {
     const auto edge = symbols.edge.find(name);
@@ -215,7 +224,7 @@ void read_supports(const JsonView& model, const SymbolTable& symbols, Model& str
   });
 }
 
-void read_load(const JsonView& place, const SymbolTable& symbols, Model& model) {
+void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model& model) {
   if (place.has("node") == place.has("edge")) {
     throw place.error("expected exactly one of 'node' and 'edge'");
   }
@@ -227,16 +236,17 @@ void read_load(const JsonView& place, const SymbolTable& symbols, Model& model) 
                            "' only");
   }
   if (on_edge) return read_edge_load(place, symbols, model);
-  NodalLoad load{symbols.find_node(place["node"]), Vector3d::Zero()};
+  solver::NodalLoad load{symbols.find_node(place["node"]), Eigen::Vector3d::Zero()};
   if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
   load.force.z() = place.get("moment_N_m", 0.0);
   model.loads.push_back(load);
 }
 
-SymbolTable read_symbols(const JsonView& model, Model& structure) {
+SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
   SymbolTable symbols;
   const auto add = [&](std::size_t node) {
-    return symbols.node.emplace(structure.nodes[node].name, static_cast<Index>(node)).second;
+    return symbols.node.emplace(structure.nodes[node].name, static_cast<solver::Index>(node))
+        .second;
   };
   for (std::size_t i = 0; i < structure.nodes.size(); ++i) add(i);
   each(model, "nodes", [&](const std::string& name, const JsonView& place) {
@@ -256,12 +266,13 @@ SymbolTable read_symbols(const JsonView& model, Model& structure) {
 
 }  // namespace
 
-Model read_structure(const JsonView& model, const std::vector<Node>& before) {
-  Model structure;
+solver::Model read_structure(const JsonView& model, const std::vector<solver::Node>& before) {
+  solver::Model structure;
   structure.nodes = before;
   SymbolTable symbols = read_symbols(model, structure);
-  const Index elements = model.get<Index>("elements", 1);
-  if (const auto members = model.find("members")) read_members(*members, symbols, elements, structure);
+  const solver::Index elements = model.get<solver::Index>("elements", 1);
+  if (const auto members = model.find("members"))
+    read_members(*members, symbols, elements, structure);
   read_plates(model, symbols, structure);
   each(model, "rigid_bodies", [&](const std::string& name, const JsonView& place) {
     structure.rigid_bodies.push_back(read_rigid_body(name, place, symbols));
@@ -273,14 +284,16 @@ Model read_structure(const JsonView& model, const std::vector<Node>& before) {
     structure.springs.push_back(read_spring(name, place, symbols));
   });
   read_supports(model, symbols, structure);
-  each(model, "pins",
-       [&](const std::string& name, const JsonView& place) { read_pin(name, place, symbols, structure); });
+  each(model, "pins", [&](const std::string& name, const JsonView& place) {
+    read_pin(name, place, symbols, structure);
+  });
   each(model, "loads",
        [&](const std::string&, const JsonView& place) { read_load(place, symbols, structure); });
   if (model.has("gravity_m_s2")) structure.gravity = read_point(model["gravity_m_s2"]);
   check_meshed_nodes(model, before.size(), structure);
-  structure.nodes.erase(structure.nodes.begin(), structure.nodes.begin() + static_cast<Index>(before.size()));
+  structure.nodes.erase(structure.nodes.begin(),
+                        structure.nodes.begin() + static_cast<solver::Index>(before.size()));
   return structure;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -3,26 +3,29 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/scene/material_reader.h"
 #include "harness/base/text.h"
+#include "harness/scene/material_reader.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-Index find_node_by_name(const std::string& word, const JsonView& place, const Model& built) {
-  const Index found = word.empty() ? -1 : built.find_node(word);
+solver::Index find_node_by_name(const std::string& word, const JsonView& place,
+                                const solver::Model& built) {
+  const solver::Index found = word.empty() ? -1 : built.find_node(word);
   if (found >= 0) return found;
   std::vector<std::string> names;
-  for (const Node& node : built.nodes) {
+  for (const solver::Node& node : built.nodes) {
     if (!node.name.empty()) names.push_back(node.name);
   }
   throw place.error("expected the name of a node (got '" + printable(word) + "')" +
                     did_you_mean(word, names));
 }
 
-large::Slider read_slider(const std::string& name, const JsonView& place, const Model& built) {
-  large::Slider slider{name, find_node(place["node"], built), -1, place.number("direction_rad"),
-                       place.get("keeps_angle", false)};
+solver::large_motion::Slider read_slider(const std::string& name, const JsonView& place,
+                                         const solver::Model& built) {
+  solver::large_motion::Slider slider{name, find_node(place["node"], built), -1,
+                                      place.number("direction_rad"),
+                                      place.get("keeps_angle", false)};
   if (place.has("rail")) {
     slider.rail = find_node(place["rail"], built);
     if (slider.rail == slider.node) throw place["rail"].error("expected another node");
@@ -30,9 +33,9 @@ large::Slider read_slider(const std::string& name, const JsonView& place, const 
   return slider;
 }
 
-large::LineSpring read_line_spring(const std::string& name, const JsonView& place,
-                                   const Model& built) {
-  large::LineSpring spring;
+solver::large_motion::LineSpring read_line_spring(const std::string& name, const JsonView& place,
+                                                  const solver::Model& built) {
+  solver::large_motion::LineSpring spring;
   spring.name = name;
   for (std::size_t i = 0; i < 2; ++i) spring.nodes[i] = find_node(place["nodes"][i], built);
   spring.stiffness = place.number("stiffness_N_per_m");
@@ -40,14 +43,15 @@ large::LineSpring read_line_spring(const std::string& name, const JsonView& plac
   return spring;
 }
 
-large::FollowerLoad read_follower(const JsonView& place, const Model& built) {
-  large::FollowerLoad load{find_node(place["node"], built), Vector3d::Zero()};
+solver::large_motion::FollowerLoad read_follower(const JsonView& place,
+                                                 const solver::Model& built) {
+  solver::large_motion::FollowerLoad load{find_node(place["node"], built), Eigen::Vector3d::Zero()};
   if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
   load.force.z() = place.get("moment_N_m", 0.0);
   return load;
 }
 
-large::TimeFunction spin_up(double speed, double duration) {
+solver::large_motion::TimeFunction spin_up(double speed, double duration) {
   return [speed, duration](double t) {
     const double w = 2 * std::numbers::pi / duration;
     if (t >= duration) return std::array<double, 3>{speed * (t - duration / 2), speed, 0};
@@ -60,7 +64,7 @@ large::TimeFunction spin_up(double speed, double duration) {
   };
 }
 
-large::TimeFunction rest_to_rest(double travel, double duration) {
+solver::large_motion::TimeFunction rest_to_rest(double travel, double duration) {
   return [travel, duration](double t) {
     if (t >= duration) return std::array<double, 3>{travel, 0, 0};
     const double u = std::max(0.0, t / duration);
@@ -72,7 +76,7 @@ large::TimeFunction rest_to_rest(double travel, double duration) {
 
 }  // namespace
 
-large::TimeFunction read_law(const JsonView& law) {
+solver::large_motion::TimeFunction read_law(const JsonView& law) {
   if (const auto place = law.find("constant_speed")) {
     const double speed = place->number("speed_per_s");
     return [speed](double t) { return std::array<double, 3>{speed * t, speed, 0}; };
@@ -91,12 +95,13 @@ large::TimeFunction read_law(const JsonView& law) {
   };
 }
 
-Index find_node(const JsonView& name, const Model& built) {
+solver::Index find_node(const JsonView& name, const solver::Model& built) {
   return find_node_by_name(name.get<std::string>(), name, built);
 }
 
-large::LargeMotionModel read_joint_elements(const JsonView& model, const Model& built) {
-  large::LargeMotionModel large_motion;
+solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model,
+                                                           const solver::Model& built) {
+  solver::large_motion::LargeMotionModel large_motion;
   if (const auto sliders = model.find("sliders")) {
     for (const auto& [name, place] : sliders->entries()) {
       large_motion.sliders.push_back(read_slider(name, place, built));
@@ -115,7 +120,8 @@ large::LargeMotionModel read_joint_elements(const JsonView& model, const Model& 
   return large_motion;
 }
 
-void read_drives(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion) {
+void read_drives(const JsonView& analysis, const solver::Model& built,
+                 solver::large_motion::LargeMotionModel& large_motion) {
   const auto drives = analysis.find("drives");
   if (!drives) return;
   for (const auto& [name, place] : drives->entries()) {
@@ -126,23 +132,25 @@ void read_drives(const JsonView& analysis, const Model& built, large::LargeMotio
   }
 }
 
-void read_history(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion) {
+void read_history(const JsonView& analysis, const solver::Model& built,
+                  solver::large_motion::LargeMotionModel& large_motion) {
   large_motion.mass_damping = analysis.get("mass_damping_per_s", 0.0);
   large_motion.strain_rate_damping = analysis.get("strain_rate_damping_s", 0.0);
   if (const auto ramp = analysis.find("load_ramp_s")) {
-    const large::TimeFunction law = rest_to_rest(1, ramp->get<double>());
+    const solver::large_motion::TimeFunction law = rest_to_rest(1, ramp->get<double>());
     large_motion.load_history = [law](double t) { return law(t)[0]; };
   }
   const auto starts = analysis.find("start_velocities");
   if (!starts) return;
   for (const auto& [name, place] : starts->entries()) {
-    const Index node = find_node_by_name(name, place, built);
+    const solver::Index node = find_node_by_name(name, place, built);
     int direction = 0;
     for (const char* key : {"x_m_per_s", "y_m_per_s", "rotation_rad_per_s"}) {
-      if (place.has(key)) large_motion.initial_velocities.push_back({node, direction, place.number(key)});
+      if (place.has(key))
+        large_motion.initial_velocities.push_back({node, direction, place.number(key)});
       ++direction;
     }
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -4,24 +4,27 @@
 #include "solver/large_motion/system/large_motion_model.h"
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// Reads /model/sliders, line_springs and follower_loads.
 /// @param model  the place /model
 /// @param built  what the names of nodes are looked up in
 /// @throws InputError  where a name leads nowhere.
-[[nodiscard]] large::LargeMotionModel read_joint_elements(const JsonView& model, const Model& built);
+[[nodiscard]] solver::large_motion::LargeMotionModel read_joint_elements(
+    const JsonView& model, const solver::Model& built);
 
 /// Adds the drives of a large-statics or large-motion analysis, and of the second its damping, its
 /// history of the loads and its start.
 /// @throws InputError  where a name leads nowhere.
-void read_drives(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion);
-void read_history(const JsonView& analysis, const Model& built, large::LargeMotionModel& large_motion);
+void read_drives(const JsonView& analysis, const solver::Model& built,
+                 solver::large_motion::LargeMotionModel& large_motion);
+void read_history(const JsonView& analysis, const solver::Model& built,
+                  solver::large_motion::LargeMotionModel& large_motion);
 
 /// A motion over time: place, speed and acceleration.
-[[nodiscard]] large::TimeFunction read_law(const JsonView& law);
+[[nodiscard]] solver::large_motion::TimeFunction read_law(const JsonView& law);
 
 /// The node of that name. @throws InputError  where there is none.
-[[nodiscard]] Index find_node(const JsonView& name, const Model& built);
+[[nodiscard]] solver::Index find_node(const JsonView& name, const solver::Model& built);
 
-}  // namespace trammel
+}  // namespace trammel::harness

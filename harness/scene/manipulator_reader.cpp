@@ -2,14 +2,14 @@
 
 #include <map>
 
+#include "harness/base/text.h"
 #include "harness/scene/material_reader.h"
 #include "harness/scene/trajectory_reader.h"
-#include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-std::array<Vector2d, 3> read_vertices(const JsonView& vertices) {
+std::array<Eigen::Vector2d, 3> read_vertices(const JsonView& vertices) {
   return {read_point(vertices[0]), read_point(vertices[1]), read_point(vertices[2])};
 }
 
@@ -30,15 +30,15 @@ bool has_first(const JsonView& place, const char* first, const char* second) {
   return place.has(first);
 }
 
-ManipulatorGeometry read_geometry(const JsonView& manipulator) {
+solver::ManipulatorGeometry read_geometry(const JsonView& manipulator) {
   const JsonView links = manipulator["links"];
   const JsonView platform = manipulator["platform"];
-  ManipulatorGeometry geometry;
+  solver::ManipulatorGeometry geometry;
   geometry.base = has_first(manipulator, "base_side_m", "base_m")
-                      ? equilateral_base(manipulator.number("base_side_m"))
+                      ? solver::equilateral_base(manipulator.number("base_side_m"))
                       : read_vertices(manipulator["base_m"]);
   geometry.platform = has_first(platform, "side_m", "vertices_m")
-                          ? equilateral_platform(platform.number("side_m"))
+                          ? solver::equilateral_platform(platform.number("side_m"))
                           : read_vertices(platform["vertices_m"]);
   geometry.proximal = read_lengths(links["proximal_length_m"]);
   geometry.distal = read_lengths(links["distal_length_m"]);
@@ -53,30 +53,31 @@ std::optional<double> read_printed(const JsonView& part, const char* key) {
   return value->get<double>();
 }
 
-LinkDesign read_link(const JsonView& links, const char* which, const Material& material) {
+solver::LinkDesign read_link(const JsonView& links, const char* which,
+                             const solver::Material& material) {
   const auto difference = links.find(which);
   const auto at = [&](const char* key) -> const JsonView& {
     return difference && difference->has(key) ? *difference : links;
   };
-  LinkDesign link;
+  solver::LinkDesign link;
   link.thickness = at("thickness_m").number("thickness_m");
   link.width = at("width_m").number("width_m");
   link.material = material;
   link.shear_coefficient = at("shear_coefficient").get("shear_coefficient", 5.0 / 6.0);
   link.theory = read_beam_theory(at("beam"));
   link.mass_matrix = read_mass_matrix(at("mass_matrix"));
-  link.elements = at("elements").get<Index>("elements", 1);
+  link.elements = at("elements").get<solver::Index>("elements", 1);
   link.axially_flexible = read_axial(at("axial"));
   link.mass = read_printed(at("mass_kg"), "mass_kg");
   link.inertia = read_printed(at("inertia_kg_m2"), "inertia_kg_m2");
   return link;
 }
 
-PlatformDesign read_platform(const JsonView& manipulator) {
+solver::PlatformDesign read_platform(const JsonView& manipulator) {
   const JsonView platform = manipulator["platform"];
-  PlatformDesign design;
-  design.kind = platform.text("kind") == "rigid" ? PlatformDesign::Kind::rigid
-                                                 : PlatformDesign::Kind::triangles;
+  solver::PlatformDesign design;
+  design.kind = platform.text("kind") == "rigid" ? solver::PlatformDesign::Kind::rigid
+                                                 : solver::PlatformDesign::Kind::triangles;
   design.thickness = platform.number("thickness_m");
   design.material = read_material(
       manipulator[manipulator.has("platform_material") ? "platform_material" : "material"]);
@@ -88,10 +89,10 @@ PlatformDesign read_platform(const JsonView& manipulator) {
 }
 
 template <class Kind>
-std::array<Joint<Kind>, 3> read_joints(const JsonView& joints, const char* key,
-                                       const std::map<std::string, Kind>& kinds) {
+std::array<solver::Joint<Kind>, 3> read_joints(const JsonView& joints, const char* key,
+                                               const std::map<std::string, Kind>& kinds) {
   const JsonView choice = joints[key];
-  std::array<Joint<Kind>, 3> read;
+  std::array<solver::Joint<Kind>, 3> read;
   for (std::size_t i = 0; i < 3; ++i) {
     const JsonView item = choice.json().is_array() ? choice[i] : choice;
     if (item.json().is_object()) {
@@ -114,7 +115,8 @@ void read_motion(const JsonView& model, CaseModel& case_model) {
     case_model.motion = std::move(trajectory.motion);
   }
   for (std::size_t i = 0; i < case_model.motion.size(); ++i) {
-    const Posture posture = inverse_kinematics(case_model.manipulator->geometry, case_model.motion[i].pose);
+    const solver::Posture posture =
+        solver::inverse_kinematics(case_model.manipulator->geometry, case_model.motion[i].pose);
     if (posture.outcome.solved()) continue;
     const std::string point = single ? "" : " at point " + std::to_string(i);
     throw model[single ? "pose" : "trajectory"].error("expected a pose within reach" + point +
@@ -126,30 +128,32 @@ void read_motion(const JsonView& model, CaseModel& case_model) {
 
 void read_manipulator(const JsonView& model, CaseModel& case_model) {
   const JsonView manipulator = model["manipulator"];
-  ManipulatorDesign design;
+  solver::ManipulatorDesign design;
   design.geometry = read_geometry(manipulator);
   try {
-    check_geometry(design.geometry);
-  } catch (const ModelError& error) {
+    solver::check_geometry(design.geometry);
+  } catch (const solver::ModelError& error) {
     throw manipulator.error(std::string("expected a geometry that has a meaning: ") + error.what());
   }
-  const Material material = read_material(manipulator["material"]);
+  const solver::Material material = read_material(manipulator["material"]);
   design.proximal.fill(read_link(manipulator["links"], "proximal", material));
   design.distal.fill(read_link(manipulator["links"], "distal", material));
   design.platform = read_platform(manipulator);
   const JsonView joints = manipulator["joints"];
-  design.active = read_joints<ActiveKind>(
-      joints, "active", {{"locked", ActiveKind::locked}, {"free", ActiveKind::free}});
-  design.elbow = read_joints<ElbowKind>(
-      joints, "elbow", {{"welded", ElbowKind::welded}, {"hinged", ElbowKind::hinged}});
+  design.active = read_joints<solver::ActiveKind>(
+      joints, "active",
+      {{"locked", solver::ActiveKind::locked}, {"free", solver::ActiveKind::free}});
+  design.elbow = read_joints<solver::ElbowKind>(
+      joints, "elbow",
+      {{"welded", solver::ElbowKind::welded}, {"hinged", solver::ElbowKind::hinged}});
   design.platform_joint =
-      read_joints<PlatformJointKind>(joints, "platform",
-                                     {{"hinged", PlatformJointKind::hinged},
-                                      {"welded", PlatformJointKind::welded},
-                                      {"eq25-mean", PlatformJointKind::eq25_mean},
-                                      {"eq25-sum", PlatformJointKind::eq25_sum}});
+      read_joints<solver::PlatformJointKind>(joints, "platform",
+                                             {{"hinged", solver::PlatformJointKind::hinged},
+                                              {"welded", solver::PlatformJointKind::welded},
+                                              {"eq25-mean", solver::PlatformJointKind::eq25_mean},
+                                              {"eq25-sum", solver::PlatformJointKind::eq25_sum}});
   case_model.manipulator = design;
   read_motion(model, case_model);
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,28 +1,28 @@
 #include "harness/scene/material_reader.h"
 
-namespace trammel {
+namespace trammel::harness {
 
-Vector2d read_point(const JsonView& point) {
+Eigen::Vector2d read_point(const JsonView& point) {
   return {point[0].get<double>(), point[1].get<double>()};
 }
 
-Material read_material(const JsonView& material) {
+solver::Material read_material(const JsonView& material) {
   return {material.number("E_Pa"), material.number("rho_kg_m3"), material.number("nu")};
 }
 
-BeamTheory read_beam_theory(const JsonView& part) {
+solver::BeamTheory read_beam_theory(const JsonView& part) {
   const std::string word = part.get<std::string>("beam", "euler-bernoulli");
-  return beam_theory(word == "timoshenko" || word == "shear",
-                     word == "timoshenko" || word == "rayleigh");
+  return solver::beam_theory(word == "timoshenko" || word == "shear",
+                             word == "timoshenko" || word == "rayleigh");
 }
 
-MassMatrix read_mass_matrix(const JsonView& part) {
+solver::MassMatrix read_mass_matrix(const JsonView& part) {
   const std::string word = part.get<std::string>("mass_matrix", "consistent");
-  return word == "lumped" ? MassMatrix::lumped : MassMatrix::consistent;
+  return word == "lumped" ? solver::MassMatrix::lumped : solver::MassMatrix::consistent;
 }
 
 bool read_axial(const JsonView& part) {
   return part.get<std::string>("axial", "flexible") == "flexible";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

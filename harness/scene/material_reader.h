@@ -4,12 +4,12 @@
 #include "solver/model/model.h"
 
 /// Words and numbers that manipulators and frames have in common.
-namespace trammel {
+namespace trammel::harness {
 
-[[nodiscard]] Vector2d read_point(const JsonView& point);
-[[nodiscard]] Material read_material(const JsonView& material);
-[[nodiscard]] BeamTheory read_beam_theory(const JsonView& part);  ///< key "beam"
-[[nodiscard]] MassMatrix read_mass_matrix(const JsonView& part);  ///< key "mass_matrix"
-[[nodiscard]] bool read_axial(const JsonView& part);              ///< key "axial"
+[[nodiscard]] Eigen::Vector2d read_point(const JsonView& point);
+[[nodiscard]] solver::Material read_material(const JsonView& material);
+[[nodiscard]] solver::BeamTheory read_beam_theory(const JsonView& part);  ///< key "beam"
+[[nodiscard]] solver::MassMatrix read_mass_matrix(const JsonView& part);  ///< key "mass_matrix"
+[[nodiscard]] bool read_axial(const JsonView& part);                      ///< key "axial"
 
-}  // namespace trammel
+}  // namespace trammel::harness

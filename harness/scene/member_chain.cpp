@@ -6,56 +6,58 @@
 #include "solver/elements/frame_element.h"
 #include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// The place at s in [0, 1] along the chain.
-class Path {
+class ChainPath {
  public:
-  Path(const MemberChain& chain, const Vector2d& start, const Vector2d& end)
+  ChainPath(const MemberChain& chain, const Eigen::Vector2d& start, const Eigen::Vector2d& end)
       : center_(chain.arc_center), start_(start), end_(end) {
     if (!center_) return;
-    const Vector2d a = start - *center_;
-    const Vector2d b = end - *center_;
+    const Eigen::Vector2d a = start - *center_;
+    const Eigen::Vector2d b = end - *center_;
     if (!(std::abs(a.norm() - b.norm()) <= 1e-9 * a.norm())) {
-      throw ModelError("expected a centre as far from the first node as from the second (got " +
-                       std::to_string(a.norm()) + " m and " + std::to_string(b.norm()) + " m)");
+      throw solver::ModelError(
+          "expected a centre as far from the first node as from the second (got " +
+          std::to_string(a.norm()) + " m and " + std::to_string(b.norm()) + " m)");
     }
     radius_ = a.norm();
     angle_ = std::atan2(a.y(), a.x());
-    turn_ = std::atan2(cross(a, b), a.dot(b));
+    turn_ = std::atan2(solver::cross(a, b), a.dot(b));
     if (turn_ <= 0) turn_ += 2 * std::numbers::pi;
   }
 
-  [[nodiscard]] Vector2d at(double s) const {
+  [[nodiscard]] Eigen::Vector2d at(double s) const {
     if (!center_) return start_ + s * (end_ - start_);
     const double angle = angle_ + s * turn_;
-    return *center_ + radius_ * Vector2d(std::cos(angle), std::sin(angle));
+    return *center_ + radius_ * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   }
 
  private:
-  std::optional<Vector2d> center_;
-  Vector2d start_, end_;
+  std::optional<Eigen::Vector2d> center_;
+  Eigen::Vector2d start_, end_;
   double radius_ = 0, angle_ = 0, turn_ = 0;
 };
 
 }  // namespace
 
-void add_chain(const Member& member, const MemberChain& chain, const Vector2d& start,
-               const Vector2d& end, Index first_node, Model& structure) {
-  const Path path(chain, start, end);
+void add_chain(const solver::Member& member, const MemberChain& chain, const Eigen::Vector2d& start,
+               const Eigen::Vector2d& end, solver::Index first_node, solver::Model& structure) {
+  const ChainPath path(chain, start, end);
   const auto section = [&](double s) {
-    return chain.exponential ? interpolate_geometric(member.section, member.end_section, s)
-                             : interpolate(member.section, member.end_section, s);
+    return chain.exponential ? solver::interpolate_geometric(member.section, member.end_section, s)
+                             : solver::interpolate(member.section, member.end_section, s);
   };
   const bool is_bar = section(0.5).EI == 0;
-  const MemberEnd inner{is_bar ? EndFixity::hinged : EndFixity::welded, 0, 0};
+  const solver::MemberEnd inner{is_bar ? solver::EndFixity::hinged : solver::EndFixity::welded, 0,
+                                0};
   const bool holds = chain.held[0] || chain.held[1] || chain.held[2];
   const auto count = static_cast<double>(member.elements);
-  Member link = member;
+  solver::Member link = member;
   link.elements = 1;
   link.nodes[1] = member.nodes[0];
-  for (Index i = 0; i < member.elements; ++i) {
+  for (solver::Index i = 0; i < member.elements; ++i) {
     const bool last = i + 1 == member.elements;
     link.name = member.name + "." + std::to_string(i + 1);
     link.nodes[0] = link.nodes[1];
@@ -70,4 +72,4 @@ void add_chain(const Member& member, const MemberChain& chain, const Vector2d& s
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

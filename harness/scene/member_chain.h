@@ -5,13 +5,13 @@
 
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// What makes one member of a case a chain of straight members of one element, AB.1, AB.2, ...
 struct MemberChain {
-  std::optional<Vector2d> arc_center;  ///< chords of a circle, counterclockwise [m]
-  std::array<bool, 3> held{};          ///< x, y, rotation of every node between the ends
-  bool exponential = false;            ///< sections vary by equal factors over equal lengths
+  std::optional<Eigen::Vector2d> arc_center;  ///< chords of a circle, counterclockwise [m]
+  std::array<bool, 3> held{};                 ///< x, y, rotation of every node between the ends
+  bool exponential = false;                   ///< sections vary by equal factors over equal lengths
 
   [[nodiscard]] bool needed() const {
     return arc_center || exponential || held[0] || held[1] || held[2];
@@ -23,7 +23,7 @@ struct MemberChain {
 /// @param start, end  positions of the member's nodes [m]
 /// @param first_node  the index that the next of `structure.nodes` has in the model
 /// @throws ModelError  where the two ends are not as far from the centre of an arc.
-void add_chain(const Member& member, const MemberChain& chain, const Vector2d& start,
-               const Vector2d& end, Index first_node, Model& structure);
+void add_chain(const solver::Member& member, const MemberChain& chain, const Eigen::Vector2d& start,
+               const Eigen::Vector2d& end, solver::Index first_node, solver::Model& structure);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,13 +5,13 @@
 
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 struct OutputKeyword {
   const char* name;
   Output::Kind kind;
-  Index component;
+  solver::Index component;
 };
 
 constexpr std::array<OutputKeyword, 13> kOutputKeywords = {{
@@ -42,18 +42,18 @@ OutputKeyword find_keyword(const JsonView& place, const std::string& head) {
 }
 
 template <class Parts>
-Index find_part(const JsonView& place, const Parts& parts, const std::string& name,
-                const char* what) {
+solver::Index find_part(const JsonView& place, const Parts& parts, const std::string& name,
+                        const char* what) {
   std::vector<std::string> all;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (!name.empty() && parts[i].name == name) return static_cast<Index>(i);
+    if (!name.empty() && parts[i].name == name) return static_cast<solver::Index>(i);
     all.push_back(parts[i].name);
   }
   throw place.error(std::string("expected the name of a ") + what + " after the colon (got '" +
                     printable(name) + "')" + did_you_mean(name, all));
 }
 
-Output read_output(const JsonView& place, const Model& model) {
+Output read_output(const JsonView& place, const solver::Model& model) {
   Output output;
   output.name = place.get<std::string>();
   const std::size_t colon = output.name.find(':');
@@ -79,23 +79,23 @@ Output read_output(const JsonView& place, const Model& model) {
 }
 
 /// N, V or M; or M over the section modulus.
-double end_force(const Output& output, const Model& model, const Eigen::MatrixX3d& start,
+double end_force(const Output& output, const solver::Model& model, const Eigen::MatrixX3d& start,
                  const Eigen::MatrixX3d& end) {
   const double force = (output.end == 0 ? start : end)(output.item, output.component);
   if (output.kind == Output::Kind::resultant) return force;
-  const Member& member = model.members[static_cast<std::size_t>(output.item)];
+  const solver::Member& member = model.members[static_cast<std::size_t>(output.item)];
   return force / (output.end == 0 ? member.section : member.end_section).section_modulus;
 }
 
 }  // namespace
 
-std::vector<Output> read_outputs(const JsonView& outputs, const Model& model) {
+std::vector<Output> read_outputs(const JsonView& outputs, const solver::Model& model) {
   std::vector<Output> read;
   for (const auto& entry : outputs.entries()) read.push_back(read_output(entry.second, model));
   return read;
 }
 
-double value_of(const Output& output, const Model& model, const MovingState& state) {
+double value_of(const Output& output, const solver::Model& model, const MovingState& state) {
   switch (output.kind) {
     case Output::Kind::displacement:
       return state.displacement(output.item, output.component);
@@ -110,8 +110,8 @@ double value_of(const Output& output, const Model& model, const MovingState& sta
   }
 }
 
-double amplitude_of(const Output& output, const Model& model, const HarmonicAmplitudes& amplitudes,
-                    double frequency) {
+double amplitude_of(const Output& output, const solver::Model& model,
+                    const solver::HarmonicAmplitudes& amplitudes, double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;
   switch (output.kind) {
     case Output::Kind::displacement:
@@ -127,4 +127,4 @@ double amplitude_of(const Output& output, const Model& model, const HarmonicAmpl
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

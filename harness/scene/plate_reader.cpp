@@ -10,34 +10,35 @@
 #include "solver/mesh/block_mesh.h"
 #include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Two corners, in either order.
-using Ends = std::pair<Index, Index>;
-Ends ends_of(Index a, Index b) {
+using Ends = std::pair<solver::Index, solver::Index>;
+Ends ends_of(solver::Index a, solver::Index b) {
   return std::minmax(a, b);
 }
 
-const Vector2d& position(const Model& structure, Index node) {
+const Eigen::Vector2d& position(const solver::Model& structure, solver::Index node) {
   return structure.nodes[static_cast<std::size_t>(node)].position;
 }
 
-std::string describe_point(const Vector2d& point) {
+std::string describe_point(const Eigen::Vector2d& point) {
   return "(" + shortest(point.x()) + ", " + shortest(point.y()) + ") m";
 }
 
-double twice_area(const Model& structure, const Triangle& triangle) {
-  const Vector2d& corner = position(structure, triangle.nodes[0]);
-  return cross(position(structure, triangle.nodes[1]) - corner,
-               position(structure, triangle.nodes[2]) - corner);
+double twice_area(const solver::Model& structure, const solver::Triangle& triangle) {
+  const Eigen::Vector2d& corner = position(structure, triangle.nodes[0]);
+  return solver::cross(position(structure, triangle.nodes[1]) - corner,
+                       position(structure, triangle.nodes[2]) - corner);
 }
 
-Triangle read_triangle(const JsonView& place, const SymbolTable& symbols, const Model& structure, Index plate) {
+solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols,
+                               const solver::Model& structure, solver::Index plate) {
   if (place.size() != 3 && place.size() != 6) {
     throw place.error("expected 3 or 6 names (got " + std::to_string(place.size()) + ")");
   }
-  Triangle triangle;
+  solver::Triangle triangle;
   triangle.plate = plate;
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
   const double area = twice_area(structure, triangle);
@@ -50,31 +51,31 @@ Triangle read_triangle(const JsonView& place, const SymbolTable& symbols, const 
 }
 
 /// The curve of an edge; nothing for a straight one.
-std::optional<Ellipse> read_curve(const JsonView& edge) {
+std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
   if (edge.has("ellipse") && edge.has("circle")) {
     throw edge.error("expected at most one of 'ellipse' and 'circle'");
   }
   if (const auto circle = edge.find("circle")) {
     const double radius = circle->number("radius_m");
-    return Ellipse{read_point((*circle)["center_m"]), {radius, radius}};
+    return solver::Ellipse{read_point((*circle)["center_m"]), {radius, radius}};
   }
   const auto ellipse = edge.find("ellipse");
   if (!ellipse) return std::nullopt;
-  return Ellipse{read_point((*ellipse)["center_m"]), read_point((*ellipse)["semi_axes_m"])};
+  return solver::Ellipse{read_point((*ellipse)["center_m"]), read_point((*ellipse)["semi_axes_m"])};
 }
 
 /// The edges as they are written: corners, and a curve for each pair of neighbours.
 class Outline {
  public:
-  Outline(const JsonView& model, const SymbolTable& symbols, const Model& structure) {
+  Outline(const JsonView& model, const SymbolTable& symbols, const solver::Model& structure) {
     const auto edges = model.find("edges");
     if (!edges) return;
     for (const auto& [name, place] : edges->entries()) {
       if (symbols.node.count(name) > 0) {
         throw place.error("expected another name: there is a node of that name");
       }
-      std::vector<Index>& corners = corners_[name];
-      const std::optional<Ellipse> curve = read_curve(place);
+      std::vector<solver::Index>& corners = corners_[name];
+      const std::optional<solver::Ellipse> curve = read_curve(place);
       for (const auto& entry : place["nodes"].entries()) {
         corners.push_back(symbols.find_node(entry.second));
         if (curve) check_on_curve(entry.second, *curve, position(structure, corners.back()));
@@ -90,24 +91,25 @@ class Outline {
     }
   }
 
-  [[nodiscard]] const std::map<std::string, std::vector<Index>>& corners() const {
+  [[nodiscard]] const std::map<std::string, std::vector<solver::Index>>& corners() const {
     return corners_;
   }
-  [[nodiscard]] std::optional<Ellipse> curve(Index a, Index b) const {
+  [[nodiscard]] std::optional<solver::Ellipse> curve(solver::Index a, solver::Index b) const {
     const auto found = curve_.find(ends_of(a, b));
     return found == curve_.end() ? std::nullopt : found->second;
   }
 
  private:
-  static void check_on_curve(const JsonView& place, const Ellipse& curve, const Vector2d& point) {
+  static void check_on_curve(const JsonView& place, const solver::Ellipse& curve,
+                             const Eigen::Vector2d& point) {
     const double radius = (point - curve.centre).cwiseQuotient(curve.semi_axes).norm();
     if (std::abs(radius - 1) < 1e-6) return;
     throw place.error("expected a node on the edge's curve (got " + describe_point(point) + ", " +
                       shortest(radius) + " times as far from its centre)");
   }
 
-  std::map<std::string, std::vector<Index>> corners_;
-  std::map<Ends, std::optional<Ellipse>> curve_;
+  std::map<std::string, std::vector<solver::Index>> corners_;
+  std::map<Ends, std::optional<solver::Ellipse>> curve_;
 };
 
 /// The sides of the blocks of all plates, by their corners.
@@ -118,7 +120,8 @@ class Sides {
     const Ends ends = ends_of(piece.nodes.front(), piece.nodes.back());
     std::vector<Edge::Piece>& there = sides_[ends];
     if (!there.empty()) {
-      const std::vector<Index> back(there.front().nodes.rbegin(), there.front().nodes.rend());
+      const std::vector<solver::Index> back(there.front().nodes.rbegin(),
+                                            there.front().nodes.rend());
       if (there.size() > 1 || back != piece.nodes) {
         throw block.error(
             "expected the same mesh on both sides of a side that two blocks share "
@@ -128,7 +131,7 @@ class Sides {
     there.push_back(std::move(piece));
   }
 
-  [[nodiscard]] const std::vector<Edge::Piece>* find(Index a, Index b) const {
+  [[nodiscard]] const std::vector<Edge::Piece>* find(solver::Index a, solver::Index b) const {
     const auto found = sides_.find(ends_of(a, b));
     return found == sides_.end() ? nullptr : &found->second;
   }
@@ -137,57 +140,59 @@ class Sides {
   std::map<Ends, std::vector<Edge::Piece>> sides_;
 };
 
-Block read_block(const JsonView& place, const SymbolTable& symbols, const Outline& outline,
-                 const Model& structure, Index divisions) {
-  Block block;
-  std::array<Index, 4> corners{};
+solver::Block read_block(const JsonView& place, const SymbolTable& symbols, const Outline& outline,
+                         const solver::Model& structure, solver::Index divisions) {
+  solver::Block block;
+  std::array<solver::Index, 4> corners{};
   for (std::size_t i = 0; i < 4; ++i) {
     corners[i] = symbols.find_node(place["corners"][i]);
     block.corners[i] = position(structure, corners[i]);
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vector2d& here = block.corners[i];
-    const double turn = cross(block.corners[(i + 1) % 4] - here, block.corners[(i + 3) % 4] - here);
+    const Eigen::Vector2d& here = block.corners[i];
+    const double turn =
+        solver::cross(block.corners[(i + 1) % 4] - here, block.corners[(i + 3) % 4] - here);
     if (!(turn > 0)) {
       throw place["corners"].error("expected a convex quadrilateral, counterclockwise");
     }
     block.sides[i] = outline.curve(corners[i], corners[(i + 1) % 4]);
     if (i > 1) continue;
-    block.cells[i] = divisions * (place.has("cells") ? place["cells"][i].get<Index>() : 1);
+    block.cells[i] = divisions * (place.has("cells") ? place["cells"][i].get<solver::Index>() : 1);
     block.grading[i] = place.has("grading") ? place["grading"][i].get<double>() : 1;
   }
   return block;
 }
 
-void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline& outline, Index plate,
-                Model& structure, Sides& sides) {
+void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline& outline,
+                solver::Index plate, solver::Model& structure, Sides& sides) {
   const bool six_nodes = place.get<std::string>("element", "three-node") == "six-node";
-  const auto divisions = place.get<Index>("divisions", 1);
-  std::vector<Block> blocks;
+  const auto divisions = place.get<solver::Index>("divisions", 1);
+  std::vector<solver::Block> blocks;
   std::vector<JsonView> places;
   for (const auto& entry : place["blocks"].entries()) {
     places.push_back(entry.second);
     blocks.push_back(read_block(entry.second, symbols, outline, structure, divisions));
   }
-  const BlockMesh mesh = mesh_blocks(blocks, six_nodes);
-  const std::vector<Index> nodes = append(structure, plate, mesh);
+  const solver::BlockMesh mesh = solver::mesh_blocks(blocks, six_nodes);
+  const std::vector<solver::Index> nodes = solver::append(structure, plate, mesh);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    for (const std::vector<Index>& of_mesh : mesh.sides[b]) {
+    for (const std::vector<solver::Index>& of_mesh : mesh.sides[b]) {
       Edge::Piece piece{plate, {}, six_nodes};
-      for (const Index node : of_mesh) piece.nodes.push_back(nodes[static_cast<std::size_t>(node)]);
+      for (const solver::Index node : of_mesh)
+        piece.nodes.push_back(nodes[static_cast<std::size_t>(node)]);
       sides.add(places[b], std::move(piece));
     }
   }
 }
 
 void read_plate(const std::string& name, const JsonView& place, const SymbolTable& symbols,
-                const Outline& outline, Model& structure, Sides& sides) {
+                const Outline& outline, solver::Model& structure, Sides& sides) {
   if (place.has("triangles") == place.has("blocks")) {
     throw place.error("expected exactly one of 'triangles' and 'blocks'");
   }
-  const auto plate = static_cast<Index>(structure.plates.size());
+  const auto plate = static_cast<solver::Index>(structure.plates.size());
   structure.plates.push_back({name, look_up(symbols.material, place["material"], "a material"),
-                          place.number("thickness_m")});
+                              place.number("thickness_m")});
   if (place.has("blocks")) return mesh_plate(place, symbols, outline, plate, structure, sides);
   for (const char* key : {"element", "divisions"}) {
     if (place.has(key)) throw place[key].error("expected it beside 'blocks' only");
@@ -197,7 +202,8 @@ void read_plate(const std::string& name, const JsonView& place, const SymbolTabl
   }
 }
 
-Edge find_edge(const JsonView& place, const std::vector<Index>& corners, const Sides& sides) {
+Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
+               const Sides& sides) {
   Edge edge;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const std::vector<Edge::Piece>* found = sides.find(corners[i], corners[i + 1]);
@@ -212,7 +218,7 @@ Edge find_edge(const JsonView& place, const std::vector<Index>& corners, const S
 
 }  // namespace
 
-void read_plates(const JsonView& model, SymbolTable& symbols, Model& structure) {
+void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& structure) {
   const Outline outline(model, symbols, structure);
   Sides sides;
   if (const auto plates = model.find("plates")) {
@@ -225,20 +231,20 @@ void read_plates(const JsonView& model, SymbolTable& symbols, Model& structure) 
   }
 }
 
-std::vector<Index> nodes_of(const Edge& edge) {
-  std::vector<Index> nodes;
-  std::set<Index> seen;
+std::vector<solver::Index> nodes_of(const Edge& edge) {
+  std::vector<solver::Index> nodes;
+  std::set<solver::Index> seen;
   for (const Edge::Piece& piece : edge.pieces) {
-    for (const Index node : piece.nodes) {
+    for (const solver::Index node : piece.nodes) {
       if (seen.insert(node).second) nodes.push_back(node);
     }
   }
   return nodes;
 }
 
-void read_edge_load(const JsonView& place, const SymbolTable& symbols, Model& structure) {
+void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::Model& structure) {
   const Edge& edge = look_up(symbols.edge, place["edge"], "an edge");
-  EdgeLoad load;
+  solver::EdgeLoad load;
   if (const auto traction = place.find("traction_Pa")) load.traction = read_point(*traction);
   load.normal = place.get("normal_Pa", 0.0);
   for (const Edge::Piece& piece : edge.pieces) {
@@ -255,29 +261,30 @@ void read_edge_load(const JsonView& place, const SymbolTable& symbols, Model& st
   }
 }
 
-void check_meshed_nodes(const JsonView& model, std::size_t first, const Model& structure) {
+void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::Model& structure) {
   std::vector<bool> held(structure.nodes.size(), false);
-  const auto hold = [&](Index node) {
+  const auto hold = [&](solver::Index node) {
     if (node >= 0) held[static_cast<std::size_t>(node)] = true;
   };
   const auto hold_all = [&](const auto& nodes) { std::for_each(nodes.begin(), nodes.end(), hold); };
-  for (const Member& member : structure.members) hold_all(member.nodes);
-  for (const Triangle& triangle : structure.triangles) hold_all(triangle.nodes);
-  for (const Spring& spring : structure.springs) hold_all(spring.nodes);
-  for (const RigidBody& body : structure.rigid_bodies) {
+  for (const solver::Member& member : structure.members) hold_all(member.nodes);
+  for (const solver::Triangle& triangle : structure.triangles) hold_all(triangle.nodes);
+  for (const solver::Spring& spring : structure.springs) hold_all(spring.nodes);
+  for (const solver::RigidBody& body : structure.rigid_bodies) {
     hold(body.reference);
     hold_all(body.attached);
   }
-  const auto unnamed = [&](Index node) {
+  const auto unnamed = [&](solver::Index node) {
     return node >= 0 && structure.nodes[static_cast<std::size_t>(node)].name.empty();
   };
   const bool meshed =
-      std::any_of(structure.triangles.begin(), structure.triangles.end(), [&](const Triangle& triangle) {
-        return std::any_of(triangle.nodes.begin(), triangle.nodes.end(), unnamed);
-      });
+      std::any_of(structure.triangles.begin(), structure.triangles.end(),
+                  [&](const solver::Triangle& triangle) {
+                    return std::any_of(triangle.nodes.begin(), triangle.nodes.end(), unnamed);
+                  });
   for (std::size_t i = first; meshed && i < structure.nodes.size(); ++i) {
     if (held[i]) continue;
-    const Vector2d& here = structure.nodes[i].position;
+    const Eigen::Vector2d& here = structure.nodes[i].position;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = first; k < structure.nodes.size(); ++k) {
       if (held[k]) nearest = std::min(nearest, (structure.nodes[k].position - here).norm());
@@ -288,4 +295,4 @@ void check_meshed_nodes(const JsonView& model, std::size_t first, const Model& s
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

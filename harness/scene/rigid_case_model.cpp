@@ -4,14 +4,15 @@
 
 #include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-constexpr Index first_C = 6, P = 9;  // nodes A1..A3, B1..B3, C1..C3, P of the builder
+constexpr solver::Index first_C = 6, P = 9;  // nodes A1..A3, B1..B3, C1..C3, P of the builder
 
 }  // namespace
 
-RigidManipulator read_rigid_manipulator(const JsonView& analysis, const CaseModel& case_model) {
+solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
+                                                const CaseModel& case_model) {
   if (!case_model.manipulator) throw analysis.error("expected a model with a manipulator");
   const JsonView model = JsonView(analysis.document())["model"];
   for (const char* kind :
@@ -25,32 +26,33 @@ RigidManipulator read_rigid_manipulator(const JsonView& analysis, const CaseMode
   if (const auto loads = model.find("loads")) {
     const auto names = loads->entries();
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const Index node = case_model.structure.loads[i].node;
+      const solver::Index node = case_model.structure.loads[i].node;
       if (node >= first_C && node <= P) continue;
       throw names[i].second["node"].error("expected a load on the platform: P, C1, C2 or C3");
     }
   }
-  RigidManipulator manipulator = rigid_manipulator(*case_model.manipulator);
+  solver::RigidManipulator manipulator = solver::rigid_manipulator(*case_model.manipulator);
   manipulator.gravity = case_model.structure.gravity;
   return manipulator;
 }
 
-Vector3d wrench_on_platform(const CaseModel& case_model, const Pose& pose) {
-  Vector3d wrench = Vector3d::Zero();
-  for (const NodalLoad& load : case_model.structure.loads) {
+Eigen::Vector3d wrench_on_platform(const CaseModel& case_model, const solver::Pose& pose) {
+  Eigen::Vector3d wrench = Eigen::Vector3d::Zero();
+  for (const solver::NodalLoad& load : case_model.structure.loads) {
     if (load.node < first_C || load.node > P) continue;
     wrench += load.force;
     if (load.node == P) continue;
     const auto corner = static_cast<std::size_t>(load.node - first_C);
     wrench.z() +=
-        cross(rotated(case_model.manipulator->geometry.platform[corner], pose.phi), load.force.head<2>());
+        solver::cross(solver::rotated(case_model.manipulator->geometry.platform[corner], pose.phi),
+                      load.force.head<2>());
   }
   return wrench;
 }
 
 bool loads_at_P_only(const CaseModel& case_model) {
   return std::all_of(case_model.structure.loads.begin(), case_model.structure.loads.end(),
-                     [](const NodalLoad& load) { return load.node == P; });
+                     [](const solver::NodalLoad& load) { return load.node == P; });
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

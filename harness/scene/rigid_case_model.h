@@ -4,19 +4,21 @@
 #include "solver/manipulator/rigid_dynamics.h"
 
 /// What the analyses of the rigid manipulator take from a scene.
-namespace trammel {
+namespace trammel::harness {
 
 /// The bodies of the scene's manipulator, and gravity.
 /// @throws InputError  where there is no manipulator, or something stands beside it that rigid
 ///                     dynamics would leave out: members, plates, bodies, masses, springs, supports
 ///                     or loads that are not on the platform.
-[[nodiscard]] RigidManipulator read_rigid_manipulator(const JsonView& analysis, const CaseModel& case_model);
+[[nodiscard]] solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
+                                                              const CaseModel& case_model);
 
 /// Loads on P and C1, C2, C3 as one wrench at P in world axes (Fx, Fy [N], moment [N m]); loads on
 /// links do not count.
-[[nodiscard]] Vector3d wrench_on_platform(const CaseModel& case_model, const Pose& pose);
+[[nodiscard]] Eigen::Vector3d wrench_on_platform(const CaseModel& case_model,
+                                                 const solver::Pose& pose);
 
 /// Whether every load acts at P itself, so that the wrench is the same in every pose.
 [[nodiscard]] bool loads_at_P_only(const CaseModel& case_model);
 
-}  // namespace trammel
+}  // namespace trammel::harness

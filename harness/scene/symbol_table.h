@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "harness/input/json_view.h"
 #include "harness/base/text.h"
+#include "harness/input/json_view.h"
 #include "solver/model/model.h"
 
 /// What the parts of a planar model are looked up by.
-namespace trammel {
+namespace trammel::harness {
 
 template <class T>
 [[nodiscard]] std::vector<std::string> names_of(const std::map<std::string, T>& named) {
@@ -40,20 +40,22 @@ template <class T>
 /// Sides of meshed blocks; see plate_reader.h.
 struct Edge {
   struct Piece {
-    Index plate = -1;          ///< the one plate there; -1: the side lies inside
-    std::vector<Index> nodes;  ///< middles included; the plate is to the left of the way
+    solver::Index plate = -1;          ///< the one plate there; -1: the side lies inside
+    std::vector<solver::Index> nodes;  ///< middles included; the plate is to the left of the way
     bool six_nodes = false;
   };
   std::vector<Piece> pieces;
 };
 
 struct SymbolTable {
-  std::map<std::string, Index> node;
-  std::map<std::string, Material> material;
-  std::map<std::string, Section> section;
+  std::map<std::string, solver::Index> node;
+  std::map<std::string, solver::Material> material;
+  std::map<std::string, solver::Section> section;
   std::map<std::string, Edge> edge;
 
-  [[nodiscard]] Index find_node(const JsonView& name) const { return look_up(node, name, "a node"); }
+  [[nodiscard]] solver::Index find_node(const JsonView& name) const {
+    return look_up(node, name, "a node");
+  }
 };
 
-}  // namespace trammel
+}  // namespace trammel::harness

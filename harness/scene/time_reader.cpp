@@ -1,40 +1,41 @@
 #include "harness/scene/time_reader.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
-  if (name == "hht") return hht_alpha(numbers.number("alpha"));
-  if (name == "generalized-alpha") return generalized_alpha(numbers.number("spectral_radius"));
-  return newmark(numbers.number("beta"), numbers.number("gamma"));
+solver::TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
+  if (name == "hht") return solver::hht_alpha(numbers.number("alpha"));
+  if (name == "generalized-alpha")
+    return solver::generalized_alpha(numbers.number("spectral_radius"));
+  return solver::newmark(numbers.number("beta"), numbers.number("gamma"));
 }
 
 }  // namespace
 
-TimeScheme read_time_scheme(const JsonView& scheme) {
+solver::TimeScheme read_time_scheme(const JsonView& scheme) {
   if (scheme.json().is_string()) {
-    return scheme.get<std::string>() == "linear-acceleration" ? linear_acceleration()
-                                                              : average_acceleration();
+    return scheme.get<std::string>() == "linear-acceleration" ? solver::linear_acceleration()
+                                                              : solver::average_acceleration();
   }
   const auto [name, numbers] = scheme.entries().front();
   try {
     return scheme_of(name, numbers);
-  } catch (const ModelError& error) {
+  } catch (const solver::ModelError& error) {
     throw numbers.error(std::string("expected a scheme that has a meaning: ") + error.what());
   }
 }
 
-RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {
+solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {
   if (!damping) return {};
   return {.mass = damping->get("mass_per_s", 0.0), .stiffness = damping->get("stiffness_s", 0.0)};
 }
 
-TransientOptions read_time_options(const JsonView& analysis) {
-  TransientOptions options;
+solver::TransientOptions read_time_options(const JsonView& analysis) {
+  solver::TransientOptions options;
   options.step = analysis.number("step_s");
   if (const auto scheme = analysis.find("scheme")) options.scheme = read_time_scheme(*scheme);
   if (const auto adaptive = analysis.find("adaptive")) {
-    ErrorControl control;
+    solver::ErrorControl control;
     control.relative = adaptive->get("relative", control.relative);
     control.absolute = adaptive->get("absolute", control.absolute);
     control.finest_level = adaptive->get("finest_level", control.finest_level);
@@ -43,4 +44,4 @@ TransientOptions read_time_options(const JsonView& analysis) {
   return options;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

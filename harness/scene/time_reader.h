@@ -5,17 +5,17 @@
 #include "solver/time/transient.h"
 
 /// What analyses in time have in common.
-namespace trammel {
+namespace trammel::harness {
 
 /// A word or an object with one key: "newmark" (average acceleration), "linear-acceleration",
 /// {"newmark": {"beta", "gamma"}}, {"hht": {"alpha"}}, {"generalized-alpha": {"spectral_radius"}}.
 /// @throws InputError  where the numbers make no scheme.
-[[nodiscard]] TimeScheme read_time_scheme(const JsonView& scheme);
+[[nodiscard]] solver::TimeScheme read_time_scheme(const JsonView& scheme);
 
 /// {"mass_per_s": w1, "stiffness_s": w2}; none where it is absent.
-[[nodiscard]] RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
+[[nodiscard]] solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
 
 /// "scheme" (newmark by default), "step_s", "adaptive": {"relative", "absolute", "finest_level"}.
-[[nodiscard]] TransientOptions read_time_options(const JsonView& analysis);
+[[nodiscard]] solver::TransientOptions read_time_options(const JsonView& analysis);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -2,14 +2,14 @@
 
 #include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-Pose read_pose(const JsonView& pose) {
+solver::Pose read_pose(const JsonView& pose) {
   return {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")};
 }
 
-Circle read_circle(const JsonView& circle) {
+solver::Circle read_circle(const JsonView& circle) {
   const JsonView center = circle["center_m"];
   return {{center[0].get<double>(), center[1].get<double>()},
           circle.number("radius_m"),
@@ -17,9 +17,9 @@ Circle read_circle(const JsonView& circle) {
           circle.get("phi_rad", 0.0)};
 }
 
-Spline read_spline(const JsonView& spline) {
+solver::Spline read_spline(const JsonView& spline) {
   std::vector<double> times;
-  std::vector<Pose> poses;
+  std::vector<solver::Pose> poses;
   for (const auto& [index, knot] : spline["knots"].entries()) {
     times.push_back(knot.number("time_s"));
     poses.push_back(read_pose(knot));
@@ -29,20 +29,20 @@ Spline read_spline(const JsonView& spline) {
                                    shortest(times.front()) + " s)");
   }
   const std::string ends = spline.get<std::string>("ends", "natural");
-  return make_spline(times, poses,
-                     ends == "periodic"  ? SplineEnds::periodic
-                     : ends == "at-rest" ? SplineEnds::at_rest
-                                         : SplineEnds::natural);
+  return solver::make_spline(times, poses,
+                             ends == "periodic"  ? solver::SplineEnds::periodic
+                             : ends == "at-rest" ? solver::SplineEnds::at_rest
+                                                 : solver::SplineEnds::natural);
 }
 
-Path read_path(const std::string& kind, const JsonView& place) {
+solver::Path read_path(const std::string& kind, const JsonView& place) {
   if (kind == "circle") return read_circle(place);
   if (kind == "spline") return read_spline(place);
-  const Pose from = read_pose(place["from"]);
-  const Pose to = read_pose(place["to"]);
+  const solver::Pose from = read_pose(place["from"]);
+  const solver::Pose to = read_pose(place["to"]);
   const double duration = place.number("duration_s");
-  if (kind == "line") return Line{from, to, duration};
-  return RestToRest{from, to, duration};
+  if (kind == "line") return solver::Line{from, to, duration};
+  return solver::RestToRest{from, to, duration};
 }
 
 }  // namespace
@@ -50,11 +50,12 @@ Path read_path(const std::string& kind, const JsonView& place) {
 Trajectory read_trajectory(const JsonView& trajectory) {
   const auto [kind, place] = trajectory.entries().front();
   try {
-    const Path path = read_path(kind, place);
-    return {path, sample(path, place["points"].get<Index>(), place.number("step_s"))};
-  } catch (const ModelError& error) {
+    const solver::Path path = read_path(kind, place);
+    return {path,
+            solver::sample(path, place["points"].get<solver::Index>(), place.number("step_s"))};
+  } catch (const solver::ModelError& error) {
     throw place.error(std::string("expected a path that has a meaning: ") + error.what());
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,19 +5,14 @@
 #include <stdexcept>
 
 #include "harness/analysis/analysis.h"
+#include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
 #include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 using MeasurementStatus = MeasuredSetting::MeasurementStatus;
-
-double max_abs(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
 
 /// What the error of an entry is divided by.
 double divisor(double reference_solution, double largest, const Scale& scale) {
@@ -27,14 +22,15 @@ double divisor(double reference_solution, double largest, const Scale& scale) {
 }
 
 std::vector<double> relative_errors(const std::vector<double>& found,
-                                    const std::vector<double>& reference_solution, const Scale& scale,
-                                    double largest_of_all) {
+                                    const std::vector<double>& reference_solution,
+                                    const Scale& scale, double largest_of_all) {
   if (found.size() != reference_solution.size()) {
     throw std::runtime_error("expected " + std::to_string(reference_solution.size()) +
                              " values, as the truth has (got " + std::to_string(found.size()) +
                              ")");
   }
-  const double largest = scale.kind == Scale::Kind::largest ? largest_of_all : max_abs(reference_solution);
+  const double largest =
+      scale.kind == Scale::Kind::largest ? largest_of_all : max_abs(reference_solution);
   std::vector<double> errors;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double by = divisor(reference_solution[i], largest, scale);
@@ -44,7 +40,8 @@ std::vector<double> relative_errors(const std::vector<double>& found,
   return errors;
 }
 
-Observations exact_values(const std::vector<ObservedQuantity>& observed, const Observations& reference_solution) {
+Observations exact_values(const std::vector<ObservedQuantity>& observed,
+                          const Observations& reference_solution) {
   Observations all;
   for (std::size_t i = 0; i < observed.size(); ++i) {
     if (observed[i].is_error) {
@@ -62,23 +59,27 @@ InputError cannot(const Setting& setting, const std::string& what, const std::st
 
 Observations compute_reference_solution(const CostStudy& study, const References& references) {
   if (!study.reference_solution) return {};
-  const SandboxedRun sandboxed = run_sandboxed(*study.reference_solution, study.time_limit_s, references);
-  if (sandboxed.termination != SandboxedRun::Termination::solved) throw cannot(*study.reference_solution, "a truth", sandboxed.reason);
+  const SandboxedRun sandboxed =
+      run_sandboxed(*study.reference_solution, study.time_limit_s, references);
+  if (sandboxed.termination != SandboxedRun::Termination::solved)
+    throw cannot(*study.reference_solution, "a truth", sandboxed.reason);
   return sandboxed.values;
 }
 
 /// Everything but the time.
-MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting, const Observations& reference_solution,
-                            const CostStudy& study) {
+MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
+                             const Observations& reference_solution, const CostStudy& study) {
   MeasuredSetting measured;
   measured.reason = sandboxed.reason;
   measured.cpu_s = sandboxed.cpu_s;
   measured.counters = sandboxed.counters;
-  measured.status =
-      sandboxed.termination == SandboxedRun::Termination::timed_out ? MeasurementStatus::timed_out : MeasurementStatus::failed;
+  measured.status = sandboxed.termination == SandboxedRun::Termination::timed_out
+                        ? MeasurementStatus::timed_out
+                        : MeasurementStatus::failed;
   if (sandboxed.termination != SandboxedRun::Termination::solved) return measured;
   try {
-    measured.error = error_norms(sandboxed.values, exact_values(setting.observed, reference_solution), study.scale);
+    measured.error = error_norms(sandboxed.values,
+                                 exact_values(setting.observed, reference_solution), study.scale);
   } catch (const std::runtime_error& error) {
     measured.reason = error.what();
     return measured;
@@ -89,12 +90,14 @@ MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setti
     measured.reason = std::isfinite(error) ? "the error is above 1000 %" : "not finite";
     return measured;
   }
-  measured.status = error == 0 && study.reference_solution ? MeasurementStatus::reference_solution : MeasurementStatus::measured;
+  measured.status = error == 0 && study.reference_solution ? MeasurementStatus::reference_solution
+                                                           : MeasurementStatus::measured;
   return measured;
 }
 
 bool is_computed(const MeasuredSetting& measured) {
-  return measured.status == MeasurementStatus::measured || measured.status == MeasurementStatus::excessive_spread ||
+  return measured.status == MeasurementStatus::measured ||
+         measured.status == MeasurementStatus::excessive_spread ||
          measured.status == MeasurementStatus::reference_solution;
 }
 
@@ -113,8 +116,9 @@ std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::size_t firs
     const MeasuredSetting& measurement = measured.settings[i];
     if (measurement.status != MeasurementStatus::measured) continue;
     const double error = measurement.error->get(measured.study.norm);
-    points.push_back({i, std::max(error, kMinError),
-                      median_of(*measurement.timing, first, step) / median_of(baseline, first, step)});
+    points.push_back(
+        {i, std::max(error, kMinError),
+         median_of(*measurement.timing, first, step) / median_of(baseline, first, step)});
   }
   return points;
 }
@@ -153,17 +157,21 @@ double ErrorNorms::get(Norm norm) const {
   return norm == Norm::max ? max : norm == Norm::rms ? rms : mean;
 }
 
-ErrorNorms error_norms(const Observations& found, const Observations& reference_solution, const Scale& scale) {
+ErrorNorms error_norms(const Observations& found, const Observations& reference_solution,
+                       const Scale& scale) {
   ErrorNorms norms;
   std::size_t count = 0;
   double squares = 0, sum = 0, largest = 0;
-  for (const std::vector<double>& values : reference_solution) largest = std::max(largest, max_abs(values));
+  for (const std::vector<double>& values : reference_solution)
+    largest = std::max(largest, max_abs(values));
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::vector<double> errors =
-        reference_solution.at(i).empty() ? found[i] : relative_errors(found[i], reference_solution[i], scale, largest);
+        reference_solution.at(i).empty()
+            ? found[i]
+            : relative_errors(found[i], reference_solution[i], scale, largest);
     for (const double error : errors) {
       const double size = std::abs(error);
-      norms.max = nan_max(norms.max, size);
+      norms.max = solver::nan_max(norms.max, size);
       squares += size * size;
       sum += size;
       ++count;
@@ -203,13 +211,19 @@ void derive_results(MeasuredStudy& measured) {
   const CostStudy& cost_study = measured.study;
   for (MeasuredSetting& measurement : measured.settings) {
     measurement.relative = measurement.cpu_s / measured.settings[cost_study.baseline].cpu_s;
-    if (measurement.status != MeasurementStatus::measured && measurement.status != MeasurementStatus::excessive_spread) continue;
-    measurement.status = measurement.timing->spread() > kMaxSpread ? MeasurementStatus::excessive_spread : MeasurementStatus::measured;
+    if (measurement.status != MeasurementStatus::measured &&
+        measurement.status != MeasurementStatus::excessive_spread)
+      continue;
+    measurement.status = measurement.timing->spread() > kMaxSpread
+                             ? MeasurementStatus::excessive_spread
+                             : MeasurementStatus::measured;
   }
   measured.points = points_of(measured, 0, 1);
   measured.pareto_front = find_pareto_front(measured.points);
-  measured.conclusion = describe_pareto_front(measured.points, titles_of(cost_study), cost_study.baseline);
-  measured.repeatability = compare_pareto_fronts(points_of(measured, 0, 2), points_of(measured, 1, 2));
+  measured.conclusion =
+      describe_pareto_front(measured.points, titles_of(cost_study), cost_study.baseline);
+  measured.repeatability =
+      compare_pareto_fronts(points_of(measured, 0, 2), points_of(measured, 1, 2));
 }
 
 const char* to_string(MeasurementStatus status) {
@@ -230,4 +244,4 @@ const char* to_string(MeasurementStatus status) {
   return "";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

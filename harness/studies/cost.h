@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/timing.h"
 #include "harness/studies/cost_study.h"
 #include "harness/studies/pareto_front.h"
-#include "harness/base/timing.h"
 #include "harness/studies/sandboxed_run.h"
 
 /// What accuracy costs: every setting of a study measured for error and for time.
-namespace trammel {
+namespace trammel::harness {
 
 /// Norms of the relative errors over all observed entries; all three are kept.
 struct ErrorNorms {
@@ -19,10 +19,11 @@ struct ErrorNorms {
   [[nodiscard]] double get(Norm norm) const;
 };
 
-/// @param reference_solution  as many values as `found`; empty lists where the values are errors themselves
+/// @param reference_solution  as many values as `found`; empty lists where the values are errors
+/// themselves
 /// @throws std::runtime_error  where they differ in length, or there is nothing to divide by.
-[[nodiscard]] ErrorNorms error_norms(const Observations& found, const Observations& reference_solution,
-                                     const Scale& scale);
+[[nodiscard]] ErrorNorms error_norms(const Observations& found,
+                                     const Observations& reference_solution, const Scale& scale);
 
 /// An error above this is no approximation any more: the computation counts as diverged.
 inline constexpr double kDivergedError = 10;
@@ -30,11 +31,11 @@ inline constexpr double kDivergedError = 10;
 struct MeasuredSetting {
   enum class MeasurementStatus {
     measured,
-    excessive_spread,       ///< measured, but the spread is too wide to be used
-    reference_solution,      ///< what the others are measured against
-    diverged,   ///< not finite, or the error is above `kDivergedError`
-    timed_out,  ///< not done within the processor time allowed
-    failed      ///< no solution; the reason says why
+    excessive_spread,    ///< measured, but the spread is too wide to be used
+    reference_solution,  ///< what the others are measured against
+    diverged,            ///< not finite, or the error is above `kDivergedError`
+    timed_out,           ///< not done within the processor time allowed
+    failed               ///< no solution; the reason says why
   };
   MeasurementStatus status = MeasurementStatus::failed;
   std::string reason;
@@ -42,7 +43,7 @@ struct MeasuredSetting {
   std::optional<Timing> timing;
   double relative = 0;  ///< median time over the baseline's
   double cpu_s = 0;     ///< median; of the one trial where it was not timed
-  Counters counters;
+  solver::Counters counters;
 };
 
 struct MeasuredStudy {
@@ -72,4 +73,4 @@ void derive_results(MeasuredStudy& measured);
 
 [[nodiscard]] const char* to_string(MeasuredSetting::MeasurementStatus status);
 
-}  // namespace trammel
+}  // namespace trammel::harness

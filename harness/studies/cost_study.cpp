@@ -3,29 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/input/catalogue.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
+#include "harness/base/statistic.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/base/statistic.h"
+#include "harness/input/catalogue.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::size_t> indices(const JsonView& place, const char* key) {
-  const auto stated = place.find(key);
-  if (!stated) return {};
-  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
-  return {stated->get<std::size_t>()};
-}
-
 std::vector<double> exact_values(const JsonView& place, const std::string& quantity,
                                  const References& references) {
   const JsonView id = place["reference"];
-  const Reference& reference = references.get(id);
+  const references::Reference& reference = references.get(id);
   if (reference.unit != unit_of(quantity)) {
     throw id.error("expected a reference in " + unit_of(quantity) + " (got " + reference.unit +
                    ")");
@@ -43,7 +36,8 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
   return values;
 }
 
-std::vector<ObservedQuantity> read_observed(const JsonView& quantities, const References& references) {
+std::vector<ObservedQuantity> read_observed(const JsonView& quantities,
+                                            const References& references) {
   std::vector<ObservedQuantity> observed;
   for (const auto& [name, place] : quantities.entries()) {
     ObservedQuantity entry;
@@ -156,8 +150,9 @@ void check_quick(const JsonView& curve) {
   }
 }
 
-std::vector<Setting> read_curve(const JsonView& study, const std::string& name, const JsonView& curve,
-                                SweepExtent extent, const References& references) {
+std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
+                                const JsonView& curve, SweepExtent extent,
+                                const References& references) {
   check_curve(curve);
   check_quick(curve);
   Setting setting;
@@ -246,15 +241,17 @@ std::string references_of(const JsonView& quantities) {
 
 void read_reference_solution(const JsonView& root, CostStudy& study, const References& references) {
   const std::vector<ObservedQuantity>& wanted = study.settings.front().observed;
-  const bool needed = std::any_of(wanted.begin(), wanted.end(),
-                                  [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); });
+  const bool needed = std::any_of(wanted.begin(), wanted.end(), [](const ObservedQuantity& entry) {
+    return entry.needs_reference_solution();
+  });
   if (needed != root.has("truth")) {
     throw root.error(needed ? "expected 'truth', or a reference for each quantity"
                             : "expected either 'truth' or references, not both");
   }
   if (!needed) {
     const std::string named = references_of(root["quantities"]);
-    study.reference_description = named.empty() ? "the error norms of the computation itself" : named;
+    study.reference_description =
+        named.empty() ? "the error norms of the computation itself" : named;
     return;
   }
   const JsonView place = root["truth"];
@@ -296,6 +293,13 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
 }
 
 }  // namespace
+
+std::vector<std::size_t> indices(const JsonView& place, const char* key) {
+  const auto stated = place.find(key);
+  if (!stated) return {};
+  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
+  return {stated->get<std::size_t>()};
+}
 
 Observations observe(const Quantities& quantities, const std::vector<ObservedQuantity>& observed) {
   Observations all;
@@ -378,4 +382,4 @@ const char* to_string(Norm norm) {
   return "";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

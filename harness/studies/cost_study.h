@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "harness/input/case.h"
 #include "harness/base/quantity.h"
+#include "harness/input/case.h"
 #include "harness/input/reference_library.h"
 
 /// Studies of what accuracy costs in time: settings of one computation, to be measured against one
 /// truth.
-namespace trammel {
+namespace trammel::harness {
 
 /// A quantity that an error is measured of.
 struct ObservedQuantity {
   std::string quantity;
-  std::string addend;                ///< another quantity, added entry by entry; empty: none
+  std::string addend;              ///< another quantity, added entry by entry; empty: none
   std::string statistic;           ///< one number from the entries; empty: the entries themselves
   std::vector<std::size_t> index;  ///< empty: all
   bool is_error = false;           ///< the values are relative errors themselves
@@ -28,6 +28,9 @@ struct ObservedQuantity {
 
 /// The values of what is observed, one list a quantity.
 using Observations = std::vector<std::vector<double>>;
+
+/// The entries that a place names under a key, one or a list; empty where it has none.
+[[nodiscard]] std::vector<std::size_t> indices(const JsonView& place, const char* key);
 
 /// @throws std::runtime_error  naming a quantity that is not there or has other than as many
 /// entries
@@ -55,9 +58,10 @@ struct Scale {
 struct CostStudy {
   std::string id, family, title, description;
   std::vector<Setting> settings;  ///< curve by curve, coarse to fine
-  std::optional<Setting> reference_solution;   ///< where the observed quantities have no exact values
-  std::string reference_description;        ///< what errors are measured against
-  std::size_t baseline = 0;       ///< among the settings
+  std::optional<Setting>
+      reference_solution;             ///< where the observed quantities have no exact values
+  std::string reference_description;  ///< what errors are measured against
+  std::size_t baseline = 0;           ///< among the settings
   Scale scale;
   std::string scale_description;
   Norm norm = Norm::max;
@@ -88,4 +92,4 @@ enum class SweepExtent { full, quick };
 
 [[nodiscard]] const char* to_string(Norm norm);
 
-}  // namespace trammel
+}  // namespace trammel::harness

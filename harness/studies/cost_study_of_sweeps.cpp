@@ -1,18 +1,20 @@
 #include <algorithm>
 
+#include "harness/base/text.h"
 #include "harness/input/check.h"
 #include "harness/studies/cost_study.h"
-#include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
-bool is_exact(const Reference& reference) {
-  return reference.kind == ReferenceKind::exact || reference.kind == ReferenceKind::computed;
+bool is_exact(const references::Reference& reference) {
+  return reference.kind == references::ReferenceKind::exact ||
+         reference.kind == references::ReferenceKind::computed;
 }
 
 /// Exact values of an observed quantity: as many as its entries.
-std::vector<double> exact_values(const Reference& reference, const ObservedQuantity& observed,
+std::vector<double> exact_values(const references::Reference& reference,
+                                 const ObservedQuantity& observed,
                                  const std::vector<std::size_t>& chosen) {
   if (!is_exact(reference) || reference.unit != unit_of(observed.quantity)) return {};
   if (chosen.empty()) return reference.values;
@@ -23,14 +25,8 @@ std::vector<double> exact_values(const Reference& reference, const ObservedQuant
   return values;
 }
 
-std::vector<std::size_t> indices(const JsonView& place, const char* key) {
-  const auto stated = place.find(key);
-  if (!stated) return {};
-  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
-  return {stated->get<std::size_t>()};
-}
-
-std::vector<ObservedQuantity> named_by_sweep(const JsonView& quantities, const References& references) {
+std::vector<ObservedQuantity> named_by_sweep(const JsonView& quantities,
+                                             const References& references) {
   std::vector<ObservedQuantity> observed;
   for (const auto& [name, place] : quantities.entries()) {
     ObservedQuantity entry;
@@ -39,8 +35,8 @@ std::vector<ObservedQuantity> named_by_sweep(const JsonView& quantities, const R
     entry.index = indices(place, "index");
     entry.is_error = place.get("is_error", false);
     if (place.has("reference")) {
-      entry.exact =
-          exact_values(references.get(place["reference"]), entry, indices(place, "reference_index"));
+      entry.exact = exact_values(references.get(place["reference"]), entry,
+                                 indices(place, "reference_index"));
     }
     observed.push_back(std::move(entry));
   }
@@ -50,8 +46,8 @@ std::vector<ObservedQuantity> named_by_sweep(const JsonView& quantities, const R
 /// What the checks look at, each once; counts and what is only bounded left out. A check with true
 /// values counts before one without.
 std::vector<ObservedQuantity> named_by_checks(const Document& document, const std::string& variant,
-                                      const std::vector<std::string>& variants,
-                                      const References& references) {
+                                              const std::vector<std::string>& variants,
+                                              const References& references) {
   std::vector<ObservedQuantity> observed;
   if (!document.value().contains("checks")) return observed;
   const JsonView places = JsonView(document)["checks"];
@@ -63,12 +59,13 @@ std::vector<ObservedQuantity> named_by_checks(const Document& document, const st
     entry.statistic = check.statistic;
     entry.index = check.index;
     if (!check.reference.empty()) {
-      entry.exact =
-          exact_values(references.get(places[check.name]["reference"]), entry, check.reference_index);
+      entry.exact = exact_values(references.get(places[check.name]["reference"]), entry,
+                                 check.reference_index);
     }
-    const auto same = std::find_if(observed.begin(), observed.end(), [&](const ObservedQuantity& other) {
-      return other.quantity == entry.quantity && other.statistic == entry.statistic;
-    });
+    const auto same =
+        std::find_if(observed.begin(), observed.end(), [&](const ObservedQuantity& other) {
+          return other.quantity == entry.quantity && other.statistic == entry.statistic;
+        });
     if (same == observed.end()) {
       observed.push_back(std::move(entry));
     } else if (same->exact.empty() && !entry.exact.empty()) {
@@ -146,4 +143,4 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   return study;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

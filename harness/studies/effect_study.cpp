@@ -5,11 +5,12 @@
 #include <limits>
 #include <random>
 
-#include "harness/input/reference_library.h"
+#include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
+#include "harness/input/reference_library.h"
 #include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -30,12 +31,6 @@ std::string kind_of(const std::string& quantity) {
     if (quantity.rfind(start, 0) == 0) return kind;
   }
   return "";
-}
-
-double max_abs(const std::vector<double>& values) {
-  double largest_change = 0;
-  for (const double value : values) largest_change = std::max(largest_change, std::abs(value));
-  return largest_change;
 }
 
 /// Of each kind, what its changes are measured by: not round-off.
@@ -65,15 +60,15 @@ double change(const std::vector<double>& full, const std::vector<double>& other,
     const double by = each ? std::abs(full[i]) : scale;
     const double difference = std::abs(other[i] - full[i]);
     if (difference == 0) continue;
-    largest_change = nan_max(largest_change, by > 0 ? difference / by : kInfinite);
+    largest_change = solver::nan_max(largest_change, by > 0 ? difference / by : kInfinite);
   }
   return std::isnan(largest_change) ? kInfinite : largest_change;
 }
 
 double size_of(const CaseModel& case_model) {
-  const Model model = build_model(case_model, 0);
-  Vector2d low = model.nodes.front().position, high = low;
-  for (const Node& node : model.nodes) {
+  const solver::Model model = build_model(case_model, 0);
+  Eigen::Vector2d low = model.nodes.front().position, high = low;
+  for (const solver::Node& node : model.nodes) {
     low = low.cwiseMin(node.position);
     high = high.cwiseMax(node.position);
   }
@@ -85,8 +80,9 @@ class Study {
   Study(const Document& document, const EffectStudyOptions& options)
       : document_(document), options_(options) {
     const auto requested = JsonView(document).find("effects");
-    study_.tolerance = requested && requested->json().is_object() ? (*requested)["auto"].number("tolerance")
-                                                          : options.tolerance;
+    study_.tolerance = requested && requested->json().is_object()
+                           ? (*requested)["auto"].number("tolerance")
+                           : options.tolerance;
     const CaseModel case_model = read_case_model(document_);
     size_ = size_of(case_model);
     study_.scope = effect_scope(document_, case_model);
@@ -94,19 +90,19 @@ class Study {
 
   EffectStudy run() {
     decide();
-    const Effects all = study_.scope.applicable;
+    const solver::Effects all = study_.scope.applicable;
     study_.full = compute(all);
     if (!study_.full.outcome.solved()) return std::move(study_);
     study_.chosen = compute(study_.choice.chosen);
-    const std::vector<Effect> able = all.without(study_.scope.required).list();
-    for (const Effect effect : able) study_.singles.push_back(leave_out(all, {effect}));
+    const std::vector<solver::Effect> able = all.without(study_.scope.required).list();
+    for (const solver::Effect effect : able) study_.singles.push_back(leave_out(all, {effect}));
     for (std::size_t i = 0; options_.pairs && i < able.size(); ++i) {
       for (std::size_t j = i + 1; j < able.size(); ++j) {
         study_.pairs.push_back(leave_out(all, {able[i], able[j]}));
       }
     }
-    const Effects chosen = study_.choice.chosen;
-    for (const Effect effect : chosen.without(study_.scope.required).list()) {
+    const solver::Effects chosen = study_.choice.chosen;
+    for (const solver::Effect effect : chosen.without(study_.scope.required).list()) {
       study_.from_chosen.push_back(leave_out(chosen, {effect}));
     }
     if (options_.repeats > 0) measure_time();
@@ -116,9 +112,9 @@ class Study {
  private:
   void decide() {
     const Document automatic = [this] {
-      Document changed = with_effects(document_, Effects());
+      Document changed = with_effects(document_, solver::Effects());
       changed.apply_patch(document_.origin("").file, "",
-                  Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
+                          Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
       return changed;
     }();
     const Stopwatch watch;
@@ -126,7 +122,7 @@ class Study {
     study_.choice_cpu_s = watch.cpu_s();
   }
 
-  EffectRun compute(Effects effects) const {
+  EffectRun compute(solver::Effects effects) const {
     const AnalysisResult result = analyse(with_effects(document_, effects), references_, {false});
     EffectRun run{effects, result.outcome, result.quantities, result.counters, {}, 0, 0};
     if (run.outcome.solved()) {
@@ -138,9 +134,9 @@ class Study {
     return run;
   }
 
-  Ablation leave_out(Effects from, const std::vector<Effect>& out) const {
-    Effects left = from;
-    for (const Effect effect : out) left = study_.scope.without(left, effect);
+  Ablation leave_out(solver::Effects from, const std::vector<solver::Effect>& out) const {
+    solver::Effects left = from;
+    for (const solver::Effect effect : out) left = study_.scope.without(left, effect);
     return {out, compute(left)};
   }
 
@@ -191,8 +187,8 @@ Changes changes_between(const Quantities& full, const Quantities& other, double 
       if (kind == "frequency") largest_change = kInfinite;
       continue;
     }
-    largest_change = std::max(
-        largest_change, change(quantity.values, found->second.values, scale.at(kind), kind == "frequency"));
+    largest_change = std::max(largest_change, change(quantity.values, found->second.values,
+                                                     scale.at(kind), kind == "frequency"));
   }
   return changes;
 }
@@ -221,4 +217,4 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
   return Study(document, options).run();
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

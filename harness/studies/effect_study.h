@@ -8,7 +8,7 @@
 #include "harness/input/document.h"
 
 /// Measures what effects do: the whole scene, and the scene without some of them.
-namespace trammel {
+namespace trammel::harness {
 
 /// Largest change of each kind of quantity: "displacement", "rotation", "force", "moment", each
 /// relative to the largest of its kind, and "frequency", each relative to itself. Infinite where
@@ -21,31 +21,31 @@ using Changes = std::map<std::string, double>;
 
 /// The scene with some effects.
 struct EffectRun {
-  Effects effects;
-  Outcome outcome;
+  solver::Effects effects;
+  solver::Outcome outcome;
   Quantities quantities;
-  Counters counters;
+  solver::Counters counters;
   Changes changes;        ///< from the whole scene
   double cpu_s = 0;       ///< median of the repeats
   double cpu_spread = 0;  ///< half of the range between the quartiles, relative
 };
 
 struct Ablation {
-  std::vector<Effect> effects;  ///< left out with what they carry
+  std::vector<solver::Effect> effects;  ///< left out with what they carry
   EffectRun run;
 };
 
 struct EffectStudy {
-  EffectScope scope;
+  solver::EffectScope scope;
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
-  double choice_cpu_s = 0;              ///< what "auto" took to decide
+  double choice_cpu_s = 0;               ///< what "auto" took to decide
   std::vector<Ablation> singles, pairs;  ///< from the whole scene
   std::vector<Ablation> from_chosen;     ///< each chosen effect left out of the chosen set
 
-  [[nodiscard]] bool within_tolerance() const;   ///< the chosen set is within the tolerance
-  [[nodiscard]] bool is_minimal() const;  ///< no chosen effect can go
+  [[nodiscard]] bool within_tolerance() const;  ///< the chosen set is within the tolerance
+  [[nodiscard]] bool is_minimal() const;        ///< no chosen effect can go
 };
 
 struct EffectStudyOptions {
@@ -60,4 +60,4 @@ struct EffectStudyOptions {
 [[nodiscard]] EffectStudy study_effects(const Document& document,
                                         const EffectStudyOptions& options);
 
-}  // namespace trammel
+}  // namespace trammel::harness

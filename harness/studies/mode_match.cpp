@@ -5,26 +5,26 @@
 #include <map>
 #include <tuple>
 
-#include "harness/scene/drawing.h"
-#include "harness/scene/case_model.h"
 #include "harness/analysis/case_effects.h"
+#include "harness/scene/case_model.h"
+#include "harness/scene/drawing.h"
 #include "solver/modes/modes.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 using Places =
-    std::map<std::string, std::vector<Vector2d>>;  ///< place -> displacement of each mode
+    std::map<std::string, std::vector<Eigen::Vector2d>>;  ///< place -> displacement of each mode
 
 /// Modes beyond those asked for, so that a set at the end is whole.
-constexpr Index kExtraModes = 4;
+constexpr solver::Index kExtraModes = 4;
 constexpr int kStations = 8;
 /// Relative distance within which frequencies are one set.
 constexpr double kRepeatedTolerance = 1e-6;
 /// Below this, two sets do not look alike.
 constexpr double kMinOverlap = 0.5;
 
-void sample_nodes(const System& system, const Eigen::VectorXd& u, Places& places) {
+void sample_nodes(const solver::System& system, const Eigen::VectorXd& u, Places& places) {
   for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
     const std::string& name = system.model.nodes[i].name;
     if (name.empty()) continue;
@@ -33,9 +33,9 @@ void sample_nodes(const System& system, const Eigen::VectorXd& u, Places& places
   }
 }
 
-void sample_members(const System& system, const Eigen::VectorXd& u, Places& places) {
+void sample_members(const solver::System& system, const Eigen::VectorXd& u, Places& places) {
   std::size_t first = 0;
-  for (const Member& member : system.model.members) {
+  for (const solver::Member& member : system.model.members) {
     const auto count = static_cast<std::size_t>(member.elements);
     for (int k = 1; k < kStations; ++k) {
       const double along = static_cast<double>(k) / kStations * static_cast<double>(count);
@@ -52,14 +52,15 @@ std::pair<std::vector<double>, Places> solve_and_sample(const Document& document
   if (!analysis.has("modes")) throw analysis.error("expected 'modes', to match modes by shape");
   CaseModel case_model = read_case_model(document);
   case_model.effects = choose_effects(document, case_model).chosen;
-  const System system = assemble(build_model(case_model, 0), case_model.effects);
-  ModesOptions options;
-  options.count = std::min(system.K.rows(), analysis["modes"]["count"].get<Index>() + kExtraModes);
-  const ModalSolution modes = solve_modes(system, options);
+  const solver::System system = solver::assemble(build_model(case_model, 0), case_model.effects);
+  solver::ModesOptions options;
+  options.count =
+      std::min(system.K.rows(), analysis["modes"]["count"].get<solver::Index>() + kExtraModes);
+  const solver::ModalSolution modes = solver::solve_modes(system, options);
   if (!modes.outcome.solved())
     throw analysis.error("expected modes (" + modes.outcome.reason + ")");
   std::pair<std::vector<double>, Places> seen;
-  for (Index i = 0; i < modes.frequency.size(); ++i) {
+  for (solver::Index i = 0; i < modes.frequency.size(); ++i) {
     seen.first.push_back(modes.frequency[i]);
     const Eigen::VectorXd u = system.T * modes.shape.col(i);
     sample_nodes(system, u, seen.second);
@@ -80,10 +81,10 @@ std::vector<std::vector<std::size_t>> sets_of(const std::vector<double>& frequen
 
 /// Orthonormal basis of the set's shapes.
 Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>& set) {
-  Eigen::MatrixXd shapes(modes.shape.rows(), static_cast<Index>(set.size()));
+  Eigen::MatrixXd shapes(modes.shape.rows(), static_cast<solver::Index>(set.size()));
   for (std::size_t k = 0; k < set.size(); ++k) {
-    const auto column = static_cast<Index>(k);
-    shapes.col(column) = modes.shape.col(static_cast<Index>(set[k]));
+    const auto column = static_cast<solver::Index>(k);
+    shapes.col(column) = modes.shape.col(static_cast<solver::Index>(set[k]));
     const double norm = shapes.col(column).norm();
     if (norm > 0) shapes.col(column) /= norm;
   }
@@ -101,12 +102,13 @@ std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Docu
     if (places_b.count(item.first) > 0) common.push_back(item.first);
   }
   const auto collect = [&](const std::vector<double>& frequency, const Places& places) {
-    SampledModes modes{frequency, Eigen::MatrixXd(2 * static_cast<Index>(common.size()),
-                                                  static_cast<Index>(frequency.size()))};
+    SampledModes modes{frequency, Eigen::MatrixXd(2 * static_cast<solver::Index>(common.size()),
+                                                  static_cast<solver::Index>(frequency.size()))};
     for (std::size_t p = 0; p < common.size(); ++p) {
-      const std::vector<Vector2d>& at = places.at(common[p]);
+      const std::vector<Eigen::Vector2d>& at = places.at(common[p]);
       for (std::size_t m = 0; m < at.size(); ++m) {
-        modes.shape.block<2, 1>(2 * static_cast<Index>(p), static_cast<Index>(m)) = at[m];
+        modes.shape.block<2, 1>(2 * static_cast<solver::Index>(p), static_cast<solver::Index>(m)) =
+            at[m];
       }
     }
     return modes;
@@ -153,4 +155,4 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
   return matches;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

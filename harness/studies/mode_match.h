@@ -6,7 +6,7 @@
 #include "harness/input/document.h"
 
 /// Matching the modes of two models by their shapes, never by their numbers.
-namespace trammel {
+namespace trammel::harness {
 
 /// Modes seen at the places that two models have in common.
 struct SampledModes {
@@ -32,4 +32,4 @@ struct ModeMatch {
 
 [[nodiscard]] std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b);
 
-}  // namespace trammel
+}  // namespace trammel::harness

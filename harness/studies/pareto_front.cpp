@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "harness/base/timing.h"
 #include "harness/base/text.h"
+#include "harness/base/timing.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// "1 %", "1e-6".
@@ -62,7 +62,8 @@ const std::vector<double>& target_errors() {
   return errors;
 }
 
-ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a, const std::vector<CostPoint>& b) {
+ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
+                                           const std::vector<CostPoint>& b) {
   const auto front_a = find_pareto_front(a), front_b = find_pareto_front(b);
   const auto in_a = settings_of(front_a), in_b = settings_of(front_b);
   ParetoFrontAgreement agreement;
@@ -93,7 +94,7 @@ ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a, cons
 }
 
 std::string describe_pareto_front(const std::vector<CostPoint>& points,
-                           const std::vector<std::string>& titles, std::size_t baseline) {
+                                  const std::vector<std::string>& titles, std::size_t baseline) {
   const std::vector<CostPoint> front = find_pareto_front(points);
   if (front.empty()) return "No setting could be measured.";
   const auto title = [&](const CostPoint& point) { return "'" + titles[point.setting] + "'"; };
@@ -124,4 +125,4 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
          percent(best.error) + ", " + times(best.time / first->time) + " times as long.";
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

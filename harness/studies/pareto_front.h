@@ -7,7 +7,7 @@
 #include <vector>
 
 /// The efficient front: what each accuracy costs at least.
-namespace trammel {
+namespace trammel::harness {
 
 struct CostPoint {
   std::size_t setting = 0;
@@ -34,7 +34,7 @@ inline constexpr double kParetoTolerance = 0.05;
 
 /// How near two measurements of the same settings come.
 struct ParetoFrontAgreement {
-  std::size_t shared = 0, either = 0;        ///< settings on both fronts, and on at least one
+  std::size_t shared = 0, either = 0;          ///< settings on both fronts, and on at least one
   std::size_t same_cheapest = 0, targets = 0;  ///< of the asked errors that both reach
   /// |ln| of the ratio of what an accuracy costs, over all errors of both fronts that both reach;
   /// as a share: 0.1 is 10 %.
@@ -42,13 +42,13 @@ struct ParetoFrontAgreement {
 };
 
 [[nodiscard]] ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
-                                            const std::vector<CostPoint>& b);
+                                                         const std::vector<CostPoint>& b);
 
 /// What the front says, in a sentence or two.
 /// @param titles    of the settings
 /// @param baseline  the setting that times are relative to
 [[nodiscard]] std::string describe_pareto_front(const std::vector<CostPoint>& points,
-                                         const std::vector<std::string>& titles,
-                                         std::size_t baseline);
+                                                const std::vector<std::string>& titles,
+                                                std::size_t baseline);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Numbers drawn in an order that the scene fixes; std distributions differ between libraries.
@@ -285,4 +285,4 @@ Document random_scene(std::uint64_t seed, std::uint64_t n) {
   return written(name, scene);
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

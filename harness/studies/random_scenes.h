@@ -4,7 +4,7 @@
 
 #include "harness/input/document.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// The n-th of the random scenes of a seed: a case with statics or modes of a manipulator, a portal
 /// frame, or a beam, whose sizes, loads and joints are drawn so that each effect lies anywhere from
@@ -15,4 +15,4 @@ namespace trammel {
 /// or the modes of a link that spins.
 [[nodiscard]] Document random_motion(std::uint64_t seed, std::uint64_t n);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -15,7 +15,7 @@
 #include "harness/base/json.h"
 #include "harness/base/stopwatch.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Wall time beyond which a process that uses none of its processor time counts as hung.
@@ -125,4 +125,4 @@ SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s, const Refer
   return sandboxed;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

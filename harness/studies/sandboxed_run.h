@@ -5,7 +5,7 @@
 #include "harness/studies/cost_study.h"
 #include "solver/assembly/system.h"
 
-namespace trammel {
+namespace trammel::harness {
 
 /// What one computation of a setting came to.
 struct SandboxedRun {
@@ -13,13 +13,13 @@ struct SandboxedRun {
   Termination termination = Termination::failed;
   std::string reason;  ///< of a failure
   Observations values;
-  Counters counters;
+  solver::Counters counters;
   double cpu_s = 0;
 };
 
 /// Computes a setting once, in a process of its own that is ended when it has used up its processor
 /// time: an endless loop or a crash costs no more than that.
 [[nodiscard]] SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s,
-                                const References& references);
+                                         const References& references);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -12,10 +12,10 @@
 ///   t_rt ~ -2 n (phi/r)' - (psi'' - psi'/r + n^2 psi/r^2)
 /// vanish at both radii (A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity, 4th
 /// ed., chapter XXII). For n = 0 radial and torsional motions are found in one list.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Arguments: inner_radius_m, outer_radius_m, E_Pa, rho_kg_m3, nu, modes (array of pairs [n, k]:
 /// the k-th elastic frequency with n waves). Values: [Hz].
 [[nodiscard]] std::vector<double> annular_membrane_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

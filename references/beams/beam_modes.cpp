@@ -4,7 +4,7 @@
 
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -68,7 +68,7 @@ std::vector<double> beam_modal_mass_program(const Json& json) {
     const Real force = cos(b) * tanh(b) - sin(b);
     const Real derivative_mu = b * force;
     const Real derivative_b = -sech * tanh(b) - sin(b) + mu * force +
-                      mu * b * (cos(b) * sech * sech - sin(b) * tanh(b) - cos(b));
+                              mu * b * (cos(b) * sech * sech - sin(b) * tanh(b) - cos(b));
     shares.push_back(1 - 4 * (mu / b) * derivative_mu / derivative_b);
   }
   return to_doubles(shares);
@@ -99,4 +99,4 @@ std::vector<double> beam_frequencies_program(const Json& json) {
   return frequencies;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -18,7 +18,7 @@
 ///   sech b + cos b + mu b (cos b tanh b - sin b) - j b^3 (sin b + cos b tanh b)
 ///     + mu j b^4 (sech b - cos b) = 0.
 /// Rigid motions (b = 0) are left out.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct BeamEnds {
   std::string kind = "clamped-free";
@@ -42,4 +42,4 @@ struct BeamEnds {
 /// count. Values: shares [-].
 [[nodiscard]] std::vector<double> beam_modal_mass_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -5,7 +5,7 @@
 
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -57,4 +57,4 @@ std::vector<double> column_buckling_program(const Json& json) {
   return to_doubles(values);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

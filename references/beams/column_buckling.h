@@ -9,10 +9,10 @@
 ///   clamped-free cos x = 0, pinned-pinned sin x = 0, clamped-pinned tan x = x,
 ///   clamped-clamped sin(x/2) (tan(x/2) - x/2) = 0;
 /// own weight q L = (9/4) j^2 EI/L^2, clamped-free, J_{-1/3}(j) = 0.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Arguments: ends, load (end | self-weight), count; EI_N_m2, length_m, weight_N_per_m (1 each
 /// where absent). Values: critical end loads [N], or the critical multiple of the weight.
 [[nodiscard]] std::vector<double> column_buckling_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -2,7 +2,7 @@
 
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 std::vector<double> wedge_exponent_program(const Json& json) {
   const Arguments arguments(json, "", {"clamped_side", "free_side", "nu", "plane"});
@@ -25,4 +25,4 @@ std::vector<double> wedge_exponent_program(const Json& json) {
   return to_doubles(first_roots(equation(f), 0.1, 0.0013, 1));
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -10,10 +10,10 @@
 /// strain (M. L. Williams, Stress singularities resulting from various boundary conditions in
 /// angular corners of plates in extension, J. Appl. Mech. 19, 1952). On even meshes energies,
 /// displacements and frequencies converge with h^(2 l) where the elements would do better.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Arguments: clamped_side, free_side (directions [x, y] from the corner), nu,
 /// plane (stress by default, or strain). Value: the smallest l, where it is real.
 [[nodiscard]] std::vector<double> wedge_exponent_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -52,8 +52,8 @@ std::vector<Mode> modes(const Arguments& arguments) {
       const double sign = n % 4 == 1 ? 1 : -1;  // of the sine at mid-span
       const double share = sign * force / (mass * w2);
       const double w = std::sqrt(w2);
-      result.push_back({w, rayleigh ? rayleigh_alpha / (2 * w) + rayleigh_beta * w / 2 : ratio, share,
-                        share * E * a * s * thickness / 2});
+      result.push_back({w, rayleigh ? rayleigh_alpha / (2 * w) + rayleigh_beta * w / 2 : ratio,
+                        share, share * E * a * s * thickness / 2});
     }
   }
   return result;
@@ -154,4 +154,4 @@ std::vector<double> deep_beam_program(const Json& json) {
   return values;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

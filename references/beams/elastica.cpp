@@ -7,7 +7,7 @@
 
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -56,7 +56,7 @@ std::vector<double> elastica_tip_force_program(const Json& json) {
     if (!(load > 0)) arguments.fail("load_parameter", "expected positive numbers");
     const Real right = pi<Real>() / 2 * (1 - Real(1e-20));
     const Real angle = refined_root([&](const Real& phi) { return load_parameter(phi) - load; },
-                                     Real(1e-20), right);
+                                    Real(1e-20), right);
     const auto [k, t] = modulus(angle);
     values.push_back(1 - 2 * (ellint_2(k) - ellint_2(k, t)) / sqrt(load));
     values.push_back(1 - sqrt(2 * sin(angle) / load));
@@ -81,4 +81,4 @@ std::vector<double> elastica_column_program(const Json& json) {
   return columns(arguments, values, {"load", "lateral", "axial"}, {false, true, true});
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -6,7 +6,7 @@
 
 /// Exact large deflections of an inextensible cantilever of length L under a dead load at its tip,
 /// by elliptic integrals.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Transverse load (K. E. Bisshopp, D. C. Drucker, Q. Appl. Math. 3, 1945, 272-275). With the tip
 /// angle phi, k^2 = (1 + sin phi)/2 and sin t = 1/(k sqrt 2),
@@ -23,4 +23,4 @@ namespace trammel::derive {
 /// for each; with output "load", or "lateral" or "axial" with length_m: that alone, in m.
 [[nodiscard]] std::vector<double> elastica_column_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -10,10 +10,10 @@
 ///   Euler-Bernoulli:  P^2 = w^2 / (e r^2)
 ///   Timoshenko:       (kG P + w^2)(e r^2 P - kG + w^2 r^2) = -kG^2 P
 /// and solutions exp(a x) {cosh z x, sinh z x}, whose deflection and rotation vanish at both ends.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Arguments: length_m, thickness_m, width_rate_1_m (2 a), E_Pa, rho_kg_m3, count, beam
 /// (euler-bernoulli | timoshenko), nu and shear_coefficient for the latter. Values: [Hz].
 [[nodiscard]] std::vector<double> exponential_beam_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

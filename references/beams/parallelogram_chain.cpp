@@ -4,7 +4,7 @@
 
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 std::vector<double> parallelogram_chain_program(const Json& json) {
   const Arguments arguments(
@@ -34,4 +34,4 @@ std::vector<double> parallelogram_chain_program(const Json& json) {
   return to_doubles(values);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

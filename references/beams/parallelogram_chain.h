@@ -10,11 +10,11 @@
 ///   theta'' = a sin theta,  a = (g/l) ((N + 1)/2 + N) / ((N + 1)/3 + N),
 /// solved by Jacobi's functions: from theta = 0 with theta' = W, k^2 = 4 a/(W^2 + 4 a) and
 /// s = t sqrt(W^2 + 4 a)/2 give sin(theta/2) = k' sd(s, k), cos(theta/2) = cd(s, k).
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Arguments: loops (N), length_m, gravity_m_s2, start_speed_m_s (of the rods' upper ends),
 /// times_s, output (position | velocity). Values: x, y of the first rod's free end from its pivot
 /// [m], or their rates [m/s], for each time.
 [[nodiscard]] std::vector<double> parallelogram_chain_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -5,7 +5,7 @@
 
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 std::vector<double> pendulum_program(const Json& json) {
   const Arguments arguments(json, "",
@@ -32,4 +32,4 @@ std::vector<double> pendulum_program(const Json& json) {
   return to_doubles(values);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -5,7 +5,7 @@
 #include "references/numerics/arguments.h"
 
 /// The plane pendulum of any amplitude by Jacobi's elliptic functions.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Released at rest at the angle a from the lower vertical, counterclockwise positive: with
 /// k = sin(a/2) and w = sqrt(g/l), sin(theta/2) = k cd(w t, k), period 4 K(k)/w.
@@ -14,4 +14,4 @@ namespace trammel::derive {
 /// pivot [m], or the force of the rod on 1 kg, g (3 cos theta - 2 cos a) [N].
 [[nodiscard]] std::vector<double> pendulum_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -5,7 +5,7 @@
 
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -109,4 +109,4 @@ std::vector<double> rotating_beam_frequencies_program(const Json& json) {
   return to_doubles(values);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -16,7 +16,7 @@
 ///     V'''' - (t V')' - (mu^2 + eta^2) V - 2 eta mu U = 0,
 ///     s U'' + (mu^2 + eta^2) U + 2 eta mu V = 0.
 /// Solved by power series about the hub in extended precision.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct RotatingBeam {
   Real eta = 0;
@@ -37,4 +37,4 @@ struct RotatingBeam {
 /// angular_speed_rad_s, plane, count, axial (rigid | flexible). Values: frequencies [Hz].
 [[nodiscard]] std::vector<double> rotating_beam_frequencies_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

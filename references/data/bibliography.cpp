@@ -5,7 +5,7 @@
 
 #include "references/data/reference.h"
 
-namespace trammel {
+namespace trammel::references {
 
 Bibliography load_bibliography(const std::filesystem::path& file) {
   Bibliography sources;
@@ -24,4 +24,4 @@ Bibliography load_bibliography(const std::filesystem::path& file) {
   return sources;
 }
 
-}  // namespace trammel
+}  // namespace trammel::references

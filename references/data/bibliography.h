@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace trammel {
+namespace trammel::references {
 
 struct Source {
   std::string text;  ///< full citation
@@ -18,4 +18,4 @@ using Bibliography = std::map<std::string, Source>;
 /// @throws ReferenceError  where the file is there but is no bibliography.
 [[nodiscard]] Bibliography load_bibliography(const std::filesystem::path& file);
 
-}  // namespace trammel
+}  // namespace trammel::references

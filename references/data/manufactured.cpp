@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-namespace trammel::manufactured {
+namespace trammel::references::manufactured {
 namespace {
 
 constexpr double kPi = 3.141592653589793238462643383279503;
@@ -225,4 +225,4 @@ using Complex = std::complex<double>;
 template MembraneState<Complex> evaluate(const MembraneProblem&, const Complex&, const Complex&);
 template BeamState<Complex> evaluate(const BeamProblem&, const Complex&);
 
-}  // namespace trammel::manufactured
+}  // namespace trammel::references::manufactured

@@ -9,7 +9,7 @@
 /// Solutions", J. Fluids Eng. 124(1), 2002, doi:10.1115/1.1436090.
 ///
 /// T is double, or std::complex<double> for derivatives by complex step.
-namespace trammel::manufactured {
+namespace trammel::references::manufactured {
 
 /// Membranes in plane stress on the rectangle 0 <= x <= length, 0 <= y <= height.
 enum class MembraneField {
@@ -43,7 +43,8 @@ template <typename T>
 [[nodiscard]] MembraneState<T> evaluate(const MembraneProblem& problem, const T& x, const T& y);
 
 /// Which displacements the ground holds at a point of the outline; the field is zero there.
-[[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x, double y);
+[[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x,
+                                                      double y);
 
 /// Beams along 0 <= x <= length, clamped at x = 0 and loaded at the far end by (N, V, M) there.
 enum class BeamField {
@@ -83,4 +84,4 @@ struct BeamState {
 template <typename T>
 [[nodiscard]] BeamState<T> evaluate(const BeamProblem& problem, const T& x);
 
-}  // namespace trammel::manufactured
+}  // namespace trammel::references::manufactured

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-namespace trammel {
+namespace trammel::references {
 namespace {
 
 using Json = nlohmann::json;
@@ -185,4 +185,4 @@ Reference load_reference(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::references

@@ -8,7 +8,7 @@
 #include <vector>
 
 /// A reference: numbers from outside with their provenance, as stored in references/values/*.json.
-namespace trammel {
+namespace trammel::references {
 
 enum class ReferenceKind { exact, computed, paper, code };
 
@@ -51,4 +51,4 @@ class ReferenceError : public std::runtime_error {
 /// @throws ReferenceError  where the text is not a decimal number.
 [[nodiscard]] double half_unit_in_last_place(const std::string& printed);
 
-}  // namespace trammel
+}  // namespace trammel::references

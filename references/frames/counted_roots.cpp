@@ -8,7 +8,7 @@
 
 #include "references/numerics/arguments.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -34,7 +34,8 @@ void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
     lo *= 1 - std::min(relative_width, Real(0.5));
     if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the count does not fall to zero");
   }
-  for (Real relative_width = Real(1e-8); f.fine(hi).below < index; relative_width *= 10) hi *= 1 + relative_width;
+  for (Real relative_width = Real(1e-8); f.fine(hi).below < index; relative_width *= 10)
+    hi *= 1 + relative_width;
 }
 
 /// Where the count passes `index`. The m-th root of |det D|, with the sign of the count, crosses
@@ -78,4 +79,4 @@ std::vector<Real> counted_roots(const CountingFunction& f, int first, int count)
   return roots;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

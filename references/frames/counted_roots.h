@@ -7,7 +7,7 @@
 /// Where a Wittrick-Williams count passes 1, 2, 3, ...: bracketed in double, the bracket confirmed
 /// in extended precision, then refined there. None is missed or doubled, and a repeated one appears
 /// as often as it occurs. (A double alone reaches about 3e-10.)
-namespace trammel::derive {
+namespace trammel::references {
 
 struct CountingFunction {
   std::function<int(double)> coarse;
@@ -23,4 +23,4 @@ struct CountingFunction {
 /// The passages from `first` + 1 to `first` + `count`.
 [[nodiscard]] std::vector<Real> counted_roots(const CountingFunction& f, int first, int count);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

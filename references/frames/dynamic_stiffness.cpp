@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -49,7 +49,8 @@ DynamicStiffness<T>::DynamicStiffness(const Frame& frame) {
 }
 
 template <class T>
-void DynamicStiffness<T>::transform_members(const Frame& frame, const FrameCoordinates& coordinates) {
+void DynamicStiffness<T>::transform_members(const Frame& frame,
+                                            const FrameCoordinates& coordinates) {
   const RealMatrix& N = coordinates.N();
   for (std::size_t e = 0; e < frame.members.size(); ++e) {
     const MemberAxis axis = member_axis(frame, frame.members[e]);
@@ -85,7 +86,7 @@ void DynamicStiffness<T>::add_springs(const Frame& frame, const FrameCoordinates
       const FrameEnd& joint = frame.members[e].ends[end];
       if (joint.fixity != Fixity::sprung) continue;
       add_spring(K, coordinates.end_index(static_cast<int>(e), end),
-                  coordinates.node_index(frame.members[e].nodes[end], 2), joint.stiffness);
+                 coordinates.node_index(frame.members[e].nodes[end], 2), joint.stiffness);
     }
   }
   stiffness_ = reduced(K, coordinates.N());
@@ -166,4 +167,4 @@ typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
 template class DynamicStiffness<double>;
 template class DynamicStiffness<Real>;
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,17 +4,17 @@
 #include <utility>
 #include <vector>
 
-#include "references/numerics/dense.h"
 #include "references/frames/frame.h"
 #include "references/frames/frame_coordinates.h"
 #include "references/frames/member_dynamics.h"
+#include "references/numerics/dense.h"
 
 /// The dynamic stiffness matrix D(w) of a frame in its free coordinates, and the Wittrick-Williams
 /// count (W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl. Math. 24, 1971, 263-284): the natural
 /// frequencies below w number
 ///   J(w) = J0(w) + s(D(w)),
 /// J0 those of the members with all their ends clamped, s the negative pivots of D.
-namespace trammel::derive {
+namespace trammel::references {
 
 template <class T>
 class DynamicStiffness {
@@ -51,4 +51,4 @@ class DynamicStiffness {
 extern template class DynamicStiffness<double>;
 extern template class DynamicStiffness<Real>;
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

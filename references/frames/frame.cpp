@@ -4,7 +4,7 @@
 
 #include "references/numerics/arguments.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -35,4 +35,4 @@ MemberAxis member_axis(const Frame& frame, const FrameMember& member) {
   return {length, dx / length, dy / length};
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

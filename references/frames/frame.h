@@ -8,7 +8,7 @@
 #include "references/numerics/real.h"
 
 /// A planar frame as the derivations see it: SI units, world axes, indices into its own vectors.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Per unit length of a member: stiffnesses as compliances, so that "rigid" is zero.
 struct FrameSection {
@@ -99,4 +99,4 @@ struct MemberAxis {
 };
 [[nodiscard]] MemberAxis member_axis(const Frame& frame, const FrameMember& member);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -5,7 +5,7 @@
 
 #include "references/numerics/arguments.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -19,7 +19,8 @@ std::vector<bool> nodes_with_rotation(const Frame& frame) {
   }
   for (const FrameBody& body : frame.bodies) has_rotation[body.reference] = true;
   for (const FrameMass& mass : frame.masses) {
-    if (mass.inertia > 0 || mass.offset[0] != 0 || mass.offset[1] != 0) has_rotation[mass.node] = true;
+    if (mass.inertia > 0 || mass.offset[0] != 0 || mass.offset[1] != 0)
+      has_rotation[mass.node] = true;
   }
   for (const FrameSpring& spring : frame.springs) {
     for (const int node : spring.nodes) {
@@ -144,4 +145,4 @@ void FrameCoordinates::solve(const std::vector<Row>& equations) {
   }
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,20 +4,21 @@
 #include <map>
 #include <vector>
 
-#include "references/numerics/dense.h"
 #include "references/frames/frame.h"
+#include "references/numerics/dense.h"
 
 /// The coordinates of a frame: x, y and (where something turns with it) the rotation of each node,
 /// and a rotation of its own for each hinged or sprung member end. A hinge keeps its own rotation.
 /// Supports, rigid bodies, inextensible members and sums of rotations are equations C u = 0, solved
 /// by elimination with full pivoting: u = N q.
-namespace trammel::derive {
+namespace trammel::references {
 
 using RealMatrix = Dense<Real>;
 
 class FrameCoordinates {
  public:
-  /// @param constrain_inextensible  whether members without axial compliance are constraints (dynamics)
+  /// @param constrain_inextensible  whether members without axial compliance are constraints
+  /// (dynamics)
   ///                           or carry an axial force of their own (statics).
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
@@ -47,4 +48,4 @@ class FrameCoordinates {
   RealMatrix N_;
 };
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -234,4 +234,4 @@ Frame read_frame(const Json& json, const std::string& pointer) {
   return frame;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -2,16 +2,16 @@
 
 #include <string>
 
-#include "references/numerics/arguments.h"
 #include "references/frames/frame.h"
+#include "references/numerics/arguments.h"
 
 /// Reads a frame in the format of the case files' "model": materials, sections, nodes, members,
 /// rigid_bodies, point_masses, springs, supports, loads, gravity_m_s2. Plates and tapered members
 /// are not frames in this sense and are refused. A member may carry axial_force_N (tension
 /// positive), the state about which it vibrates.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// @throws DerivationError  with the JSON pointer.
 [[nodiscard]] Frame read_frame(const Json& model, const std::string& pointer);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

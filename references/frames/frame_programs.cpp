@@ -3,7 +3,7 @@
 #include "references/frames/frame_json.h"
 #include "references/frames/manipulator_frame.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -38,4 +38,4 @@ Frame frame_from_arguments(const Arguments& arguments) {
   return frame;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

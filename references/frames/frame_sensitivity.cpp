@@ -3,10 +3,10 @@
 #include <sstream>
 
 #include "references/frames/frame_programs.h"
-#include "references/numerics/roots.h"
 #include "references/frames/wittrick_williams.h"
+#include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::vector<double> frame_sensitivity_program(const Json& json) {
   return to_doubles(rate);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -5,7 +5,7 @@
 #include "references/numerics/arguments.h"
 
 /// How the exact natural frequencies of a frame change with its numbers.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Central differences of `frame_frequencies`, each good to 1e-20, at step, step / 2 and step / 4,
 /// extrapolated twice: the error is O(step^6) beside 1e-20 over the step. Of frequencies that stay
@@ -15,4 +15,4 @@ namespace trammel::derive {
 /// frequency.
 [[nodiscard]] std::vector<double> frame_sensitivity_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

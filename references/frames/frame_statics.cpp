@@ -5,7 +5,7 @@
 #include "references/frames/unit_load.h"
 
 /// The outputs of unit_load_statics by name.
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::vector<double> frame_statics_program(const Json& json) {
   return values;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

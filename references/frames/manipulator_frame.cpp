@@ -2,7 +2,7 @@
 
 #include "references/frames/manipulator_geometry.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -157,4 +157,4 @@ Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose) {
   return frame;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -5,7 +5,7 @@
 #include "references/numerics/arguments.h"
 
 /// Where the joints of a planar 3-RRR are, in closed form. Number: Real, or Jet for a motion.
-namespace trammel::derive {
+namespace trammel::references {
 
 template <class Number>
 using Point2 = std::array<Number, 2>;
@@ -13,7 +13,7 @@ using Point2 = std::array<Number, 2>;
 /// Vertices of an equilateral triangle about `centre`, at 210, 330 and 90 degrees plus `angle`.
 template <class Number>
 [[nodiscard]] std::array<Point2<Number>, 3> triangle(const Point2<Number>& centre, const Real& side,
-                                                    const Number& angle) {
+                                                     const Number& angle) {
   const Real radius = side / sqrt(Real(3));
   std::array<Point2<Number>, 3> vertices;
   for (int i = 0; i < 3; ++i) {
@@ -27,7 +27,7 @@ template <class Number>
 /// @throws DerivationError  where there is none.
 template <class Number>
 [[nodiscard]] Point2<Number> elbow(const Point2<Number>& A, const Point2<Number>& C,
-                                  const Real& proximal, const Real& distal, int mode) {
+                                   const Real& proximal, const Real& distal, int mode) {
   const Number dx = C[0] - A[0];
   const Number dy = C[1] - A[1];
   const Number r2 = dx * dx + dy * dy;
@@ -39,4 +39,4 @@ template <class Number>
   return {A[0] + along * dx - across * dy, A[1] + along * dy + across * dx};
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

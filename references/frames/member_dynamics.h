@@ -20,7 +20,7 @@
 ///   I) S odd:  v = k^2 S, psi = (k^2 + g) C,  M = EI (k^2 + g) k^2 S,  V = -(k^2 + g)(EI k^2 + w^2
 ///   rho I) C.
 /// Hyperbolic pairs are divided by cosh(k L/2), so that nothing overflows.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Symmetric 2 x 2: force and moment at the right end over v and psi there.
 template <class T>
@@ -31,7 +31,7 @@ struct HalfStiffness {
 template <class T>
 struct MemberStiffness {
   HalfStiffness<T> even, odd;  ///< bending
-  T axial_odd, axial_even;            ///< axial: ends apart by 2 u, both ends by u
+  T axial_odd, axial_even;     ///< axial: ends apart by 2 u, both ends by u
   int clamped_below = 0;       ///< frequencies below w with both ends clamped
 };
 
@@ -71,7 +71,7 @@ std::array<T, 2> half_wave(const T& k2, const T& h) {
 /// (forces of two solutions) (displacements of two solutions)^-1.
 template <class T>
 HalfStiffness<T> stiffness_from_solutions(const std::array<std::array<T, 2>, 2>& force,
-                          const std::array<std::array<T, 2>, 2>& motion) {
+                                          const std::array<std::array<T, 2>, 2>& motion) {
   const T det = motion[0][0] * motion[1][1] - motion[0][1] * motion[1][0];
   return {(force[0][0] * motion[1][1] - force[0][1] * motion[1][0]) / det,
           (force[0][1] * motion[0][0] - force[0][0] * motion[0][1]) / det,
@@ -164,4 +164,4 @@ template <class T>
   return K;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

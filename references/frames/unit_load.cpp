@@ -7,7 +7,7 @@
 
 #include "references/frames/frame_coordinates.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -67,7 +67,8 @@ struct SpringElement {
   Real compliance;
 };
 
-std::vector<SpringElement> spring_elements(const Frame& frame, const FrameCoordinates& coordinates) {
+std::vector<SpringElement> spring_elements(const Frame& frame,
+                                           const FrameCoordinates& coordinates) {
   std::vector<SpringElement> result;
   for (const FrameSpring& spring : frame.springs) {
     for (int motion = 0; motion < 3; ++motion) {
@@ -217,4 +218,4 @@ FrameStatics unit_load_statics(const Frame& frame) {
   return statics;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "references/numerics/arguments.h"
 #include "references/frames/frame.h"
+#include "references/numerics/arguments.h"
 
 /// Exact statics of a frame by the unit-load (force) method: the unknowns are the internal forces
 /// at each member's start; their compliances are the integrals of unit-load diagrams
@@ -15,15 +15,15 @@
 ///
 /// Along a member, x from start to end, w to the left: N tension, V = kappa GA (w' - psi) the force
 /// along w on the face towards +x, M = EI psi'; so V' = -q_w and M' = -V.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct MemberForces {
   std::array<Real, 2> N, V, M;  ///< at start and end [N, N, N m]
 };
 
 struct FrameStatics {
-  std::vector<Real> displacement;  ///< of every coordinate of FrameCoordinates(frame, false)
-  std::vector<Real> residual_force;    ///< force on every coordinate by all but its support
+  std::vector<Real> displacement;    ///< of every coordinate of FrameCoordinates(frame, false)
+  std::vector<Real> residual_force;  ///< force on every coordinate by all but its support
   std::vector<MemberForces> members;
 };
 
@@ -36,4 +36,4 @@ struct FrameStatics {
 /// bending_moment_N_m:MEMBER.end.
 [[nodiscard]] std::vector<double> frame_statics_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,10 +4,10 @@
 
 #include "references/frames/counted_roots.h"
 #include "references/frames/frame_programs.h"
-#include "references/numerics/roots.h"
 #include "references/frames/unit_load.h"
+#include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -62,8 +62,8 @@ FrameFrequencies frame_frequencies(const Frame& frame, int count) {
   const DynamicStiffness<Real> fine(frame);
   const Real scale = frequency_scale(frame);
   const CountingFunction f{[&](double w) { return coarse.count(w).below; },
-                          [&](const Real& w) { return fine.count(w); },
-                          1e-3 * static_cast<double>(scale), static_cast<double>(scale)};
+                           [&](const Real& w) { return fine.count(w); },
+                           1e-3 * static_cast<double>(scale), static_cast<double>(scale)};
   FrameFrequencies result;
   result.rigid_motions = fine.count(scale * Real(1e-8)).below;
   result.frequencies = counted_roots(f, result.rigid_motions, count);
@@ -93,18 +93,20 @@ std::vector<Real> frame_buckling_factors(const Frame& unloaded, int count) {
 
 std::vector<double> frame_frequencies_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "count"});
-  return to_doubles(frame_frequencies(frame_from_arguments(arguments), arguments.count("count")).frequencies);
+  return to_doubles(
+      frame_frequencies(frame_from_arguments(arguments), arguments.count("count")).frequencies);
 }
 
 std::vector<double> frame_count_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "below_Hz"});
-  return {
-      static_cast<double>(frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz")))};
+  return {static_cast<double>(
+      frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz")))};
 }
 
 std::vector<double> frame_buckling_program(const Json& json) {
   const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "count"});
-  return to_doubles(frame_buckling_factors(frame_from_arguments(arguments), arguments.count("count")));
+  return to_doubles(
+      frame_buckling_factors(frame_from_arguments(arguments), arguments.count("count")));
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

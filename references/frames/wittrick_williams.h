@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "references/numerics/arguments.h"
 #include "references/frames/frame.h"
+#include "references/numerics/arguments.h"
 
 /// Natural frequencies and critical loads of a frame by the Wittrick-Williams count.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct FrameFrequencies {
   int rigid_motions = 0;          ///< at w = 0
@@ -34,4 +34,4 @@ struct FrameFrequencies {
 /// Arguments: model (or manipulator, pose and loads), count. Values: factors of the loads.
 [[nodiscard]] std::vector<double> frame_buckling_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,7 +4,7 @@
 #include "references/manipulator/platform_path.h"
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::vector<double> manipulator_torques_program(const Json& json) {
   return to_doubles(values);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "references/numerics/arguments.h"
 #include "references/manipulator/newton_euler.h"
+#include "references/numerics/arguments.h"
 
 /// Torques of the planar 3-RRR along a path.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// "manipulator", as a case file's, with "gravity_m_s2" beside it.
 [[nodiscard]] PlanarManipulator read_planar_manipulator(const Arguments& arguments);
@@ -20,4 +20,4 @@ namespace trammel::derive {
 /// Values: the torque at A1 at every time, then at A2, then at A3 [N m].
 [[nodiscard]] std::vector<double> manipulator_torques_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,7 +4,7 @@
 #include "references/manipulator/platform_path.h"
 #include "references/numerics/roots.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -59,7 +59,8 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
     squared_distance.push_back(sum);
   }
   Real min_squared_distance = squared_distance.front();
-  for (const Real& d : squared_distance) min_squared_distance = d < min_squared_distance ? d : min_squared_distance;
+  for (const Real& d : squared_distance)
+    min_squared_distance = d < min_squared_distance ? d : min_squared_distance;
   std::vector<Real> estimate(outputs.front().size(), Real(0));
   Real weights = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -112,4 +113,4 @@ std::vector<double> manipulator_grnn_program(const Json& json) {
   return to_doubles(values);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

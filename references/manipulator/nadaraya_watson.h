@@ -9,7 +9,7 @@
 ///   Y(x) = sum_i Y_i exp(-D_i^2 / 2 s^2) / sum_i exp(-D_i^2 / 2 s^2),
 /// numerator and denominator multiplied by exp(min D^2 / 2 s^2), which changes nothing but that
 /// neither underflows.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// @param inputs, outputs  one row a sample
 [[nodiscard]] std::vector<Real> nadaraya_watson(const std::vector<std::vector<Real>>& inputs,
@@ -26,4 +26,4 @@ namespace trammel::derive {
 /// Values: what is predicted for A1 at each query, for A2, for A3 [rad or rad/s].
 [[nodiscard]] std::vector<double> manipulator_grnn_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

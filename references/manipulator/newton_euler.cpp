@@ -2,7 +2,7 @@
 
 #include "references/numerics/dense.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -14,7 +14,8 @@ PointJet rotated(const Point2<Real>& v, const Jet& angle) {
 }
 
 /// The point at `distance` from `from` on the line to `to`, `length` away.
-PointJet between(const PointJet& from, const PointJet& to, const Real& distance, const Real& length) {
+PointJet between(const PointJet& from, const PointJet& to, const Real& distance,
+                 const Real& length) {
   const Real share = distance / length;
   return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
 }
@@ -50,7 +51,8 @@ class Body {
     b_[row_ + 2] -= w.moment + (point[0].value - center_[0].value) * w.y -
                     (point[1].value - center_[1].value) * w.x;
   }
-  void add_inertia(const Real& mass, const Real& J, const Real& angular_acceleration, const Point2<Real>& gravity) {
+  void add_inertia(const Real& mass, const Real& J, const Real& angular_acceleration,
+                   const Point2<Real>& gravity) {
     b_[row_] += mass * (center_[0].acceleration - gravity[0]);
     b_[row_ + 1] += mass * (center_[1].acceleration - gravity[1]);
     b_[row_ + 2] += J * angular_acceleration;
@@ -69,7 +71,8 @@ std::array<PointJet, 3> limb_joints(const LimbBodies& limb, const std::array<Jet
   const PointJet base_joint = {limb.base[0], limb.base[1]};
   const PointJet corner = rotated(limb.corner, motion[2]);
   const PointJet C = {motion[0] + corner[0], motion[1] + corner[1]};
-  return {base_joint, elbow<Jet>(base_joint, C, limb.proximal_length, limb.distal_length, limb.mode), C};
+  return {base_joint,
+          elbow<Jet>(base_joint, C, limb.proximal_length, limb.distal_length, limb.mode), C};
 }
 
 std::array<Real, 3> newton_euler_torques(const PlanarManipulator& m,
@@ -90,11 +93,13 @@ std::array<Real, 3> newton_euler_torques(const PlanarManipulator& m,
     proximal.add_joint_force(first + at_A, base_joint, 1);
     proximal.add_joint_force(first + at_B, B, -1);
     proximal.add_torque(first + torque);
-    proximal.add_inertia(limb.proximal.mass, limb.proximal.inertia, angular_acceleration(base_joint, B), m.gravity);
+    proximal.add_inertia(limb.proximal.mass, limb.proximal.inertia,
+                         angular_acceleration(base_joint, B), m.gravity);
     Body distal(A, b, 6 * i + 3, between(B, C, limb.distal.center, limb.distal_length));
     distal.add_joint_force(first + at_B, B, 1);
     distal.add_joint_force(first + at_C, C, -1);
-    distal.add_inertia(limb.distal.mass, limb.distal.inertia, angular_acceleration(B, C), m.gravity);
+    distal.add_inertia(limb.distal.mass, limb.distal.inertia, angular_acceleration(B, C),
+                       m.gravity);
     platform.add_joint_force(first + at_C, C, 1);
   }
   if (!solve_in_place(A, b, Real("1e-40"))) {
@@ -103,4 +108,4 @@ std::array<Real, 3> newton_euler_torques(const PlanarManipulator& m,
   return {b[torque], b[per_limb + torque], b[2 * per_limb + torque]};
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

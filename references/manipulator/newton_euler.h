@@ -2,14 +2,14 @@
 
 #include <array>
 
-#include "references/numerics/jet.h"
 #include "references/frames/manipulator_geometry.h"
+#include "references/numerics/jet.h"
 
 /// Inverse dynamics of the planar 3-RRR by the laws of Newton and Euler for each of its seven
 /// bodies cut free: 21 equations for the forces in the nine joints and the three torques. Motions
 /// are differentiated by carrying derivatives along (Jet); no Lagrangian, no Jacobian, no mass
 /// matrix.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct LinkBody {
   Real mass = 0;
@@ -28,7 +28,7 @@ struct LimbBodies {
 struct PlanarManipulator {
   std::array<LimbBodies, 3> limbs;
   Real platform_mass = 0;
-  Real platform_inertia = 0;     ///< about its centre of mass
+  Real platform_inertia = 0;      ///< about its centre of mass
   Point2<Real> platform_center;   ///< of mass, from P, in platform axes
   Point2<Real> gravity = {0, 0};  ///< acceleration
 };
@@ -41,7 +41,7 @@ struct PlanarWrench {
 /// @param motion  of the platform: x, y of P and its orientation, with their derivatives
 /// @throws DerivationError  where the limb cannot reach.
 [[nodiscard]] std::array<Point2<Jet>, 3> limb_joints(const LimbBodies& limb,
-                                                    const std::array<Jet, 3>& motion);
+                                                     const std::array<Jet, 3>& motion);
 
 /// Torques of the base on the three proximal links, counterclockwise, in SI.
 /// @param motion  as in `limb_joints`
@@ -50,4 +50,4 @@ struct PlanarWrench {
                                                        const std::array<Jet, 3>& motion,
                                                        const PlanarWrench& wrench);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -2,7 +2,7 @@
 
 #include "references/numerics/dense.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -131,4 +131,4 @@ Motion platform_motion(const Arguments& trajectory, const Real& time) {
   return on_spline(section("spline", {"knots", "ends"}), t);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -7,10 +7,10 @@
 
 /// Paths of the platform, in the format of the case files' "trajectory": circle, line,
 /// rest_to_rest or spline. Only positions are written down; derivatives come by Jet.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// x, y and orientation of the platform with their derivatives at a time.
 /// @throws DerivationError  with the JSON pointer.
 [[nodiscard]] std::array<Jet, 3> platform_motion(const Arguments& trajectory, const Real& time);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

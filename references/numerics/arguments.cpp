@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::vector<std::string> Arguments::texts(const std::string& key) const {
   return result;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

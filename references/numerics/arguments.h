@@ -9,7 +9,7 @@
 #include "references/numerics/real.h"
 
 /// Reading the arguments of a derivation: every error names the JSON pointer and what was expected.
-namespace trammel::derive {
+namespace trammel::references {
 
 using Json = nlohmann::json;
 
@@ -55,4 +55,4 @@ class Arguments {
   std::string pointer_;
 };
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

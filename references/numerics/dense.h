@@ -7,7 +7,7 @@
 
 /// Small dense matrices in extended precision. Boost.Multiprecision brings no linear algebra, and
 /// uBLAS of Boost 1.74 does not compile with C++20 for numbers that are not built in.
-namespace trammel::derive {
+namespace trammel::references {
 
 template <class T>
 class Dense {
@@ -77,4 +77,4 @@ template <class T>
   return true;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -3,7 +3,7 @@
 #include <boost/math/special_functions/fpclassify.hpp>
 #include <cctype>
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -28,7 +28,8 @@ const std::map<std::string, Function>& functions() {
 }
 
 /// sum = product (('+'|'-') product)*; product = power (('*'|'/') power)*;
-/// power = '-' power | primary ('^' power)?; primary = number | name | function '(' sum ')' | '(' sum
+/// power = '-' power | primary ('^' power)?; primary = number | name | function '(' sum ')' | '('
+/// sum
 /// ')'.
 class Parser {
  public:
@@ -107,7 +108,8 @@ class Parser {
   Real number() {
     const std::size_t from = position_;
     const auto digits = [&] {
-      while (position_ < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[position_])) != 0)) {
+      while (position_ < text_.size() &&
+             (std::isdigit(static_cast<unsigned char>(text_[position_])) != 0)) {
         ++position_;
       }
     };
@@ -118,7 +120,8 @@ class Parser {
     }
     if (position_ < text_.size() && text_[position_] == 'e') {
       ++position_;
-      if (position_ < text_.size() && (text_[position_] == '-' || text_[position_] == '+')) ++position_;
+      if (position_ < text_.size() && (text_[position_] == '-' || text_[position_] == '+'))
+        ++position_;
       digits();
     }
     return Real(text_.substr(from, position_ - from));
@@ -127,7 +130,8 @@ class Parser {
   Real identifier() {
     const std::size_t from = position_;
     while (position_ < text_.size() &&
-           (std::isalnum(static_cast<unsigned char>(text_[position_])) != 0 || text_[position_] == '_')) {
+           (std::isalnum(static_cast<unsigned char>(text_[position_])) != 0 ||
+            text_[position_] == '_')) {
       ++position_;
     }
     const std::string name = text_.substr(from, position_ - from);
@@ -169,4 +173,4 @@ std::vector<double> formula_program(const Json& json) {
   return results;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -7,10 +7,10 @@
 #include "references/numerics/arguments.h"
 #include "references/numerics/real.h"
 
-/// Closed formulas written out in the reference file itself: numbers, names, + - * / ^ (right to left),
-/// unary minus, parentheses, pi, and abs, sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh,
-/// cosh, tanh.
-namespace trammel::derive {
+/// Closed formulas written out in the reference file itself: numbers, names, + - * / ^ (right to
+/// left), unary minus, parentheses, pi, and abs, sqrt, exp, log, sin, cos, tan, asin, acos, atan,
+/// sinh, cosh, tanh.
+namespace trammel::references {
 
 /// @throws DerivationError  with the column where the text cannot be read, or an unknown name.
 [[nodiscard]] Real evaluate_expression(const std::string& text,
@@ -20,4 +20,4 @@ namespace trammel::derive {
 /// formula may use the results of those before it as v1, v2, ...
 [[nodiscard]] std::vector<double> formula_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,7 +4,7 @@
 
 /// A quantity along a motion with its first and second derivative by time, carried through every
 /// operation by the rules of differentiation: positions in, velocities and accelerations out.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct Jet {
   Real value = 0, rate = 0, acceleration = 0;
@@ -53,4 +53,4 @@ struct Jet {
   return a.value < b;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,7 +4,7 @@
 
 /// The extended precision in which references are derived: 50 decimal digits, rounded to a double
 /// only at the very end.
-namespace trammel::derive {
+namespace trammel::references {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_50::backend_type,
                                            boost::multiprecision::et_off>;
@@ -16,4 +16,4 @@ template <class T>
   return value;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -13,7 +13,7 @@
 
 #include "references/numerics/arguments.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::vector<double> to_doubles(const std::vector<Real>& values) {
   return result;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -6,7 +6,7 @@
 #include "references/numerics/real.h"
 
 /// Roots of characteristic equations: bracketed in double (GSL), polished in extended precision.
-namespace trammel::derive {
+namespace trammel::references {
 
 /// One equation in both precisions.
 struct Equation {
@@ -23,7 +23,7 @@ template <class F>
 /// The root of `f` between lo and hi, where f changes sign, to 45 digits.
 /// @throws DerivationError  where f does not change sign.
 [[nodiscard]] Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo,
-                                 const Real& hi);
+                                const Real& hi);
 
 /// The first `count` sign changes of `f` above `start`, found on a grid of spacing `step` and
 /// polished. The caller answers for a step shorter than the distance between two roots.
@@ -33,4 +33,4 @@ template <class F>
 
 [[nodiscard]] std::vector<double> to_doubles(const std::vector<Real>& values);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -6,10 +6,10 @@
 #include <ostream>
 #include <sstream>
 
-#include "references/programs/program.h"
 #include "references/programs/derivation_comparison.h"
+#include "references/programs/program.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -88,8 +88,10 @@ int run(const std::vector<std::string>& command_line, std::ostream& out, std::os
     return 0;
   }
   if (command_line[0] == "--list" && command_line.size() == 1) return list_programs(out);
-  if (command_line[0] == "--program" && command_line.size() == 2) return run_program(command_line[1], "{}", out);
-  if (command_line[0] == "--program" && command_line.size() == 4 && command_line[2] == "--arguments") {
+  if (command_line[0] == "--program" && command_line.size() == 2)
+    return run_program(command_line[1], "{}", out);
+  if (command_line[0] == "--program" && command_line.size() == 4 &&
+      command_line[2] == "--arguments") {
     return run_program(command_line[1], command_line[3], out);
   }
   for (const std::string& argument : command_line) {
@@ -102,7 +104,8 @@ int run(const std::vector<std::string>& command_line, std::ostream& out, std::os
 
 }  // namespace
 
-int derive_command(const std::vector<std::string>& command_line, std::ostream& out, std::ostream& err) {
+int derive_command(const std::vector<std::string>& command_line, std::ostream& out,
+                   std::ostream& err) {
   try {
     return run(command_line, out, err);
   } catch (const DerivationError& error) {
@@ -114,4 +117,4 @@ int derive_command(const std::vector<std::string>& command_line, std::ostream& o
   }
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

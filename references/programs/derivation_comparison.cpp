@@ -3,10 +3,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "references/programs/program.h"
 #include "references/numerics/roots.h"
+#include "references/programs/program.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -84,4 +84,4 @@ Json read_json(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -7,7 +7,7 @@
 #include "references/numerics/arguments.h"
 
 /// A stored reference beside what its derivation gives today.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct Comparison {
   std::string id;
@@ -28,4 +28,4 @@ struct Comparison {
 /// @throws DerivationError  with the file and the pointer, or the byte where it is not JSON.
 [[nodiscard]] Json read_json(const std::filesystem::path& file);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -3,5 +3,5 @@
 #include "references/programs/command.h"
 
 int main(int argc, char** argv) {
-  return trammel::derive::derive_command({argv + 1, argv + argc}, std::cout, std::cerr);
+  return trammel::references::derive_command({argv + 1, argv + argc}, std::cout, std::cerr);
 }

@@ -2,7 +2,7 @@
 
 #include "references/programs/program.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::vector<double> parameter_sweep_program(const Json& json) {
   return values;
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -4,7 +4,7 @@
 
 #include "references/numerics/arguments.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 /// Another program at each of several values, one after the other: the true values of a parameter
 /// study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and values, or
@@ -12,4 +12,4 @@ namespace trammel::derive {
 /// @throws DerivationError  where a pointer leads nowhere.
 [[nodiscard]] std::vector<double> parameter_sweep_program(const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -3,22 +3,22 @@
 #include "references/beams/annular_membrane.h"
 #include "references/beams/beam_modes.h"
 #include "references/beams/column_buckling.h"
+#include "references/beams/corner_singularity.h"
 #include "references/beams/deep_beam.h"
 #include "references/beams/elastica.h"
 #include "references/beams/exponential_beam.h"
-#include "references/numerics/expression.h"
-#include "references/frames/frame_sensitivity.h"
-#include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/nadaraya_watson.h"
 #include "references/beams/parallelogram_chain.h"
 #include "references/beams/pendulum.h"
 #include "references/beams/rotating_beam.h"
-#include "references/programs/parameter_sweep.h"
+#include "references/frames/frame_sensitivity.h"
 #include "references/frames/unit_load.h"
-#include "references/beams/corner_singularity.h"
 #include "references/frames/wittrick_williams.h"
+#include "references/manipulator/manipulator_torques.h"
+#include "references/manipulator/nadaraya_watson.h"
+#include "references/numerics/expression.h"
+#include "references/programs/parameter_sweep.h"
 
-namespace trammel::derive {
+namespace trammel::references {
 
 const std::map<std::string, Program>& programs() {
   static const std::map<std::string, Program> table = {
@@ -137,7 +137,8 @@ const std::map<std::string, Program>& programs() {
         formula_program}},
       {"swept",
        {"another program at each of several values: the truth of a parameter study",
-        "program, arguments, pointers (into the arguments) and values, or patches", parameter_sweep_program}},
+        "program, arguments, pointers (into the arguments) and values, or patches",
+        parameter_sweep_program}},
   };
   return table;
 }
@@ -152,4 +153,4 @@ std::vector<double> derive(const std::string& program, const Json& arguments) {
   return found->second.run(arguments);
 }
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

@@ -9,7 +9,7 @@
 
 /// The programs that re-derive references, by the name that a reference file gives in
 /// "derivation": {"program": NAME, "arguments": {...}}.
-namespace trammel::derive {
+namespace trammel::references {
 
 struct Program {
   std::string summary;    ///< what it derives, with its equation's source
@@ -23,4 +23,4 @@ struct Program {
 /// @throws DerivationError  unknown program or unusable arguments; the pointer is relative to them.
 [[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
 
-}  // namespace trammel::derive
+}  // namespace trammel::references

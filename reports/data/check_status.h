@@ -12,9 +12,10 @@ namespace trammel::reports {
 /// Where a check stands, as the page says it: a pass that was expected to agree is not the same
 /// as a pass that was expected to differ.
 enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run };
-inline constexpr std::array<CheckStatus, 6> kAllCheckStatuses = {CheckStatus::passes,    CheckStatus::known_discrepancy,
-                                                          CheckStatus::not_judged, CheckStatus::fails,
-                                                          CheckStatus::error,    CheckStatus::not_run};
+inline constexpr std::array<CheckStatus, 6> kAllCheckStatuses = {
+    CheckStatus::passes,     CheckStatus::known_discrepancy,
+    CheckStatus::not_judged, CheckStatus::fails,
+    CheckStatus::error,      CheckStatus::not_run};
 
 [[nodiscard]] CheckStatus check_status(const Check& check);
 

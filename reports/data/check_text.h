@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "reports/data/results.h"
 #include "reports/data/check_status.h"
+#include "reports/data/results.h"
 
 namespace trammel::reports {
 

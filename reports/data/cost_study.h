@@ -38,8 +38,9 @@ struct CostStudy {
   double wall_s = 0;
   /// An error, and the number of the cheapest setting within it.
   std::vector<std::pair<double, std::optional<std::size_t>>> cheapest;
-  std::size_t on_both_fronts = 0, on_either_front = 0;  ///< settings on the fronts of odd and even repeats
-  double largest_difference = 0;       ///< between these two in what an accuracy costs
+  std::size_t on_both_fronts = 0,
+              on_either_front = 0;  ///< settings on the fronts of odd and even repeats
+  double largest_difference = 0;    ///< between these two in what an accuracy costs
 };
 
 struct CostStudies {

@@ -25,12 +25,12 @@ class JsonView {
   [[nodiscard]] JsonView find(const std::string& key) const;
   [[nodiscard]] bool null() const { return value_->is_null(); }
 
-  [[nodiscard]] std::string text() const;                      ///< a string
-  [[nodiscard]] double number() const;                         ///< a number
-  [[nodiscard]] std::optional<double> optional_number() const;    ///< a number, null or absent
-  [[nodiscard]] int integer(int upper_bound) const;                  ///< 0 <= i < below
-  [[nodiscard]] bool boolean() const;                          ///< true or false
-  [[nodiscard]] std::string text_or(const char* other) const;  ///< a string, null or absent
+  [[nodiscard]] std::string text() const;                       ///< a string
+  [[nodiscard]] double number() const;                          ///< a number
+  [[nodiscard]] std::optional<double> optional_number() const;  ///< a number, null or absent
+  [[nodiscard]] int integer(int upper_bound) const;             ///< 0 <= i < below
+  [[nodiscard]] bool boolean() const;                           ///< true or false
+  [[nodiscard]] std::string text_or(const char* other) const;   ///< a string, null or absent
 
   /// The entries of an array or the members of an object; none of null.
   [[nodiscard]] std::vector<JsonView> entries() const;

@@ -234,9 +234,9 @@ UncertaintyCoverage read_uncertainty_coverage(const JsonView& view) {
   UncertaintyCoverage coverage;
   coverage.levels = view.at("levels").integer(kAnyIndex);
   coverage.covered = view.at("hits").integer(kAnyIndex);
-  bands.kMinHitRate = view.find("least_hit_rate").optional_number();
+  coverage.min_coverage = view.find("least_hit_rate").optional_number();
   coverage.median_ratio = view.find("median_ratio").optional_number();
-  bands.kMaxMedianRatio = view.find("largest_median_ratio").optional_number();
+  coverage.max_median_ratio = view.find("largest_median_ratio").optional_number();
   coverage.passes = view.at("holds").boolean();
   return coverage;
 }
@@ -288,10 +288,10 @@ TableRequest read_table(const std::string& id, const JsonView& view) {
 
 ClaimInterpretation read_interpretation(const JsonView& view) {
   ClaimInterpretation interpretation{view.at("what").text(),
-                       view.at("take").text(),
-                       view.at("unit").text(),
-                       view.at("verdict").text(),
-                       {}};
+                                     view.at("take").text(),
+                                     view.at("unit").text(),
+                                     view.at("verdict").text(),
+                                     {}};
   for (const JsonView& entry : view.at("entries").entries())
     interpretation.entries.push_back(
         {entry.at("case").text(), entry.at("variant").text(), entry.at("value").number()});
@@ -394,7 +394,8 @@ Results read_all(const JsonView& root) {
   for (const auto& [id, view] : root.find("references").members())
     results.references.push_back(read_reference(id, view));
   for (const JsonView& run : root.at("runs").entries()) results.runs.push_back(read_run(run));
-  if (!root.find("bands").null()) results.uncertainty_coverage = read_uncertainty_coverage(root.at("bands"));
+  if (!root.find("bands").null())
+    results.uncertainty_coverage = read_uncertainty_coverage(root.at("bands"));
   check_cases(root.at("runs"), results);
   if (const JsonView cost = root.find("cost"); !cost.null()) results.cost = read_cost_studies(cost);
   if (const JsonView claims = root.find("ledger"); !claims.null())

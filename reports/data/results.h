@@ -46,14 +46,15 @@ struct Convergence {
   Numbers values, error, roundoff, order, gci;
   std::vector<bool> in_asymptotic_range, at_roundoff_floor;
   Number exact, theory_order, fitted_order, richardson;
-  Number lower_order;  ///< where two orders mix
-  Number two_term_misfit;   ///< largest |law of two orders / error - 1|
+  Number lower_order;      ///< where two orders mix
+  Number two_term_misfit;  ///< largest |law of two orders / error - 1|
 };
 
 /// One entry against the paper after ASME V&V 20: E = S - D and what it stands against. Standard
 /// uncertainties, all in the quantity's unit.
 struct Comparison {
-  std::string check, quantity, reference, dominant_input, verdict, conclusion, all_inputs_conclusion;
+  std::string check, quantity, reference, dominant_input, verdict, conclusion,
+      all_inputs_conclusion;
   int index = 0;
   Number simulation, expected, difference, u_num, u_input, u_reference, u_val, all_inputs_u_val;
   Number dominant_share;  ///< of u_input squared
@@ -62,7 +63,7 @@ struct Comparison {
 /// How good the bands of numerical uncertainty are, over all refinements with exact values.
 struct UncertaintyCoverage {
   int levels = 0, covered = 0;
-  Number kMinHitRate, median_ratio, kMaxMedianRatio;
+  Number min_coverage, median_ratio, max_median_ratio;
   bool passes = false;
 };
 

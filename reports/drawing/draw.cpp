@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "reports/drawing/figure.h"
-#include "reports/text/files.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/drawing/svg.h"
+#include "reports/text/files.h"
 
 namespace trammel::reports {
 
@@ -42,17 +42,17 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
       << "set encoding utf8\nset minussign\n"
       << "set terminal svg size " << figure.width << ',' << figure.height
       << " dynamic noenhanced font 'Helvetica,15' linewidth 1 rounded background '"
-      << palette::k\upaper << "'\n"
+      << palette::kPaper << "'\n"
       << "set output " << quoted_path(svg) << '\n'
-      << "set border 3" << lc(palette::k\ustructure) << '\n'
-      << "set tics nomirror out scale 0.5 textcolor rgb '" << palette::k\umuted << "'\n"
-      << "set grid" << lc(palette::k\ugrid) << " lw 1 lt 1," << lc(palette::k\ugrid) << " lw 1 lt 1\n"
+      << "set border 3" << lc(palette::kStructure) << '\n'
+      << "set tics nomirror out scale 0.5 textcolor rgb '" << palette::kMuted << "'\n"
+      << "set grid" << lc(palette::kGrid) << " lw 1 lt 1," << lc(palette::kGrid) << " lw 1 lt 1\n"
       << "set xtics offset 0,0.35\nset ytics offset 0.3,0\n"
-      << "set xlabel offset 0,0.7 textcolor rgb '" << palette::k\uink << "'\n"
-      << "set ylabel offset 0.6,0 textcolor rgb '" << palette::k\uink << "'\n"
+      << "set xlabel offset 0,0.7 textcolor rgb '" << palette::kInk << "'\n"
+      << "set ylabel offset 0.6,0 textcolor rgb '" << palette::kInk << "'\n"
       << "set key outside below center horizontal Left reverse samplen 1.6 spacing 1.15 textcolor "
          "rgb '"
-      << palette::k\uink << "'\n"
+      << palette::kInk << "'\n"
       << "set style fill solid 1 noborder\n";
   return out.str();
 }

@@ -8,24 +8,24 @@ namespace trammel::reports::palette {
 /// The colours of all figures. They stay apart for every common kind of colour blindness and in
 /// grey print (after Okabe and Ito, darkened for thin lines on white), and style.css maps each to
 /// its partner on a dark page: a colour added here needs a line there.
-inline constexpr const char* k\upaper = "#ffffff";
-inline constexpr const char* k\uink = "#1d232b";
-inline constexpr const char* k\umuted = "#5b6470";
-inline constexpr const char* k\ustructure = "#a6aeb8";
-inline constexpr const char* k\ugrid = "#e4e7eb";
-inline constexpr const char* k\ushade = "#eef0f3";
-inline constexpr const char* k\uamber = "#f3e3bd";
-inline constexpr const char* k\ublush = "#f9e1dc";
-inline constexpr const char* k\uplate = "#dde6f0";
+inline constexpr const char* kPaper = "#ffffff";
+inline constexpr const char* kInk = "#1d232b";
+inline constexpr const char* kMuted = "#5b6470";
+inline constexpr const char* kStructure = "#a6aeb8";
+inline constexpr const char* kGrid = "#e4e7eb";
+inline constexpr const char* kShade = "#eef0f3";
+inline constexpr const char* kAmber = "#f3e3bd";
+inline constexpr const char* kBlush = "#f9e1dc";
+inline constexpr const char* kPlate = "#dde6f0";
 
-inline constexpr std::array<const char*, 7> k\useries = {"#1f5fa8", "#c8500a", "#16806a", "#a3478f",
-                                                      "#4a9fd4", "#b0830a", "#5b6470"};
+inline constexpr std::array<const char*, 7> kSeries = {"#1f5fa8", "#c8500a", "#16806a", "#a3478f",
+                                                       "#4a9fd4", "#b0830a", "#5b6470"};
 /// Classes of a map, from low to high: light to dark blue.
-inline constexpr std::array<const char*, 7> k\usequence = {"#e3edf7", "#c3d9ee", "#98bfe1", "#6a9fd0",
-                                                        "#437eb8", "#265c96", "#123b6b"};
+inline constexpr std::array<const char*, 7> kSequence = {"#e3edf7", "#c3d9ee", "#98bfe1", "#6a9fd0",
+                                                         "#437eb8", "#265c96", "#123b6b"};
 /// Point types of gnuplot that go with them: disc, square, triangle, diamond, ...
-inline constexpr std::array<int, 7> k\ufilled_point = {7, 5, 9, 13, 11, 15, 7};
-inline constexpr std::array<int, 7> k\uopen_point = {6, 4, 8, 12, 10, 14, 6};
+inline constexpr std::array<int, 7> kFilledPoint = {7, 5, 9, 13, 11, 15, 7};
+inline constexpr std::array<int, 7> kOpenPoint = {6, 4, 8, 12, 10, 14, 6};
 
 [[nodiscard]] inline const char* color(std::size_t i) {
   return kSeries[i % kSeries.size()];

@@ -32,12 +32,13 @@ bool starts_character(char c) {
 }
 
 std::string titled(const std::string& title) {
-  return title.empty() ? " notitle" : " title " + quoted(shortened(title, kMaxKeyCharacters));
+  return title.empty() ? " notitle"
+                       : " title " + gnuplot_string(shortened(title, kMaxKeyCharacters));
 }
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
+std::string gnuplot_string(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
     if (c == '\'') {
@@ -52,7 +53,7 @@ std::string quoted(const std::string& text) {
 std::string tic(const std::string& text, double at) {
   std::string format;  // gnuplot reads it as one
   for (const char c : text) format += c == '%' ? "%%" : std::string(1, c);
-  return quoted(format) + " " + shortest(at);
+  return gnuplot_string(format) + " " + shortest(at);
 }
 
 std::size_t characters(const std::string& utf8) {
@@ -68,7 +69,7 @@ std::string shortened(const std::string& text, std::size_t max_characters) {
 }
 
 std::string lc(const std::string& color) {
-  return " lc rgb " + quoted(color);
+  return " lc rgb " + gnuplot_string(color);
 }
 
 void PlotScript::command(const std::string& line) {
@@ -89,7 +90,7 @@ void PlotScript::key_entry(const std::string& style, const std::string& title) {
 }
 
 void PlotScript::label(const std::string& text, const std::string& place) {
-  command("set label " + quoted(text) + " at " + place);
+  command("set label " + gnuplot_string(text) + " at " + place);
 }
 
 void PlotScript::plot() {
@@ -113,7 +114,7 @@ void PlotScript::range(const std::string& axis, double low, double high) {
 }
 
 void PlotScript::axis_label(const std::string& axis, const std::string& text) {
-  command("set " + axis + "label " + quoted(text));
+  command("set " + axis + "label " + gnuplot_string(text));
 }
 
 void PlotScript::log_axis(const std::string& axis, double low, double high, int max_labels) {

@@ -7,7 +7,7 @@ namespace trammel::reports {
 
 /// Text for gnuplot in single quotes, where nothing is expanded or marked up. Its own apostrophes
 /// become typographic ones: gnuplot misreads a doubled one at the start of a string.
-[[nodiscard]] std::string quoted(const std::string& text);
+[[nodiscard]] std::string gnuplot_string(const std::string& text);
 
 /// A label of an axis with its place, for `set xtics (...)`.
 [[nodiscard]] std::string tic(const std::string& text, double at);
@@ -19,8 +19,8 @@ namespace trammel::reports {
 /// " lc rgb '#1f5fa8'".
 [[nodiscard]] std::string lc(const std::string& color);
 
-/// Collects the data and commands of one figure. All text passes through `quoted`, all numbers are
-/// written by us, so no result can turn into a command.
+/// Collects the data and commands of one figure. All text passes through `gnuplot_string`, all
+/// numbers are written by us, so no result can turn into a command.
 class PlotScript {
  public:
   /// One row a point; an empty row breaks a line.

@@ -47,11 +47,11 @@ void shorten_colors(std::string& text) {
 
 /// What gnuplot says of every group again and stands once on the root.
 constexpr std::array<const char*, 6> kCommonAttributes = {" fill=\"none\"",
-                                               " stroke-linecap=\"butt\"",
-                                               " stroke-linejoin=\"miter\"",
-                                               " stroke-linecap=\"round\"",
-                                               " stroke-linejoin=\"round\"",
-                                               " font-family=\"Helvetica\""};
+                                                          " stroke-linecap=\"butt\"",
+                                                          " stroke-linejoin=\"miter\"",
+                                                          " stroke-linecap=\"round\"",
+                                                          " stroke-linejoin=\"round\"",
+                                                          " font-family=\"Helvetica\""};
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';

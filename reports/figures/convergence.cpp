@@ -4,10 +4,10 @@
 #include <map>
 #include <set>
 
-#include "reports/figures/figures.h"
-#include "reports/text/number.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
+#include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
 namespace trammel::reports {
@@ -77,8 +77,8 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
     if (c.in_asymptotic_range[k]) inside.push_back(line.back());
   }
   const std::string color = lc(palette::color(i));
-  const std::string style = std::to_string(palette::k\uopen_point[i % palette::k\uopen_point.size()]);
-  const std::string solid = std::to_string(palette::k\ufilled_point[i % palette::k\ufilled_point.size()]);
+  const std::string style = std::to_string(palette::kOpenPoint[i % palette::kOpenPoint.size()]);
+  const std::string solid = std::to_string(palette::kFilledPoint[i % palette::kFilledPoint.size()]);
   script.curve(line, "with linespoints lw 1.4 ps 0.8 pt " + style + color);
   script.curve(inside, "with points ps 0.8 pt " + solid + color);
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
@@ -121,10 +121,10 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Extent&
   const double x_bottom = falls ? x1 : x0;
   extent.cover(bottom);
   script.curve({{x_top, top}, {x_top, bottom}, {x_bottom, bottom}, {x_top, top}},
-               "with lines lw 1.4" + lc(palette::k\uink));
+               "with lines lw 1.4" + lc(palette::kInk));
   script.label(trimmed(theory, 3), shortest(x_top) + "," + shortest(std::sqrt(top * bottom)) +
                                        (falls ? " right offset -0.6,0" : " left offset 0.6,0") +
-                                       " front textcolor rgb '" + palette::k\uink + "'");
+                                       " front textcolor rgb '" + palette::kInk + "'");
 }
 
 /// "3.98 to 4.01", "4.00".
@@ -259,7 +259,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   const int key_height = script.key_below(titles);
   const auto floor = floor_of(sweeps);
   for (const auto& row : floor) extent.cover(0.3 * row[1]);
-  script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::k\ushade), "round-off");
+  script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::kShade), "round-off");
   for (std::size_t i = 0; i < sweeps.size(); ++i)
     draw_series(script, *sweeps[i], i, sweeps.size() == 1, extent);
   if (first.theory_order) draw_slope(script, sweeps, *first.theory_order, extent);

@@ -3,30 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/text/number.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-constexpr double kSmallestDrawnError = 1e-16;  ///< stands for an error of zero
+constexpr double kSmallestDrawnCostError = 1e-16;  ///< stands for an error of zero
 
-struct Extent {
+struct CostExtent {
   double low_error = 1e300, high_error = 0, low_time = 1e300, high_time = 0;
 };
 
 double drawn_error(const CostSetting& setting) {
-  return std::max(setting.error.value_or(0), kSmallestDrawnError);
+  return std::max(setting.error.value_or(0), kSmallestDrawnCostError);
 }
 
 bool is_drawn(const CostSetting& setting) {
   return (setting.measured() || setting.status == "wide") && setting.error && setting.relative;
 }
 
-Extent extent_of(const CostStudy& study) {
-  Extent extent;
+CostExtent extent_of(const CostStudy& study) {
+  CostExtent extent;
   const auto cover_time = [&](double time) {
     if (!(time > 0)) return;
     extent.low_time = std::min(extent.low_time, time);
@@ -54,7 +54,7 @@ std::vector<std::string> curves_of(const CostStudy& study) {
 }
 
 std::string point_type(std::size_t curve, bool filled) {
-  const auto& types = filled ? palette::k\ufilled_point : palette::k\uopen_point;
+  const auto& types = filled ? palette::kFilledPoint : palette::kOpenPoint;
   return std::to_string(types[curve % types.size()]);
 }
 
@@ -71,14 +71,14 @@ Strip strip_of(double low, double high) {
 void draw_strip(PlotScript& script, const Strip& strip) {
   script.command("set object 1 rectangle from " + shortest(strip.left) + ", graph 0 to " +
                  shortest(strip.right) + ", graph 1 behind fillstyle solid noborder fc rgb '" +
-                 palette::k\ublush + "'");
+                 palette::kBlush + "'");
   script.label("no answer", shortest(strip.middle) +
-                                ", graph 0.5 center rotate front textcolor rgb '" + palette::k\umuted +
-                                "'");
+                                ", graph 0.5 center rotate front textcolor rgb '" +
+                                palette::kMuted + "'");
 }
 
 /// The steps of the front: within an error, its cheapest setting.
-PlotScript::Rows steps_of(const CostStudy& study, const Extent& extent) {
+PlotScript::Rows steps_of(const CostStudy& study, const CostExtent& extent) {
   std::vector<std::pair<double, double>> front;
   for (const CostSetting& setting : study.settings)
     if (setting.pareto_optimal && is_drawn(setting))
@@ -113,12 +113,12 @@ void draw_curve(PlotScript& script, const CostStudy& study, const std::string& c
     (setting.measured() ? used : wide).push_back(point);
   }
   const std::string color = lc(palette::color(number));
-  const bool filled = number < palette::k\ufilled_point.size();
+  const bool filled = number < palette::kFilledPoint.size();
   const std::string mark = point_type(number, filled);
   script.curve(line, "using 1:2 with lines lw 1.2" + color);
   script.curve(used, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
   script.curve(wide, "using 1:2:3:4 with yerrorbars lw 1 ps 0.8 pt " + point_type(number, false) +
-                         lc(palette::k\umuted));
+                         lc(palette::kMuted));
   script.curve(outside, "using 1:2 with points lw 1.6 ps 1 pt 2" + color);
   script.key_entry("with linespoints lw 1.2 ps 0.8 pt " + mark + color, title);
 }
@@ -172,7 +172,7 @@ std::string notes_on(const CostStudy& study) {
 
 Figure cost_figure(const CostStudy& study) {
   PlotScript script;
-  const Extent extent = extent_of(study);
+  const CostExtent extent = extent_of(study);
   const bool any_outside = std::any_of(study.settings.begin(), study.settings.end(),
                                        [](const CostSetting& s) { return s.without_result(); });
   script.log_axis("x", extent.low_error, extent.high_error);
@@ -186,10 +186,10 @@ Figure cost_figure(const CostStudy& study) {
   }
   script.axis_label("x", "relative error (" + study.norm + ")");
   script.axis_label("y", "time, relative to the baseline");
-  Extent whole = extent;
+  CostExtent whole = extent;
   whole.high_error = high;
   script.curve(steps_of(study, whole),
-               std::string("using 1:2 with lines lw 5") + lc(palette::k\uplate), "efficient front");
+               std::string("using 1:2 with lines lw 5") + lc(palette::kPlate), "efficient front");
   const std::vector<std::string> curves = curves_of(study);
   std::vector<std::string> keys = {"efficient front"};
   for (std::size_t i = 0; i < curves.size(); ++i) {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
-#include "reports/figures/figures.h"
-#include "reports/text/number.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
+#include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
 namespace trammel::reports {
@@ -53,8 +53,8 @@ Number shown(const Number& value, bool log) {
   return *value == 0 ? Number() : Number(std::abs(*value));
 }
 
-PlotScript::Rows rows_of(const Numbers* x, const Numbers& y, std::pair<double, double> factors,
-                         const PlotRequest& request) {
+PlotScript::Rows curve_rows(const Numbers* x, const Numbers& y, std::pair<double, double> factors,
+                            const PlotRequest& request) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const Number at = shown(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.log_x);
@@ -228,7 +228,7 @@ Table table_of(const std::vector<Series>& series, const std::vector<const Run*>&
 
 std::string dashed(std::size_t variant) {
   const std::size_t pattern = variant % kDashes.size();
-  return pattern == 0 ? "" : " dt " + quoted(kDashes[pattern]);
+  return pattern == 0 ? "" : " dt " + gnuplot_string(kDashes[pattern]);
 }
 
 /// The curves and their key: where quantities and variants both differ, the key tells colours and
@@ -243,11 +243,11 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
     for (std::size_t i = 0; i < request.y.size(); ++i)
       entries.emplace_back(line + lc(palette::color(i)), own_words(request.y[i], request));
     for (std::size_t i = 0; i < variants.size(); ++i)
-      entries.emplace_back(line + dashed(i) + lc(palette::k\umuted), info.variant_title(variants[i]));
+      entries.emplace_back(line + dashed(i) + lc(palette::kMuted), info.variant_title(variants[i]));
   }
   for (const Series& s : series) {
     const Numbers* at = run_of(runs, s.variant)->quantity(request.x);
-    const auto rows = rows_of(at, *s.values, factors, request);
+    const auto rows = curve_rows(at, *s.values, factors, request);
     const std::string style = dashed(s.dash) + lc(palette::color(s.color));
     const std::string marks = rows.size() <= 40 ? "linespoints pt 7 ps 0.6" : "lines";
     script.curve(rows, "with " + marks + " lw 2.2" + style);

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/data/check_status.h"
+#include "reports/drawing/palette.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/strip.h"
 #include "reports/text/number.h"
-#include "reports/drawing/palette.h"
-#include "reports/data/check_status.h"
 
 namespace trammel::reports {
 
@@ -14,13 +14,13 @@ namespace {
 constexpr std::size_t kMaxDigits = 9;  ///< entries of a row that can be told apart by digits
 
 /// Checks of the same name and measure over all runs of a case.
-struct Subject {
+struct DiscrepancySubject {
   std::string name, measure;
   std::vector<CheckGroup> rows;
 };
 
-std::vector<Subject> subjects(const std::vector<const Run*>& runs) {
-  std::vector<Subject> out;
+std::vector<DiscrepancySubject> subjects(const std::vector<const Run*>& runs) {
+  std::vector<DiscrepancySubject> out;
   for (const Run* run : runs) {
     for (CheckGroup& group : group_checks(*run)) {
       const Check& check = group.front();
@@ -28,11 +28,11 @@ std::vector<Subject> subjects(const std::vector<const Run*>& runs) {
           std::any_of(group.checks.begin(), group.checks.end(),
                       [](const Check* entry) { return entry->known_discrepancy; });
       if (!expected || !check.tolerance) continue;
-      auto subject = std::find_if(out.begin(), out.end(), [&](const Subject& known) {
+      auto subject = std::find_if(out.begin(), out.end(), [&](const DiscrepancySubject& known) {
         return known.name == check.name && known.measure == check.measure;
       });
       if (subject == out.end())
-        subject = out.insert(out.end(), Subject{check.name, check.measure, {}});
+        subject = out.insert(out.end(), DiscrepancySubject{check.name, check.measure, {}});
       subject->rows.push_back(std::move(group));
     }
   }
@@ -43,7 +43,7 @@ bool by_digits(const CheckGroup& group) {
   return group.checks.size() > 1 && group.checks.size() <= kMaxDigits;
 }
 
-bool digits_shown(const Subject& subject) {
+bool digits_shown(const DiscrepancySubject& subject) {
   return std::any_of(subject.rows.begin(), subject.rows.end(), by_digits);
 }
 
@@ -56,7 +56,7 @@ struct Span {
   }
 };
 
-Span extent(const Subject& subject, double origin) {
+Span extent(const DiscrepancySubject& subject, double origin) {
   Span span{origin, origin};
   for (const CheckGroup& row : subject.rows)
     for (const Check* check : row.checks) {
@@ -74,7 +74,8 @@ PlotScript::Rows box(double x0, double x1, std::size_t row) {
 }
 
 /// The bands of a row; one that is too narrow to be seen is drawn as wide as a digit.
-PlotScript::Rows tolerance_bars(const CheckGroup& group, std::size_t row, double factor, const Span& span) {
+PlotScript::Rows tolerance_bars(const CheckGroup& group, std::size_t row, double factor,
+                                const Span& span) {
   const double min_width = 0.022 * (span.high - span.low);
   PlotScript::Rows rows;
   for (const Check* check : group.checks) {
@@ -117,8 +118,8 @@ void draw_digits(PlotScript& script, const CheckGroup& group, std::size_t row, d
 
 void draw_row(PlotScript& script, const CheckGroup& group, std::size_t row, double factor,
               const Span& span) {
-  script.curve(tolerance_bars(group, row, factor, span), "with filledcurves closed" + lc(palette::k\uamber),
-               row == 0 ? "expected" : "");
+  script.curve(tolerance_bars(group, row, factor, span),
+               "with filledcurves closed" + lc(palette::kAmber), row == 0 ? "expected" : "");
   if (by_digits(group)) return draw_digits(script, group, row, factor, span);
   PlotScript::Rows good, bad;
   for (const Check* check : group.checks) {
@@ -134,7 +135,7 @@ std::string words(double x, const std::string& measure) {
   return measure == "relative" ? relative(x, 3, true) : trimmed(x, 4);
 }
 
-std::string conclusion(const Subject& subject) {
+std::string conclusion(const DiscrepancySubject& subject) {
   Span span{1e300, -1e300};
   std::size_t n = 0, outside = 0;
   for (const CheckGroup& row : subject.rows)
@@ -153,7 +154,7 @@ std::string conclusion(const Subject& subject) {
   return text;
 }
 
-Table table_of(const Subject& subject, const CaseInfo& info) {
+Table table_of(const DiscrepancySubject& subject, const CaseInfo& info) {
   Table table;
   const std::string unit = subject.measure == "relative" || subject.measure == "ratio"
                                ? "_" + subject.measure
@@ -180,7 +181,7 @@ Table table_of(const Subject& subject, const CaseInfo& info) {
   return table;
 }
 
-Figure figure_of(const CaseInfo& info, const Results& results, const Subject& subject) {
+Figure figure_of(const CaseInfo& info, const Results& results, const DiscrepancySubject& subject) {
   const bool percent = subject.measure == "relative";
   const double factor = percent ? 100 : 1;
   const double origin = subject.measure == "ratio" ? 1 : 0;
@@ -198,7 +199,7 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Subject& su
     draw_row(script, subject.rows[i], i, factor, span);
   const double bottom = -static_cast<double>(subject.rows.size());
   script.curve({{factor * origin, bottom}, {factor * origin, 0}},
-               "with lines lw 1.5" + lc(palette::k\uink), percent ? "agreement" : "");
+               "with lines lw 1.5" + lc(palette::kInk), percent ? "agreement" : "");
   script.plot();
 
   const Reference* reference = results.reference(first.reference);
@@ -224,7 +225,7 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Subject& su
 std::vector<Figure> discrepancy_figures(const CaseInfo& info, const Results& results,
                                         const std::vector<const Run*>& runs) {
   std::vector<Figure> figures;
-  for (const Subject& subject : subjects(runs)) {
+  for (const DiscrepancySubject& subject : subjects(runs)) {
     // A lone difference is said by its row in the table.
     if (subject.rows.size() == 1 && subject.rows.front().checks.size() == 1) continue;
     figures.push_back(figure_of(info, results, subject));

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "reports/drawing/figure.h"
 #include "reports/data/results.h"
+#include "reports/drawing/figure.h"
 
 namespace trammel::reports {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/figures/figures.h"
-#include "reports/text/number.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
+#include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
 namespace trammel::reports {
@@ -58,7 +58,7 @@ std::vector<double> class_limits(const Field& field) {
   std::vector<double> sorted;
   for (const Cell& cell : field.cells) sorted.push_back(cell.value);
   std::sort(sorted.begin(), sorted.end());
-  const std::size_t classes = palette::k\usequence.size();
+  const std::size_t classes = palette::kSequence.size();
   std::vector<double> limits;
   for (std::size_t k = 1; k < classes; ++k) {
     const double limit = sorted[k * sorted.size() / classes];
@@ -72,7 +72,7 @@ std::vector<double> class_limits(const Field& field) {
 
 /// Neighbours of one colour in a row are drawn as one box: centre, then its sides.
 std::vector<PlotScript::Rows> boxes(const Field& field) {
-  std::vector<PlotScript::Rows> by_color(palette::k\usequence.size());
+  std::vector<PlotScript::Rows> by_color(palette::kSequence.size());
   for (std::size_t from = 0; from < field.cells.size();) {
     const Cell& first = field.cells[from];
     std::size_t to = from + 1;
@@ -136,7 +136,7 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
     const Numbers* x = run.quantity(line.x);
     const Numbers* y = run.quantity(line.y);
     if (!x || !y) continue;  // there is none at this orientation
-    const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::k\uink : palette::color(i));
+    const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::kInk : palette::color(i));
     script.curve(line_rows(*x, *y), style);
     script.key_entry(style, line.title);
     titles.push_back(line.title);
@@ -191,7 +191,7 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
                                     [](const Cell& cell) { return cell.value >= 0; });
   for (std::size_t k = 0; k < by_color.size(); ++k) {
     const std::size_t shade = negative ? limits.size() - std::min(k, limits.size()) : k;
-    const std::string color = lc(palette::k\usequence[shade]);
+    const std::string color = lc(palette::kSequence[shade]);
     script.curve(by_color[k], "using 1:2:3:4:5:6 with boxxyerror fs solid noborder" + color);
     if (by_color[k].empty()) continue;
     titles.push_back(class_name(limits, k));

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <set>
 
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
-#include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 
 namespace trammel::reports {
 
@@ -30,7 +30,7 @@ constexpr std::array<JointSymbol, 7> kJointSymbols = {{
 }};
 
 const char* joint_color(const JointSymbol& symbol) {
-  return std::string(symbol.kind) == "active" ? palette::color(1) : palette::k\uink;
+  return std::string(symbol.kind) == "active" ? palette::color(1) : palette::kInk;
 }
 
 bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
@@ -49,8 +49,8 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
                             shortest(symbol.size) + lc(joint_color(symbol));
   script.curve(rows, style, symbol.filled ? symbol.words : "");
   if (symbol.filled) return;
-  script.curve(rows, "with points pt 7 ps " + shortest(0.6 * symbol.size) + lc(palette::k\upaper));
-  script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::k\uink), symbol.words);
+  script.curve(rows, "with points pt 7 ps " + shortest(0.6 * symbol.size) + lc(palette::kPaper));
+  script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::kInk), symbol.words);
 }
 
 /// Names stand outside: away from the middle of the drawing.
@@ -66,7 +66,7 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
     const double lift = r < reach ? reach : 0;
     script.label(joint.name, shortest(x + reach * (x - cx) / r) + "," +
                                  shortest(y + reach * (y - cy) / r + lift) +
-                                 " center front textcolor rgb '" + palette::k\uink + "'");
+                                 " center front textcolor rgb '" + palette::kInk + "'");
   }
 }
 
@@ -142,7 +142,7 @@ std::optional<Figure> mechanism_figure(
     add_rows(figure.data, label, *other, other->nodes);
   }
   script.curve(filled_triangles(drawing, drawing.nodes),
-               "with filledcurves closed" + lc(palette::k\uplate));
+               "with filledcurves closed" + lc(palette::kPlate));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
   add_rows(figure.data, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
   for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);

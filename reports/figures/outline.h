@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "reports/drawing/plot_script.h"
 #include "reports/data/results.h"
+#include "reports/drawing/plot_script.h"
 
 namespace trammel::reports {
 

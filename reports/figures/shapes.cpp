@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
-#include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 
 namespace trammel::reports {
 
@@ -24,14 +24,14 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
                 const std::string& label, std::size_t panels) {
   script.command("unset label");
   script.label(
-      label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::k\uink) + "'");
+      label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::kInk) + "'");
   const auto lines = polylines(drawing);
   const auto edges = triangle_edges(drawing);
-  const std::string grey = lc(palette::k\ustructure);
+  const std::string grey = lc(palette::kStructure);
   const std::string blue = lc(palette::color(0));
   script.curve(rows_of(edges, drawing.nodes), "with lines lw 1" + grey);
   script.curve(rows_of(lines, drawing.nodes), "with lines lw 1.2" + grey);
-  script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::k\uplate));
+  script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::kPlate));
   script.curve(rows_of(inner_edges(drawing, panels), moved), "with lines lw 0.4" + blue);
   script.curve(rows_of(edges, moved), "with lines lw 1.2" + blue);
   script.curve(rows_of(lines, moved), "with lines lw 2.2" + blue);

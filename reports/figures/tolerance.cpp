@@ -1,21 +1,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
+#include "reports/drawing/palette.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/strip.h"
 #include "reports/text/number.h"
-#include "reports/drawing/palette.h"
-#include "reports/data/check_status.h"
 
 namespace trammel::reports {
 
 namespace {
 
 constexpr double kMinShare = 1e-8;  ///< left edge: smaller shares, exact agreement included
-constexpr double kMaxShare = 100;    ///< right edge: anything beyond, and what has no number
+constexpr double kMaxShare = 100;   ///< right edge: anything beyond, and what has no number
 
-struct Row {
+struct ToleranceRow {
   std::string label;
   std::vector<std::pair<const Run*, const Check*>> checks;
   double worst = 0;
@@ -33,19 +33,19 @@ bool is_shown(const Check& check) {
 }
 
 /// A row a case; a row a check where the family has one case only.
-std::vector<Row> rows_of(const std::map<std::string, std::string>& titles,
-                         const std::vector<const Run*>& runs) {
+std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string>& titles,
+                                         const std::vector<const Run*>& runs) {
   const bool one_case = std::all_of(runs.begin(), runs.end(), [&](const Run* run) {
     return run->case_id == runs.front()->case_id;
   });
-  std::vector<Row> rows;
+  std::vector<ToleranceRow> rows;
   for (const Run* run : runs) {
     for (const Check& check : run->checks) {
       if (!is_shown(check)) continue;
       const std::string label = one_case ? check_title(check) : titles.at(run->case_id);
       auto row = std::find_if(rows.begin(), rows.end(),
-                              [&](const Row& known) { return known.label == label; });
-      if (row == rows.end()) row = rows.insert(rows.end(), Row{label, {}, 0});
+                              [&](const ToleranceRow& known) { return known.label == label; });
+      if (row == rows.end()) row = rows.insert(rows.end(), ToleranceRow{label, {}, 0});
       row->checks.emplace_back(run, &check);
       row->worst = std::max(row->worst, share(check));
     }
@@ -55,7 +55,7 @@ std::vector<Row> rows_of(const std::map<std::string, std::string>& titles,
 
 /// Points of the rows that `belongs` picks.
 template <typename Belongs>
-PlotScript::Rows points(const std::vector<Row>& rows, Belongs belongs) {
+PlotScript::Rows points(const std::vector<ToleranceRow>& rows, Belongs belongs) {
   PlotScript::Rows out;
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [_, check] : rows[i].checks)
@@ -67,10 +67,10 @@ PlotScript::Rows points(const std::vector<Row>& rows, Belongs belongs) {
   return out;
 }
 
-std::string conclusion(const std::vector<Row>& rows) {
+std::string conclusion(const std::vector<ToleranceRow>& rows) {
   std::size_t n = 0, beyond = 0;
-  const Row* worst = &rows.front();
-  for (const Row& row : rows) {
+  const ToleranceRow* worst = &rows.front();
+  for (const ToleranceRow& row : rows) {
     if (row.worst > worst->worst) worst = &row;
     for (const auto& [_, check] : row.checks) {
       ++n;
@@ -88,14 +88,14 @@ std::string conclusion(const std::vector<Row>& rows) {
 void draw_limits(PlotScript& script, std::size_t rows) {
   const double bottom = -static_cast<double>(rows);
   script.curve({{1, bottom}, {kMaxShare * 1.6, bottom}, {kMaxShare * 1.6, 0}, {1, 0}, {1, bottom}},
-               "with filledcurves closed" + lc(palette::k\ublush));
+               "with filledcurves closed" + lc(palette::kBlush));
   script.curve({{1, bottom}, {1, 0}}, "with lines lw 1.5" + lc(palette::color(1)));
 }
 
-Table table_of(const std::vector<Row>& rows) {
+Table table_of(const std::vector<ToleranceRow>& rows) {
   Table table;
   table.heads = {"case", "variant", "check", "quantity", "index", "share_of_tolerance", "verdict"};
-  for (const Row& row : rows)
+  for (const ToleranceRow& row : rows)
     for (const auto& [run, check] : row.checks) {
       const double used = tolerance_fraction(*check);
       table.rows.push_back(
@@ -112,12 +112,12 @@ std::optional<Figure> tolerance_figure(const std::string& family,
                                        const std::map<std::string, std::string>& titles,
                                        const std::vector<const Run*>& runs) {
   if (runs.empty()) return std::nullopt;
-  const std::vector<Row> rows = rows_of(titles, runs);
+  const std::vector<ToleranceRow> rows = tolerance_rows(titles, runs);
   if (rows.empty()) return std::nullopt;
 
   PlotScript script;
   std::vector<std::string> labels;
-  for (const Row& row : rows)
+  for (const ToleranceRow& row : rows)
     labels.push_back(shortened(row.label, 44) + " (" + std::to_string(row.checks.size()) + ")");
   strip_rows(script, labels);
   script.log_axis("x", kMinShare, kMaxShare);

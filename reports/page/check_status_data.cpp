@@ -1,7 +1,7 @@
 #include "reports/page/check_status_data.h"
 
-#include "reports/text/number.h"
 #include "reports/drawing/figure.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 

@@ -1,15 +1,16 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/page/sections.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/page/sections.h"
 
 namespace trammel::reports {
 
 namespace {
 
-/// How the page kVerdictStyles a verdict: the words say it, the sign and its colour only help to find it.
+/// How the page kVerdictStyles a verdict: the words say it, the sign and its colour only help to
+/// find it.
 struct VerdictStyle {
   const char *verdict, *css_class, *sign;
 };
@@ -27,8 +28,9 @@ constexpr std::array<VerdictStyle, 10> kVerdictStyles = {{
 }};
 
 void set_verdict(Data& data, const std::string& verdict) {
-  const auto* found = std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
-                                   [&](const VerdictStyle& style) { return verdict == style.verdict; });
+  const auto* found =
+      std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
+                   [&](const VerdictStyle& style) { return verdict == style.verdict; });
   data.set("verdict", verdict);
   data.set("standing_class", found->css_class);
   data.set("sign", found->sign);
@@ -96,8 +98,9 @@ Data claim_data(const Claim& claim, const Results& results) {
 std::string overview(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {
-    const auto n = std::count_if(claims.claims.begin(), claims.claims.end(),
-                                 [&](const Claim& claim) { return claim.verdict == style.verdict; });
+    const auto n =
+        std::count_if(claims.claims.begin(), claims.claims.end(),
+                      [&](const Claim& claim) { return claim.verdict == style.verdict; });
     if (n > 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + style.verdict;
   }
   return count(claims.claims.size(), "claim") + ": " + text +

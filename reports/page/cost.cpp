@@ -1,8 +1,9 @@
+#include "reports/figures/cost.h"
+
 #include <algorithm>
 
-#include "reports/text/number.h"
 #include "reports/page/sections.h"
-#include "reports/figures/cost.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -120,10 +121,10 @@ std::string measured_text(const CostStudy& study) {
   std::string norm = study.norm == "max"   ? "The largest error"
                      : study.norm == "rms" ? "The root mean square of the errors"
                                            : "The mean error";
-  return norm + " against " + study.reference_solution + ", " + study.scale + ". Times are relative to '" +
-         baseline.title + "', which takes " + duration(baseline.cpu_s) +
-         ". Taken by themselves, odd and even repeats put " + std::to_string(study.on_both_fronts) +
-         " of " + std::to_string(study.on_either_front) +
+  return norm + " against " + study.reference_solution + ", " + study.scale +
+         ". Times are relative to '" + baseline.title + "', which takes " +
+         duration(baseline.cpu_s) + ". Taken by themselves, odd and even repeats put " +
+         std::to_string(study.on_both_fronts) + " of " + std::to_string(study.on_either_front) +
          " settings on the front both, and what an accuracy costs differs by at most " +
          relative(study.largest_difference, 2, false) + " between them.";
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "reports/text/number.h"
 #include "reports/page/sections.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -33,9 +33,11 @@ Data row_of(const EffectRow& effect) {
   Data row = object();
   row.set("effect", text_of(effect.name));
   row.set("state", effect.active ? "on" : "off");
-  set_text(row, "number", effect.dimensionless_number ? trimmed(*effect.dimensionless_number, 3) : "");
+  set_text(row, "number",
+           effect.dimensionless_number ? trimmed(*effect.dimensionless_number, 3) : "");
   set_text(row, "number_of", effect.number_definition);
-  set_text(row, "change", effect.estimated_change ? relative(*effect.estimated_change, 3, false) : "");
+  set_text(row, "change",
+           effect.estimated_change ? relative(*effect.estimated_change, 3, false) : "");
   row.set("why", effect.why);
   return row;
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "reports/text/number.h"
 #include "reports/page/sections.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -39,7 +39,8 @@ CheckStatus overall(const std::vector<const Run*>& runs) {
   };
   for (const CheckStatus bad : {CheckStatus::error, CheckStatus::fails})
     if (count_of(counts, bad) > 0 || any_run(bad)) return bad;
-  for (const CheckStatus some : {CheckStatus::known_discrepancy, CheckStatus::passes, CheckStatus::not_judged})
+  for (const CheckStatus some :
+       {CheckStatus::known_discrepancy, CheckStatus::passes, CheckStatus::not_judged})
     if (count_of(counts, some) > 0) return some;
   return CheckStatus::not_run;
 }

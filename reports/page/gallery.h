@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "reports/drawing/figure.h"
 #include "reports/data/results.h"
+#include "reports/drawing/figure.h"
 
 namespace trammel::reports {
 

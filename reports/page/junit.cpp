@@ -2,14 +2,14 @@
 
 #include <sstream>
 
+#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
+#include "reports/data/results.h"
+#include "reports/drawing/svg.h"
 #include "reports/text/files.h"
 #include "reports/text/number.h"
-#include "reports/data/results.h"
-#include "reports/data/check_status.h"
-#include "reports/drawing/svg.h"
 
-namespace trammel {
+namespace trammel::reports {
 
 namespace {
 
@@ -89,11 +89,11 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   for (const Run& run : results.runs) {
     if (run.case_id != info.id) continue;
     const std::string classname = info.id + "." + run.variant;
-    body += testcase(classname, "status: " + to_string(run.status), run.cost.wall_s, check_status(run),
-                     run.reason, tally);
+    body += testcase(classname, "status: " + to_string(run.status), run.cost.wall_s,
+                     check_status(run), run.reason, tally);
     for (const Check& check : run.checks)
-      body +=
-          testcase(classname, check_name(check), 0, check_status(check), check_message(check), tally);
+      body += testcase(classname, check_name(check), 0, check_status(check), check_message(check),
+                       tally);
   }
   if (tally.tests == 0) return "";
   all.add(tally);
@@ -114,4 +114,4 @@ void write_junit(const std::filesystem::path& results_json,
                             "</testsuites>\n");
 }
 
-}  // namespace trammel
+}  // namespace trammel::reports

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace trammel {
+namespace trammel::reports {
 
 /// Writes what a results file says as JUnit XML: one testsuite a case, one testcase a check and one
 /// for the ending of each run. A failed check is a failure, one that could not be judged an error,
@@ -10,4 +10,4 @@ namespace trammel {
 /// @throws std::runtime_error on an unreadable results file.
 void write_junit(const std::filesystem::path& results_json, const std::filesystem::path& junit_xml);
 
-}  // namespace trammel
+}  // namespace trammel::reports

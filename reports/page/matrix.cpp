@@ -3,21 +3,22 @@
 #include <map>
 
 #include "reports/data/check_text.h"
+#include "reports/page/sections.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/page/sections.h"
 
 namespace trammel::reports {
 
 namespace {
 
 constexpr std::size_t kMinRows = 4, kMinColumns = 3, kMaxColumns = 16;
-constexpr std::size_t kMaxUnfoldedRows = 10;  ///< of more than three rows beyond these, the rest is folded
-constexpr double kFullColourDifference = 0.4;    ///< relative difference that is drawn in full colour
-constexpr double kTargetReached = 0.01;       ///< a target nearer than this counts as reached
+constexpr std::size_t kMaxUnfoldedMatrixRows =
+    10;  ///< of more than three rows beyond these, the rest is folded
+constexpr double kFullColourDifference = 0.4;  ///< relative difference that is drawn in full colour
+constexpr double kTargetReached = 0.01;        ///< a target nearer than this counts as reached
 
 /// One variant: its checks by entry.
-struct Row {
+struct MatrixRow {
   const Run* run;
   std::map<int, const Check*> checks;
   double distance = 0;  ///< root mean square of the relative differences
@@ -25,9 +26,9 @@ struct Row {
 
 /// All variants that make one check. Another check may compare the same entries with other ones of
 /// the same reference.
-struct Subject {
+struct MatrixSubject {
   std::string reference, quantity, check;
-  std::vector<Row> rows;
+  std::vector<MatrixRow> rows;
   std::map<int, double> targets;
 };
 
@@ -37,18 +38,18 @@ bool belongs(const Check& check) {
          check.verdict != Verdict::error && check.verdict != Verdict::not_run;
 }
 
-std::vector<Subject> subjects(const Family& family) {
-  std::vector<Subject> out;
+std::vector<MatrixSubject> subjects(const Family& family) {
+  std::vector<MatrixSubject> out;
   for (const Run* run : family.runs) {
     for (const Check& check : run->checks) {
       if (!belongs(check)) continue;
-      auto subject = std::find_if(out.begin(), out.end(), [&](const Subject& s) {
+      auto subject = std::find_if(out.begin(), out.end(), [&](const MatrixSubject& s) {
         return s.reference == check.reference && s.quantity == check.quantity &&
                s.check == check.name;
       });
       if (subject == out.end())
-        subject =
-            out.insert(out.end(), Subject{check.reference, check.quantity, check.name, {}, {}});
+        subject = out.insert(out.end(),
+                             MatrixSubject{check.reference, check.quantity, check.name, {}, {}});
       if (subject->rows.empty() || subject->rows.back().run != run)
         subject->rows.push_back({run, {}, 0});
       subject->rows.back().checks[*check.index] = &check;
@@ -59,19 +60,21 @@ std::vector<Subject> subjects(const Family& family) {
 }
 
 /// Whole rows before partial ones, then nearest first.
-void sort_rows(Subject& subject) {
-  for (Row& row : subject.rows) {
+void sort_rows(MatrixSubject& subject) {
+  for (MatrixRow& row : subject.rows) {
     double sum = 0;
     for (const auto& [_, check] : row.checks) sum += *check->difference * *check->difference;
     row.distance = std::sqrt(sum / static_cast<double>(row.checks.size()));
   }
-  std::stable_sort(subject.rows.begin(), subject.rows.end(), [](const Row& a, const Row& b) {
-    if (a.checks.size() != b.checks.size()) return a.checks.size() > b.checks.size();
-    return a.distance < b.distance;
-  });
+  std::stable_sort(subject.rows.begin(), subject.rows.end(),
+                   [](const MatrixRow& a, const MatrixRow& b) {
+                     if (a.checks.size() != b.checks.size())
+                       return a.checks.size() > b.checks.size();
+                     return a.distance < b.distance;
+                   });
 }
 
-std::string row_title(const Family& family, const Results& results, const Row& row) {
+std::string row_title(const Family& family, const Results& results, const MatrixRow& row) {
   const CaseInfo& info = results.case_info(row.run->case_id);
   const std::string variant = info.variant_title(row.run->variant);
   return family.cases.size() > 1 ? variant + " – " + family.short_title(info) : variant;
@@ -90,21 +93,21 @@ Data cell_of(const Check* check) {
   return cell;
 }
 
-std::string entry_word(const Subject& subject) {
+std::string entry_word(const MatrixSubject& subject) {
   return subject.quantity.rfind("frequency", 0) == 0 ? "mode" : "entry";
 }
 
 struct Nearest {
   int entry;
   const Check* check;
-  const Row* row;
+  const MatrixRow* row;
 };
 
-std::vector<Nearest> nearest_of(const Subject& subject) {
+std::vector<Nearest> nearest_of(const MatrixSubject& subject) {
   std::vector<Nearest> out;
   for (const auto& [entry, _] : subject.targets) {
     Nearest best{entry, nullptr, nullptr};
-    for (const Row& row : subject.rows) {
+    for (const MatrixRow& row : subject.rows) {
       const auto found = row.checks.find(entry);
       if (found == row.checks.end()) continue;
       if (!best.check || std::abs(*found->second->difference) < std::abs(*best.check->difference))
@@ -116,8 +119,8 @@ std::vector<Nearest> nearest_of(const Subject& subject) {
 }
 
 /// "Nearest as a whole: X (12 % root mean square). No variant comes within 1 % of modes 4 and 6."
-std::string conclusion(const Subject& subject, const Family& family, const Results& results) {
-  const Row& best = subject.rows.front();
+std::string conclusion(const MatrixSubject& subject, const Family& family, const Results& results) {
+  const MatrixRow& best = subject.rows.front();
   std::string text = "Nearest as a whole: " + row_title(family, results, best) +
                      ", with a root mean square difference of " +
                      relative(best.distance, 2, false) + " over " +
@@ -135,7 +138,7 @@ std::string conclusion(const Subject& subject, const Family& family, const Resul
          (n == 1 ? " " : "s ") + missed + ".";
 }
 
-Data matrix_of(const Subject& subject, const Family& family, const Results& results) {
+Data matrix_of(const MatrixSubject& subject, const Family& family, const Results& results) {
   const Reference* reference = results.reference(subject.reference);
   const Quantity quantity = parse_quantity(subject.quantity);
   Data matrix = object();
@@ -156,9 +159,11 @@ Data matrix_of(const Subject& subject, const Family& family, const Results& resu
 
   Data rows = list();
   Data folded = list();
-  const std::size_t shown = subject.rows.size() > kMaxUnfoldedRows + 3 ? kMaxUnfoldedRows : subject.rows.size();
+  const std::size_t shown = subject.rows.size() > kMaxUnfoldedMatrixRows + 3
+                                ? kMaxUnfoldedMatrixRows
+                                : subject.rows.size();
   const std::size_t whole = subject.rows.front().checks.size();
-  for (const Row& row : subject.rows) {
+  for (const MatrixRow& row : subject.rows) {
     Data data = object();
     data.set("title", row_title(family, results, row));
     data.set("distance", relative(row.distance, 2, false));
@@ -188,9 +193,9 @@ Data matrix_of(const Subject& subject, const Family& family, const Results& resu
   return matrix;
 }
 
-std::vector<Subject> compared(const Family& family) {
-  std::vector<Subject> out;
-  for (Subject& subject : subjects(family)) {
+std::vector<MatrixSubject> compared(const Family& family) {
+  std::vector<MatrixSubject> out;
+  for (MatrixSubject& subject : subjects(family)) {
     if (subject.rows.size() < kMinRows || subject.targets.size() < kMinColumns ||
         subject.targets.size() > kMaxColumns)
       continue;
@@ -204,14 +209,14 @@ std::vector<Subject> compared(const Family& family) {
 
 Data comparison_matrices(const Family& family, const Results& results) {
   Data matrices = list();
-  for (const Subject& subject : compared(family))
+  for (const MatrixSubject& subject : compared(family))
     matrices.push_back(matrix_of(subject, family, results));
   return matrices;
 }
 
 std::string comparison_conclusion(const Family& family, const Results& results,
                                   const Check& check) {
-  for (const Subject& subject : compared(family))
+  for (const MatrixSubject& subject : compared(family))
     if (subject.reference == check.reference && subject.check == check.name)
       return conclusion(subject, family, results);
   return "";

@@ -2,16 +2,16 @@
 #include <cmath>
 #include <limits>
 
+#include "reports/page/sections.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/page/sections.h"
 
 namespace trammel::reports {
 
 namespace {
 
 constexpr double kOrderTolerance = 0.1;
-constexpr std::size_t kMaxUnfoldedRows = 24;  ///< rows of a family's table that is not folded
+constexpr std::size_t kMaxUnfoldedOrders = 24;  ///< rows of a family's table that is not folded
 
 /// How many bands hold the exact value, and how wide they are for the error that there is.
 struct GciCoverage {
@@ -61,17 +61,17 @@ struct Range {
 };
 
 /// Entries of one quantity along one sweep of one run.
-struct Row {
+struct OrderRow {
   const Run* run;
   std::vector<const Convergence*> entries;
 
   [[nodiscard]] const Convergence& front() const { return *entries.front(); }
 };
 
-std::vector<Row> rows_of(const Run& run) {
-  std::vector<Row> rows;
+std::vector<OrderRow> rows_of(const Run& run) {
+  std::vector<OrderRow> rows;
   for (const Convergence& c : run.convergence) {
-    const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const OrderRow& row) {
       return row.front().sweep == c.sweep && row.front().quantity == c.quantity;
     });
     if (same == rows.end()) {
@@ -102,7 +102,7 @@ struct Findings {
   GciCoverage coverage;
 };
 
-Findings summarise(const Row& row) {
+Findings summarise(const OrderRow& row) {
   Findings found;
   for (const Convergence* c : row.entries) {
     found.order.add(c->lower_order ? std::nullopt : c->fitted_order);
@@ -132,7 +132,7 @@ std::string observed_text(const Findings& found) {
   return found.order.text(3);
 }
 
-Data data_of(const Row& row, const Findings& found, const CaseInfo& info) {
+Data data_of(const OrderRow& row, const Findings& found, const CaseInfo& info) {
   const Quantity quantity = parse_quantity(row.front().quantity);
   Data data = object();
   data.set("quantity", to_text(quantity));
@@ -144,9 +144,9 @@ Data data_of(const Row& row, const Findings& found, const CaseInfo& info) {
   data.set("error", significant(found.first, 2) + " to " + significant(found.last, 2));
   data.set("off", found.off < 0 ? "–" : significant(found.off, 2));
   const bool counted = found.coverage.levels > 0;
-  data.set("hits",
-           counted ? std::to_string(found.coverage.hits) + " of " + std::to_string(found.coverage.levels)
-                   : "–");
+  data.set("hits", counted ? std::to_string(found.coverage.hits) + " of " +
+                                 std::to_string(found.coverage.levels)
+                           : "–");
   data.set("ratio", or_dash(found.coverage.median(), 3));
   return data;
 }
@@ -184,7 +184,7 @@ Data family_of(const Family& family, Totals& totals) {
     Data rows = list();
     bool any = false;
     for (const Run* run : family.runs_of(info->id)) {
-      for (const Row& row : rows_of(*run)) {
+      for (const OrderRow& row : rows_of(*run)) {
         const Findings found = summarise(row);
         rows.push_back(data_of(row, found, *info));
         any = true;
@@ -207,7 +207,7 @@ Data family_of(const Family& family, Totals& totals) {
   data.set("cases", cases);
   data.set("words", orders_text(totals) + " " + coverage_text(totals.coverage));
   data.set("folded_title", count(totals.rows, "row"));
-  set_flag(data, "open", totals.rows <= kMaxUnfoldedRows);
+  set_flag(data, "open", totals.rows <= kMaxUnfoldedOrders);
   return data;
 }
 
@@ -237,13 +237,13 @@ Data orders_section(const Results& results, const std::vector<Family>& families)
         "the exact value on " +
         std::to_string(found.covered) + " of " + std::to_string(found.levels) + " levels (" +
         relative(rate, 3, false) + ")";
-    if (found.kMinHitRate)
-      text += "; " + relative(*found.kMinHitRate, 3, false) + " is asked for";
+    if (found.min_coverage)
+      text += "; " + relative(*found.min_coverage, 3, false) + " is asked for";
     if (found.median_ratio)
       text += ". In the median it is " + trimmed(*found.median_ratio, 3) + " times the true error";
-    if (found.kMaxMedianRatio)
-      text += "; more than " + trimmed(*found.kMaxMedianRatio, 3) +
-               " would be a band that is right because it is wide";
+    if (found.max_median_ratio)
+      text += "; more than " + trimmed(*found.max_median_ratio, 3) +
+              " would be a band that is right because it is wide";
     text += ".";
   }
   set_text(section, "bands", text);

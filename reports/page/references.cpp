@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <set>
 
+#include "reports/page/sections.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/page/sections.h"
 
 namespace trammel::reports {
 
@@ -100,7 +100,8 @@ Data provenance(const Reference& reference, const Results& results) {
 
 Data references_section(const Results& results) {
   Data out = list();
-  for (const Reference& reference : results.references) out.push_back(provenance(reference, results));
+  for (const Reference& reference : results.references)
+    out.push_back(provenance(reference, results));
   return out;
 }
 

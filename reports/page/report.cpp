@@ -2,13 +2,13 @@
 
 #include <stdexcept>
 
-#include "reports/text/files.h"
 #include "reports/page/gallery.h"
-#include "reports/text/html.h"
 #include "reports/page/sections.h"
+#include "reports/text/files.h"
+#include "reports/text/html.h"
 #include "reports/text/templates.h"
 
-namespace trammel {
+namespace trammel::reports {
 
 namespace {
 
@@ -20,9 +20,10 @@ constexpr const char* kGenerator = R"(<meta name="generator" content="trammel">)
 Data page_data(const Results& results, const std::vector<Family>& families,
                const std::vector<CostPanel>& panels) {
   Data page = object();
-  for (const char* name : {"summary", "claims", "family", "case", "variants", "figure", "checks",
-                           "matrix", "cost", "battery", "targets", "orders", "noise", "references",
-                           "counts", "rows", "head", "matrix_row", "cell"})
+  for (const char* name :
+       {"summary", "claims", "family", "case", "variants", "figure", "checks", "matrix", "cost",
+        "stress_suite", "targets", "orders", "validation_uncertainty", "references", "counts",
+        "rows", "head", "matrix_row", "cell"})
     page.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -36,8 +37,8 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   const Data orders = orders_section(results, families);
   const Data uncertainty = validation_uncertainty_section(results, families);
   std::vector<SectionSummary> summaries;
-  const auto add_summary = [&](const std::string& title, const std::string& anchor, const Data& section,
-                          const char* key) {
+  const auto add_summary = [&](const std::string& title, const std::string& anchor,
+                               const Data& section, const char* key) {
     const Data* words = section.get(key);
     const Data* rows = section.get("has_rows");
     if (words != nullptr && words->is_string() && (rows == nullptr || rows->is_true()))
@@ -45,18 +46,18 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   };
   add_summary("The paper's claims", "claims", claims, "overview");
   add_summary("What accuracy costs", "cost", cost, "words");
-  add_summary("The battery of hard cases", "battery", stress_suite, "words");
+  add_summary("The stress suite", "stress-suite", stress_suite, "words");
   add_summary("Published targets", "targets", targets, "words");
   add_summary("Orders and bands", "orders", orders, "words");
-  add_summary("Difference and noise", "noise", uncertainty, "words");
+  add_summary("Validation uncertainty", "validation-uncertainty", uncertainty, "words");
   page.set("summary", summary_section(results, families, summaries));
   page.set("claims", claims);
   set_flag(page, "has_claims", results.claims.has_value());
   page.set("cost", cost);
-  page.set("battery", stress_suite);
+  page.set("stress_suite", stress_suite);
   page.set("targets", targets);
   page.set("orders", orders);
-  page.set("noise", uncertainty);
+  page.set("validation_uncertainty", uncertainty);
   Data family_list = list();
   for (const Family& family : families) family_list.push_back(family_section(family, results));
   page.set("families", family_list);
@@ -115,4 +116,4 @@ fs::path write_report(const fs::path& results_json, const fs::path& out) {
   return page;
 }
 
-}  // namespace trammel
+}  // namespace trammel::reports

@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-namespace trammel {
+namespace trammel::reports {
 
 /// Writes `index.html` with its figures (SVG) and their data (CSV) into `out`, from a results file
 /// alone. @returns the page's path. @throws std::runtime_error on an unreadable results file.
 std::filesystem::path write_report(const std::filesystem::path& results_json,
                                    const std::filesystem::path& out);
 
-}  // namespace trammel
+}  // namespace trammel::reports

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "reports/data/check_status.h"
+#include "reports/data/results.h"
 #include "reports/page/check_status_data.h"
 #include "reports/page/gallery.h"
 #include "reports/text/html.h"
-#include "reports/data/results.h"
-#include "reports/data/check_status.h"
 
 namespace trammel::reports {
 
@@ -61,7 +61,8 @@ void set_effects(Data& data, const std::vector<const Run*>& runs);
 [[nodiscard]] Data orders_section(const Results& results, const std::vector<Family>& families);
 
 /// Differences from the paper beside the noise that they stand against, after ASME V&V 20.
-[[nodiscard]] Data validation_uncertainty_section(const Results& results, const std::vector<Family>& families);
+[[nodiscard]] Data validation_uncertainty_section(const Results& results,
+                                                  const std::vector<Family>& families);
 
 /// A study of what accuracy costs with its figure.
 struct CostPanel {

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "reports/data/check_text.h"
-#include "reports/text/number.h"
 #include "reports/page/sections.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -80,9 +80,9 @@ Data missing_row(const std::string& check) {
 Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
   Data pictures = list();
   for (const PlotRequest& request : info.figures) {
-    const auto figure =
-        std::find_if(gallery.shown.begin(), gallery.shown.end(),
-                     [&](const Figure& figure) { return figure.id == slug(info.id + "-" + request.id); });
+    const auto figure = std::find_if(
+        gallery.shown.begin(), gallery.shown.end(),
+        [&](const Figure& drawn) { return drawn.id == slug(info.id + "-" + request.id); });
     if (figure == gallery.shown.end()) continue;
     Data picture = object();
     picture.set("id", figure->id);
@@ -122,8 +122,9 @@ std::string text_of(const Counts& counts, std::size_t items, std::size_t cases) 
                      count(total(counts), "indicator") + ":";
   for (const CheckStatus status : kAllCheckStatuses) {
     if (count_of(counts, status) == 0) continue;
-    text += (text.back() == ':' ? " " : ", ") + std::to_string(count_of(counts, status)) + " " +
-            (status == CheckStatus::passes && count_of(counts, status) > 1 ? "hold" : to_text(status));
+    text +=
+        (text.back() == ':' ? " " : ", ") + std::to_string(count_of(counts, status)) + " " +
+        (status == CheckStatus::passes && count_of(counts, status) > 1 ? "hold" : to_text(status));
   }
   return text + ".";
 }
@@ -149,7 +150,8 @@ Data stress_suite_section(const std::vector<Family>& families) {
   section.set("words", text_of(counts, items.size(), cases.size()));
   std::string missing_items;
   for (int item = 1; !items.empty() && item < *items.rbegin(); ++item) {
-    if (!items.contains(item)) missing_items += (missing_items.empty() ? "" : ", ") + std::to_string(item);
+    if (!items.contains(item))
+      missing_items += (missing_items.empty() ? "" : ", ") + std::to_string(item);
   }
   set_text(section, "gaps", missing_items);
   return section;

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "reports/data/check_text.h"
-#include "reports/text/number.h"
 #include "reports/page/sections.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -133,7 +133,7 @@ void add(KnownDiscrepancy& known, const Run& run, const Check& check, const Case
 }
 
 std::vector<KnownDiscrepancy> known_discrepancies(const Results& results,
-                                       const std::vector<Family>& families) {
+                                                  const std::vector<Family>& families) {
   std::vector<KnownDiscrepancy> out;
   for (const Family& family : families) {
     for (const Run* run : family.runs) {
@@ -219,7 +219,7 @@ Data known_data(const KnownDiscrepancy& known, const Results& results) {
   const bool single_reason = known.reasons.size() == 1;
   set_text(data, "reason",
            single_reason ? known.reasons.front().text
-               : comparison_conclusion(*known.family, results, *known.first));
+                         : comparison_conclusion(*known.family, results, *known.first));
   set_text(data, "reasons_title", single_reason ? "" : count(known.reasons.size(), "reason"));
   data.set("reasons", single_reason ? list() : reasons_data(known, results));
   return data;
@@ -267,12 +267,13 @@ std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
   if (fails > 0) add_part(count(fails, "check fails", "checks fail"));
   if (errors > 0) add_part(std::to_string(errors) + " could not be judged");
   if (unexpected_endings > 0)
-    add_part(count(unexpected_endings, "run did not end as expected", "runs did not end as expected"));
+    add_part(
+        count(unexpected_endings, "run did not end as expected", "runs did not end as expected"));
   return text.empty() ? "Every gate holds." : text + ".";
 }
 
 std::string overview_text(const Results& results, const std::vector<Family>& families,
-                           const Counts& counts) {
+                          const Counts& counts) {
   std::size_t cases = 0;
   for (const Family& family : families) cases += family.cases.size();
   std::string text = count(cases, "case") + " in " + count(families.size(), "family", "families") +

@@ -2,15 +2,15 @@
 #include <cmath>
 
 #include "reports/data/check_text.h"
-#include "reports/text/number.h"
 #include "reports/page/sections.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxUnfoldedRows = 16;  ///< rows of a case shown without folding
-constexpr std::size_t kMaxEntries = 12;    ///< entries of one check shown one by one
+constexpr std::size_t kMaxUnfoldedChecks = 16;  ///< rows of a case shown without folding
+constexpr std::size_t kMaxEntries = 12;         ///< entries of one check shown one by one
 
 /// The cells of one check; the first of its group carries what the group has in common.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
@@ -172,7 +172,7 @@ Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
   std::size_t checks = 0;
   for (const Run* run : runs) checks += run->checks.size();
   set_flag(tables, "has_checks", checks > 0);
-  const bool few = rows_in(runs) <= kMaxUnfoldedRows;
+  const bool few = rows_in(runs) <= kMaxUnfoldedChecks;
   tables.set("runs", few ? full_table(info, runs, results) : worst_table(info, runs, results));
   set_flag(tables, "has_folded", !few);
   if (few) return tables;

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "reports/data/check_text.h"
+#include "reports/page/sections.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/page/sections.h"
 
 namespace trammel::reports {
 

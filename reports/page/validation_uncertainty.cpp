@@ -3,40 +3,40 @@
 #include <cmath>
 #include <map>
 
+#include "reports/page/sections.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/page/sections.h"
 
 namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxUnfoldedRows = 8;
+constexpr std::size_t kMaxUnfoldedComparisons = 8;
 constexpr double kFullColourDifference = 0.4;  ///< relative difference that is drawn in full colour
 
 /// One variant in one check.
-struct Row {
+struct ComparisonRow {
   const Run* run;
   std::map<int, const Comparison*> entries;
 };
 
 /// One check, which may compare entries of a reference in another order than another check.
-struct Subject {
+struct ComparisonSubject {
   const CaseInfo* info;
   std::string reference, quantity, check;
-  std::vector<Row> rows;
+  std::vector<ComparisonRow> rows;
   std::map<int, double> targets;
 };
 
-void add_run(const Run& run, const CaseInfo& info, std::vector<Subject>& subjects) {
+void add_run(const Run& run, const CaseInfo& info, std::vector<ComparisonSubject>& subjects) {
   for (const Comparison& c : run.comparisons) {
     if (!c.expected || *c.expected == 0 || !c.difference || !c.u_val) continue;
-    auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const Subject& s) {
+    auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const ComparisonSubject& s) {
       return s.info == &info && s.reference == c.reference && s.check == c.check;
     });
     if (subject == subjects.end())
-      subject =
-          subjects.insert(subjects.end(), Subject{&info, c.reference, c.quantity, c.check, {}, {}});
+      subject = subjects.insert(subjects.end(),
+                                ComparisonSubject{&info, c.reference, c.quantity, c.check, {}, {}});
     if (subject->rows.empty() || subject->rows.back().run != &run)
       subject->rows.push_back({&run, {}});
     subject->rows.back().entries[c.index] = &c;
@@ -49,7 +49,7 @@ struct Tally {
   std::map<std::string, std::size_t> verdict, dominant;
   std::size_t entries = 0;
 
-  void add(const Row& row) {
+  void add(const ComparisonRow& row) {
     for (const auto& [_, c] : row.entries) {
       ++entries;
       ++verdict[c->verdict];
@@ -90,7 +90,7 @@ std::string dominant_text(const Tally& counts) {
 }
 
 /// The inputs that dominate a row, each with its modes' largest share.
-std::string dominant_text(const Row& row) {
+std::string dominant_text(const ComparisonRow& row) {
   std::map<std::string, Number> shares;
   for (const auto& [_, c] : row.entries) {
     if (c->dominant_input.empty()) continue;
@@ -116,12 +116,13 @@ Data cell_of(const Comparison* c) {
   cell.set("side", difference < 0 ? "below" : "above");
   cell.set("depth", trimmed(std::min(1.0, std::abs(difference) / kFullColourDifference), 2));
   std::string words = c->conclusion;
-  if (!c->all_inputs_conclusion.empty()) words += " Lengths read literally: " + c->all_inputs_conclusion;
+  if (!c->all_inputs_conclusion.empty())
+    words += " Lengths read literally: " + c->all_inputs_conclusion;
   set_text(cell, "words", words);
   return cell;
 }
 
-Data row_of(const Row& row, const Subject& subject) {
+Data row_of(const ComparisonRow& row, const ComparisonSubject& subject) {
   Data data = object();
   data.set("title", subject.info->variant_title(row.run->variant));
   Data cells = list();
@@ -134,7 +135,7 @@ Data row_of(const Row& row, const Subject& subject) {
   return data;
 }
 
-Data table_of(const Subject& subject, bool is_only, const Results& results) {
+Data table_of(const ComparisonSubject& subject, bool is_only, const Results& results) {
   const Reference* reference = results.reference(subject.reference);
   Data table = object();
   table.set("title", reference ? reference->title : subject.reference);
@@ -154,7 +155,9 @@ Data table_of(const Subject& subject, bool is_only, const Results& results) {
   table.set("columns", columns);
   Tally counts;
   Data rows = list(), folded = list();
-  const std::size_t shown = subject.rows.size() > kMaxUnfoldedRows + 3 ? kMaxUnfoldedRows : subject.rows.size();
+  const std::size_t shown = subject.rows.size() > kMaxUnfoldedComparisons + 3
+                                ? kMaxUnfoldedComparisons
+                                : subject.rows.size();
   for (std::size_t i = 0; i < subject.rows.size(); ++i) {
     counts.add(subject.rows[i]);
     (i < shown ? rows : folded).push_back(row_of(subject.rows[i], subject));
@@ -172,18 +175,19 @@ Data table_of(const Subject& subject, bool is_only, const Results& results) {
 }  // namespace
 
 Data validation_uncertainty_section(const Results& results, const std::vector<Family>& families) {
-  std::vector<Subject> subjects;
+  std::vector<ComparisonSubject> subjects;
   for (const Family& family : families)
     for (const CaseInfo* info : family.cases)
       for (const Run* run : family.runs_of(info->id)) add_run(*run, *info, subjects);
   Tally all;
   Data section = object();
   Data tables = list();
-  for (const Subject& subject : subjects) {
-    for (const Row& row : subject.rows) all.add(row);
-    const auto same = std::count_if(subjects.begin(), subjects.end(), [&](const Subject& other) {
-      return other.info == subject.info && other.reference == subject.reference;
-    });
+  for (const ComparisonSubject& subject : subjects) {
+    for (const ComparisonRow& row : subject.rows) all.add(row);
+    const auto same =
+        std::count_if(subjects.begin(), subjects.end(), [&](const ComparisonSubject& other) {
+          return other.info == subject.info && other.reference == subject.reference;
+        });
     tables.push_back(table_of(subject, same == 1, results));
   }
   set_flag(section, "has_rows", !subjects.empty());

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "reports/text/number.h"
 #include "reports/page/sections.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 

@@ -1,18 +1,18 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/elements/edge_load.h"
 #include "solver/assembly/element_mass.h"
 #include "solver/assembly/inertia.h"
-#include "solver/model/plane.h"
 #include "solver/assembly/projection.h"
+#include "solver/assembly/restrict_model_effects.h"
 #include "solver/assembly/strain.h"
-#include "solver/linalg/symmetric_builder.h"
 #include "solver/assembly/system.h"
 #include "solver/assembly/validate.h"
-#include "solver/assembly/restrict_model_effects.h"
+#include "solver/elements/edge_load.h"
+#include "solver/linalg/symmetric_builder.h"
+#include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// Free coordinates that carry nothing keep their place on the diagonal.
@@ -220,4 +220,4 @@ Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q) {
   return mesh_motion(system, q).topRows(static_cast<Index>(system.model.nodes.size()));
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

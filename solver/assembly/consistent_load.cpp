@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "solver/elements/frame_element.h"
-#include "solver/model/quadrature.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/model/quadrature.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 const Plate& plate_of(const System& system, const Triangle& triangle) {
@@ -125,4 +125,4 @@ void add_line_load(System& system, const LineLoad& load) {
   project(system);
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 
 /// Loads given as functions of position, turned into consistent nodal forces (integral of N^T load)
 /// by quadrature and added to the system's `load` and `f`.
-namespace trammel {
+namespace trammel::solver {
 
 /// World point [m] -> force per volume [N/m^3].
 using BodyForce = std::function<Vector2d(const Vector2d&)>;
@@ -27,4 +27,4 @@ void add_edge_traction(System& system, const Traction& traction);
 /// On all frame elements that bend.
 void add_line_load(System& system, const LineLoad& load);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -7,7 +7,7 @@
 
 #include "solver/model/labels.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Terms = std::vector<std::pair<Index, double>>;
@@ -275,7 +275,8 @@ Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
   std::vector<Index> number_of_pivot(static_cast<std::size_t>(T.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pivot[i] < 0 || rows[i].source == ConstraintRow::Source::support) continue;
-    number_of_pivot[static_cast<std::size_t>(pivot[i])] = static_cast<Index>(independent_rows.size());
+    number_of_pivot[static_cast<std::size_t>(pivot[i])] =
+        static_cast<Index>(independent_rows.size());
     independent_rows.push_back(static_cast<Index>(i));
   }
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Index>(rows.size()));
@@ -309,4 +310,4 @@ Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
   return lambda;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

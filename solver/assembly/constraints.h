@@ -7,7 +7,7 @@
 
 #include "solver/assembly/coordinates.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// One homogeneous sum over unconstrained coordinates: sum of coefficient * u = 0.
 struct ConstraintRow {
@@ -36,4 +36,4 @@ struct Constraints {
 /// @throws ModelError  where a constraint names a coordinate that does not exist.
 [[nodiscard]] Constraints constrain(const Model& model, const Discretisation& discretisation);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,7 +3,7 @@
 #include "solver/elements/frame_element.h"
 #include "solver/model/labels.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 bool turns_with_node(const MemberEnd& end) {
@@ -137,4 +137,4 @@ Discretisation discretise(const Model& model) {
   return Discretiser(model).run();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// A member's element: one equal part of it, between two nodes of the mesh.
 struct FrameElement {
@@ -61,4 +61,4 @@ struct Discretisation {
 /// Cuts the members and numbers the coordinates. The model has passed `validate`.
 [[nodiscard]] Discretisation discretise(const Model& model);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace trammel {
+namespace trammel::solver {
 
 RayleighDamping rayleigh_through(double omega_1, double ratio_1, double omega_2, double ratio_2) {
   if (!(omega_1 > 0 && omega_2 > 0 && omega_1 != omega_2)) {
@@ -48,4 +48,4 @@ SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& 
   return sparse;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 #include "solver/assembly/system.h"
 
 /// Viscous damping: what its numbers mean, and its matrix.
-namespace trammel {
+namespace trammel::solver {
 
 /// C = mass * M + stiffness * K (paper Eq. 19, where they are w1 and w2).
 struct RayleighDamping {
@@ -47,4 +47,4 @@ struct OverdampedRange {
                                                 const Eigen::MatrixXd& shape,
                                                 const Eigen::VectorXd& ratio);
 
-}  // namespace trammel
+}  // namespace trammel::solver

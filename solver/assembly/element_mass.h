@@ -1,12 +1,12 @@
 #pragma once
 
-#include "solver/elements/frame_element.h"
-#include "solver/model/quadrature.h"
 #include "solver/assembly/system.h"
+#include "solver/elements/frame_element.h"
 #include "solver/elements/triangle6_element.h"
 #include "solver/elements/triangle_element.h"
+#include "solver/model/quadrature.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Mass of a frame element in world axes.
 [[nodiscard]] inline Matrix6d world_mass(const FrameElement& e, const Member& member) {
@@ -30,4 +30,4 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

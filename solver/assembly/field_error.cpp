@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/model/quadrature.h"
 #include "solver/assembly/strain.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/model/quadrature.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// Squares of an error and of the exact field, summed up over quadrature points.
@@ -173,4 +173,4 @@ BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q, const Bea
   return norms.errors();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

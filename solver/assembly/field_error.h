@@ -7,7 +7,7 @@
 /// How far a discrete solution is from a field that is known at every point: norms over the
 /// elements' interpolation, by quadrature. All errors are relative to the same norm of the exact
 /// field.
-namespace trammel {
+namespace trammel::solver {
 
 struct MembraneFieldPoint {
   Vector2d displacement = Vector2d::Zero();  ///< [m]
@@ -62,4 +62,4 @@ struct BeamErrors {
 [[nodiscard]] BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q,
                                      const BeamField& exact);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,7 +2,7 @@
 
 #include "solver/assembly/strain.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(a.size());
@@ -15,4 +15,4 @@ Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a) {
   return force;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 #include "solver/assembly/element_mass.h"
 
 /// What has mass, on the unconstrained coordinates u, without an assembled mass matrix.
-namespace trammel {
+namespace trammel::solver {
 
 /// Mass matrix of a point mass on (x, y, rotation) of its node; the inertia is about its own
 /// centre, which sits at `offset` from the node [m, world axes].
@@ -47,4 +47,4 @@ void for_each_inertia(const System& system, Visit&& visit) {
 /// M a on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 #include "solver/assembly/projection.h"
 #include "solver/elements/triangle_interpolation.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -33,8 +33,9 @@ struct PlateGeometricStiffness {
 };
 
 template <int n>
-PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation& at, const Eigen::RowVector3d& stress,
-                              double volume) {
+PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation& at,
+                                                     const Eigen::RowVector3d& stress,
+                                                     double volume) {
   Eigen::Matrix2d tensor;
   tensor << stress[0], stress[2], stress[2], stress[1];
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(tensor);
@@ -84,12 +85,14 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     if (state.arm_moment[static_cast<Index>(i)] == 0) continue;
     const Index rotation = system.constraints.rows[i].terms[2].first;
-    visit(std::array<Index, 1>{rotation}, Matrix1d(1), Matrix1d(state.arm_moment[static_cast<Index>(i)]));
+    visit(std::array<Index, 1>{rotation}, Matrix1d(1),
+          Matrix1d(state.arm_moment[static_cast<Index>(i)]));
   }
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     if (state.offset_moment[static_cast<Index>(i)] == 0) continue;
     const auto& node = system.coordinates.node[static_cast<std::size_t>(model.masses[i].node)];
-    visit(std::array<Index, 1>{node[2]}, Matrix1d(1), Matrix1d(state.offset_moment[static_cast<Index>(i)]));
+    visit(std::array<Index, 1>{node[2]}, Matrix1d(1),
+          Matrix1d(state.offset_moment[static_cast<Index>(i)]));
   }
 }
 
@@ -149,7 +152,8 @@ BodyForces body_forces(const System& system) {
     const Vector2d& load = model.members[static_cast<std::size_t>(e.member)].load;
     body.element.emplace_back(load + e.section.mass_per_length * model.gravity);
   }
-  for (const PointMass& point_mass : model.masses) body.point_mass.emplace_back(point_mass.mass * model.gravity);
+  for (const PointMass& point_mass : model.masses)
+    body.point_mass.emplace_back(point_mass.mass * model.gravity);
   return body;
 }
 
@@ -177,13 +181,15 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
   state.axial_variation.resize(state.axial.size());
   for (Index i = 0; i < state.axial_variation.size(); ++i) {
     const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
-    state.axial_variation[i] = -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
+    state.axial_variation[i] =
+        -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
   }
   state.stress = centroid_stress(system, u);
   state.arm_moment = arm_moments(system, multipliers);
   state.offset_moment.setZero(static_cast<Index>(system.model.masses.size()));
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
-    state.offset_moment[static_cast<Index>(i)] = body.point_mass[i].dot(system.model.masses[i].offset);
+    state.offset_moment[static_cast<Index>(i)] =
+        body.point_mass[i].dot(system.model.masses[i].offset);
   }
   return state;
 }
@@ -191,28 +197,31 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
 SparseMatrix geometric_stiffness(const System& system, const Prestress& state) {
   SymmetricBuilder builder(system.constraints.free_count);
   Projection projection(system.constraints, builder);
-  for_each_geometric_stiffness(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
-    projection.add(coordinates, (B.transpose() * H * B).eval());
-  });
+  for_each_geometric_stiffness(system, state,
+                               [&](const auto& coordinates, const auto& B, const auto& H) {
+                                 projection.add(coordinates, (B.transpose() * H * B).eval());
+                               });
   return builder.build();
 }
 
-VectorXd geometric_stiffness_forces(const System& system, const Prestress& state, const VectorXd& u) {
+VectorXd geometric_stiffness_forces(const System& system, const Prestress& state,
+                                    const VectorXd& u) {
   VectorXd force = VectorXd::Zero(u.size());
-  for_each_geometric_stiffness(system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
-    const auto local = (B.transpose() * (H * (B * detail::gather(coordinates, u)))).eval();
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
-    }
-  });
+  for_each_geometric_stiffness(
+      system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
+        const auto local = (B.transpose() * (H * (B * detail::gather(coordinates, u)))).eval();
+        for (std::size_t i = 0; i < coordinates.size(); ++i) {
+          if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
+        }
+      });
   return force;
 }
 
-Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory, double axial, double axial_variation,
-                        const Vector6d& u) {
+Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory, double axial,
+                                    double axial_variation, const Vector6d& u) {
   const Vector3d d = frame_chord_rotation_and_bending(element.direction, element.length) * u;
   return frame_chord_rotation_and_bending(Vector2d::UnitX(), element.length).transpose() *
          (geometric_rigidity(element, theory, axial, axial_variation) * d);
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -9,21 +9,22 @@
 /// Geometric stiffness: how the forces of a state act on small further motions. The loads keep
 /// their direction and the geometry is the undeformed one (second-order theory). Like the elastic
 /// stiffness it is a sum of B^T H B over a few motions of each element.
-namespace trammel {
+namespace trammel::solver {
 
 /// The forces of a state.
 struct Prestress {
-  Eigen::VectorXd axial;    ///< frame element: mean axial force, tension positive [N]
-  Eigen::VectorXd axial_variation;   ///< frame element: axial force at its second end less the first's [N]
+  Eigen::VectorXd axial;  ///< frame element: mean axial force, tension positive [N]
+  Eigen::VectorXd
+      axial_variation;      ///< frame element: axial force at its second end less the first's [N]
   Eigen::MatrixX3d stress;  ///< triangle: (sxx, syy, sxy) at its centroid [Pa]
-  Eigen::VectorXd arm_moment;      ///< constraint row: force on a rigid body's arm times the arm [N m]
-  Eigen::VectorXd offset_moment;   ///< point mass: force on its centre times its offset [N m]
+  Eigen::VectorXd arm_moment;  ///< constraint row: force on a rigid body's arm times the arm [N m]
+  Eigen::VectorXd offset_moment;  ///< point mass: force on its centre times its offset [N m]
 };
 
 /// What acts on masses: the model's gravity, and more (the centrifugal forces of a rotating frame).
 struct BodyForces {
-  std::vector<Vector2d> element;  ///< per length of each frame element, loads included [N/m]
-  std::vector<Vector2d> point_mass;     ///< on the centre of each point mass [N]
+  std::vector<Vector2d> element;     ///< per length of each frame element, loads included [N/m]
+  std::vector<Vector2d> point_mass;  ///< on the centre of each point mass [N]
 };
 
 /// Of the model's own loads and gravity.
@@ -43,16 +44,19 @@ struct BodyForces {
 /// bending s, a of frame_element.h. Over the interpolation of all beam theories
 ///   integral N v'^2 dx = L d^T H d,  H = [N, n/12, 0; n/12, N/12, g n/60; 0, g n/60, g^2 N/20]
 /// with g = 1 / (1 + Phi), N the mean force and n its growth along the element, linear.
-[[nodiscard]] FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction, double length);
+[[nodiscard]] FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction,
+                                                                double length);
 
 [[nodiscard]] SparseMatrix geometric_stiffness(const System& system, const Prestress& state);
 
 /// The geometric stiffness times u, on the unconstrained coordinates.
-[[nodiscard]] Eigen::VectorXd geometric_stiffness_forces(const System& system, const Prestress& state,
-                                             const Eigen::VectorXd& u);
+[[nodiscard]] Eigen::VectorXd geometric_stiffness_forces(const System& system,
+                                                         const Prestress& state,
+                                                         const Eigen::VectorXd& u);
 
 /// The same for one element, in its own axes; u in world axes.
-[[nodiscard]] Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory, double axial,
-                                      double axial_variation, const Vector6d& u);
+[[nodiscard]] Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory,
+                                                  double axial, double axial_variation,
+                                                  const Vector6d& u);
 
-}  // namespace trammel
+}  // namespace trammel::solver

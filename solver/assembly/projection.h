@@ -6,7 +6,7 @@
 #include "solver/assembly/constraints.h"
 #include "solver/linalg/symmetric_builder.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Adds element matrices of unconstrained coordinates to a matrix of free ones, through T's rows.
 class Projection {
@@ -47,4 +47,4 @@ class Projection {
   SymmetricBuilder& builder_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

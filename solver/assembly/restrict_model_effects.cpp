@@ -4,7 +4,7 @@
 
 #include "solver/elements/frame_element.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 bool bends(const Member& member) {
@@ -58,7 +58,8 @@ Effects applicable_effects(const Model& model) {
     if (member.axially_flexible && bends(member)) {
       effects = effects.with(Effect::axial_flexibility);
     }
-    if (has_shear_deformation(member.theory) && bends(member)) effects = effects.with(Effect::shear);
+    if (has_shear_deformation(member.theory) && bends(member))
+      effects = effects.with(Effect::shear);
     const bool turns = has_rotary_inertia(member.theory) && member.section.inertia_per_length > 0;
     if (turns) effects = effects.with(Effect::rotary_inertia);
     if (is_sprung(member)) effects = effects.with(Effect::joint_compliance);
@@ -74,4 +75,4 @@ Model restrict_effects(Model model, Effects active) {
   return model;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

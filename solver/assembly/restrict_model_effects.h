@@ -4,7 +4,7 @@
 #include "solver/model/model.h"
 
 /// Effects are taken out of a model before anything is assembled from it.
-namespace trammel {
+namespace trammel::solver {
 
 /// The effects that the parts have, as they are described. What belongs to an analysis rather than
 /// to parts (inertia, damping, gyroscopic forces, geometric stiffening, large displacement) is not
@@ -14,4 +14,4 @@ namespace trammel {
 /// The model without the effects that are not in `active`.
 [[nodiscard]] Model restrict_effects(Model model, Effects active);
 
-}  // namespace trammel
+}  // namespace trammel::solver

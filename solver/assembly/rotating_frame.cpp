@@ -3,7 +3,7 @@
 #include "solver/assembly/element_mass.h"
 #include "solver/assembly/projection.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -15,7 +15,8 @@ const Eigen::Matrix2d& perpendicular_matrix() {
 
 /// The part of a vector that leads away from the axis.
 Eigen::Matrix2d distance_projector(RotationAxis axis) {
-  return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1).asDiagonal();
+  return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1)
+      .asDiagonal();
 }
 
 /// Translation of a point mass's centre from (x, y, rotation) of its node.
@@ -87,8 +88,8 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
     FrameElement light = e;
     light.section.inertia_per_length = 0;
     const Matrix6d R = frame_rotation(e.direction);
-    const Matrix6d S =
-        axis == RotationAxis::normal ? world_mass(light, member) : frame_centrifugal(light, member, P);
+    const Matrix6d S = axis == RotationAxis::normal ? world_mass(light, member)
+                                                    : frame_centrifugal(light, member, P);
     visit(e.coordinates, S, (R.transpose() * frame_gyroscopic(e, member) * R).eval());
   }
   for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
@@ -161,12 +162,15 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
       if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
     }
   };
-  for_each_rotating_mass(system, frame.axis, [&](const auto& coordinates, const auto& S, const auto&) {
-    add(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval());
-  });
+  for_each_rotating_mass(
+      system, frame.axis, [&](const auto& coordinates, const auto& S, const auto&) {
+        add(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval());
+      });
   for (const PointMass& point_mass : system.model.masses) {  // but for the offset itself
     add(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
-        (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() * P * point_mass.offset).eval());
+        (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() * P *
+         point_mass.offset)
+            .eval());
   }
   return force;
 }
@@ -190,4 +194,4 @@ BodyForces body_forces(const System& system, const RotatingFrame& frame) {
   return body;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -11,7 +11,7 @@
 ///   u.. + 2 W J u. - W^2 (x - c + u),   J = [0 -1; 1 0],
 /// so that M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c. Rotary inertia of sections and
 /// point masses feels neither term.
-namespace trammel {
+namespace trammel::solver {
 
 /// About the normal of the plane, or about an axis in it: then the centrifugal forces pull away
 /// from that axis alone, motion along the axis (the flapping of a blade) is not softened, and the
@@ -25,7 +25,8 @@ struct RotatingFrame {
 };
 
 /// S: the mass of the translations away from the axis, q x q.
-[[nodiscard]] SparseMatrix centrifugal_softening(const System& system, RotationAxis axis = RotationAxis::normal);
+[[nodiscard]] SparseMatrix centrifugal_softening(const System& system,
+                                                 RotationAxis axis = RotationAxis::normal);
 
 /// G = integral rho N^T J N dV, q x q; skew.   Source: Coriolis force on the interpolation.
 [[nodiscard]] SparseMatrix gyroscopic_matrix(const System& system);
@@ -37,4 +38,4 @@ struct RotatingFrame {
 /// The model's own body forces and the centrifugal ones of the undeformed geometry.
 [[nodiscard]] BodyForces body_forces(const System& system, const RotatingFrame& frame);
 
-}  // namespace trammel
+}  // namespace trammel::solver

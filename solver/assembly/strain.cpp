@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace trammel {
+namespace trammel::solver {
 
 Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
@@ -58,4 +58,4 @@ Operator stiffness_operator(const System& system) {
   };
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,17 +3,17 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "solver/elements/frame_element.h"
 #include "solver/assembly/system.h"
-#include "solver/linalg/refinement.h"
+#include "solver/elements/frame_element.h"
 #include "solver/elements/triangle6_element.h"
 #include "solver/elements/triangle_element.h"
+#include "solver/linalg/refinement.h"
 
 /// Strain energy, internal forces and their round-off straight from the elements' deformations
 /// d = B u, without an assembled stiffness: k = B^T C B with C diagonal and positive, so that what
 /// is added up are squares. Bending keeps its digits beside a stiff axial part; a rigid motion
 /// stores no energy but that of its own rounding.
-namespace trammel {
+namespace trammel::solver {
 
 namespace detail {
 
@@ -75,4 +75,4 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// K x from the elements' deformations.
 [[nodiscard]] Operator stiffness_operator(const System& system);
 
-}  // namespace trammel
+}  // namespace trammel::solver

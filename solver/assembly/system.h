@@ -11,7 +11,7 @@
 #include "solver/model/effects.h"
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// A linear spring between two unconstrained coordinates, or from one to the ground (-1).
 struct SpringElement {
@@ -49,4 +49,4 @@ struct System {
 /// The same for every node of the mesh, in the order of `mesh.positions`.
 [[nodiscard]] Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q);
 
-}  // namespace trammel
+}  // namespace trammel::solver

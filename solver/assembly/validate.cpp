@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "solver/elements/frame_element.h"
-#include "solver/model/labels.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/model/labels.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
@@ -199,4 +199,4 @@ void validate(const Model& model) {
   Validator(model).run();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

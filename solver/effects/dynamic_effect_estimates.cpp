@@ -8,10 +8,10 @@
 
 #include "solver/effects/energy_shares.h"
 #include "solver/linalg/factorization.h"
-#include "solver/modes/modes.h"
 #include "solver/manipulator/restrict_design_effects.h"
+#include "solver/modes/modes.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -61,7 +61,8 @@ class PathPose {
     const Outcome outcome = moving_.move_to(
         nominal_motion(options_.design, moving_.start().model, dynamics, start_, point, gravity));
     for (const auto* parts : {&moving_.motion().member, &moving_.motion().rigid_body}) {
-      for (const PartMotion& part : *parts) max_angular_velocity = std::max(max_angular_velocity, std::abs(part.rate));
+      for (const PartMotion& part : *parts)
+        max_angular_velocity = std::max(max_angular_velocity, std::abs(part.rate));
     }
     return outcome;
   }
@@ -178,10 +179,11 @@ class MotionEstimates {
     // What drags is held by the same loads: only displacements change.
     const VectorXd damping_response = solve(damping), inertia_response = solve(inertia);
     record_change(Effect::damping, {translation_of(system, damping_response), 0});
-    record_change(Effect::inertia,
-         {translation_of(system, damping_response + inertia_response), size_of(system, inertia_response).energy});
-    record_change(Effect::gyroscopic, size_of(system, solve(system.gyroscopic_matrix() * v +
-                                                    system.centrifugal_and_euler_matrix() * q)));
+    record_change(Effect::inertia, {translation_of(system, damping_response + inertia_response),
+                                    size_of(system, inertia_response).energy});
+    record_change(Effect::gyroscopic,
+                  size_of(system, solve(system.gyroscopic_matrix() * v +
+                                        system.centrifugal_and_euler_matrix() * q)));
     const double energy = q.dot(K * q);
     const EnergyShares shares(system.start(), q, energy);
     for (const Effect effect : flexibilities()) {
@@ -243,7 +245,8 @@ class MotionEstimates {
     frequency_ = omega;
     damping_ = damping_ratio(options_.damping, omega);
     const EnergyShares shares(system, modes.shape.col(first), omega * omega);
-    for (const Effect effect : flexibilities()) frequency_change_[effect] = frequency_change_without_inertia(shares.elastic(effect));
+    for (const Effect effect : flexibilities())
+      frequency_change_[effect] = frequency_change_without_inertia(shares.elastic(effect));
     const double rotary = shares.kinetic(true), all = shares.kinetic(false);
     frequency_change_[Effect::link_mass] = frequency_change_without_inertia(all - rotary);
     frequency_change_[Effect::rotary_inertia] = frequency_change_without_inertia(rotary);
@@ -253,18 +256,21 @@ class MotionEstimates {
 
   /// By how much gyroscopic forces change one of the first modes while it lasts, or turn it into
   /// another: the slower, the nearer their frequencies.
-  void estimate_gyroscopic_coupling(const MovingSystem& moving, const ModalSolution& modes, Index first) {
+  void estimate_gyroscopic_coupling(const MovingSystem& moving, const ModalSolution& modes,
+                                    Index first) {
     const SparseMatrix& C = moving.gyroscopic_matrix();
     const SparseMatrix& S = moving.centrifugal_and_euler_matrix();
     const auto omega = [&](Index i) { return 2 * std::numbers::pi * modes.frequency[i]; };
-    const double time = vibration_duration(omega(first), damping_ratio(options_.damping, omega(first)));
+    const double time =
+        vibration_duration(omega(first), damping_ratio(options_.damping, omega(first)));
     for (Index i = first; i < modes.shape.cols(); ++i) {
       for (Index j = first; j < modes.shape.cols(); ++j) {
         const double rate = (std::abs(modes.shape.col(i).dot(C * modes.shape.col(j))) +
                              std::abs(modes.shape.col(i).dot(S * modes.shape.col(j))) / omega(i)) /
                             2;
         const double frequency_difference = std::abs(omega(i) - omega(j));
-        coupling_ = std::max(coupling_, rate * (frequency_difference * time > 1 ? 1 / frequency_difference : time));
+        coupling_ = std::max(
+            coupling_, rate * (frequency_difference * time > 1 ? 1 / frequency_difference : time));
       }
     }
   }
@@ -302,9 +308,10 @@ class MotionEstimates {
     // far.
     const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
     const double duration_in_phase = vibration_duration(frequency_, damping_) * frequency_;
-    const double vibration_share = options_.time.quasi_static_start
-                                ? std::min(1.0, translation_share(Effect::inertia) * amplified)
-                                : 1;
+    const double vibration_share =
+        options_.time.quasi_static_start
+            ? std::min(1.0, translation_share(Effect::inertia) * amplified)
+            : 1;
     for (const Effect effect : applicable_.list()) {
       double change = of_response(effect) * amplified;
       double number = sizes_.share[effect];
@@ -328,8 +335,10 @@ class MotionEstimates {
           if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping)) {
             change += options_.damping.stiffness * max_angular_velocity_;
           }
-          change += vibration_share * std::min(2.0, std::abs(frequency_change_[effect]) * duration_in_phase);
-          if (effect == Effect::platform_flexibility && is_suddenly_loaded()) change = std::max(change, 1.0);
+          change += vibration_share *
+                    std::min(2.0, std::abs(frequency_change_[effect]) * duration_in_phase);
+          if (effect == Effect::platform_flexibility && is_suddenly_loaded())
+            change = std::max(change, 1.0);
       }
       estimates_.effects.push_back({effect, number, VectorXd::Constant(1, change)});
     }
@@ -352,4 +361,4 @@ EffectEstimates estimate_motion_effects(const ElastodynamicsOptions& options, Ef
   return MotionEstimates(options, applicable).run();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 
 /// What a motion would lose without an effect, to first order. Numbers without dimension: with the
 /// first angular frequency w1 and damping ratio z, how fast the path turns W, the time T.
-namespace trammel {
+namespace trammel::solver {
 
 /// Elastodynamics along a path, at some poses of it. The quasi-static response q_s, K q_s = F + f,
 /// and its rates say what is left out as a small load would:
@@ -26,7 +26,8 @@ namespace trammel {
 /// x_i^T (G + S / w_i) x_j / 2, for no longer than they keep step, 1 / |w_i - w_j|. A load that
 /// sets in at once is taken by the plate before the links, whose forces it changes wholly.
 ///   Source: quasi-static expansion, e.g. L. Meirovitch, Analytical Methods in Vibrations (1967).
-/// @param options  the whole motion, convective terms included; what `applicable` lacks is not there
+/// @param options  the whole motion, convective terms included; what `applicable` lacks is not
+/// there
 [[nodiscard]] EffectEstimates estimate_motion_effects(const ElastodynamicsOptions& options,
                                                       Effects applicable);
 
@@ -40,4 +41,4 @@ namespace trammel {
                                                         const RotatingOptions& options,
                                                         const std::vector<double>& speeds);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,7 +2,7 @@
 
 #include "solver/effects/effect_estimates.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 Effects EffectScope::without(Effects set, Effect effect) const {
   set = set.without(effect);
@@ -31,7 +31,8 @@ Effects choose_effects(const EffectEstimates& estimates, const EffectScope& scop
       if (!active.has(estimate->effect)) continue;
       // What it carries must go first.
       if (!(scope.without(active, estimate->effect) == active.without(estimate->effect))) continue;
-      const Eigen::VectorXd trial_change = total_change.size() == 0 ? estimate->change : total_change + estimate->change;
+      const Eigen::VectorXd trial_change =
+          total_change.size() == 0 ? estimate->change : total_change + estimate->change;
       const double change = trial_change.size() > 0 ? trial_change.cwiseAbs().maxCoeff() : 0;
       if (!(change <= kSafetyFactor * tolerance)) continue;
       active = active.without(estimate->effect);
@@ -42,4 +43,4 @@ Effects choose_effects(const EffectEstimates& estimates, const EffectScope& scop
   return active;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "solver/assembly/system.h"
 #include "solver/model/effects.h"
 #include "solver/model/outcome.h"
-#include "solver/assembly/system.h"
 
 /// What a scene would lose without an effect, to first order, from one solution of it: an effect
 /// that is small enters the solution as a small load, so that one factorization answers for all.
@@ -27,7 +27,7 @@
 /// flexibility left out changes the frequency by (1 - e)^(-1/2) - 1 (springs in series), an inertia
 /// by (1 - k)^(-1/2) - 1, a geometric stiffness with the share g by (1 - g)^(1/2) - 1.
 ///   Source: Rayleigh, The Theory of Sound (1894), arts. 88-90.
-namespace trammel {
+namespace trammel::solver {
 
 /// Of one effect.
 struct EffectEstimate {
@@ -76,4 +76,4 @@ struct EffectScope {
 [[nodiscard]] Effects choose_effects(const EffectEstimates& estimates, const EffectScope& scope,
                                      double tolerance);
 
-}  // namespace trammel
+}  // namespace trammel::solver

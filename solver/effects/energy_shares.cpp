@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "solver/assembly/element_mass.h"
-#include "solver/statics/postprocessing.h"
 #include "solver/assembly/strain.h"
+#include "solver/statics/postprocessing.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 using Eigen::VectorXd;
 
@@ -90,4 +90,4 @@ double frequency_change_without_inertia(double share) {
   return 1 / std::sqrt(1 - std::min(share, kMaxShare)) - 1;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 
-#include "solver/model/effects.h"
 #include "solver/assembly/system.h"
+#include "solver/model/effects.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Shares of the energies of one motion that belong to an effect.
 class EnergyShares {
@@ -34,4 +34,4 @@ class EnergyShares {
 /// ... or whose inverse square does (a flexibility or an inertia left out).
 [[nodiscard]] double frequency_change_without_inertia(double share);
 
-}  // namespace trammel
+}  // namespace trammel::solver

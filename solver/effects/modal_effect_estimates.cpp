@@ -2,13 +2,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/assembly/strain.h"
 #include "solver/effects/effect_estimates.h"
 #include "solver/effects/energy_shares.h"
 #include "solver/modes/prestressed_modes.h"
 #include "solver/statics/postprocessing.h"
-#include "solver/assembly/strain.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -47,7 +47,8 @@ class ModalPose {
       if (w == 0) continue;  // a rigid motion stays one
       const double share = share_of(effect, modes.shape.col(i), w * w);
       const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gravity;
-      change[i] = stiffness ? frequency_change_without_stiffness(share) : frequency_change_without_inertia(share);
+      change[i] = stiffness ? frequency_change_without_stiffness(share)
+                            : frequency_change_without_inertia(share);
       if (std::abs(share) > std::abs(number)) number = share;
     }
     return change;
@@ -102,4 +103,4 @@ EffectEstimates estimate_modal_effects(const std::vector<Model>& poses, Effects 
   return estimates;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/effects/dynamic_effect_estimates.h"
-#include "solver/effects/energy_shares.h"
 #include "solver/assembly/rotating_frame.h"
 #include "solver/assembly/strain.h"
+#include "solver/effects/dynamic_effect_estimates.h"
+#include "solver/effects/energy_shares.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -21,8 +21,8 @@ class RotatingMode {
     // x^H (i C) x of the skew C.
     coupling_ = 2 * im_.dot(gyroscopic * re_);
     const double softened = sum_over_parts([&](const VectorXd& a) { return a.dot(softening * a); });
-    const double strain =
-        sum_over_parts([&](const VectorXd& a) { return strain_products(system_, system_.T * a)(0, 0); });
+    const double strain = sum_over_parts(
+        [&](const VectorXd& a) { return strain_products(system_, system_.T * a)(0, 0); });
     stiffened_ = omega * omega * mass_ - omega * coupling_ - strain + softened;
   }
 
@@ -64,7 +64,8 @@ class RotatingMode {
 
 double change_of(Effect effect, double share) {
   const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gyroscopic;
-  return stiffness ? frequency_change_without_stiffness(share) : frequency_change_without_inertia(share);
+  return stiffness ? frequency_change_without_stiffness(share)
+                   : frequency_change_without_inertia(share);
 }
 
 }  // namespace
@@ -88,7 +89,8 @@ EffectEstimates estimate_rotating_effects(const Model& model, Effects applicable
       estimates.outcome = {Status::not_converged, "a motion of the rotating frame grows"};
       return estimates;
     }
-    const bool has_gyroscopic_forces = at_speed.gyroscopic && at_speed.frame.axis == RotationAxis::normal;
+    const bool has_gyroscopic_forces =
+        at_speed.gyroscopic && at_speed.frame.axis == RotationAxis::normal;
     const SparseMatrix C = (has_gyroscopic_forces ? 2 * speed : 0.0) * G;
     const SparseMatrix softening = speed * speed * S;
     for (EffectEstimate& estimate : estimates.effects) {
@@ -109,4 +111,4 @@ EffectEstimates estimate_rotating_effects(const Model& model, Effects applicable
   return estimates;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,16 +2,16 @@
 #include <cmath>
 #include <map>
 
-#include "solver/effects/effect_estimates.h"
-#include "solver/linalg/factorization.h"
 #include "solver/assembly/prestress.h"
+#include "solver/assembly/restrict_model_effects.h"
+#include "solver/effects/effect_estimates.h"
+#include "solver/elements/triangle_interpolation.h"
+#include "solver/linalg/factorization.h"
+#include "solver/model/numbers.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/statics/statics.h"
-#include "solver/elements/triangle_interpolation.h"
-#include "solver/assembly/restrict_model_effects.h"
-#include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -28,7 +28,8 @@ struct StateResults {
   }
   [[nodiscard]] double largest(std::size_t kind) const {
     double largest_value = 0;
-    for (const double value : values[kind]) largest_value = std::max(largest_value, std::abs(value));
+    for (const double value : values[kind])
+      largest_value = std::max(largest_value, std::abs(value));
     return largest_value;
   }
 };
@@ -37,8 +38,8 @@ struct StateResults {
 struct Change {
   VectorXd u;
   std::vector<Vector6d> force;
-  double undirected_displacement = 0;        ///< a further displacement, of unknown direction [m]
-  double indeterminate_force = 0;  ///< a force that is lost [N]
+  double undirected_displacement = 0;  ///< a further displacement, of unknown direction [m]
+  double indeterminate_force = 0;      ///< a force that is lost [N]
 };
 
 /// The linear solution of a model, and how small loads change it.
@@ -62,7 +63,7 @@ class LinearState {
       base[e] -=
           local_load(element, member.load + element.section.mass_per_length * system.model.gravity);
       base[e] += geometric_forces(element, forces.axial[static_cast<Index>(e)],
-                         forces.axial_variation[static_cast<Index>(e)], u);
+                                  forces.axial_variation[static_cast<Index>(e)], u);
     }
   }
 
@@ -77,10 +78,10 @@ class LinearState {
   [[nodiscard]] static Vector6d local_load(const FrameElement& e, const Vector2d& load) {
     return frame_rotation(e.direction) * element_load(e, load);
   }
-  [[nodiscard]] Vector6d geometric_forces(const FrameElement& e, double axial, double axial_variation,
-                                 const VectorXd& motion) const {
+  [[nodiscard]] Vector6d geometric_forces(const FrameElement& e, double axial,
+                                          double axial_variation, const VectorXd& motion) const {
     return geometric_stiffness_forces(e, member_of(e).theory, axial, axial_variation,
-                          detail::gather(e.coordinates, motion));
+                                      detail::gather(e.coordinates, motion));
   }
 
   /// K^-1 of a load on the unconstrained coordinates.
@@ -103,7 +104,8 @@ class LinearState {
     return frame_deformation<double>(Vector2d::UnitX(), e.length).transpose() * of_deformations;
   }
   [[nodiscard]] double energy() const { return u.dot(internal_forces(system, u)); }
-  [[nodiscard]] StateResults results_of(const VectorXd& motion, const std::vector<Vector6d>& force) const;
+  [[nodiscard]] StateResults results_of(const VectorXd& motion,
+                                        const std::vector<Vector6d>& force) const;
 
   System system;
   StaticSolution solution;
@@ -116,7 +118,8 @@ class LinearState {
   Factorization factorization_;
 };
 
-StateResults LinearState::results_of(const VectorXd& motion, const std::vector<Vector6d>& force) const {
+StateResults LinearState::results_of(const VectorXd& motion,
+                                     const std::vector<Vector6d>& force) const {
   StateResults results;
   for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
     if (system.model.nodes[i].name.empty()) continue;
@@ -208,8 +211,8 @@ Change change_by_geometric_stiffness(LinearState& state, const Prestress& forces
   change.force = state.elastic(change.u);
   for (std::size_t e = 0; e < change.force.size(); ++e) {
     const auto i = static_cast<Index>(e);
-    change.force[e] +=
-        state.geometric_forces(state.system.mesh.frame[e], forces.axial[i], forces.axial_variation[i], state.u);
+    change.force[e] += state.geometric_forces(state.system.mesh.frame[e], forces.axial[i],
+                                              forces.axial_variation[i], state.u);
   }
   return change;
 }
@@ -259,7 +262,8 @@ void add_plate_strains(const LinearState& state, VectorXd& force) {
 double end_rotation(const LinearState& state, const FrameElement& e, Index end) {
   const Index rotation = e.coordinates[to_size(end + 2)];
   if (rotation >= 0) return state.u[rotation];
-  return (frame_chord_rotation_and_bending(e.direction, e.length) * detail::gather(e.coordinates, state.u))[0];
+  return (frame_chord_rotation_and_bending(e.direction, e.length) *
+          detail::gather(e.coordinates, state.u))[0];
 }
 
 /// The farthest that second-order turning moves a point of a rigid body beside its arm's end.
@@ -347,7 +351,8 @@ Change change_without_weight(LinearState& state, bool of_members, double& share)
 }
 
 double span(const Model& model, const Member& member) {
-  return (model.nodes[to_size(member.nodes[1])].position - model.nodes[to_size(member.nodes[0])].position)
+  return (model.nodes[to_size(member.nodes[1])].position -
+          model.nodes[to_size(member.nodes[0])].position)
       .norm();
 }
 
@@ -355,7 +360,8 @@ double axial_slenderness(const LinearState& state) {
   double largest_value = 0;
   for (const Member& member : state.system.model.members) {
     const double length = span(state.system.model, member);
-    largest_value = std::max(largest_value, member.section.EI / (member.section.EA * length * length));
+    largest_value =
+        std::max(largest_value, member.section.EI / (member.section.EA * length * length));
   }
   return largest_value;
 }
@@ -378,7 +384,8 @@ Change change_without(LinearState& state, Effect effect, double& number) {
       change = change_by_geometric_stiffness(state, state.forces);
       const double energy = state.energy();
       number = energy > 0
-                   ? geometric_stiffness_forces(state.system, state.forces, state.u).dot(state.u) / energy
+                   ? geometric_stiffness_forces(state.system, state.forces, state.u).dot(state.u) /
+                         energy
                    : 0;
       negate(change);
       return change;
@@ -419,8 +426,8 @@ std::array<double, StateResults::kKinds> scales_of(const StateResults& base, con
           std::max(base.largest(3), kRoundoff * f * size)};
 }
 
-VectorXd scaled(const StateResults& change, double undirected_displacement, double indeterminate_force,
-                const std::array<double, StateResults::kKinds>& scale) {
+VectorXd scaled(const StateResults& change, double undirected_displacement,
+                double indeterminate_force, const std::array<double, StateResults::kKinds>& scale) {
   std::vector<double> all;
   for (std::size_t k = 0; k < StateResults::kKinds; ++k) {
     for (const double value : change.values[k]) all.push_back(scale[k] > 0 ? value / scale[k] : 0);
@@ -462,7 +469,8 @@ EffectEstimates estimate_static_effects(const std::vector<Model>& poses, Effects
       const Change change = change_without(state, effect, number);
       Sum& sum = sums[effect];
       sum.change.append(state.results_of(change.u, change.force));
-      sum.undirected_displacement = std::max(sum.undirected_displacement, change.undirected_displacement);
+      sum.undirected_displacement =
+          std::max(sum.undirected_displacement, change.undirected_displacement);
       sum.indeterminate_force = std::max(sum.indeterminate_force, change.indeterminate_force);
       if (std::abs(number) > std::abs(sum.number)) sum.number = number;
     }
@@ -471,9 +479,10 @@ EffectEstimates estimate_static_effects(const std::vector<Model>& poses, Effects
   const auto scales = scales_of(base, poses.front());
   for (const auto& [effect, sum] : sums) {
     estimates.effects.push_back(
-        {effect, sum.number, scaled(sum.change, sum.undirected_displacement, sum.indeterminate_force, scales)});
+        {effect, sum.number,
+         scaled(sum.change, sum.undirected_displacement, sum.indeterminate_force, scales)});
   }
   return estimates;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

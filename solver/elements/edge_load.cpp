@@ -2,7 +2,7 @@
 
 #include "solver/model/quadrature.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load) {
   std::array<Vector2d, 3> points = {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
@@ -29,4 +29,4 @@ std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load) {
   return forces;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

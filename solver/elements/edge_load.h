@@ -4,11 +4,11 @@
 
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Consistent forces [N] on the nodes of a loaded side, t integral N^T traction ds; the third is
 /// zero where the side has no middle node. The side may be curved: it is the parabola through its
 /// nodes, and the pressure follows its normal.
 [[nodiscard]] std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load);
 
-}  // namespace trammel
+}  // namespace trammel::solver

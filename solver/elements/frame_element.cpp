@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 struct QuadraturePoint {
@@ -185,4 +185,4 @@ template Matrix6<double> frame_rotation(const Eigen::Vector2<double>&);
 template Matrix6<Dual> frame_rotation(const Eigen::Vector2<Dual>&);
 template Matrix6<Complex> frame_rotation(const Eigen::Vector2<Complex>&);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -21,7 +21,7 @@
 /// world axes do not.
 ///
 /// Functions of T exist for double, Dual and Complex.
-namespace trammel {
+namespace trammel::solver {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -80,4 +80,4 @@ template <Real T>
 template <Real T = double>
 [[nodiscard]] Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,11 +2,11 @@
 
 #include <array>
 
-#include "solver/model/quadrature.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/model/quadrature.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 struct Point {
@@ -80,4 +80,4 @@ Eigen::Matrix<double, 3, 12> triangle6_deformation(const Model& model, const Tri
   return deformation_of(interpolate(model, triangle, at));
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

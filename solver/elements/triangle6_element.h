@@ -10,7 +10,7 @@
 /// As for the other elements the stiffness is diagonal in measures of deformation, here those of
 /// triangle_element.h at each point of a rule that is exact to degree 4: d = B u, k = B^T C B. The
 /// strains are linear, so that the rule is exact for straight sides and has room for curved ones.
-namespace trammel {
+namespace trammel::solver {
 
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
@@ -31,4 +31,4 @@ struct Triangle6Stiffness {
                                                                  const Triangle& triangle,
                                                                  const Eigen::Vector3d& at);
 
-}  // namespace trammel
+}  // namespace trammel::solver

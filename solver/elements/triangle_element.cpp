@@ -4,7 +4,7 @@
 
 #include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 TrianglePoints corners(const Model& model, const Triangle& triangle) {
   TrianglePoints points;
@@ -56,4 +56,4 @@ Matrix6d triangle_mass(const TrianglePoints& points, const Plate& plate) {
   return M;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

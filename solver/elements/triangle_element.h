@@ -12,7 +12,7 @@
 /// As for the frame element, the stiffness is diagonal in the right measures of deformation,
 /// d = B u = (exx + eyy, exx - eyy, gxy): k = B^T diag(t A E / (2 (1 - nu)), t A G, t A G) B,
 /// which is the paper's k = t integral B^T D B dA, Eq. (8).
-namespace trammel {
+namespace trammel::solver {
 
 using TrianglePoints = std::array<Vector2d, 3>;
 using TriangleDeformation = Eigen::Matrix<double, 3, 6>;
@@ -37,4 +37,4 @@ using TriangleDeformation = Eigen::Matrix<double, 3, 6>;
 /// Consistent mass, m = rho t integral N^T N dA.   Source: paper Eq. (9).
 [[nodiscard]] Matrix6d triangle_mass(const TrianglePoints& points, const Plate& plate);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// Derivatives with respect to L_0 and L_1, with L_2 = 1 - L_0 - L_1.
@@ -51,4 +51,4 @@ TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -4,7 +4,7 @@
 
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// The shape functions of a three- or six-node triangle at one point. The six-node one is
 /// isoparametric: N_i = L_i (2 L_i - 1) at the corners, 4 L_i L_j at the middles of the sides 01,
@@ -23,4 +23,4 @@ struct TriangleInterpolation {
 [[nodiscard]] TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
                                                 const Eigen::Vector3d& at);
 
-}  // namespace trammel
+}  // namespace trammel::solver

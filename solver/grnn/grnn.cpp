@@ -6,7 +6,7 @@
 
 #include "solver/grnn/grnn_weights.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
 
@@ -81,4 +81,4 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

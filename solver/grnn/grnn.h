@@ -5,7 +5,7 @@
 #include "solver/model/model.h"
 
 /// General regression neural network (Specht 1991; the estimator of Nadaraya and Watson 1964).
-namespace trammel {
+namespace trammel::solver {
 
 /// What an input is divided by before distances are taken. A constant input is divided by 1.
 enum class InputScaling {
@@ -49,4 +49,4 @@ struct Grnn {
 ///                     not a positive normal number.
 [[nodiscard]] Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries);
 
-}  // namespace trammel
+}  // namespace trammel::solver

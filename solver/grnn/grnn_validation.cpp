@@ -10,7 +10,7 @@
 
 #include "solver/grnn/grnn_weights.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
 
@@ -155,4 +155,4 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
   return search;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

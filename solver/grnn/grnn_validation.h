@@ -7,7 +7,7 @@
 #include "solver/grnn/grnn.h"
 
 /// Choosing the smoothing of a GRNN by cross-validation.
-namespace trammel {
+namespace trammel::solver {
 
 /// How samples go into folds. In a time series neighbours are nearly copies: folds that interleave
 /// or shuffle measure interpolation, folds of consecutive blocks come nearer to extrapolation.
@@ -65,4 +65,4 @@ struct SigmaSearch {
 [[nodiscard]] SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
                                        const CrossValidation& validation);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -4,7 +4,7 @@
 #include <limits>
 
 /// The kernel weights of a GRNN, shared by prediction and cross-validation.
-namespace trammel {
+namespace trammel::solver {
 
 /// D_i^2 - D_m^2 >= 0 of every sample to a query, m the nearest sample.
 class ExcessDistances {
@@ -16,7 +16,7 @@ class ExcessDistances {
   /// @param query  scaled
   /// @param skip   samples to leave out (their excess is infinite), or null
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query,
-                           const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr) {
+                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     squared_.setZero();
     for (Eigen::Index f = 0; f < samples_.cols(); ++f)
@@ -50,4 +50,4 @@ void kernel_weights(const Eigen::ArrayXd& excess, double sigma, Out&& weights) {
   weights = (-0.5 * (excess * inverse) * inverse).exp().matrix();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

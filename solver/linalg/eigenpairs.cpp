@@ -10,7 +10,7 @@
 
 #include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::MatrixXd;
@@ -18,8 +18,9 @@ using Eigen::VectorXd;
 
 constexpr const char* kIllConditioned =
     "the stiffness matrix is too ill-conditioned for double precision";
-constexpr Index kDenseSize = 64;    // free coordinates; above, Lanczos is faster for a few modes
-constexpr double kConvergenceTolerance = 1e-11;  // relative change of an eigenvalue in one inverse iteration
+constexpr Index kDenseSize = 64;  // free coordinates; above, Lanczos is faster for a few modes
+constexpr double kConvergenceTolerance =
+    1e-11;                            // relative change of an eigenvalue in one inverse iteration
 constexpr double kClusterGap = 1e-3;  // between neighbours that are certainly not copies
 
 /// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
@@ -51,7 +52,8 @@ class LanczosOperator {
   Counters& counters_;
 };
 
-/// Provides the eigenvectors of the largest mu, dense or by Lanczos; more can be asked for, again and again.
+/// Provides the eigenvectors of the largest mu, dense or by Lanczos; more can be asked for, again
+/// and again.
 class EigenpairProvider {
  public:
   EigenpairProvider(const Pencil& pencil, bool dense, Counters& counters)
@@ -144,10 +146,10 @@ class Solver {
         count_(count),
         counters_(counters),
         provider_(pencil,
-                method == EigenMethod::dense ||
-                    (method == EigenMethod::automatic && pencil.K->rows() <= kDenseSize) ||
-                    pencil.K->rows() < 4,
-                counters),
+                  method == EigenMethod::dense ||
+                      (method == EigenMethod::automatic && pencil.K->rows() <= kDenseSize) ||
+                      pencil.K->rows() < 4,
+                  counters),
         factorization_(factorization) {}
 
   Eigenpairs run() {
@@ -225,9 +227,9 @@ class Solver {
     const Index p = X_.cols();
     MatrixXd Y(X_.rows(), p);
     for (Index j = 0; j < p; ++j) {
-      const RefinedSolution y = refined_solve([this](const VectorXd& x) { return apply(x); },
-                                      factorization_, *pencil_.B * X_.col(j),
-                                      X_.col(j) / (pairs_.value[j] - pencil_.shift), counters_);
+      const RefinedSolution y = refined_solve(
+          [this](const VectorXd& x) { return apply(x); }, factorization_, *pencil_.B * X_.col(j),
+          X_.col(j) / (pairs_.value[j] - pencil_.shift), counters_);
       inverse_iteration_failed_ = inverse_iteration_failed_ || !(y.correction < 0.1);
       Y.col(j) = y.x;
       remove_null(Y.col(j));
@@ -356,4 +358,4 @@ SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
   return K - t * B;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

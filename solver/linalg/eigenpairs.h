@@ -4,12 +4,12 @@
 #include <functional>
 
 #include "solver/linalg/factorization.h"
-#include "solver/model/outcome.h"
 #include "solver/linalg/refinement.h"
 #include "solver/model/counters.h"
 #include "solver/model/numbers.h"
+#include "solver/model/outcome.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 enum class EigenMethod { automatic, dense, sparse };
 
@@ -49,4 +49,4 @@ struct Eigenpairs {
 /// K - t B, with the pattern of both whatever t is.
 [[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
 
-}  // namespace trammel
+}  // namespace trammel::solver

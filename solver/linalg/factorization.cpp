@@ -9,7 +9,7 @@
 #include <Eigen/MetisSupport>
 #include <Eigen/OrderingMethods>
 
-namespace trammel {
+namespace trammel::solver {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -113,4 +113,4 @@ double Factorization::condition() const {
   return estimate * norm_;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

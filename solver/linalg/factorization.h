@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Nested dissection (METIS) for large matrices, minimum degree for small ones, where the time of
 /// the ordering counts; on a lattice of 100,000 members METIS cuts the factorization to a third.
@@ -54,4 +54,4 @@ class Factorization {
   bool exists_ = false;
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

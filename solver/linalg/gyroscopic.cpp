@@ -13,7 +13,7 @@
 #include <numeric>
 #include <random>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::MatrixXcd;
@@ -241,9 +241,10 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Fa
     ++counters.factorizations;
     if (modes.inertia_count == shift.found) break;
     if (op.known.cols() == before || round + 1 == kRounds || modes.inertia_count < shift.found) {
-      modes.outcome = {Status::not_converged,
-                       std::to_string(shift.found) + " frequencies were found where the inertia of " +
-                           "the matrices counts " + std::to_string(modes.inertia_count)};
+      modes.outcome = {Status::not_converged, std::to_string(shift.found) +
+                                                  " frequencies were found where the inertia of " +
+                                                  "the matrices counts " +
+                                                  std::to_string(modes.inertia_count)};
       break;
     }
     wanted = dense ? 2 * wanted : modes.inertia_count - shift.found + 1;
@@ -306,4 +307,4 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   return modes;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,11 +5,11 @@
 
 #include "solver/linalg/eigenpairs.h"
 #include "solver/linalg/factorization.h"
-#include "solver/model/outcome.h"
 #include "solver/model/counters.h"
 #include "solver/model/numbers.h"
+#include "solver/model/outcome.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// (K + i w C - w^2 M) x = 0 with K symmetric, C skew, M symmetric and semi-definite.
 struct GyroscopicPencil {
@@ -19,9 +19,9 @@ struct GyroscopicPencil {
 
 struct GyroscopicModes {
   Outcome outcome;
-  Eigen::VectorXd omega;   ///< ascending, > 0 [rad/s]
+  Eigen::VectorXd omega;        ///< ascending, > 0 [rad/s]
   Eigen::VectorXd growth_rate;  ///< [1/s]
-  Eigen::MatrixXcd shape;  ///< column norm 1
+  Eigen::MatrixXcd shape;       ///< column norm 1
   Index inertia_count = 0;
 };
 
@@ -40,4 +40,4 @@ struct GyroscopicModes {
 /// frequencies below w. -1 where the factorization fails.
 [[nodiscard]] Index gyroscopic_sturm_count(const GyroscopicPencil& pencil, double omega);
 
-}  // namespace trammel
+}  // namespace trammel::solver

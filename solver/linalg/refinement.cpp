@@ -1,16 +1,17 @@
 #include "solver/linalg/refinement.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
-                      const Eigen::VectorXd& b, Counters& counters) {
+                              const Eigen::VectorXd& b, Counters& counters) {
   const Eigen::VectorXd x = factorization.solve(b);
   ++counters.solves;
   return refined_solve(A, factorization, b, x, counters);
 }
 
 RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
-                      const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Counters& counters) {
+                              const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
+                              Counters& counters) {
   constexpr int kMaxSteps = 8;
   constexpr double kSmall = 1e-10;  // a correction whose own error no longer counts
   RefinedSolution result{guess, 0};
@@ -29,4 +30,4 @@ RefinedSolution refined_solve(const Operator& A, const Factorization& factorizat
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 #include "solver/linalg/factorization.h"
 #include "solver/model/counters.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// A symmetric operator on the free coordinates, x -> A x, more exact than its assembled matrix.
 using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
@@ -24,9 +24,9 @@ struct RefinedSolution {
 /// would not do to tell: the rounding of stiff axial parts hides what is left in soft bending.)
 /// @param guess  a good one costs a single solve.
 [[nodiscard]] RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
-                                    const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
-                                    Counters& counters);
+                                            const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
+                                            Counters& counters);
 [[nodiscard]] RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
-                                    const Eigen::VectorXd& b, Counters& counters);
+                                            const Eigen::VectorXd& b, Counters& counters);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// Position of entry (row, column) among the values of a compressed matrix.
@@ -79,4 +79,4 @@ void SparseFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   for (Index i = 0; i < b.size(); ++i) x[i] = solved_[permutation_[static_cast<std::size_t>(i)]];
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

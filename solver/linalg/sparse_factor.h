@@ -7,7 +7,7 @@
 #include "solver/model/counters.h"
 #include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// L D L^T of the symmetric part of matrices that share one pattern: ordering and symbolic work are
 /// done once, and neither `factorize` nor `solve` allocates afterwards (the time loop's need;
@@ -26,11 +26,11 @@ class SparseFactor {
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
  private:
-  std::vector<int> permutation_;            ///< coordinate -> its place in the order of elimination
+  std::vector<int> permutation_;      ///< coordinate -> its place in the order of elimination
   SparseMatrix upper_;                ///< upper triangle in that order
   std::vector<Index> from_, mirror_;  ///< entry of upper_ -> the two entries of A it averages
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt_;
   Eigen::VectorXd ordered_, solved_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

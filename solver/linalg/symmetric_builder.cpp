@@ -1,6 +1,6 @@
 #include "solver/linalg/symmetric_builder.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 Eigen::SparseMatrix<double> SymmetricBuilder::build() {
   // Counting sort by row, then by column: linear in the number of entries, and stable.
@@ -41,4 +41,4 @@ Eigen::SparseMatrix<double> SymmetricBuilder::build() {
   return whole;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

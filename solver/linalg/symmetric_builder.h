@@ -3,7 +3,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Collects the lower triangle of a symmetric matrix entry by entry and returns it whole. Entries
 /// at the same place are added up in the order they came, so that the result is the same every
@@ -32,4 +32,4 @@ class SymmetricBuilder {
   std::vector<Entry> entries_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

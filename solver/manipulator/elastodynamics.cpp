@@ -5,14 +5,14 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/model/numbers.h"
-#include "solver/time/modal_superposition.h"
-#include "solver/modes/modes.h"
-#include "solver/model/plane.h"
-#include "solver/linalg/sparse_factor.h"
 #include "solver/elements/triangle_element.h"
+#include "solver/linalg/sparse_factor.h"
+#include "solver/model/numbers.h"
+#include "solver/model/plane.h"
+#include "solver/modes/modes.h"
+#include "solver/time/modal_superposition.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -32,7 +32,7 @@ class PathFollower {
  public:
   explicit PathFollower(const ElastodynamicsOptions& options)
       : options_(options),
-        stands_still_(trammel::stands_still(options.path)),
+        stands_still_(solver::stands_still(options.path)),
         rigid_(rigid_manipulator(options.design)),
         moving_(loaded_model(options), options.gyroscopic, options.elastic_inertia),
         stiffness_(moving_.K()) {
@@ -68,7 +68,8 @@ class PathFollower {
     if (!factored_) {
       factored_ = true;
       ++counters_.factorizations;
-      regular_ = stiffness_.factorize(moving_.K()) && stiffness_.pivot_ratio() > kSingularPivotRatio;
+      regular_ =
+          stiffness_.factorize(moving_.K()) && stiffness_.pivot_ratio() > kSingularPivotRatio;
     }
     if (!regular_) return false;
     ++counters_.solves;
@@ -151,7 +152,8 @@ class PathFollower {
 /// What a motion means at one pose, as `solve_statics` puts it.
 class MotionPostprocessor {
  public:
-  MotionPostprocessor(const MovingSystem& moving, const VectorXd& q, const MovingSystem::Forces& forces)
+  MotionPostprocessor(const MovingSystem& moving, const VectorXd& q,
+                      const MovingSystem::Forces& forces)
       : moving_(moving),
         system_(moving.start()),
         model_(system_.model),
@@ -308,11 +310,12 @@ double mean_rotation(const Model& model, const MovingSystem& moving,
 
 class Recorder {
  public:
-  Recorder(const ElastodynamicsOptions& options, PathFollower& follower, ElastodynamicsSolution& solution)
+  Recorder(const ElastodynamicsOptions& options, PathFollower& follower,
+           ElastodynamicsSolution& solution)
       : options_(options), follower_(follower), solution_(solution) {}
 
   void record(double time, const VectorXd& q, const VectorXd& v, const VectorXd& a,
-            const MotionEnergy& energy) {
+              const MotionEnergy& energy) {
     if (!follower_.advance_to(time)) return;
     const MovingSystem& moving = follower_.system();
     const Model& model = moving.start().model;
@@ -378,7 +381,8 @@ class Recorder {
     inertia_ = nan_max(inertia_, share);
     const NominalMotion& motion = moving.motion();
     for (const auto* parts : {&motion.member, &motion.plate, &motion.rigid_body}) {
-      for (const PartMotion& part : *parts) max_angular_velocity_ = std::max(max_angular_velocity_, std::abs(part.rate));
+      for (const PartMotion& part : *parts)
+        max_angular_velocity_ = std::max(max_angular_velocity_, std::abs(part.rate));
     }
     max_velocity_ = std::max(max_velocity_, follower_.point().velocity.norm());
     max_acceleration_ = std::max(max_acceleration_, follower_.point().acceleration.norm());
@@ -409,7 +413,7 @@ std::vector<double> sample_times(const TransientOptions& options) {
 
 /// K q = F + f at every sample.
 void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& follower,
-                             Recorder& recorder, ElastodynamicsSolution& solution) {
+                            Recorder& recorder, ElastodynamicsSolution& solution) {
   const std::vector<double> times = sample_times(options.time);
   VectorXd f;
   VectorXd q;
@@ -430,8 +434,8 @@ void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& 
 }
 
 /// All modes at every sample, each by its closed form.
-void superpose_modes(const ElastodynamicsOptions& options, PathFollower& follower, Recorder& recorder,
-                     ElastodynamicsSolution& solution) {
+void superpose_modes(const ElastodynamicsOptions& options, PathFollower& follower,
+                     Recorder& recorder, ElastodynamicsSolution& solution) {
   const std::vector<double> times = sample_times(options.time);
   if (!follower.stands_still()) {
     throw ModelError("modes are superposed where the matrices are constant: the platform moves");
@@ -574,4 +578,4 @@ ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options
   return solution;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

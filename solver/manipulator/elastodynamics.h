@@ -8,8 +8,8 @@
 #include "solver/manipulator/manipulator.h"
 #include "solver/manipulator/moving_system.h"
 #include "solver/manipulator/rigid_dynamics.h"
-#include "solver/statics/statics.h"
 #include "solver/manipulator/trajectory.h"
+#include "solver/statics/statics.h"
 #include "solver/time/transient.h"
 
 /// Elastic vibration of the manipulator about its nominal rigid motion along a path (paper Eq.
@@ -17,7 +17,7 @@
 ///   M(t) q.. + (C(t) + G(t)) q. + (K(t) + S(t)) q = T^T F + f(t),   C = w1 M + w2 K,
 /// where the joints follow the path exactly, F is the load on the platform, f the inertia of the
 /// nominal motion, and G and S the convective terms (moving_system.h), an effect of their own.
-namespace trammel {
+namespace trammel::solver {
 
 struct ElastodynamicsOptions {
   ManipulatorDesign design;
@@ -42,9 +42,9 @@ struct ElastodynamicsOptions {
 struct ElastodynamicsEffects {
   double first_frequency = kNaN;  ///< at the start [Hz]
   double damping_ratio = kNaN;    ///< of that mode
-  double nominal_inertia = 0;  ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
-  double elastic_inertia = 0;  ///< path frequency over the first frequency, squared
-  double gyroscopic = 0;       ///< twice the fastest turning of a part over the first frequency
+  double nominal_inertia = 0;     ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
+  double elastic_inertia = 0;     ///< path frequency over the first frequency, squared
+  double gyroscopic = 0;          ///< twice the fastest turning of a part over the first frequency
 
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 };
@@ -81,4 +81,4 @@ struct ElastodynamicsSolution {
                                            const InverseDynamics& motion, const Vector9d& from,
                                            const TrajectoryPoint& point, const Vector2d& gravity);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
 
@@ -175,4 +175,4 @@ ForwardDynamics forward_dynamics(const RigidManipulator& m, const TrajectoryPoin
   return std::move(integrator.result);
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

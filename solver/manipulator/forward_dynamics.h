@@ -6,7 +6,7 @@
 #include "solver/manipulator/rigid_dynamics.h"
 
 /// From actuator torques back to the motion of the rigid manipulator.
-namespace trammel {
+namespace trammel::solver {
 
 struct PlatformAcceleration {
   Outcome outcome;        ///< as RigidTerms
@@ -21,8 +21,8 @@ struct PlatformAcceleration {
                                                         const Vector3d& wrench = Vector3d::Zero());
 
 struct ForwardOptions {
-  double tolerance = 1e-10;   ///< local error a step, relative to the largest of the six states
-                              ///< and the platform's radius (positions) or radius / s (velocities)
+  double tolerance = 1e-10;  ///< local error a step, relative to the largest of the six states
+                             ///< and the platform's radius (positions) or radius / s (velocities)
   Index max_steps = 100000;  ///< taken and rejected
 };
 
@@ -48,4 +48,4 @@ struct ForwardDynamics {
                                                const Vector3d& wrench = Vector3d::Zero(),
                                                const ForwardOptions& options = {});
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "solver/model/plane.h"
 #include "solver/model/numbers.h"
+#include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
 
@@ -34,7 +34,7 @@ std::string limb_name(std::size_t i) {
 
 /// The triangle A_i B_i C_i from its sides: a = |A B|, b = |B C|, r = |A C|.
 template <Real T>
-struct Limb {
+struct LimbAngles {
   T angle_at_A;
   T elbow_sine;  ///< not signed
 };
@@ -46,10 +46,10 @@ T not_negative(const T& x) {
 }
 
 template <Real T>
-Limb<T> solve_limb(const T& a, const T& b, double r) {
+LimbAngles<T> solve_limb(const T& a, const T& b, double r) {
+  using solver::atan2;
   using std::atan2;
   using std::sqrt;
-  using trammel::atan2;
   const T stretch = not_negative<T>((a + b) - r);
   const T fold_out = not_negative<T>((b - a) + r);
   const T fold_in = not_negative<T>((a - b) + r);
@@ -62,7 +62,7 @@ Limb<T> solve_limb(const T& a, const T& b, double r) {
 
 /// theta_a, not wrapped.
 template <Real T>
-T active_angle(const Vector2d& p_AC, const Limb<T>& limb, int working_mode) {
+T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode) {
   return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
 }
 
@@ -145,7 +145,7 @@ Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
       posture.active[i] = posture.passive[i] = posture.elbow_sine[i] = kNaN;
       continue;
     }
-    const Limb<double> limb = solve_limb(g.proximal[i], g.distal[i], r);
+    const LimbAngles<double> limb = solve_limb(g.proximal[i], g.distal[i], r);
     const int mode = g.working_mode[i];
     posture.active[i] = wrapped(active_angle(p_AC, limb, mode));
     posture.B[i] = g.base[i] + g.proximal[i] * unit(posture.active[i]);
@@ -163,7 +163,7 @@ template <Real T>
 Eigen::Vector2<T> elbow_position(const Vector2d& A, const Vector2d& C, const T& proximal,
                                  const T& distal, int working_mode) {
   const Vector2d p_AC = C - A;
-  const Limb<T> limb = solve_limb(proximal, distal, std::hypot(p_AC.x(), p_AC.y()));
+  const LimbAngles<T> limb = solve_limb(proximal, distal, std::hypot(p_AC.x(), p_AC.y()));
   const T angle = active_angle(p_AC, limb, working_mode);
   return A.cast<T>() + proximal * unit(angle);
 }
@@ -257,4 +257,4 @@ HoldingTorques holding_torques(const Jacobians& j, const Vector3d& wrench) {
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,11 +5,11 @@
 
 #include "solver/model/dual.h"
 #include "solver/model/model.h"
-#include "solver/model/outcome.h"
 #include "solver/model/numbers.h"
+#include "solver/model/outcome.h"
 
 /// Rigid kinematics of the planar 3-RRR manipulator: limbs A_i B_i C_i, active joints at A_i.
-namespace trammel {
+namespace trammel::solver {
 
 /// Below this singular value ratio not one digit of a solution can be trusted: the rows of J_x
 /// carry some ten roundings each.
@@ -109,4 +109,4 @@ struct HoldingTorques {
 /// @param wrench  (Fx, Fy [N], moment [N m]) applied to the platform at P
 [[nodiscard]] HoldingTorques holding_torques(const Jacobians& jacobians, const Vector3d& wrench);
 
-}  // namespace trammel
+}  // namespace trammel::solver

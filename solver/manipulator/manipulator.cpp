@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "solver/model/plane.h"
 #include "solver/mesh/platform_mesh.h"
+#include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
 
@@ -21,10 +21,6 @@ std::string numbered(char letter, std::size_t i) {
   std::string name(1, letter);
   name += std::to_string(i + 1);
   return name;
-}
-
-void require(bool holds, const std::string& sentence) {
-  if (!holds) throw ModelError(sentence);
 }
 
 template <Real T>
@@ -330,4 +326,4 @@ Model build_manipulator(const ManipulatorDesign& design, const Pose& pose) {
   return model;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -4,12 +4,12 @@
 #include <optional>
 #include <type_traits>
 
-#include "solver/model/dual.h"
 #include "solver/manipulator/kinematics.h"
+#include "solver/model/dual.h"
 #include "solver/model/model.h"
 
 /// The 3-RRR builder: a geometry, a pose and the choices the paper leaves open make a Model.
-namespace trammel {
+namespace trammel::solver {
 
 /// A choice for one joint; the stiffness belongs to the kind `sprung` alone.
 template <class Kind>
@@ -111,4 +111,4 @@ template <Real T>
 /// @throws ModelError  where the pose is out of reach or a combination has no meaning.
 [[nodiscard]] Model build_manipulator(const ManipulatorDesign& design, const Pose& pose);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "solver/assembly/inertia.h"
+#include "solver/assembly/strain.h"
 #include "solver/model/plane.h"
 #include "solver/model/quadrature.h"
-#include "solver/assembly/strain.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::MatrixXd;
@@ -79,9 +79,9 @@ MovingSystem::MovingSystem(const Model& model, bool gyroscopic, bool inertia)
       inertia_(inertia) {
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
     const auto source = constraints_.rows[r].source;
-    T_is_variable_ = T_is_variable_ ||
-                (constraints_.pivot[r] >= 0 && (source == ConstraintRow::Source::rigid_body ||
-                                                source == ConstraintRow::Source::inextensible));
+    T_is_variable_ = T_is_variable_ || (constraints_.pivot[r] >= 0 &&
+                                        (source == ConstraintRow::Source::rigid_body ||
+                                         source == ConstraintRow::Source::inextensible));
   }
   motion_.position.resize(static_cast<Index>(model.nodes.size()), 2);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -154,13 +154,15 @@ void MovingSystem::make_point_masses() {
     std::copy(node.begin(), node.end(), element.coordinates.begin());
     for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
       const RigidBody& body = model.rigid_bodies[b];
-      const bool holds = body.reference == point_mass.node ||
-                         std::count(body.attached.begin(), body.attached.end(), point_mass.node) > 0;
+      const bool holds =
+          body.reference == point_mass.node ||
+          std::count(body.attached.begin(), body.attached.end(), point_mass.node) > 0;
       if (!holds) continue;
       element.part = &NominalMotion::rigid_body;
       element.part_index = b;
     }
-    element.m.topLeftCorner<3, 3>() = point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset);
+    element.m.topLeftCorner<3, 3>() =
+        point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset);
     element.first_moment = point_mass.mass * point_mass.offset;
     Eigen::Matrix<double, 3, 6> N = Eigen::Matrix<double, 3, 6>::Zero();
     N(0, 0) = N(1, 1) = N(2, 2) = 1;
@@ -380,7 +382,8 @@ Outcome MovingSystem::solve_constraints(const NominalMotion& motion) {
     return {Status::singular,
             "the coordinates that the constraints eliminated at the start do not suit this pose"};
   }
-  for (const std::size_t r : dependent_rows_) {  // only now, so that what is refused leaves no trace
+  for (const std::size_t r :
+       dependent_rows_) {  // only now, so that what is refused leaves no trace
     ConstraintRow& row = constraints_.rows[r];
     for (std::size_t t = 0; t < row.terms.size(); ++t) {
       row.terms[t].second = coefficient(row, t, motion, 0);
@@ -421,7 +424,8 @@ PartMotion MovingSystem::part_of(const Element& element) const {
 }
 
 /// Q A Q^T with Q the rotation of the element's coordinates.
-Matrix6d MovingSystem::rotated_matrix(const Element& element, const Matrix6d& A, double turn) const {
+Matrix6d MovingSystem::rotated_matrix(const Element& element, const Matrix6d& A,
+                                      double turn) const {
   if (turn == 0 || element.layout == Layout::scalar) return A;
   Matrix6d B = A;
   const double c = std::cos(turn);
@@ -507,7 +511,8 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
     const PartMotion part = part_of(element);
     const Matrix6d k = rotated_matrix(element, element.k, part.angle);
     const Matrix6d m = rotated_matrix(element, element.m, part.angle);
-    const std::size_t end = e + 1 < elements_.size() ? elements_[e + 1].first_contribution : contributions_.size();
+    const std::size_t end =
+        e + 1 < elements_.size() ? elements_[e + 1].first_contribution : contributions_.size();
     for (std::size_t t = element.first_contribution; t < end; ++t) {
       const Contribution& contribution = contributions_[t];
       const double factor = T[contribution.a] * T[contribution.b];
@@ -534,7 +539,8 @@ void MovingSystem::add_gyroscopic(const Element& element, const PartMotion& part
   const Matrix6d first_derivative = rotated_matrix(element, element.first_derivative, part.angle);
   const Matrix6d second_derivative = rotated_matrix(element, element.second_derivative, part.angle);
   const Matrix6d c = 2 * part.rate * first_derivative;
-  const Matrix6d s = part.acceleration * first_derivative + part.rate * part.rate * second_derivative;
+  const Matrix6d s =
+      part.acceleration * first_derivative + part.rate * part.rate * second_derivative;
   const double* const T = constraints_.T.valuePtr();
   for (std::size_t t = element.first_contribution; t < end; ++t) {
     const Contribution& contribution = contributions_[t];
@@ -545,7 +551,8 @@ void MovingSystem::add_gyroscopic(const Element& element, const PartMotion& part
     C_gyroscopic_.valuePtr()[contribution.destination] +=
         a * (2 * m(contribution.local) * b_dot + c(contribution.local) * b);
     K_centrifugal_euler_.valuePtr()[contribution.destination] +=
-        a * (m(contribution.local) * b_ddot + c(contribution.local) * b_dot + s(contribution.local) * b);
+        a * (m(contribution.local) * b_ddot + c(contribution.local) * b_dot +
+             s(contribution.local) * b);
   }
 }
 
@@ -575,11 +582,15 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
     const Matrix6d m = rotated_matrix(element, element.m, part.angle);
     Vector6d inertia = m * detail::gather(element.coordinates, u_ddot);
     if (gyroscopic_) {
-      const Matrix6d first_derivative = rotated_matrix(element, element.first_derivative, part.angle);
-      const Matrix6d second_derivative = rotated_matrix(element, element.second_derivative, part.angle);
+      const Matrix6d first_derivative =
+          rotated_matrix(element, element.first_derivative, part.angle);
+      const Matrix6d second_derivative =
+          rotated_matrix(element, element.second_derivative, part.angle);
       const Vector6d local = detail::gather(element.coordinates, u);
-      inertia += 2 * part.rate * (first_derivative * detail::gather(element.coordinates, convected)) +
-                 part.acceleration * (first_derivative * local) + part.rate * part.rate * (second_derivative * local);
+      inertia +=
+          2 * part.rate * (first_derivative * detail::gather(element.coordinates, convected)) +
+          part.acceleration * (first_derivative * local) +
+          part.rate * part.rate * (second_derivative * local);
     }
     if (with_inertia) inertia -= element_inertia_load(element, m);
     inertia -= weight(element, m);
@@ -600,4 +611,4 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
   return forces;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,11 +5,11 @@
 #include <array>
 #include <vector>
 
+#include "solver/assembly/system.h"
 #include "solver/elements/frame_element.h"
 #include "solver/model/outcome.h"
-#include "solver/assembly/system.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Rotation of a rigid part about the position in which the model was built.
 struct PartMotion {
@@ -50,7 +50,9 @@ class MovingSystem {
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& gyroscopic_matrix() const { return C_gyroscopic_; }
-  [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const { return K_centrifugal_euler_; }
+  [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const {
+    return K_centrifugal_euler_;
+  }
   /// - int rho W^T r.. dV, as a load [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
   /// Loads of the model, which keep their world axes, and weight.
@@ -65,8 +67,8 @@ class MovingSystem {
 
   /// Forces at the ends of the frame elements and on all coordinates u, at the present pose.
   struct Forces {
-    Eigen::MatrixXd element;  ///< 6 x frame element: what its nodes do to it, element axes
-    Eigen::VectorXd total;    ///< what constraints must give: the elements' needs less the loads
+    Eigen::MatrixXd element;   ///< 6 x frame element: what its nodes do to it, element axes
+    Eigen::VectorXd total;     ///< what constraints must give: the elements' needs less the loads
     Eigen::VectorXd external;  ///< loads and weight, less inertia and the damping by mass, on u
   };
   /// @param q, v, a  free coordinates and their rates;
@@ -87,12 +89,12 @@ class MovingSystem {
     Layout layout = Layout::frame;
     std::array<Index, 6> coordinates{-1, -1, -1, -1, -1, -1};
     Matrix6d k = Matrix6d::Zero(), m = Matrix6d::Zero();
-    Matrix6d first_derivative = Matrix6d::Zero();                           // int rho N^T dN/dangle
-    Matrix6d second_derivative = Matrix6d::Zero();                          // int rho N^T d2N/dangle2
+    Matrix6d first_derivative = Matrix6d::Zero();                  // int rho N^T dN/dangle
+    Matrix6d second_derivative = Matrix6d::Zero();                 // int rho N^T d2N/dangle2
     const std::vector<PartMotion> NominalMotion::*part = nullptr;  // null: does not turn
     std::size_t part_index = 0;
     Vector2d first_moment = Vector2d::Zero();  // lump: mass * offset
-    std::size_t first_contribution = 0;                // of its terms
+    std::size_t first_contribution = 0;        // of its terms
   };
   /// value(destination) += T(a) * element(local) * T(b)
   struct Contribution {
@@ -113,7 +115,7 @@ class MovingSystem {
   [[nodiscard]] Outcome solve_constraints(const NominalMotion& motion);
   [[nodiscard]] PartMotion part_of(const Element& element) const;
   [[nodiscard]] Matrix6d rotated_matrix(const Element& element, const Matrix6d& A,
-                                       double turn) const;
+                                        double turn) const;
   [[nodiscard]] Vector6d nominal_acceleration(const Element& element) const;
   [[nodiscard]] Vector6d weight(const Element& element, const Matrix6d& m) const;
   [[nodiscard]] Vector6d element_inertia_load(const Element& element, const Matrix6d& m) const;
@@ -127,8 +129,8 @@ class MovingSystem {
   std::vector<Element> elements_;
   std::vector<Contribution> contributions_;
   SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_;
-  RowMajorMatrix T_dot_, T_ddot_;   // pattern of T
-  std::vector<std::size_t> dependent_rows_;   // rows of C beside supports ...
+  RowMajorMatrix T_dot_, T_ddot_;            // pattern of T
+  std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
   std::vector<Index> dependent_row_of_;  // ... and of each coordinate that they eliminate, or -1
   Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
   std::vector<std::array<Index, 2>> span_;  // mesh node -> ends of its member ...
@@ -138,4 +140,4 @@ class MovingSystem {
   std::int64_t element_evaluations_ = 0;
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

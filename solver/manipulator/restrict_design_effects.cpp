@@ -1,6 +1,6 @@
 #include "solver/manipulator/restrict_design_effects.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 void restrict_effects(LinkDesign& link, Effects active) {
@@ -33,4 +33,4 @@ ManipulatorDesign restrict_effects(ManipulatorDesign design, Effects active) {
   return design;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,9 +3,9 @@
 #include "solver/manipulator/manipulator.h"
 #include "solver/model/effects.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// The manipulator without the effects that are not in `active`, before a model is built of it.
 [[nodiscard]] ManipulatorDesign restrict_effects(ManipulatorDesign design, Effects active);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/model/numbers.h"
 #include "solver/manipulator/kinematics.h"
+#include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
-
 
 template <class S>
 using Vec2 = Eigen::Matrix<S, 2, 1>;
@@ -418,4 +417,4 @@ InverseDynamics inverse_dynamics(const RigidManipulator& m, const TrajectoryPoin
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

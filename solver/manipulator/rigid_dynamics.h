@@ -6,15 +6,15 @@
 
 #include "solver/manipulator/kinematics.h"
 #include "solver/manipulator/manipulator.h"
-#include "solver/model/outcome.h"
 #include "solver/manipulator/trajectory.h"
+#include "solver/model/outcome.h"
 
 /// Rigid dynamics of the 3-RRR in nine coordinates (paper Eq. 1-5):
 ///   M(q) q.. + C(q, q.) q. + N(q) = forces,  q = [theta_a (3), theta_p (3), x, y, phi],
 /// with absolute link angles, q. = W theta_a. by the closed loops, and the reduced
 ///   Mh theta_a.. + Ch theta_a. + Nh = tau + (dx/dtheta_a)^T wrench,
 ///   Mh = W^T M W,  Ch = W^T M W. + W^T C W,  Nh = W^T N.
-namespace trammel {
+namespace trammel::solver {
 
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
@@ -111,4 +111,4 @@ struct InverseDynamics {
                                                const TrajectoryPoint& motion,
                                                const Vector3d& wrench = Vector3d::Zero());
 
-}  // namespace trammel
+}  // namespace trammel::solver

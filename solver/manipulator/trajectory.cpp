@@ -6,13 +6,9 @@
 #include <cmath>
 #include <limits>
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
-
-void require(bool holds, const char* sentence) {
-  if (!holds) throw ModelError(sentence);
-}
 
 Vector3d as_vector(const Pose& pose) {
   return {pose.x, pose.y, pose.phi};
@@ -184,4 +180,4 @@ std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step)
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -7,7 +7,7 @@
 #include "solver/manipulator/kinematics.h"
 
 /// Prescribed motions of the platform: pose, velocity and acceleration at every time.
-namespace trammel {
+namespace trammel::solver {
 
 struct TrajectoryPoint {
   double time = 0;  ///< [s]
@@ -64,4 +64,4 @@ using Path = std::variant<Circle, Line, RestToRest, Spline>;
 /// @throws ModelError  as `at`, or where points < 1 or the step is not positive.
 [[nodiscard]] std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step);
 
-}  // namespace trammel
+}  // namespace trammel::solver

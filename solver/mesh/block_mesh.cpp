@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// How far apart nodes of one place may be.
@@ -119,7 +119,8 @@ class Mesher {
   /// A node on a block's side, which may be another block's as well.
   Index shared_node(const Vector2d& position) {
     for (const Index node : outer_) {
-      if ((mesh_.positions[static_cast<std::size_t>(node)] - position).norm() < tolerance_) return node;
+      if ((mesh_.positions[static_cast<std::size_t>(node)] - position).norm() < tolerance_)
+        return node;
     }
     mesh_.positions.push_back(position);
     outer_.push_back(static_cast<Index>(mesh_.positions.size()) - 1);
@@ -255,4 +256,4 @@ std::vector<EdgeLoad> load_side(const BlockMesh& mesh, const std::vector<Index>&
   return loads;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

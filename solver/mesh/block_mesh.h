@@ -8,7 +8,7 @@
 
 /// Mapped meshes of plates: quadrilateral blocks with straight or elliptic sides, joined where
 /// their sides coincide. Pure functions; the result is nodes and triangles of a Model.
-namespace trammel {
+namespace trammel::solver {
 
 /// x = centre.x + semi_axes.x cos t, y = centre.y + semi_axes.y sin t. A side on it runs the
 /// shorter way, at even steps of t.
@@ -50,4 +50,4 @@ std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh);
                                               std::size_t block, std::size_t side,
                                               const Vector2d& traction, double normal);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// -1, 0 or 1: a pattern with a period of three cells.
@@ -109,4 +109,4 @@ Model mesh_line(const LineMesh& mesh, const Member& member) {
   return model;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

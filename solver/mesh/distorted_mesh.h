@@ -4,7 +4,7 @@
 
 /// Meshes for the verification of orders: regular, or distorted in a pattern that repeats from cell
 /// to cell, so that refinement does not smooth it out.
-namespace trammel {
+namespace trammel::solver {
 
 struct RectangleMesh {
   double length = 0;  ///< along x, from the origin [m]
@@ -30,4 +30,4 @@ struct LineMesh {
 /// @throws ModelError  for a distortion that could turn a member over.
 [[nodiscard]] Model mesh_line(const LineMesh& mesh, const Member& member);
 
-}  // namespace trammel
+}  // namespace trammel::solver

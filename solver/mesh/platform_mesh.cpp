@@ -8,7 +8,7 @@
 
 #include "solver/model/plane.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 namespace {
 
@@ -172,4 +172,4 @@ std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh, cons
   return weights;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

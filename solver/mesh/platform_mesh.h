@@ -7,7 +7,7 @@
 #include "solver/model/model.h"
 
 /// The platform's triangles and its pins of finite radius.
-namespace trammel {
+namespace trammel::solver {
 
 struct TriangleMesh {
   std::vector<Vector2d> nodes;                  ///< [m]; the first four are C1, C2, C3, P
@@ -29,4 +29,4 @@ struct TriangleMesh {
 [[nodiscard]] std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh,
                                                                 const Vector2d& x0, double radius);
 
-}  // namespace trammel
+}  // namespace trammel::solver

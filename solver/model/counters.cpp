@@ -1,6 +1,6 @@
 #include "solver/model/counters.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 Counters& Counters::operator+=(const Counters& other) {
   element_evaluations += other.element_evaluations;
@@ -11,4 +11,4 @@ Counters& Counters::operator+=(const Counters& other) {
   return *this;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 
 #include "solver/model/effects.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
@@ -26,4 +26,4 @@ struct Counters {
   Counters& operator+=(const Counters& other);
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -11,7 +11,7 @@
 /// exactly. A complex step carries it as an imaginary part so small that its square is nothing
 /// beside the real one: f(p + ih) = f + ih f' + O(h^2), with no difference to cancel
 /// (W. Squire, G. Trapp, SIAM Review 40, 1998).
-namespace trammel {
+namespace trammel::solver {
 
 /// A value and its derivative with respect to one parameter.
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
@@ -54,4 +54,4 @@ template <Real T>
   return {std::atan2(y.real(), x.real()), turn / (x.real() * x.real() + y.real() * y.real())};
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

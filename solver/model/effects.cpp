@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 constexpr std::array<std::string_view, kEffectCount> kNames = {"axial-flexibility",
@@ -39,4 +39,4 @@ std::optional<Effect> effect_named(std::string_view name) {
   return static_cast<Effect>(found - kNames.begin());
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

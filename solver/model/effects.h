@@ -9,7 +9,7 @@
 
 /// What a scene may call for. An effect that is off is taken out of the model before anything is
 /// built from it: no degree of freedom, no matrix and no evaluation is left of it.
-namespace trammel {
+namespace trammel::solver {
 
 enum class Effect : std::uint8_t {
   axial_flexibility,     ///< members that bend also stretch; off: inextensible, by constraints
@@ -58,4 +58,4 @@ class Effects {
 /// Evaluations that effects have caused: element matrices, loads of elements, springs.
 using EffectCounts = std::array<std::int64_t, kEffectCount>;
 
-}  // namespace trammel
+}  // namespace trammel::solver

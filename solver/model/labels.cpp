@@ -1,6 +1,6 @@
 #include "solver/model/labels.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 std::string part_label(const char* kind, const std::string& name, std::size_t index) {
   return std::string(kind) + ' ' + (name.empty() ? std::to_string(index) : name);
@@ -16,4 +16,4 @@ std::string member_label(const Model& model, Index member) {
   return part_label("member", model.members[i].name, i);
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

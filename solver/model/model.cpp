@@ -1,6 +1,6 @@
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 Index Model::find_node(std::string_view name) const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -9,4 +9,4 @@ Index Model::find_node(std::string_view name) const {
   return -1;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

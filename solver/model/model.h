@@ -12,7 +12,7 @@
 
 /// The planar model: what a case file describes and what `assemble` turns into matrices.
 /// Everything is in SI units and world axes; indices point into the vectors of the same Model.
-namespace trammel {
+namespace trammel::solver {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -183,8 +183,8 @@ class ModelError : public std::runtime_error {
 };
 
 /// @throws ModelError  with the message, where the condition does not hold.
-inline void require(bool condition, const char* message) {
+inline void require(bool condition, const std::string& message) {
   if (!condition) throw ModelError(message);
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 #include <limits>
 
 /// Numbers that every room uses.
-namespace trammel {
+namespace trammel::solver {
 
 using Index = Eigen::Index;
 
@@ -22,4 +22,4 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   return std::isnan(a) || b <= a ? a : b;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

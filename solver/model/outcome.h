@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace trammel {
+namespace trammel::solver {
 
 /// How a computation ended. A numerical outcome is a value, never an exception.
 enum class Status { solved, singular, not_converged };
@@ -13,4 +13,4 @@ struct Outcome {
   [[nodiscard]] bool solved() const { return status == Status::solved; }
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 #include "solver/model/model.h"
 
 /// Vectors in the plane.
-namespace trammel {
+namespace trammel::solver {
 
 /// The component out of the plane of a x b: positive where b lies to the left of a.
 [[nodiscard]] inline double cross(const Vector2d& a, const Vector2d& b) {
@@ -25,4 +25,4 @@ namespace trammel {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

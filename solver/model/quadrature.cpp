@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 std::array<LineQuadraturePoint, 5> gauss_5() {
@@ -23,7 +23,8 @@ std::array<TriangleQuadraturePoint, 25> conical_product() {
   for (const LineQuadraturePoint& a : line_quadrature()) {
     for (const LineQuadraturePoint& b : line_quadrature()) {
       const double remainder = 1 - a.xi;
-      points[k++] = {{a.xi, remainder * b.xi, remainder * (1 - b.xi)}, 2 * remainder * a.weight * b.weight};
+      points[k++] = {{a.xi, remainder * b.xi, remainder * (1 - b.xi)},
+                     2 * remainder * a.weight * b.weight};
     }
   }
   return points;
@@ -41,4 +42,4 @@ const std::array<TriangleQuadraturePoint, 25>& triangle_quadrature() {
   return points;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 
 /// Integration rules for what is not a polynomial: loads and errors of fields given as functions.
 /// (Element matrices have rules of their own, as long as they must be.)
-namespace trammel {
+namespace trammel::solver {
 
 struct LineQuadraturePoint {
   double xi = 0;      ///< fraction of the length
@@ -17,11 +17,11 @@ struct LineQuadraturePoint {
 
 struct TriangleQuadraturePoint {
   Eigen::Vector3d area_coordinates = Eigen::Vector3d::Zero();  ///< area coordinates of the corners
-  double weight = 0;                             ///< the weights add up to 1
+  double weight = 0;                                           ///< the weights add up to 1
 };
 
 /// The square of the rule above with one side collapsed to a corner: exact to degree 8.
 /// Source: Stroud & Secrest (1966), conical product.
 [[nodiscard]] const std::array<TriangleQuadraturePoint, 25>& triangle_quadrature();
 
-}  // namespace trammel
+}  // namespace trammel::solver

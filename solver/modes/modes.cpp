@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "solver/statics/zero_energy_modes.h"
 #include "solver/assembly/strain.h"
+#include "solver/statics/zero_energy_modes.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::MatrixXd;
@@ -142,4 +142,4 @@ std::optional<Index> sturm_count(const System& system, double frequency) {
   return factorization.negative_pivots();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

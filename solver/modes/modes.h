@@ -4,15 +4,16 @@
 #include <optional>
 #include <string>
 
+#include "solver/assembly/system.h"
 #include "solver/linalg/eigenpairs.h"
 #include "solver/model/outcome.h"
-#include "solver/assembly/system.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 struct ModesOptions {
   Index count = 6;
-  EigenMethod method = EigenMethod::automatic;  ///< automatic: dense below a few hundred free coordinates
+  EigenMethod method =
+      EigenMethod::automatic;  ///< automatic: dense below a few hundred free coordinates
 };
 
 /// Free vibration K x = w^2 M x (paper Eq. 28, 29), x^T M x = 1 (Eq. 33).
@@ -31,10 +32,10 @@ struct ModalSolution {
   /// over w^2 (what rounding the mode to doubles can do to its strain energy), and the error left
   /// by the residual.
   Eigen::VectorXd roundoff;
-  Eigen::MatrixXd shape;           ///< free coordinate x mode; use node_motion, mesh_motion
-  Index zero_energy_mode_count = 0;         ///< how many leading frequencies are zero
+  Eigen::MatrixXd shape;              ///< free coordinate x mode; use node_motion, mesh_motion
+  Index zero_energy_mode_count = 0;   ///< how many leading frequencies are zero
   std::string zero_energy_mode_text;  ///< what they are, in words
-  Index inertia_count = 0;         ///< eigenvalues below the check shift, by sparse LDL^T
+  Index inertia_count = 0;            ///< eigenvalues below the check shift, by sparse LDL^T
   Counters counters;
 };
 
@@ -45,4 +46,4 @@ struct ModalSolution {
 /// its digits, as on a natural frequency.
 [[nodiscard]] std::optional<Index> sturm_count(const System& system, double frequency);
 
-}  // namespace trammel
+}  // namespace trammel::solver

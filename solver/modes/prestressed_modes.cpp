@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/statics/postprocessing.h"
 #include "solver/assembly/strain.h"
+#include "solver/statics/postprocessing.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -76,4 +76,4 @@ PrestressedModes solve_prestressed_modes(const System& system, const ModesOption
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,7 +3,7 @@
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Small vibration about the state that the model's loads hold it in: (K + K_G) x = w^2 M x, K_G
 /// from the forces of second-order statics. The state's displacements are small: the geometry is
@@ -20,4 +20,4 @@ struct PrestressedModes {
 [[nodiscard]] ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
                                              const ModesOptions& options);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 #include "solver/linalg/eigenpairs.h"
 #include "solver/linalg/factorization.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::MatrixXd;
@@ -26,7 +26,8 @@ std::vector<bool> interior_coordinates(const System& system) {
 }
 
 /// The inside coordinates in sets that nothing couples: a member's each.
-std::vector<std::vector<Index>> components(const System& system, const std::vector<bool>& interior) {
+std::vector<std::vector<Index>> components(const System& system,
+                                           const std::vector<bool>& interior) {
   std::vector<Index> root(interior.size());
   std::iota(root.begin(), root.end(), Index{0});
   const auto find = [&](Index i) {
@@ -41,7 +42,8 @@ std::vector<std::vector<Index>> components(const System& system, const std::vect
       if (!interior[static_cast<std::size_t>(j)]) continue;
       for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) {
         const Index i = entry.row();
-        if (interior[static_cast<std::size_t>(i)]) root[static_cast<std::size_t>(find(i))] = find(j);
+        if (interior[static_cast<std::size_t>(i)])
+          root[static_cast<std::size_t>(find(i))] = find(j);
       }
     }
   }
@@ -73,16 +75,19 @@ std::vector<std::vector<Index>> components(const System& system, const std::vect
 /// Rows and columns of a matrix.
 class IndexSubset {
  public:
-  IndexSubset(Index size, const std::vector<Index>& chosen) : local_index_(static_cast<std::size_t>(size), -1) {
+  IndexSubset(Index size, const std::vector<Index>& chosen)
+      : local_index_(static_cast<std::size_t>(size), -1) {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       local_index_[static_cast<std::size_t>(chosen[i])] = static_cast<Index>(i);
     }
     count_ = static_cast<Index>(chosen.size());
   }
-  [[nodiscard]] Index local_index(Index q) const { return local_index_[static_cast<std::size_t>(q)]; }
+  [[nodiscard]] Index local_index(Index q) const {
+    return local_index_[static_cast<std::size_t>(q)];
+  }
 
   [[nodiscard]] SparseMatrix submatrix(const SparseMatrix& matrix,
-                                    const std::vector<Index>& chosen) const {
+                                       const std::vector<Index>& chosen) const {
     Triplets entries;
     for (const Index j : chosen) {
       for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
@@ -127,7 +132,7 @@ VectorXd coupling(const SparseMatrix& K, Index boundary, const std::vector<Index
 
 /// The lowest modes with the boundary held.
 MatrixXd fixed_interface_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
-                    Factorization& factorization, Counters& counters) {
+                               Factorization& factorization, Counters& counters) {
   Pencil pencil;
   pencil.K = &K;
   pencil.B = &M;
@@ -203,4 +208,4 @@ System reduce_members(const System& system, Index modes) {
   return reduced;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,7 +2,7 @@
 
 #include "solver/assembly/system.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Component mode synthesis: the free coordinates inside the members (of the nodes that cut them
 /// into elements) follow the rest statically and, beyond that, in their lowest modes with the
@@ -20,4 +20,4 @@ namespace trammel {
 /// @throws ModelError  for a negative number of modes.
 [[nodiscard]] System reduce_members(const System& system, Index modes);
 
-}  // namespace trammel
+}  // namespace trammel::solver

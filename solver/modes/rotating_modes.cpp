@@ -4,12 +4,12 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/statics/zero_energy_modes.h"
+#include "solver/assembly/strain.h"
 #include "solver/linalg/gyroscopic.h"
 #include "solver/linalg/refinement.h"
-#include "solver/assembly/strain.h"
+#include "solver/statics/zero_energy_modes.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -124,7 +124,8 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
     return result;
   }
   result.q = steady.q;
-  const bool has_gyroscopic_forces = options.gyroscopic && options.frame.axis == RotationAxis::normal;
+  const bool has_gyroscopic_forces =
+      options.gyroscopic && options.frame.axis == RotationAxis::normal;
   SparseMatrix C(system.K.rows(), system.K.cols());
   if (has_gyroscopic_forces) {
     C = 2 * options.frame.speed * gyroscopic_matrix(system);
@@ -154,4 +155,4 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

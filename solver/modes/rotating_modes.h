@@ -2,19 +2,20 @@
 
 #include <Eigen/Core>
 
-#include "solver/linalg/eigenpairs.h"
-#include "solver/model/outcome.h"
 #include "solver/assembly/rotating_frame.h"
 #include "solver/assembly/system.h"
+#include "solver/linalg/eigenpairs.h"
+#include "solver/model/outcome.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 struct RotatingOptions {
   RotatingFrame frame;
   Index count = 6;
-  EigenMethod method = EigenMethod::automatic;  ///< of a stable state; an unstable one is always dense
-  bool gyroscopic = true;                 ///< false: leaves G out
-  bool stiffening = true;                 ///< false: leaves K_G out
+  EigenMethod method =
+      EigenMethod::automatic;  ///< of a stable state; an unstable one is always dense
+  bool gyroscopic = true;      ///< false: leaves G out
+  bool stiffening = true;      ///< false: leaves K_G out
   /// K_G from the forces in the steady state; false: from those of linear statics under the
   /// centrifugal forces on the undeformed frame, as the classical equations of blades have it.
   bool prestress_at_steady_state = true;
@@ -23,7 +24,8 @@ struct RotatingOptions {
 /// Small vibration of a frame that rotates steadily, seen from it, about its steady state:
 ///   (K + K_G - W^2 S) q = f + W^2 f_c,   and with that K_G
 ///   (K + K_G - W^2 S + i w 2 W G - w^2 M) x = 0
-/// (rotating_frame.h for S, G, f_c). The supports rotate with the frame; the geometry is the undeformed one.
+/// (rotating_frame.h for S, G, f_c). The supports rotate with the frame; the geometry is the
+/// undeformed one.
 ///
 /// Stable states have real w: a Hermitian problem in 1 / w, of which none is missed, for the matrix
 /// above at a w just beyond the last has as many negative pivots as there are below it.
@@ -41,4 +43,4 @@ struct RotatingModes {
 [[nodiscard]] RotatingModes solve_rotating_modes(const System& system,
                                                  const RotatingOptions& options);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -8,11 +8,11 @@
 
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/projection.h"
-#include "solver/sensitivity/seeded_design.h"
 #include "solver/assembly/strain.h"
 #include "solver/elements/triangle_element.h"
+#include "solver/sensitivity/seeded_design.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXcd;
@@ -91,7 +91,7 @@ ComplexMatrix bordered(const SteppedSystem& at, const Complex& lambda, const Vec
 
 /// d lambda / dp of one mode; NaN where it cannot be told from its neighbours.
 double eigenvalue_derivative(const SteppedSystem& at, const VectorXd& shape, double lambda,
-                        Counters& counters) {
+                             Counters& counters) {
   VectorXcd x = shape.cast<Complex>();
   Complex root = lambda;
   // Scaled so that the border weighs what the matrix does.
@@ -113,8 +113,10 @@ double eigenvalue_derivative(const SteppedSystem& at, const VectorXd& shape, dou
 
 }  // namespace
 
-FrequencyComplexStep differentiate_by_complex_step(const ManipulatorDesign& design, const Pose& pose,
-                                      const std::vector<DesignParameter>& parameters, Index count) {
+FrequencyComplexStep differentiate_by_complex_step(const ManipulatorDesign& design,
+                                                   const Pose& pose,
+                                                   const std::vector<DesignParameter>& parameters,
+                                                   Index count) {
   const System system = assemble(build_manipulator(design, pose));
   const bool stretch = std::all_of(system.model.members.begin(), system.model.members.end(),
                                    [](const Member& member) { return member.axially_flexible; });
@@ -156,4 +158,4 @@ FrequencyComplexStep differentiate_by_complex_step(const ManipulatorDesign& desi
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -4,7 +4,7 @@
 
 /// Sensitivities of the natural frequencies by complex steps of the design: a route that goes
 /// through the eigenvalue problem itself, where Eq. 35 goes through its energies.
-namespace trammel {
+namespace trammel::solver {
 
 struct FrequencyComplexStep {
   Outcome outcome;             ///< singular: as FrequencySensitivity, or repeated frequencies
@@ -18,9 +18,8 @@ struct FrequencyComplexStep {
 /// near the real one by Newton's method in complex arithmetic: d lambda / dp = Im lambda / h. One
 /// factorization a mode and parameter; transposed, never conjugated, so that all stays analytic.
 /// @throws ModelError  as `build_manipulator`, and for inextensible links, whose constraints move.
-[[nodiscard]] FrequencyComplexStep differentiate_by_complex_step(const ManipulatorDesign& design,
-                                                    const Pose& pose,
-                                                    const std::vector<DesignParameter>& parameters,
-                                                    Index count);
+[[nodiscard]] FrequencyComplexStep differentiate_by_complex_step(
+    const ManipulatorDesign& design, const Pose& pose,
+    const std::vector<DesignParameter>& parameters, Index count);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -115,7 +115,8 @@ class Differences {
 
   void keep(const VectorXd& next, const VectorXd& fine, const VectorXd& coarse) {
     for (Index n = 0; n < count_; ++n) {
-      const double error_estimate = std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
+      const double error_estimate =
+          std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
       if (!(error_estimate < result_.error_estimate[n])) continue;
       result_.error_estimate[n] = error_estimate;
       result_.derivative[n] = next[n];
@@ -144,4 +145,4 @@ FrequencyDifferences difference_quotient(const ManipulatorDesign& design, const 
   return Differences(design, pose, parameter, count).single_quotient(relative_step, central);
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

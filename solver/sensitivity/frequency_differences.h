@@ -4,14 +4,14 @@
 
 /// Sensitivities of the natural frequencies by differences of the changed design: a second route,
 /// which shares no derivative with `frequency_sensitivity`.
-namespace trammel {
+namespace trammel::solver {
 
 struct FrequencyDifferences {
-  Outcome outcome;             ///< as the modes of the design and of the changed ones
-  Eigen::VectorXd frequency;   ///< ascending [Hz]
-  Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
-  Eigen::VectorXd error_estimate;       ///< what the extrapolation itself says of its error [Hz / unit]
-  double step = 0;             ///< the largest [unit]
+  Outcome outcome;                 ///< as the modes of the design and of the changed ones
+  Eigen::VectorXd frequency;       ///< ascending [Hz]
+  Eigen::VectorXd derivative;      ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
+  Eigen::VectorXd error_estimate;  ///< what the extrapolation itself says of its error [Hz / unit]
+  double step = 0;                 ///< the largest [unit]
   Counters counters;
 };
 
@@ -36,4 +36,4 @@ struct FrequencyDifferences {
                                                        Index count, double relative_step,
                                                        bool central);
 
-}  // namespace trammel
+}  // namespace trammel::solver

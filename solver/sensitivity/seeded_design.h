@@ -8,7 +8,7 @@
 
 /// A design whose numbers carry their derivatives with respect to one parameter, up to what the
 /// elements are made of, the pose held.
-namespace trammel {
+namespace trammel::solver {
 
 namespace detail {
 
@@ -140,4 +140,4 @@ class SeededDesign {
   std::array<SeededLink<T>, 6> links_;
 };
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "solver/assembly/inertia.h"
-#include "solver/sensitivity/seeded_design.h"
 #include "solver/assembly/strain.h"
 #include "solver/model/numbers.h"
+#include "solver/sensitivity/seeded_design.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::MatrixXd;
@@ -155,9 +155,9 @@ class SetDerivative {
 
 /// Modes enough that the last set wanted is whole.
 ModalSolution whole_sets(const System& system, Index count) {
-  constexpr Index kExtraModes = 3;
+  constexpr Index kSpareModes = 3;
   const Index all = system.K.rows();
-  Index wanted = std::min(all, count + kExtraModes);
+  Index wanted = std::min(all, count + kSpareModes);
   for (;;) {
     ModalSolution modes = solve_modes(system, {.count = wanted});
     if (!modes.outcome.solved() || wanted == all || modes.frequency.size() <= count) return modes;
@@ -197,7 +197,7 @@ const char* unit(Quantity quantity) {
 }
 
 ManipulatorDesign perturbed(const ManipulatorDesign& design, const DesignParameter& parameter,
-                          double change) {
+                            double change) {
   ManipulatorDesign result = design;
   for_each_number(result, parameter, [change](double& x) { x += change; });
   return result;
@@ -335,4 +335,4 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
   return map;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -12,7 +12,7 @@
 /// with the pose held, so that the joint angles move with the link lengths. dK/dp and dM/dp are
 /// exact: dual numbers (dual.h) through the functions that the builder and the elements are made
 /// of. Whether a link's mass is held as a total or follows from its density is the design's choice.
-namespace trammel {
+namespace trammel::solver {
 
 /// A number of the design, or several that change together by the same amount.
 struct DesignParameter {
@@ -28,7 +28,7 @@ struct DesignParameter {
 
 /// The design with the parameter increased by `change` [unit of the parameter].
 [[nodiscard]] ManipulatorDesign perturbed(const ManipulatorDesign& design,
-                                        const DesignParameter& parameter, double change);
+                                          const DesignParameter& parameter, double change);
 
 /// The parameter's value [its unit]: the largest of the numbers that it names.
 [[nodiscard]] double parameter_value(const ManipulatorDesign& design,
@@ -105,4 +105,4 @@ struct SensitivityMap {
                                                  const DesignParameter& parameter,
                                                  const PoseGrid& grid);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <optional>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// Positions of P that the limb reaches: between two circles about one centre.
@@ -84,7 +84,7 @@ std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi
 }  // namespace
 
 std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry, double phi,
-                                     Index points) {
+                                         Index points) {
   check_geometry(geometry);
   const std::array<Annulus, 3> all = reach_annuli(geometry, phi);
   std::vector<Polyline> arcs;
@@ -133,4 +133,4 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
   return segments;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

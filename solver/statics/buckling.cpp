@@ -2,13 +2,13 @@
 
 #include <limits>
 
-#include "solver/statics/postprocessing.h"
-#include "solver/linalg/refinement.h"
-#include "solver/statics/statics.h"
 #include "solver/assembly/strain.h"
+#include "solver/linalg/refinement.h"
 #include "solver/model/numbers.h"
+#include "solver/statics/postprocessing.h"
+#include "solver/statics/statics.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 BucklingSolution solve_buckling(const System& system, const BucklingOptions& options) {
   BucklingSolution solution;
@@ -50,4 +50,4 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   return solution;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 
+#include "solver/assembly/system.h"
 #include "solver/linalg/eigenpairs.h"
 #include "solver/model/outcome.h"
-#include "solver/assembly/system.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 struct BucklingOptions {
   Index count = 3;
@@ -28,4 +28,4 @@ struct BucklingSolution {
 [[nodiscard]] BucklingSolution solve_buckling(const System& system,
                                               const BucklingOptions& options = {});
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <optional>
 
-#include "solver/statics/zero_energy_modes.h"
 #include "solver/model/labels.h"
 #include "solver/model/plane.h"
+#include "solver/statics/zero_energy_modes.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::MatrixXd;
@@ -42,8 +42,10 @@ std::string along(const Vector2d& translation) {
 
 std::string join(const std::vector<std::string>& phrases, std::size_t max_count) {
   std::string text;
-  for (std::size_t i = 0; i < phrases.size() && i < max_count; ++i) text += (i ? "; " : "") + phrases[i];
-  if (phrases.size() > max_count) text += "; and " + std::to_string(phrases.size() - max_count) + " more";
+  for (std::size_t i = 0; i < phrases.size() && i < max_count; ++i)
+    text += (i ? "; " : "") + phrases[i];
+  if (phrases.size() > max_count)
+    text += "; and " + std::to_string(phrases.size() - max_count) + " more";
   return text;
 }
 
@@ -135,8 +137,8 @@ class MechanismDescription {
     for (const Vector3d& motion : found) {
       RigidMotion rigid{centre_, motion.head<2>(), motion[2] / size_};
       phrases.push_back(rigid.rotation * size_ > 1e-6 || rigid.rotation * size_ < -1e-6
-                          ? "rotation of " + model + "about " + centre_of(rigid)
-                          : model + "moves freely along " + along(rigid.translation));
+                            ? "rotation of " + model + "about " + centre_of(rigid)
+                            : model + "moves freely along " + along(rigid.translation));
     }
   }
 
@@ -153,7 +155,8 @@ class MechanismDescription {
     std::vector<Index> held = {coordinates_of(0)[0], coordinates_of(0)[1]};
     Index far = last;
     for (Index node = 0; node <= last; ++node) {
-      if ((position_of(node) - position_of(0)).norm() > (position_of(far) - position_of(0)).norm()) far = node;
+      if ((position_of(node) - position_of(0)).norm() > (position_of(far) - position_of(0)).norm())
+        far = node;
     }
     held.insert(held.end(), {coordinates_of(far)[0], coordinates_of(far)[1]});
     std::vector<bool> used(static_cast<std::size_t>(U.cols()), false);
@@ -216,7 +219,7 @@ class MechanismDescription {
   }
 
   void describe_rigid_motion(const std::optional<RigidMotion>& motion, const std::string& name,
-           std::vector<std::string>& phrases) const {
+                             std::vector<std::string>& phrases) const {
     if (!motion) return;
     if (std::abs(motion->rotation) * size_ > 1e-3 * motion->translation.norm()) {
       phrases.push_back("rotation of " + name + " about " + centre_of(*motion));
@@ -234,7 +237,8 @@ class MechanismDescription {
     for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
       std::vector<Index> nodes = model.rigid_bodies[i].attached;
       nodes.push_back(model.rigid_bodies[i].reference);
-      describe_rigid_motion(fit(u, nodes), named("rigid body", model.rigid_bodies[i].name, i), phrases);
+      describe_rigid_motion(fit(u, nodes), named("rigid body", model.rigid_bodies[i].name, i),
+                            phrases);
     }
     std::vector<std::vector<Index>> plate_nodes(model.plates.size());
     for (const Triangle& triangle : model.triangles) {
@@ -244,7 +248,8 @@ class MechanismDescription {
     }
     for (std::size_t i = 0; i < model.plates.size(); ++i) {
       if (plate_nodes[i].empty()) continue;
-      describe_rigid_motion(fit(u, plate_nodes[i]), named("plate", model.plates[i].name, i), phrases);
+      describe_rigid_motion(fit(u, plate_nodes[i]), named("plate", model.plates[i].name, i),
+                            phrases);
     }
     return phrases;
   }
@@ -253,7 +258,8 @@ class MechanismDescription {
     std::vector<std::string> phrases;
     for (std::size_t i = 0; i < system_.model.members.size(); ++i) {
       const auto& nodes = system_.model.members[i].nodes;
-      describe_rigid_motion(fit(u, {nodes[0], nodes[1]}), member_label(system_.model, static_cast<Index>(i)), phrases);
+      describe_rigid_motion(fit(u, {nodes[0], nodes[1]}),
+                            member_label(system_.model, static_cast<Index>(i)), phrases);
     }
     return phrases;
   }
@@ -295,4 +301,4 @@ std::string describe_mechanism(const System& system, const ZeroEnergyModes& mode
   return text;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

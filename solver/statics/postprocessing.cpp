@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/assembly/strain.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
-#include "solver/assembly/strain.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -142,7 +142,8 @@ class Postprocessor {
     Vector6d force = frame_deformation(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
     if (state_.prestress) {
       const Prestress& state = *state_.prestress;
-      force += geometric_stiffness_forces(e, member.theory, state.axial[index], state.axial_variation[index], u);
+      force += geometric_stiffness_forces(e, member.theory, state.axial[index],
+                                          state.axial_variation[index], u);
     }
     if (state_.acceleration.size() > 0) {
       const Vector6d a =
@@ -220,8 +221,9 @@ class Postprocessor {
                              triangle6_deformation(model_, triangle, at) *
                                  detail::gather(system_.coordinates.of_triangle<12>(triangle), u_));
     }
-    return membrane_stress(material, triangle_deformation(corners(model_, triangle)) *
-                                         detail::gather(system_.coordinates.of_triangle<6>(triangle), u_));
+    return membrane_stress(material,
+                           triangle_deformation(corners(model_, triangle)) *
+                               detail::gather(system_.coordinates.of_triangle<6>(triangle), u_));
   }
 
   void triangles() {
@@ -304,4 +306,4 @@ void postprocess(const System& system, const ElasticState& state, StaticSolution
   Postprocessor(system, state, solution).run();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

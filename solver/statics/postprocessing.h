@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 
 #include "solver/assembly/prestress.h"
-#include "solver/statics/statics.h"
 #include "solver/assembly/system.h"
+#include "solver/statics/statics.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// A state from which forces and stresses follow.
 struct ElasticState {
@@ -28,4 +28,4 @@ struct ElasticState {
 /// the inertia of their element; reactions and residuals do not.
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/linalg/factorization.h"
-#include "solver/statics/zero_energy_modes.h"
-#include "solver/statics/postprocessing.h"
-#include "solver/linalg/refinement.h"
 #include "solver/assembly/strain.h"
+#include "solver/linalg/factorization.h"
+#include "solver/linalg/refinement.h"
+#include "solver/statics/postprocessing.h"
+#include "solver/statics/zero_energy_modes.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -26,9 +26,10 @@ void solve_linear(const System& system, StaticSolution& solution) {
     return;
   }
   const bool definite = factorization.exists() && factorization.smallest_pivot() > 0;
-  const RefinedSolution refined = definite ? refined_solve(stiffness_operator(system), factorization,
-                                                   system.f, solution.counters)
-                                   : RefinedSolution{solution.q, 1};
+  const RefinedSolution refined =
+      definite
+          ? refined_solve(stiffness_operator(system), factorization, system.f, solution.counters)
+          : RefinedSolution{solution.q, 1};
   if (!refined.converged()) {
     solution.outcome = {Status::not_converged,
                         "the stiffness matrix is too ill-conditioned for double precision"};
@@ -102,4 +103,4 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   return solution;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/model/outcome.h"
 #include "solver/assembly/system.h"
+#include "solver/model/outcome.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 struct StaticsOptions {
   /// Second-order theory: (K + K_G) q = f with the geometric stiffness of the forces that the
@@ -19,9 +19,10 @@ struct StaticsOptions {
 /// from a member's first to its second node, x along it and y to its left: tension is positive,
 /// EI v'' = M, dM/dx = -V, dV/dx = -q_y, dN/dx = -q_x.
 struct StaticSolution {
-  Outcome outcome;                ///< singular: the reason names the free motion in words
-  Eigen::VectorXd q;              ///< free coordinates; draw them with mesh_motion
-  double estimated_correct_digits = 0;         ///< about log10(1 / (condition number * eps)), never below 0
+  Outcome outcome;    ///< singular: the reason names the free motion in words
+  Eigen::VectorXd q;  ///< free coordinates; draw them with mesh_motion
+  double estimated_correct_digits =
+      0;                          ///< about log10(1 / (condition number * eps)), never below 0
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation
                                   ///< where a node has none
   Eigen::MatrixX2d end_rotation;  ///< member x (first, second end) [rad]
@@ -41,4 +42,4 @@ struct StaticSolution {
 [[nodiscard]] StaticSolution solve_statics(const System& system,
                                            const StaticsOptions& options = {});
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -7,7 +7,7 @@
 
 #include "solver/assembly/strain.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 constexpr double kShift = 1e-12;        // of the diagonal
@@ -75,7 +75,8 @@ class ShiftedIteration {
 
 }  // namespace
 
-ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K, Counters& counters) {
+ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
+                                       Counters& counters) {
   const Index n = system.K.rows();
   ZeroEnergyModes modes{Eigen::MatrixXd(n, 0), true};
   if (n == 0 || (K.exists() && K.smallest_pivot() > kSmallPivot)) return modes;
@@ -96,4 +97,4 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
   }
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "solver/linalg/factorization.h"
 #include "solver/assembly/system.h"
+#include "solver/linalg/factorization.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Motions of the free coordinates that deform nothing: the null space of K.
 struct ZeroEnergyModes {
@@ -20,9 +20,9 @@ struct ZeroEnergyModes {
 /// elements' deformations (u^T K u against its own rounding), not by the size of a pivot: a long
 /// slender chain is ill-conditioned, but it is not a mechanism.
 [[nodiscard]] ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
-                                            Counters& counters);
+                                                     Counters& counters);
 
 /// "rotation of the platform about (0.25, 0.144) m; node B turns freely".
 [[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
-}  // namespace trammel
+}  // namespace trammel::solver

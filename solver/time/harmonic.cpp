@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "solver/linalg/factorization.h"
-#include "solver/statics/zero_energy_modes.h"
 #include "solver/statics/postprocessing.h"
+#include "solver/statics/zero_energy_modes.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXcd;
@@ -24,7 +24,7 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 
 /// (1 + i w stiffness) K + (i w mass - w^2) M; real without Rayleigh damping.
 VectorXcd solve_direct(const System& system, const RayleighDamping& damping, double omega,
-                     const VectorXd& f) {
+                       const VectorXd& f) {
   if (damping.mass == 0 && damping.stiffness == 0) {
     Factorization factorization;
     factorization.compute(system.K - omega * omega * system.M);
@@ -121,9 +121,10 @@ HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q,
       const Complex M(in_phase(i, end + 2), quadrature(i, end + 2));
       const Complex axial = N == 0.0 ? N : N / e.section.area;
       const Complex bending = M == 0.0 ? M : M / e.section.section_modulus;
-      const double stress_amplitude = std::max(std::abs(axial + bending), std::abs(axial - bending));
-      stress =
-          std::isfinite(stress_amplitude) ? std::max(stress, stress_amplitude) : std::numeric_limits<double>::quiet_NaN();
+      const double stress_amplitude =
+          std::max(std::abs(axial + bending), std::abs(axial - bending));
+      stress = std::isfinite(stress_amplitude) ? std::max(stress, stress_amplitude)
+                                               : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return result;
@@ -160,4 +161,4 @@ HarmonicPeak harmonic_peak(const HarmonicResponse& response, double low, double 
   return peak;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

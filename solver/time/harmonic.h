@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "solver/assembly/damping.h"
-#include "solver/modes/modes.h"
-#include "solver/model/outcome.h"
 #include "solver/assembly/system.h"
+#include "solver/model/outcome.h"
+#include "solver/modes/modes.h"
 
-namespace trammel {
+namespace trammel::solver {
 
 struct HarmonicDamping {
   RayleighDamping rayleigh;         ///< acts on everything
@@ -40,8 +40,8 @@ class HarmonicResponse {
   const System& system_;
   HarmonicDamping damping_;
   ModalSolution modes_;
-  Eigen::VectorXd participation_;  // Phi^T f
-  Eigen::VectorXd unsuperposed_load_;           // f - M Phi Phi^T f
+  Eigen::VectorXd participation_;      // Phi^T f
+  Eigen::VectorXd unsuperposed_load_;  // f - M Phi Phi^T f
   Outcome outcome_;
   mutable Counters counters_;
 };
@@ -70,4 +70,4 @@ struct HarmonicPeak {
     const HarmonicResponse& response, double low, double high,
     const std::function<double(const Eigen::VectorXcd&, double)>& amplitude);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 
 #include "solver/time/oscillator.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -162,4 +162,4 @@ ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const Sp
   return {basis.shape * y, basis.shape * v, basis.shape * a};
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

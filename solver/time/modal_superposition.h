@@ -8,7 +8,7 @@
 
 /// The exact response of a model with constant matrices to a load that is linear between given
 /// times: the reference for the integrators in time, and the cheap way where few modes matter.
-namespace trammel {
+namespace trammel::solver {
 
 /// f(t) = pattern * factor(t); factor is linear between the times, constant outside them, and jumps
 /// where a time is given twice.
@@ -50,4 +50,4 @@ struct ModalResponse {
                                       const std::vector<double>& times, const Eigen::VectorXd& q0,
                                       const Eigen::VectorXd& v0);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// w t < 1 and c t < 1: Taylor, since the closed forms subtract nearly equal numbers.
@@ -108,4 +108,4 @@ OscillatorState advance(const ImpulseResponse& r, double omega, const Oscillator
           .v = -start.y * k * r.h + start.v * r.dh + p0 * r.h + p1 * r.h1};
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace trammel {
+namespace trammel::solver {
 
 /// Impulse response of y'' + 2 c y' + w^2 y = p and its integrals over a time t:
 ///   h'' + 2 c h' + w^2 h = 0, h(0) = 0, h'(0) = 1,  h1 = int h,  h2 = int h1.
@@ -28,4 +28,4 @@ struct OscillatorState {
 [[nodiscard]] OscillatorState advance(const ImpulseResponse& response, double omega,
                                       const OscillatorState& start, double p0, double p1);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -1,12 +1,12 @@
 #include "solver/time/rotating_frame_transient.h"
 
-#include "solver/linalg/factorization.h"
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/prestress.h"
 #include "solver/assembly/rotating_frame.h"
 #include "solver/assembly/strain.h"
+#include "solver/linalg/factorization.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -43,7 +43,8 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
 
 }  // namespace
 
-Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation& rotation, EquationOfMotion& equation) {
+Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation& rotation,
+                                 EquationOfMotion& equation) {
   if (!system.load.isZero(0)) {
     throw ModelError("expected a model without loads: they would not turn with the axes");
   }
@@ -69,8 +70,8 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   equation.C = C + zero;
   equation.K = system.K + zero;
   equation.update = [speed = rotation.speed, c, k, g, s](double time, SparseMatrix&,
-                                                     SparseMatrix& damping,
-                                                     SparseMatrix& stiffness) {
+                                                         SparseMatrix& damping,
+                                                         SparseMatrix& stiffness) {
     const auto [W, W_dot] = speed(time);
     damping.coeffs() = c + 2 * W * g;
     stiffness.coeffs() = k + W * W * s + W_dot * g;
@@ -86,4 +87,4 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   return {};
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

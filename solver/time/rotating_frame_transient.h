@@ -3,12 +3,12 @@
 #include <array>
 #include <functional>
 
-#include "solver/model/outcome.h"
 #include "solver/assembly/system.h"
+#include "solver/model/outcome.h"
 #include "solver/time/transient.h"
 
 /// Small motion as seen from axes that turn at a given speed W(t), which need not be steady.
-namespace trammel {
+namespace trammel::solver {
 
 struct PrescribedRotation {
   /// W [rad/s] and W. [rad/s^2], counterclockwise.
@@ -26,7 +26,8 @@ struct PrescribedRotation {
 /// (rotating_frame.h for G, S and f_c), f_e = -M times a unit angular acceleration of the whole.
 /// @returns singular where the centrifugal forces have no statics.
 /// @throws ModelError  for a model with loads or gravity: they would not turn with the axes.
-[[nodiscard]] Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation& rotation,
-                                EquationOfMotion& equation);
+[[nodiscard]] Outcome add_rotating_frame_terms(const System& system,
+                                               const PrescribedRotation& rotation,
+                                               EquationOfMotion& equation);
 
-}  // namespace trammel
+}  // namespace trammel::solver

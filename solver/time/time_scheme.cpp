@@ -6,7 +6,7 @@
 
 #include "solver/model/model.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// Growth by round-off of what should keep its size exactly.
@@ -87,4 +87,4 @@ double stability_limit(const TimeScheme& scheme) {
   return stable;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

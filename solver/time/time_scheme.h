@@ -10,7 +10,7 @@
 /// same for matrices that change with time, and for A.
 /// Source: Chung & Hulbert (1993) in the form of Arnold & Bruels (2007); Newmark (1959) is
 /// alpha_m = alpha_f = 0.
-namespace trammel {
+namespace trammel::solver {
 
 struct TimeScheme {
   double alpha_m = 0;
@@ -46,4 +46,4 @@ struct TimeScheme {
 /// Largest w h at which an undamped motion stays bounded; infinity where any step is stable.
 [[nodiscard]] double stability_limit(const TimeScheme& scheme);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -11,7 +11,7 @@
 #include "solver/linalg/sparse_factor.h"
 #include "solver/model/numbers.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
@@ -161,7 +161,7 @@ class Integrator {
   [[nodiscard]] std::string describe_step(double h) const {
     std::ostringstream message;
     message << "step " << summary_.accepted + 1 << " to t = " << now_.time + h << " s (h = " << h
-          << " s)";
+            << " s)";
     return message.str();
   }
 
@@ -265,8 +265,8 @@ class Integrator {
     if (phase <= limit) return true;
     std::ostringstream message;
     message << "the step h = " << options_.step
-          << " s is unstable: the fastest motion has w h = " << phase << ", the scheme bears "
-          << limit << "; take h below " << options_.step * limit / phase << " s";
+            << " s is unstable: the fastest motion has w h = " << phase << ", the scheme bears "
+            << limit << "; take h below " << options_.step * limit / phase << " s";
     return fail(Status::not_converged, message.str());
   }
 
@@ -349,7 +349,7 @@ class Integrator {
         if (++level > options_.adaptive->finest_level) {
           std::ostringstream message;
           message << describe_step(h) << ": the estimated error is " << ratio
-                << " times what is allowed, and the step is the smallest";
+                  << " times what is allowed, and the step is the smallest";
           return fail(Status::not_converged, message.str());
         }
         count *= 2;
@@ -404,7 +404,8 @@ class Integrator {
     update_matrices(time);
     load(load_time, next_.f);
     SparseFactor* factor = step_factor(h, level);
-    if (!factor) return fail(Status::singular, "M + C h + K h^2 is singular at " + describe_step(h));
+    if (!factor)
+      return fail(Status::singular, "M + C h + K h^2 is singular at " + describe_step(h));
     next_.acceleration.setZero();
     next_.a = (s.alpha_f * now_.acceleration - s.alpha_m * now_.a) / (1 - s.alpha_m);
     next_.q = now_.q + h * now_.v + h * h * ((0.5 - s.beta) * now_.a + s.beta * next_.a);
@@ -610,4 +611,4 @@ Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value) {
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "solver/model/outcome.h"
 #include "solver/assembly/system.h"
+#include "solver/model/outcome.h"
 #include "solver/time/time_scheme.h"
 
 /// Integration in time of the equation of motion (paper Eq. 13, 18)
 ///   M(t) q'' + C(t) q' + K(t) q = f(t).
-namespace trammel {
+namespace trammel::solver {
 
 /// The equation as the integrator sees it. The matrices are square, stored whole, in compressed
 /// form; K and C may have a skew part that is small beside M / h^2 (gyroscopic terms).
@@ -111,4 +111,4 @@ struct Peak {
 };
 [[nodiscard]] Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value);
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -8,7 +8,8 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
+using namespace trammel::references;
 
 /// Limbs, masses and centres of mass all different, the platform's off P, gravity aslant.
 RigidManipulator uneven() {

@@ -17,7 +17,7 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
 
 double seconds() {
   using Clock = std::chrono::steady_clock;

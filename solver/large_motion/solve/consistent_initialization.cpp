@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -37,7 +37,8 @@ class ConsistentInitialization {
   Outcome failed(const std::string& what) const {
     std::ostringstream message;
     message << "no consistent " << what << " at the start, time " << state_.t
-          << " s: largest constraint gap " << (m_ > 0 ? rigid_constraint_residual() : 0.0) << " m or rad";
+            << " s: largest constraint gap " << (m_ > 0 ? rigid_constraint_residual() : 0.0)
+            << " m or rad";
     return {Status::not_converged, message.str()};
   }
 
@@ -137,8 +138,9 @@ class ConsistentInitialization {
     const VectorXd resolved = solution_;
     // Without the step's view where that makes no great difference; where it does, what vibrates
     // faster than the step, or has no mass, would start wildly.
-    if (!solve_with_mass_scaling(1e-4, bias) || weighted_rms_norm(system_, solution_.head(n_)) >
-                                       4 * weighted_rms_norm(system_, resolved.head(n_))) {
+    if (!solve_with_mass_scaling(1e-4, bias) ||
+        weighted_rms_norm(system_, solution_.head(n_)) >
+            4 * weighted_rms_norm(system_, resolved.head(n_))) {
       solution_ = resolved;
     }
     state_.a = solution_.head(n_);
@@ -185,15 +187,16 @@ class ConsistentInitialization {
 
 }  // namespace
 
-double weighted_rms_norm(const ConstrainedSystem& system, const Eigen::Ref<const VectorXd>& change) {
+double weighted_rms_norm(const ConstrainedSystem& system,
+                         const Eigen::Ref<const VectorXd>& change) {
   if (change.size() == 0) return 0;
   return change.cwiseQuotient(system.scale()).norm() /
          std::sqrt(static_cast<double>(change.size()));
 }
 
-Outcome make_consistent(const ConstrainedSystem& system, State& state, const PrescribedVelocities& given,
-                        double step) {
+Outcome make_consistent(const ConstrainedSystem& system, State& state,
+                        const PrescribedVelocities& given, double step) {
   return ConsistentInitialization(system, state, step).run(given);
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -6,7 +6,7 @@
 #include "solver/large_motion/system/constrained_system.h"
 #include "solver/model/outcome.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// Which coordinates start with which velocity.
 using PrescribedVelocities = std::vector<std::pair<Index, double>>;
@@ -21,6 +21,6 @@ using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 
 /// Root mean square of a change of coordinates over their scale.
 [[nodiscard]] double weighted_rms_norm(const ConstrainedSystem& system,
-                                   const Eigen::Ref<const VectorXd>& change);
+                                       const Eigen::Ref<const VectorXd>& change);
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

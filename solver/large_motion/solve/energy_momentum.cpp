@@ -4,7 +4,7 @@
 
 #include "solver/large_motion/solve/consistent_initialization.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 EnergyMomentum::EnergyMomentum(const ConservativeSystem& system)
     : system_(system),
@@ -120,7 +120,8 @@ StepReport EnergyMomentum::newton(double h, bool exact) {
     to_.a = (to_.v - from_.v) / h;
     // Energy leaks by what Newton leaves, so nearly to round-off.
     if (convergence.converged(1e-4 * h * h * weighted_rms_norm(system_, to_.a),
-                         h * weighted_rms_norm(system_, to_.v), weighted_rms_norm(system_, to_.q))) {
+                              h * weighted_rms_norm(system_, to_.v),
+                              weighted_rms_norm(system_, to_.q))) {
       change_ = to_.a - from_.a;
       report.error = first_ ? 0.0 : h * h / 12 * weighted_rms_norm(system_, change_);
       set_end_multipliers(h);
@@ -133,4 +134,4 @@ StepReport EnergyMomentum::newton(double h, bool exact) {
   return report;
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

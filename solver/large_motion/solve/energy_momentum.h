@@ -2,7 +2,7 @@
 
 #include "solver/large_motion/solve/stepper.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// Energy-momentum method (J. C. Simo, N. Tarnow, ZAMP 43, 1992; O. Gonzalez, CMAME 190, 2000):
 ///
@@ -37,4 +37,4 @@ class EnergyMomentum final : public Stepper {
   VectorXd constraint_residual_, constraint_rate_, previous_constraint_residual_, step_, change_;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 void apply_correction(State& state, const VectorXd& step, double factor) {
   state.q += factor * step.head(state.q.size());
@@ -109,8 +109,8 @@ NewtonResult Equilibrium::solve(State& state, double load) {
   }
   std::ostringstream message;
   message << "Newton's method did not converge at load factor " << load << " in "
-        << result.correction.size() << " iterations; last correction " << result.correction.back()
-        << ", residual " << result.force_residual.back() << " N m";
+          << result.correction.size() << " iterations; last correction " << result.correction.back()
+          << ", residual " << result.force_residual.back() << " N m";
   return fail(Status::not_converged, message.str());
 }
 
@@ -141,4 +141,4 @@ std::string describe_motion(const GeometricallyExactSystem& system, const Vector
   return description;
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

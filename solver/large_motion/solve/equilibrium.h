@@ -6,7 +6,7 @@
 #include "solver/large_motion/system/geometrically_exact_system.h"
 #include "solver/model/outcome.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 struct NewtonOptions {
   int max_iterations = 30;
@@ -17,8 +17,9 @@ struct NewtonOptions {
 struct NewtonResult {
   Outcome outcome;
   std::vector<double> correction;  ///< size of the correction: translations over the model's size
-  std::vector<double> force_residual;    ///< of equilibrium, forces times the model's size [N m]
-  std::vector<double> constraint_residual;         ///< of the constraints and of the beams' stretch and shear [m]
+  std::vector<double> force_residual;  ///< of equilibrium, forces times the model's size [N m]
+  std::vector<double>
+      constraint_residual;  ///< of the constraints and of the beams' stretch and shear [m]
 };
 
 /// Static equilibrium by Newton's method with exact tangents. Its memory is reused by every solve.
@@ -58,6 +59,7 @@ class Equilibrium {
 void apply_correction(State& state, const VectorXd& step, double factor = 1);
 
 /// The coordinate that moves most in a shape, in words: "rotation of node P".
-[[nodiscard]] std::string describe_motion(const GeometricallyExactSystem& system, const VectorXd& shape);
+[[nodiscard]] std::string describe_motion(const GeometricallyExactSystem& system,
+                                          const VectorXd& shape);
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

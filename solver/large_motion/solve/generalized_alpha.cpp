@@ -5,7 +5,7 @@
 
 #include "solver/large_motion/solve/consistent_initialization.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 GeneralizedAlpha::GeneralizedAlpha(const ConstrainedSystem& system, double spectral_radius)
     : system_(system),
@@ -46,7 +46,8 @@ StepReport GeneralizedAlpha::attempt(double h) {
     A0_ = from_.a + h / last_step_ * (A0_ - from_.a);
   }
   StepReport report = newton(h);
-  report.error = std::abs(shift / 2 + beta_ - 1.0 / 6) * h * h * weighted_rms_norm(system_, A1_ - A0_);
+  report.error =
+      std::abs(shift / 2 + beta_ - 1.0 / 6) * h * h * weighted_rms_norm(system_, A1_ - A0_);
   // A rejected step must not scale A0 twice; an accepted one has no more use for it.
   A0_ = saved_A0_;
   return report;
@@ -104,7 +105,8 @@ void GeneralizedAlpha::correct(double h) {
   for (Index r = 0; r < m; ++r) {
     const double c = system_.compliance()[r];
     velocity_correction_[n + r] =
-        c > 0 ? -(constraint_residual_[r] + tau * constraint_rate_[r] - c * to_.lambda[r]) / (1 + tau * per_velocity)
+        c > 0 ? -(constraint_residual_[r] + tau * constraint_rate_[r] - c * to_.lambda[r]) /
+                    (1 + tau * per_velocity)
               : -constraint_residual_[r];
     position_correction_[n + r] = velocity_correction_[n + r];
   }
@@ -112,7 +114,8 @@ void GeneralizedAlpha::correct(double h) {
   to_.q += position_correction_.head(n);
   system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
   for (Index r = 0; r < m; ++r) {
-    if (system_.compliance()[r] == 0) velocity_correction_[n + r] = -constraint_rate_[r] / per_velocity;
+    if (system_.compliance()[r] == 0)
+      velocity_correction_[n + r] = -constraint_rate_[r] / per_velocity;
   }
   matrix_.solve(velocity_correction_);
   to_.v += per_velocity * velocity_correction_.head(n);
@@ -135,11 +138,13 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
     correct(h);
     if (!velocity_correction_.allFinite() || !position_correction_.allFinite()) return report;
     report.iterations = i + 1;
-    convergence.record(weighted_rms_norm(system_, velocity_correction_.head(n)),
-                       weighted_rms_norm(system_, position_correction_.head(n) - velocity_correction_.head(n)));
+    convergence.record(
+        weighted_rms_norm(system_, velocity_correction_.head(n)),
+        weighted_rms_norm(system_, position_correction_.head(n) - velocity_correction_.head(n)));
     report.correction = convergence.last();
     if (convergence.converged(beta_ * h * h * weighted_rms_norm(system_, A1_),
-                         h * weighted_rms_norm(system_, to_.v), weighted_rms_norm(system_, to_.q))) {
+                              h * weighted_rms_norm(system_, to_.v),
+                              weighted_rms_norm(system_, to_.q))) {
       report.converged = true;
       // A factorization that has aged is renewed before it costs another iteration.
       if (i > 3) factored_step_ = 0;
@@ -150,4 +155,4 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
   return report;
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

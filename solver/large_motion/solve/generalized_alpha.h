@@ -2,7 +2,7 @@
 
 #include "solver/large_motion/solve/stepper.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// Generalized-alpha for constrained systems (J. Chung, G. Hulbert, JAM 60, 1993; M. Arnold,
 /// O. Bruls, MSD 18, 2007) with second order in positions, velocities and multipliers, and
@@ -44,4 +44,4 @@ class GeneralizedAlpha final : public Stepper {
   VectorXd constraint_residual_, constraint_rate_, velocity_correction_, position_correction_;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -9,14 +9,14 @@
 #include "solver/large_motion/solve/energy_momentum.h"
 #include "solver/large_motion/solve/generalized_alpha.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
 class TimeIntegration {
  public:
-  TimeIntegration(const ConstrainedSystem& system, Stepper& stepper, const IntegrationOptions& options,
-          const Observer& observe)
+  TimeIntegration(const ConstrainedSystem& system, Stepper& stepper,
+                  const IntegrationOptions& options, const Observer& observe)
       : system_(system), stepper_(stepper), options_(options), observe_(observe) {}
 
   IntegrationSummary run(State& state) {
@@ -72,7 +72,8 @@ class TimeIntegration {
       // Equal steps up to the target, so that none is tiny.
       const double count = std::ceil(remaining / h * (1 - 1e-9));
       const double step = count <= 1 ? remaining : remaining / count;
-      if (step < 1e-7 * options_.step && remaining > step) return fail("no step is small enough", step, {});
+      if (step < 1e-7 * options_.step && remaining > step)
+        return fail("no step is small enough", step, {});
       StepReport report = stepper_.attempt(step);
       summary_.iterations += report.iterations;
       const double ratio = options_.adaptive ? report.error / options_.tolerance : 0.0;
@@ -107,9 +108,9 @@ class TimeIntegration {
 
   bool fail(const std::string& why, double h, const StepReport& report) {
     std::ostringstream message;
-    message << why << ": step " << summary_.steps + 1 << " at time " << state_time() << " s of size "
-          << h << " s, last correction " << report.correction << " of the model's size after "
-          << report.iterations << " iterations";
+    message << why << ": step " << summary_.steps + 1 << " at time " << state_time()
+            << " s of size " << h << " s, last correction " << report.correction
+            << " of the model's size after " << report.iterations << " iterations";
     summary_.outcome = {Status::not_converged, message.str()};
     return false;
   }
@@ -125,8 +126,10 @@ class TimeIntegration {
     system_.constraint_residual(state, constraint_residual_, constraint_rate_);
     for (Index r = 0; r < constraint_residual_.size(); ++r) {
       if (system_.compliance()[r] > 0) continue;
-      summary_.max_constraint_residual = std::max(summary_.max_constraint_residual, std::abs(constraint_residual_[r]));
-      summary_.max_constraint_rate = std::max(summary_.max_constraint_rate, std::abs(constraint_rate_[r]));
+      summary_.max_constraint_residual =
+          std::max(summary_.max_constraint_residual, std::abs(constraint_residual_[r]));
+      summary_.max_constraint_rate =
+          std::max(summary_.max_constraint_rate, std::abs(constraint_rate_[r]));
     }
     if (observe_) observe_(state);
   }
@@ -194,7 +197,8 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
   summary.rejected += second.rejected;
   summary.iterations += second.iterations;
   summary.min_step = second.min_step;
-  summary.max_constraint_residual = std::max(summary.max_constraint_residual, second.max_constraint_residual);
+  summary.max_constraint_residual =
+      std::max(summary.max_constraint_residual, second.max_constraint_residual);
   summary.max_constraint_rate = std::max(summary.max_constraint_rate, second.max_constraint_rate);
   summary.counters.factorizations += second.counters.factorizations;
   summary.counters.solves += second.counters.solves;
@@ -205,9 +209,8 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   state = system.reference_state();
   PrescribedVelocities given;
   for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
-    const Index k =
-        system.layout()
-            .node[static_cast<std::size_t>(initial.node)][static_cast<std::size_t>(initial.direction)];
+    const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
+                                        [static_cast<std::size_t>(initial.direction)];
     if (k < 0 || k >= system.coordinates()) {
       return {Status::singular,
               "a start velocity is given where a support holds node " +
@@ -218,4 +221,4 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   return make_consistent(system, state, given, step);
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <functional>
 
-#include "solver/large_motion/system/geometrically_exact_system.h"
-#include "solver/large_motion/solve/consistent_initialization.h"
-#include "solver/model/outcome.h"
 #include "solver/assembly/system.h"
+#include "solver/large_motion/solve/consistent_initialization.h"
+#include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/model/outcome.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 enum class Integrator { generalized_alpha, energy_momentum };
 
@@ -19,16 +19,16 @@ struct IntegrationOptions {
   bool adaptive = false;
   double tolerance = 1e-6;  ///< local position error a step over the model's size; adaptive only
   double output_step = 0;   ///< observed at multiples of this, hit exactly; 0: every step [s]
-  double spectral_radius = 0.9;      ///< of generalized-alpha at infinite frequency
+  double spectral_radius = 0.9;          ///< of generalized-alpha at infinite frequency
   std::int64_t max_steps = 100'000'000;  ///< at most, rejected ones included
 };
 
 struct IntegrationSummary {
   Outcome outcome;  ///< not_converged names the step, the time and the residual
   std::int64_t steps = 0, rejected = 0, iterations = 0;
-  double min_step = 0;     ///< [s]
-  double max_constraint_residual = 0;       ///< of a rigid constraint at any observed time [m or rad]
-  double max_constraint_rate = 0;  ///< the same of its rate [m/s or rad/s]
+  double min_step = 0;                 ///< [s]
+  double max_constraint_residual = 0;  ///< of a rigid constraint at any observed time [m or rad]
+  double max_constraint_rate = 0;      ///< the same of its rate [m/s or rad/s]
   Counters counters;
 };
 
@@ -47,11 +47,13 @@ using Observer = std::function<void(const State&)>;
 /// Two runs with steps `step` and `step`/2, combined to what their common second-order error
 /// leaves: order 3 (order 4 by energy-momentum). The step is fixed and `output_step` a multiple of
 /// it; the state that is observed has q, v and lambda only.
-[[nodiscard]] IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system, State& state,
+[[nodiscard]] IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system,
+                                                        State& state,
                                                         const IntegrationOptions& options,
                                                         const Observer& observe = {});
 
 /// Consistent start of a model: pose, start velocities, accelerations, multipliers.
-[[nodiscard]] Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step);
+[[nodiscard]] Outcome initialize_state(const GeometricallyExactSystem& system, State& state,
+                                       double step);
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

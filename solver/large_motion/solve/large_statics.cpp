@@ -3,11 +3,12 @@
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
 
-namespace trammel {
+namespace trammel::solver {
 namespace {
 
 /// Evaluations of a tangent's elements, by effect.
-void count_tangents(const large::GeometricallyExactSystem& system, std::int64_t tangents, Counters& counters) {
+void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,
+                    Counters& counters) {
   const Model& model = system.model();
   std::int64_t all = static_cast<std::int64_t>(model.triangles.size());
   std::int64_t stretching = 0, shearing = 0, spring_ends = 0;
@@ -34,23 +35,25 @@ void count_tangents(const large::GeometricallyExactSystem& system, std::int64_t 
 
 }  // namespace
 
-StaticSolution static_solution(const large::GeometricallyExactSystem& system, const large::State& state) {
+StaticSolution static_solution(const large_motion::GeometricallyExactSystem& system,
+                               const large_motion::State& state) {
   StaticSolution solution;
   solution.displacement = node_motion(system, state.q);
   solution.end_rotation = end_rotations(system, state.q);
-  large::Resultants resultants = member_resultants(system, state);
+  large_motion::Resultants resultants = member_resultants(system, state);
   solution.resultant_start = std::move(resultants.start);
   solution.resultant_end = std::move(resultants.end);
   solution.reaction = reactions(system, state);
   return solution;
 }
 
-StaticSolution solve_large_statics(const Model& model, const large::LargeMotionModel& large_motion) {
-  const large::GeometricallyExactSystem system(model, large_motion);
-  large::StaticPathOptions options;
+StaticSolution solve_large_statics(const Model& model,
+                                   const large_motion::LargeMotionModel& large_motion) {
+  const large_motion::GeometricallyExactSystem system(model, large_motion);
+  large_motion::StaticPathOptions options;
   options.first_step = 0.5;
   options.keep_points = false;
-  const large::StaticPath path = follow_static_path(system, options);
+  const large_motion::StaticPath path = follow_static_path(system, options);
   StaticSolution solution;
   if (path.outcome.solved()) solution = static_solution(system, path.points.back().state);
   solution.outcome = path.outcome;
@@ -59,4 +62,4 @@ StaticSolution solve_large_statics(const Model& model, const large::LargeMotionM
   return solution;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

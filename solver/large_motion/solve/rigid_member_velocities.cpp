@@ -3,7 +3,7 @@
 #include "solver/large_motion/system/shape_functions.h"
 #include "solver/model/numbers.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -11,7 +11,8 @@ namespace {
 class VelocityCollector {
  public:
   explicit VelocityCollector(const GeometricallyExactSystem& system)
-      : value_(VectorXd::Zero(system.coordinates())), given_(to_size(system.coordinates()), false) {}
+      : value_(VectorXd::Zero(system.coordinates())),
+        given_(to_size(system.coordinates()), false) {}
 
   void set(Index k, double value) {
     if (k < 0 || k >= value_.size()) return;
@@ -40,7 +41,8 @@ void set_element(const GeometricallyExactSystem& system, const MemberElement& el
   const std::size_t stride = element.is_bar() ? 2 : 3;
   const std::size_t count = element.coordinates.size() / stride;
   for (std::size_t a = 0; a < count; ++a) {
-    const double x = element.is_bar() ? static_cast<double>(a) : lobatto_coordinate(system.order(), a);
+    const double x =
+        element.is_bar() ? static_cast<double>(a) : lobatto_coordinate(system.order(), a);
     const Vector2d position = element.start + x * (element.end - element.start);
     const double s = (position - from).dot(along) / along.squaredNorm();
     for (Index k = 0; k < 2; ++k) {
@@ -53,16 +55,17 @@ void set_element(const GeometricallyExactSystem& system, const MemberElement& el
 
 }  // namespace
 
-PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system, const Eigen::MatrixX3d& node,
-                            const VectorXd& member) {
+PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
+                                             const Eigen::MatrixX3d& node, const VectorXd& member) {
   VelocityCollector given(system);
   for (const MemberElement& element : system.layout().elements) {
     set_element(system, element, node, member[element.member], given);
   }
   for (Index i = 0; i < node.rows(); ++i) {
-    for (Index k = 0; k < 3; ++k) given.set(system.layout().node[to_size(i)][to_size(k)], node(i, k));
+    for (Index k = 0; k < 3; ++k)
+      given.set(system.layout().node[to_size(i)][to_size(k)], node(i, k));
   }
   return given.prescribed();
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

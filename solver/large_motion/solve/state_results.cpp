@@ -2,16 +2,14 @@
 
 #include <limits>
 
+#include "solver/large_motion/system/element_group.h"
 #include "solver/large_motion/system/joints.h"
 #include "solver/large_motion/system/member_beam.h"
-#include "solver/large_motion/system/element_group.h"
 #include "solver/model/numbers.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double value_or(const VectorXd& values, Index k, double absent) {
   if (k < 0) return absent;
@@ -21,9 +19,9 @@ double value_or(const VectorXd& values, Index k, double absent) {
 /// Forces of the nodes on an element, less its own share of loads and inertia: what the rest of the
 /// structure applies at its ends.
 template <class Element, int N>
-Eigen::Matrix<double, N, 1> end_forces(const Element& element, const GeometricallyExactSystem& system,
-                                       const State& state, Index index,
-                                       const std::array<Index, N>& where) {
+Eigen::Matrix<double, N, 1> end_forces(const Element& element,
+                                       const GeometricallyExactSystem& system, const State& state,
+                                       Index index, const std::array<Index, N>& where) {
   typename Element::Rows residual;
   typename Element::Gradient G;
   const typename Element::Coordinates q = gather<N>(state.q, where);
@@ -48,8 +46,8 @@ Eigen::Matrix<double, N, 1> end_forces(const Element& element, const Geometrical
 }
 
 template <int P>
-void beam_resultants(const GeometricallyExactSystem& system, const State& state, Index index, bool first,
-               Eigen::Ref<Eigen::RowVector3d> out) {
+void beam_resultants(const GeometricallyExactSystem& system, const State& state, Index index,
+                     bool first, Eigen::Ref<Eigen::RowVector3d> out) {
   const MemberElement& element = system.layout().elements[to_size(index)];
   const Member& member = system.model().members[to_size(element.member)];
   const Beam<P> beam = make_beam<P>(member, element);
@@ -69,12 +67,12 @@ void beam_resultants(const GeometricallyExactSystem& system, const State& state,
 }
 
 void bar_resultants(const GeometricallyExactSystem& system, const State& state, Index index,
-              Eigen::Ref<Eigen::RowVector3d> out) {
+                    Eigen::Ref<Eigen::RowVector3d> out) {
   out << state.lambda[system.element_row(index)], 0, 0;
 }
 
-void element_resultants(const GeometricallyExactSystem& system, const State& state, Index index, bool first,
-                  Eigen::Ref<Eigen::RowVector3d> out) {
+void element_resultants(const GeometricallyExactSystem& system, const State& state, Index index,
+                        bool first, Eigen::Ref<Eigen::RowVector3d> out) {
   if (system.layout().elements[to_size(index)].is_bar()) {
     bar_resultants(system, state, index, out);
   } else if (system.order() == 1) {
@@ -92,7 +90,8 @@ Eigen::MatrixX3d node_motion(const GeometricallyExactSystem& system, const Vecto
   const Layout& layout = system.layout();
   Eigen::MatrixX3d motion(static_cast<Index>(layout.node.size()), 3);
   for (Index i = 0; i < motion.rows(); ++i) {
-    for (Index k = 0; k < 3; ++k) motion(i, k) = value_or(values, layout.node[to_size(i)][to_size(k)], kNaN);
+    for (Index k = 0; k < 3; ++k)
+      motion(i, k) = value_or(values, layout.node[to_size(i)][to_size(k)], kNaN);
   }
   return motion;
 }
@@ -118,7 +117,8 @@ Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system, const State& 
     const Support& support = system.model().supports[to_size(i)];
     for (Index k = 0; k < 3; ++k) {
       const Index coordinate = layout.node[to_size(support.node)][to_size(k)];
-      if (support.fixed[to_size(k)] && coordinate >= layout.free) reaction(i, k) = force[coordinate];
+      if (support.fixed[to_size(k)] && coordinate >= layout.free)
+        reaction(i, k) = force[coordinate];
     }
   }
   return reaction;
@@ -142,15 +142,18 @@ double drive_force(const GeometricallyExactSystem& system, const State& state, I
   return -state.lambda[system.drive_row(drive)];
 }
 
-Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, const VectorXd& q, Index member) {
+Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, const VectorXd& q,
+                                       Index member) {
   const Layout& layout = system.layout();
   std::vector<Vector2d> points;
-  for (Index e = layout.first_element[to_size(member)]; e < layout.first_element[to_size(member + 1)]; ++e) {
+  for (Index e = layout.first_element[to_size(member)];
+       e < layout.first_element[to_size(member + 1)]; ++e) {
     const MemberElement& element = layout.elements[to_size(e)];
     const std::size_t stride = element.is_bar() ? 2 : 3;
     const std::size_t count = element.coordinates.size() / stride;
     for (std::size_t a = points.empty() ? 0 : 1; a < count; ++a) {
-      const double x = element.is_bar() ? static_cast<double>(a) : lobatto_coordinate(system.order(), a);
+      const double x =
+          element.is_bar() ? static_cast<double>(a) : lobatto_coordinate(system.order(), a);
       const Vector2d moved(value_or(q, element.coordinates[stride * a], 0),
                            value_or(q, element.coordinates[stride * a + 1], 0));
       points.emplace_back(element.start + x * (element.end - element.start) + moved);
@@ -161,4 +164,4 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
   return line;
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

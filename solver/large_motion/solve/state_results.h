@@ -5,31 +5,36 @@
 #include "solver/large_motion/system/geometrically_exact_system.h"
 
 /// What a state means at the model's own parts, in the order and the signs of `StaticSolution`.
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// Model node x (x, y, rotation) of coordinates, velocities or accelerations; NaN rotation where a
 /// node has none.
-[[nodiscard]] Eigen::MatrixX3d node_motion(const GeometricallyExactSystem& system, const VectorXd& values);
+[[nodiscard]] Eigen::MatrixX3d node_motion(const GeometricallyExactSystem& system,
+                                           const VectorXd& values);
 
 /// Member x (first, second end); NaN for a bar [rad].
-[[nodiscard]] Eigen::MatrixX2d end_rotations(const GeometricallyExactSystem& system, const VectorXd& values);
+[[nodiscard]] Eigen::MatrixX2d end_rotations(const GeometricallyExactSystem& system,
+                                             const VectorXd& values);
 
 /// Support x (Fx, Fy [N], moment [N m]) of the ground on the node, inertia included. Supports that
 /// hold one shared coordinate each show its whole reaction.
-[[nodiscard]] Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system, const State& state);
+[[nodiscard]] Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system,
+                                         const State& state);
 
 /// Section forces (N [N], V [N], M [N m]) at the members' ends, along the axes that the section has
 /// turned to.
 struct Resultants {
   Eigen::MatrixX3d start, end;  ///< member x (N, V, M)
 };
-[[nodiscard]] Resultants member_resultants(const GeometricallyExactSystem& system, const State& state);
+[[nodiscard]] Resultants member_resultants(const GeometricallyExactSystem& system,
+                                           const State& state);
 
 /// Force [N] or torque [N m] of a drive on the structure.
-[[nodiscard]] double drive_force(const GeometricallyExactSystem& system, const State& state, Index drive);
+[[nodiscard]] double drive_force(const GeometricallyExactSystem& system, const State& state,
+                                 Index drive);
 
 /// World positions of a member's element nodes, first to second node: point x (x, y) [m].
-[[nodiscard]] Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, const VectorXd& q,
-                                           Index member);
+[[nodiscard]] Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system,
+                                                     const VectorXd& q, Index member);
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -41,7 +41,8 @@ class PathFollower {
     VectorXd shape;
     const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
     equilibrium_.load_direction(point.state, direction_.step);
-    const double response = equilibrium_.weighted_rms_norm(direction_.step.head(system_.coordinates()));
+    const double response =
+        equilibrium_.weighted_rms_norm(direction_.step.head(system_.coordinates()));
     // A rigid-body motion leaves a pivot of pure round-off: a response beyond every scale.
     if (!std::isfinite(eigenvalue) || !std::isfinite(response) || response > 1e11) {
       return stop({Status::singular, "free motion: " + describe_motion(system_, shape)});
@@ -114,11 +115,13 @@ class PathFollower {
       residual_step_ += change * load_step_;
       apply_correction(state, residual_step_);
       set_load(state, state.load + change);
-      const double correction_norm = equilibrium_.weighted_rms_norm(residual_step_.head(system_.coordinates()));
+      const double correction_norm =
+          equilibrium_.weighted_rms_norm(residual_step_.head(system_.coordinates()));
       point.newton.correction.back() = correction_norm;
       distance += std::sqrt(squared_norm(residual_step_) + change * change);
       if (!(distance < 0.5 * std::abs(arc))) return false;
-      if (equilibrium_.converged(point.newton.correction, equilibrium_.weighted_rms_norm(state.q))) return true;
+      if (equilibrium_.converged(point.newton.correction, equilibrium_.weighted_rms_norm(state.q)))
+        return true;
     }
     return false;
   }
@@ -128,7 +131,8 @@ class PathFollower {
   bool next() {
     const State from = path_.points.back().state;
     const Index previous_unstable = path_.points.back().unstable_directions;
-    if (static_cast<int>(point_count_) >= options_.max_points) return not_converged("too many points");
+    if (static_cast<int>(point_count_) >= options_.max_points)
+      return not_converged("too many points");
     PathPoint point;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return not_converged("no step is small enough");
@@ -178,15 +182,17 @@ class PathFollower {
     point.newton = equilibrium_.solve(point.state, options_.target);
     if (!point.newton.outcome.solved()) return false;
     const VectorXd distance = point.state.q - guess.q;
-    return std::sqrt(displacement_weight_) * equilibrium_.weighted_rms_norm(distance) < 0.5 * std::abs(arc) &&
+    return std::sqrt(displacement_weight_) * equilibrium_.weighted_rms_norm(distance) <
+               0.5 * std::abs(arc) &&
            equilibrium_.factor(point.state);
   }
 
   /// Records what lies between two points. @return true: the path goes on along another branch.
-  bool record_event(const State& from, Index previous_unstable, const PathPoint& point, const Direction& ahead,
-              bool done) {
+  bool record_event(const State& from, Index previous_unstable, const PathPoint& point,
+                    const Direction& ahead, bool done) {
     const bool load_reversed = ahead.load * direction_.load < 0;
-    const bool stability_changed = previous_unstable >= 0 && point.unstable_directions != previous_unstable;
+    const bool stability_changed =
+        previous_unstable >= 0 && point.unstable_directions != previous_unstable;
     if (!load_reversed && !stability_changed) return false;
     PathEvent event;
     event.kind = load_reversed ? PathEvent::Kind::limit_point : PathEvent::Kind::bifurcation;
@@ -211,7 +217,8 @@ class PathFollower {
       if (load_reversed) return tangent(state, d).load;
       VectorXd shape;
       const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
-      return equilibrium_.matrix().negative_pivots() == previous_unstable ? eigenvalue : -eigenvalue;
+      return equilibrium_.matrix().negative_pivots() == previous_unstable ? eigenvalue
+                                                                          : -eigenvalue;
     };
     const VectorXd secant = [&] {
       VectorXd s(to.state.q.size() + to.state.lambda.size());
@@ -264,8 +271,9 @@ class PathFollower {
     const PathPoint& last = path_.points.back();
     std::ostringstream message;
     message << why << " after point " << point_count_ << " at load factor " << last.state.load
-          << ", arc step " << arc_step_ << ", residual "
-          << (last.newton.force_residual.empty() ? 0.0 : last.newton.force_residual.back()) << " N m";
+            << ", arc step " << arc_step_ << ", residual "
+            << (last.newton.force_residual.empty() ? 0.0 : last.newton.force_residual.back())
+            << " N m";
     return stop({Status::not_converged, message.str()});
   }
 
@@ -284,8 +292,9 @@ class PathFollower {
 
 }  // namespace
 
-StaticPath follow_static_path(const GeometricallyExactSystem& system, const StaticPathOptions& options) {
+StaticPath follow_static_path(const GeometricallyExactSystem& system,
+                              const StaticPathOptions& options) {
   return PathFollower(system, options).run();
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

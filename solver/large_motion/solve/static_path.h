@@ -3,25 +3,26 @@
 #include <string>
 #include <vector>
 
+#include "solver/assembly/system.h"
 #include "solver/large_motion/solve/equilibrium.h"
 #include "solver/large_motion/system/geometrically_exact_system.h"
-#include "solver/assembly/system.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 struct StaticPathOptions {
-  double target = 1;           ///< load factor to reach
-  double first_step = 0.1;     ///< of the load factor; later steps follow from the number of Newton iterations
-  int max_points = 2000;           ///< at most
+  double target = 1;  ///< load factor to reach
+  double first_step =
+      0.1;  ///< of the load factor; later steps follow from the number of Newton iterations
+  int max_points = 2000;       ///< at most
   bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
   bool keep_points = true;     ///< false: keep the last point only
   NewtonOptions newton;
 };
 
 struct PathPoint {
-  State state;         ///< state.load is the load factor
-  Index unstable_directions = 0;  ///< negative pivots of the tangent: directions in which it is unstable;
-                       ///< -1 where follower loads leave no such count
+  State state;                    ///< state.load is the load factor
+  Index unstable_directions = 0;  ///< negative pivots of the tangent: directions in which it is
+                                  ///< unstable; -1 where follower loads leave no such count
   NewtonResult newton;
 };
 
@@ -46,4 +47,4 @@ struct StaticPath {
 [[nodiscard]] StaticPath follow_static_path(const GeometricallyExactSystem& system,
                                             const StaticPathOptions& options = {});
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -2,14 +2,14 @@
 
 #include "solver/large_motion/system/constrained_system.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// How one step ended.
 struct StepReport {
   bool converged = false;
   int iterations = 0;
   double correction = 0;  ///< last correction of the positions, over the scale [-]
-  double error = 0;     ///< estimate of the local error in position, over the scale [-]
+  double error = 0;       ///< estimate of the local error in position, over the scale [-]
 };
 
 /// Watches the corrections of one step's iteration: of the motion, and of the positions onto the
@@ -27,10 +27,12 @@ class StepConvergence {
   ///                     position: q; all over the scale.
   [[nodiscard]] bool converged(double acceleration, double velocity, double position) const {
     const bool stalled = count_ > 2 && step_correction_ > 0.3 * previous_step_correction_;
-    const bool motion_met = step_correction_ <= 1e-11 * acceleration || step_correction_ <= 1e-16 * velocity ||
-                        (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + 1e-15 * position);
-    const bool constraints_met = projection_ <= 1e-15 * position || projection_ <= 1e-13 * velocity ||
-                      (count_ > 2 && projection_ > 0.3 * previous_projection_ && projection_ < 1e-12);
+    const bool motion_met =
+        step_correction_ <= 1e-11 * acceleration || step_correction_ <= 1e-16 * velocity ||
+        (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + 1e-15 * position);
+    const bool constraints_met =
+        projection_ <= 1e-15 * position || projection_ <= 1e-13 * velocity ||
+        (count_ > 2 && projection_ > 0.3 * previous_projection_ && projection_ < 1e-12);
     return motion_met && constraints_met;
   }
   [[nodiscard]] bool slow() const { return count_ > 1 && last() > 0.1 * previous(); }
@@ -40,7 +42,8 @@ class StepConvergence {
  private:
   [[nodiscard]] double previous() const { return previous_step_correction_ + previous_projection_; }
 
-  double step_correction_ = 0, projection_ = 0, previous_step_correction_ = 0, previous_projection_ = 0;
+  double step_correction_ = 0, projection_ = 0, previous_step_correction_ = 0,
+         previous_projection_ = 0;
   int count_ = 0;
 };
 
@@ -64,4 +67,4 @@ class Stepper {
   [[nodiscard]] virtual const KktMatrix& matrix() const = 0;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

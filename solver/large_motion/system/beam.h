@@ -6,7 +6,7 @@
 #include "solver/large_motion/system/constrained_system.h"
 #include "solver/large_motion/system/shape_functions.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 using Eigen::Vector2d;
 
@@ -155,8 +155,8 @@ struct Beam {
     Rows rho;
     for (int g = 0; g < P; ++g) {
       const double w = shape_functions<P>().weight[g];
-      rho[2 * g] = rho[2 * g + 1] =
-          coefficients.stiffness * k / (w * length) + coefficients.mass * mass_per_length * length / (w * w);
+      rho[2 * g] = rho[2 * g + 1] = coefficients.stiffness * k / (w * length) +
+                                    coefficients.mass * mass_per_length * length / (w * w);
     }
     return rho;
   }
@@ -185,4 +185,4 @@ struct Beam {
   };
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

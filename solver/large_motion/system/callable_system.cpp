@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 CallableSystem::CallableSystem(CallableEquations equations)
     : equations_(std::move(equations)), compliance_(VectorXd::Zero(equations_.constraints)) {}
@@ -21,13 +21,15 @@ void CallableSystem::force_residual(const State& state, Eigen::Ref<VectorXd> r) 
 }
 
 void CallableSystem::constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
-                          Eigen::Ref<VectorXd> rate) const {
+                                         Eigen::Ref<VectorXd> rate) const {
   residual = equations_.constraint_residual(state.t, state.q);
   rate = equations_.jacobian(state.t, state.q) * state.v;
-  if (equations_.constraint_time_derivative) rate += equations_.constraint_time_derivative(state.t, state.q);
+  if (equations_.constraint_time_derivative)
+    rate += equations_.constraint_time_derivative(state.t, state.q);
 }
 
-void CallableSystem::tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const {
+void CallableSystem::tangent(const State& state, const TangentCoefficients& coefficients,
+                             KktMatrix& matrix) const {
   const Index n = coordinates();
   Eigen::MatrixXd S = coefficients.mass * equations_.mass(state.q);
   const VectorXd mass = S.diagonal();
@@ -44,7 +46,8 @@ void CallableSystem::tangent(const State& state, const TangentCoefficients& coef
   for (Index i = 0; i < n; ++i) {
     const double step = 1e-5 * scale()[i];
     if (coefficients.stiffness != 0) difference(&State::q, i, step, coefficients.stiffness);
-    if (coefficients.damping != 0) difference(&State::v, i, step * (1 + speed), coefficients.damping);
+    if (coefficients.damping != 0)
+      difference(&State::v, i, step * (1 + speed), coefficients.damping);
   }
   const VectorXd c = VectorXd::Zero(constraints());
   const double typical = mass.cwiseProduct(scale().cwiseAbs2()).mean();
@@ -56,4 +59,4 @@ void CallableSystem::tangent(const State& state, const TangentCoefficients& coef
   matrix.add(0, S, G, c, rho);
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

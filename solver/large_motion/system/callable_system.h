@@ -6,7 +6,7 @@
 
 #include "solver/large_motion/system/constrained_system.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// A small dense system given as functions, for equations that are not a `Model` of ours:
 /// M(q) a = f(t, q, v) - G(t, q)^T lambda, g(t, q) = 0. Tangents are taken by differences.
@@ -17,8 +17,9 @@ struct CallableEquations {
   std::function<VectorXd(double t, const VectorXd& q, const VectorXd& v)> force;
   std::function<VectorXd(double t, const VectorXd& q)> constraint_residual;
   std::function<Eigen::MatrixXd(double t, const VectorXd& q)> jacobian;  ///< dg/dq
-  std::function<VectorXd(double t, const VectorXd& q)> constraint_time_derivative;    ///< dg/dt; empty: 0
-  VectorXd scale;  ///< what counts as a unit change of each coordinate
+  std::function<VectorXd(double t, const VectorXd& q)>
+      constraint_time_derivative;  ///< dg/dt; empty: 0
+  VectorXd scale;                  ///< what counts as a unit change of each coordinate
 };
 
 class CallableSystem final : public ConstrainedSystem {
@@ -31,8 +32,10 @@ class CallableSystem final : public ConstrainedSystem {
   [[nodiscard]] const VectorXd& scale() const override { return equations_.scale; }
   [[nodiscard]] std::vector<std::vector<Index>> blocks() const override;
   void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
-  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual, Eigen::Ref<VectorXd> rate) const override;
-  void tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const override;
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
+                           Eigen::Ref<VectorXd> rate) const override;
+  void tangent(const State& state, const TangentCoefficients& coefficients,
+               KktMatrix& matrix) const override;
   [[nodiscard]] bool symmetric() const override { return false; }
 
  private:
@@ -40,4 +43,4 @@ class CallableSystem final : public ConstrainedSystem {
   VectorXd compliance_;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -11,7 +11,7 @@
 ///
 /// with C = diag(c). A row with c = 0 is a rigid constraint (joint, drive, Euler-Bernoulli shear);
 /// a row with c > 0 is an elastic one (stretch, a spring), with tau its strain-rate damping.
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 struct State {
   double t = 0;        ///< time [s]; in statics the load factor
@@ -50,9 +50,10 @@ class ConstrainedSystem {
   virtual void force_residual(const State& state, Eigen::Ref<VectorXd> r) const = 0;
   /// g and dg/dt = G v + partial g / partial t.
   virtual void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
-                    Eigen::Ref<VectorXd> rate) const = 0;
+                                   Eigen::Ref<VectorXd> rate) const = 0;
   /// Fills the matrix (cleared by the caller).
-  virtual void tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const = 0;
+  virtual void tangent(const State& state, const TangentCoefficients& coefficients,
+                       KktMatrix& matrix) const = 0;
   /// False where S is not symmetric, as with follower loads.
   [[nodiscard]] virtual bool symmetric() const { return true; }
   /// tau [s].
@@ -79,13 +80,14 @@ struct Energy {
 class ConservativeSystem : public ConstrainedSystem {
  public:
   /// r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
-  virtual void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
-                              Eigen::Ref<VectorXd> r) const = 0;
+  virtual void discrete_gradient_residual(const State& from, const State& to,
+                                          const VectorXd& lambda, Eigen::Ref<VectorXd> r) const = 0;
   /// Its derivative with respect to the second state, up to terms of the step's square: not
   /// symmetric.
   virtual void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
-                              const TangentCoefficients& coefficients, KktMatrix& matrix) const = 0;
+                                         const TangentCoefficients& coefficients,
+                                         KktMatrix& matrix) const = 0;
   [[nodiscard]] virtual Energy energy(const State& state) const = 0;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -8,7 +8,7 @@
 #include "solver/large_motion/system/constrained_system.h"
 
 /// One kind of element and what it adds to the equations of `GeometricallyExactSystem`.
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 class ElementGroup {
  public:
@@ -25,16 +25,18 @@ class ElementGroup {
   virtual void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const = 0;
   // Ref is a view.
   // NOLINTNEXTLINE(performance-unnecessary-value-param)
-  virtual void constraint_residual(const State&, Eigen::Ref<VectorXd>, Eigen::Ref<VectorXd>) const {}
+  virtual void constraint_residual(const State&, Eigen::Ref<VectorXd>, Eigen::Ref<VectorXd>) const {
+  }
   virtual void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                        KktMatrix& matrix) const = 0;
   /// The same as `forces` between two states, doing exactly the work of the energy's change.
-  virtual void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
-                             Eigen::Ref<VectorXd> r) const = 0;
-  /// The derivative of `discrete_gradient_forces` and of the rows with respect to the second state, up to
-  /// terms of the step's square; `midpoint` has the mean coordinates.
-  virtual void discrete_gradient_tangent(const State&, const State&, const State& midpoint, double tau,
-                              const TangentCoefficients& coefficients, KktMatrix& matrix) const {
+  virtual void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
+                                        double tau, Eigen::Ref<VectorXd> r) const = 0;
+  /// The derivative of `discrete_gradient_forces` and of the rows with respect to the second state,
+  /// up to terms of the step's square; `midpoint` has the mean coordinates.
+  virtual void discrete_gradient_tangent(const State&, const State&, const State& midpoint,
+                                         double tau, const TangentCoefficients& coefficients,
+                                         KktMatrix& matrix) const {
     tangent(midpoint, tau, coefficients, matrix);
   }
   /// Strain energy of what is not a compliant row [J].
@@ -113,7 +115,7 @@ class ConstraintElements final : public ElementGroup {
   }
 
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
-            Eigen::Ref<VectorXd> rate) const override {
+                           Eigen::Ref<VectorXd> rate) const override {
     typename Element::Rows g;
     typename Element::Gradient G;
     for (Index e = 0; e < size(); ++e) {
@@ -138,8 +140,9 @@ class ConstraintElements final : public ElementGroup {
     }
   }
 
-  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint, double tau,
-                      const TangentCoefficients& coefficients, KktMatrix& matrix) const override {
+  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
+                                 double tau, const TangentCoefficients& coefficients,
+                                 KktMatrix& matrix) const override {
     typename Element::Rows residual;
     typename Element::Gradient G;
     for (Index e = 0; e < size(); ++e) {
@@ -152,13 +155,13 @@ class ConstraintElements final : public ElementGroup {
     }
   }
 
-  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
-                     Eigen::Ref<VectorXd> r) const override {
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
+                                double tau, Eigen::Ref<VectorXd> r) const override {
     for (Index e = 0; e < size(); ++e) {
       const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
       const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
-      typename Element::Coordinates f =
-          element(e).discrete_gradient(q0, q1).transpose() * lambda.template segment<R>(first_row(e));
+      typename Element::Coordinates f = element(e).discrete_gradient(q0, q1).transpose() *
+                                        lambda.template segment<R>(first_row(e));
       if constexpr (kElastic) {
         f += element(e).stiffness() * ((q0 + q1) / 2 + tau / (to.t - from.t) * (q1 - q0));
       }
@@ -178,11 +181,12 @@ class ConstraintElements final : public ElementGroup {
   }
 
  private:
-  [[nodiscard]] typename Element::Square coordinate_matrix(const State& state, Index e, double tau,
-                                                           const TangentCoefficients& coefficients) const {
+  [[nodiscard]] typename Element::Square coordinate_matrix(
+      const State& state, Index e, double tau, const TangentCoefficients& coefficients) const {
     const typename Element::Rows lambda = state.lambda.template segment<R>(first_row(e));
     typename Element::Square S =
-        coefficients.stiffness * element(e).geometric_stiffness(gather<N>(state.q, coordinates(e)), lambda);
+        coefficients.stiffness *
+        element(e).geometric_stiffness(gather<N>(state.q, coordinates(e)), lambda);
     if constexpr (kElastic) {
       S += (coefficients.stiffness + tau * coefficients.damping) * element(e).stiffness();
       S += coefficients.mass * element(e).mass();
@@ -190,7 +194,8 @@ class ConstraintElements final : public ElementGroup {
     return S;
   }
 
-  [[nodiscard]] typename Element::Rows scaled_compliance(Index e, const TangentCoefficients& coefficients) const {
+  [[nodiscard]] typename Element::Rows scaled_compliance(
+      Index e, const TangentCoefficients& coefficients) const {
     return coefficients.compliance * element(e).compliance();
   }
 
@@ -239,18 +244,19 @@ class EnergyElements final : public ElementGroup {
   void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const override {
     for (Index e = 0; e < size(); ++e) {
-      typename Element::Square S = element(e).tangent(gather<N>(state.q, coordinates(e)),
-                                                      coefficients.stiffness, tau * coefficients.damping);
+      typename Element::Square S = element(e).tangent(
+          gather<N>(state.q, coordinates(e)), coefficients.stiffness, tau * coefficients.damping);
       S += coefficients.mass * element(e).mass();
       matrix.add(first_block_ + e, S);
     }
   }
 
   void discrete_gradient_forces(const State& from, const State& to, const VectorXd&, double tau,
-                     Eigen::Ref<VectorXd> r) const override {
+                                Eigen::Ref<VectorXd> r) const override {
     for (Index e = 0; e < size(); ++e) {
       scatter<N>(element(e).discrete_gradient_forces(gather<N>(from.q, coordinates(e)),
-                                          gather<N>(to.q, coordinates(e)), tau / (to.t - from.t)),
+                                                     gather<N>(to.q, coordinates(e)),
+                                                     tau / (to.t - from.t)),
                  coordinates(e), r);
     }
   }
@@ -269,4 +275,4 @@ class EnergyElements final : public ElementGroup {
   std::vector<std::array<Index, N>> where_;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

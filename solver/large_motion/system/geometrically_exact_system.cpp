@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/assembly/validate.h"
 #include "solver/elements/edge_load.h"
+#include "solver/large_motion/system/element_groups.h"
 #include "solver/large_motion/system/linear_constraints.h"
 #include "solver/large_motion/system/member_beam.h"
-#include "solver/large_motion/system/element_groups.h"
-#include "solver/assembly/validate.h"
 #include "solver/model/numbers.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -41,7 +41,8 @@ Layout validated_layout(const Model& model, const LargeMotionModel& large_motion
 
 }  // namespace
 
-GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel large_motion, const GeometricallyExactOptions& options)
+GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel large_motion,
+                                                   const GeometricallyExactOptions& options)
     : model_(std::move(model)),
       large_motion_(std::move(large_motion)),
       order_(options.order),
@@ -81,7 +82,8 @@ void GeometricallyExactSystem::add_beams() {
     add_masses_of<Beam<P>::N>(beam.mass(), where);
     for (int a = 0; a <= P; ++a) {
       for (int k = 0; k < 2; ++k) {
-        loads_[where[to_size(3 * a + k)]] += beam.length * shape_functions<P>().integral[a] * member.load[k];
+        loads_[where[to_size(3 * a + k)]] +=
+            beam.length * shape_functions<P>().integral[a] * member.load[k];
       }
     }
     element_row_[e] = rows_;
@@ -125,10 +127,11 @@ void GeometricallyExactSystem::add_end_inertias() {
 
 template <int N>
 void GeometricallyExactSystem::add_masses_of(const Eigen::Matrix<double, N, N>& mass,
-                                const std::array<Index, N>& where) {
+                                             const std::array<Index, N>& where) {
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j) {
-      if (mass(i, j) != 0) mass_entries_.emplace_back(where[to_size(i)], where[to_size(j)], mass(i, j));
+      if (mass(i, j) != 0)
+        mass_entries_.emplace_back(where[to_size(i)], where[to_size(j)], mass(i, j));
     }
   }
 }
@@ -202,7 +205,8 @@ void GeometricallyExactSystem::add_masses() {
     for (const Index attached : body.attached) {
       const std::array<Index, 3>& b = layout_.node[to_size(attached)];
       RigidLink link;
-      link.offset = model_.nodes[to_size(attached)].position - model_.nodes[to_size(body.reference)].position;
+      link.offset =
+          model_.nodes[to_size(attached)].position - model_.nodes[to_size(body.reference)].position;
       links->add(link, {a[0], a[1], a[2], b[0], b[1]});
     }
   }
@@ -218,7 +222,8 @@ void GeometricallyExactSystem::add_joints() {
     std::array<Index, 3> rail{-1, -1, -1};
     if (slider.rail >= 0) {
       rail = layout_.node[to_size(slider.rail)];
-      joint.offset = model_.nodes[to_size(slider.node)].position - model_.nodes[to_size(slider.rail)].position;
+      joint.offset =
+          model_.nodes[to_size(slider.node)].position - model_.nodes[to_size(slider.rail)].position;
     }
     const std::array<Index, 3>& node = layout_.node[to_size(slider.node)];
     sliders->add(joint, {rail[0], rail[1], rail[2], node[0], node[1]});
@@ -228,8 +233,8 @@ void GeometricallyExactSystem::add_joints() {
   auto springs = std::make_unique<ConstraintElements<LineSpringElement>>(layout_.free, rows_);
   for (const LineSpring& spring : large_motion_.line_springs) {
     LineSpringElement element;
-    element.offset =
-        model_.nodes[to_size(spring.nodes[1])].position - model_.nodes[to_size(spring.nodes[0])].position;
+    element.offset = model_.nodes[to_size(spring.nodes[1])].position -
+                     model_.nodes[to_size(spring.nodes[0])].position;
     if (std::isfinite(spring.rest_length)) {
       element.initial_elongation = element.offset.norm() - spring.rest_length;
     }
@@ -426,9 +431,11 @@ void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<Vec
   }
 }
 
-void GeometricallyExactSystem::constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
-                       Eigen::Ref<VectorXd> rate) const {
-  for (const std::unique_ptr<ElementGroup>& group : element_groups_) group->constraint_residual(state, residual, rate);
+void GeometricallyExactSystem::constraint_residual(const State& state,
+                                                   Eigen::Ref<VectorXd> residual,
+                                                   Eigen::Ref<VectorXd> rate) const {
+  for (const std::unique_ptr<ElementGroup>& group : element_groups_)
+    group->constraint_residual(state, residual, rate);
 }
 
 TangentCoefficients GeometricallyExactSystem::with_damping(TangentCoefficients coefficients) const {
@@ -436,7 +443,8 @@ TangentCoefficients GeometricallyExactSystem::with_damping(TangentCoefficients c
   return coefficients;
 }
 
-void GeometricallyExactSystem::add_point_masses(const TangentCoefficients& coefficients, KktMatrix& matrix) const {
+void GeometricallyExactSystem::add_point_masses(const TangentCoefficients& coefficients,
+                                                KktMatrix& matrix) const {
   for (const auto& [k, m] : point_mass_) {
     if (k < layout_.free) matrix.add_diagonal(k, coefficients.mass * m);
   }
@@ -447,7 +455,8 @@ void GeometricallyExactSystem::count_elements() const {
       static_cast<std::int64_t>(layout_.elements.size() + model_.triangles.size());
 }
 
-void GeometricallyExactSystem::tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const {
+void GeometricallyExactSystem::tangent(const State& state, const TangentCoefficients& coefficients,
+                                       KktMatrix& matrix) const {
   count_elements();
   const TangentCoefficients damped = with_damping(coefficients);
   for (const std::unique_ptr<ElementGroup>& group : element_groups_) {
@@ -456,18 +465,22 @@ void GeometricallyExactSystem::tangent(const State& state, const TangentCoeffici
   add_point_masses(damped, matrix);
 }
 
-void GeometricallyExactSystem::discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
-                                 const TangentCoefficients& coefficients, KktMatrix& matrix) const {
+void GeometricallyExactSystem::discrete_gradient_tangent(const State& from, const State& to,
+                                                         const State& midpoint,
+                                                         const TangentCoefficients& coefficients,
+                                                         KktMatrix& matrix) const {
   count_elements();
   const TangentCoefficients damped = with_damping(coefficients);
   for (const std::unique_ptr<ElementGroup>& group : element_groups_) {
-    group->discrete_gradient_tangent(from, to, midpoint, large_motion_.strain_rate_damping, damped, matrix);
+    group->discrete_gradient_tangent(from, to, midpoint, large_motion_.strain_rate_damping, damped,
+                                     matrix);
   }
   add_point_masses(damped, matrix);
 }
 
-void GeometricallyExactSystem::discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
-                                 Eigen::Ref<VectorXd> r) const {
+void GeometricallyExactSystem::discrete_gradient_residual(const State& from, const State& to,
+                                                          const VectorXd& lambda,
+                                                          Eigen::Ref<VectorXd> r) const {
   const Index n = layout_.free, size = r.size();
   const double h = to.t - from.t;
   r = -(from.gravity + to.gravity) / 2 * gravity_.head(size) -
@@ -496,7 +509,8 @@ Energy GeometricallyExactSystem::energy(const State& state) const {
     product_.noalias() = mass_ * padded_;
     energy.kinetic = product_.head(n).dot(state.v) / 2;
   }
-  for (const std::unique_ptr<ElementGroup>& group : element_groups_) energy.strain += group->energy(state);
+  for (const std::unique_ptr<ElementGroup>& group : element_groups_)
+    energy.strain += group->energy(state);
   VectorXd residual = VectorXd::Zero(rows_), rate = VectorXd::Zero(rows_);
   constraint_residual(state, residual, rate);
   for (Index i = 0; i < rows_; ++i) {
@@ -522,4 +536,4 @@ Index GeometricallyExactSystem::drive_row(Index drive) const {
   return first_drive_row_ + drive;
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

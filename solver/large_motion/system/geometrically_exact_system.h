@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "solver/large_motion/system/constrained_system.h"
-#include "solver/large_motion/system/layout.h"
 #include "solver/large_motion/system/element_group.h"
+#include "solver/large_motion/system/layout.h"
 #include "solver/model/model.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 class LinearConstraints;
 class FollowerLoads;
@@ -24,7 +24,8 @@ struct GeometricallyExactOptions {
 class GeometricallyExactSystem final : public ConservativeSystem {
  public:
   /// @throws ModelError  where the model has no meaning.
-  explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {}, const GeometricallyExactOptions& options = {});
+  explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {},
+                                    const GeometricallyExactOptions& options = {});
 
   [[nodiscard]] Index coordinates() const override { return layout_.free; }
   [[nodiscard]] Index constraints() const override { return compliance_.size(); }
@@ -32,12 +33,15 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] const VectorXd& scale() const override { return scale_; }
   [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return blocks_; }
   void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
-  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual, Eigen::Ref<VectorXd> rate) const override;
-  void tangent(const State& state, const TangentCoefficients& coefficients, KktMatrix& matrix) const override;
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
+                           Eigen::Ref<VectorXd> rate) const override;
+  void tangent(const State& state, const TangentCoefficients& coefficients,
+               KktMatrix& matrix) const override;
   void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
-                      Eigen::Ref<VectorXd> r) const override;
+                                  Eigen::Ref<VectorXd> r) const override;
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
-                      const TangentCoefficients& coefficients, KktMatrix& matrix) const override;
+                                 const TangentCoefficients& coefficients,
+                                 KktMatrix& matrix) const override;
   [[nodiscard]] bool symmetric() const override;
   [[nodiscard]] double strain_rate_damping() const override {
     return large_motion_.strain_rate_damping;
@@ -105,4 +109,4 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   mutable std::int64_t element_evaluations_ = 0;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -1,6 +1,6 @@
 #include "solver/large_motion/system/element_groups.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 template class ConstraintElements<RigidLink>;
 template class ConstraintElements<SlidingJoint>;
@@ -8,4 +8,4 @@ template class ConstraintElements<LineSpringElement>;
 template class ConstraintElements<Bar>;
 template class ConstraintElements<DrivenCoordinate>;
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -6,9 +6,10 @@
 #include "solver/large_motion/system/beam.h"
 #include "solver/large_motion/system/large_motion_model.h"
 
-/// Joints as constraint rows, with the same functions as `Beam`: g and its gradient, its second derivative
-/// times the multipliers, and the discrete gradient D with D (q1 - q0) = g(q1) - g(q0). J = [0 -1; 1 0].
-namespace trammel::large {
+/// Joints as constraint rows, with the same functions as `Beam`: g and its gradient, its second
+/// derivative times the multipliers, and the discrete gradient D with D (q1 - q0) = g(q1) - g(q0).
+/// J = [0 -1; 1 0].
+namespace trammel::solver::large_motion {
 
 inline Vector2d perpendicular(const Vector2d& v) {
   return {-v.y(), v.x()};
@@ -30,7 +31,8 @@ struct Joint {
   double stiffness_scale = 1, mass_scale = 1;  ///< of what is joined, for rho [N/m], [kg]
 
   [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
-    return Rows::Constant(coefficients.stiffness * stiffness_scale + coefficients.mass * mass_scale);
+    return Rows::Constant(coefficients.stiffness * stiffness_scale +
+                          coefficients.mass * mass_scale);
   }
 };
 
@@ -41,7 +43,8 @@ struct RigidLink : Joint<5, 2> {
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d normal = perpendicular(offset);
-    residual = q.tail<2>() - q.head<2>() - cosine_minus_one(q[2]) * offset - std::sin(q[2]) * normal;
+    residual =
+        q.tail<2>() - q.head<2>() - cosine_minus_one(q[2]) * offset - std::sin(q[2]) * normal;
     G << -Eigen::Matrix2d::Identity(), -rotated(normal, q[2]), Eigen::Matrix2d::Identity();
   }
   [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
@@ -52,7 +55,8 @@ struct RigidLink : Joint<5, 2> {
   [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
     const double half = (q1[2] - q0[2]) / 2;
     Gradient D;
-    D << -Eigen::Matrix2d::Identity(), -sinc(half) * rotated(perpendicular(offset), (q0[2] + q1[2]) / 2),
+    D << -Eigen::Matrix2d::Identity(),
+        -sinc(half) * rotated(perpendicular(offset), (q0[2] + q1[2]) / 2),
         Eigen::Matrix2d::Identity();
     return D;
   }
@@ -63,12 +67,13 @@ struct RigidLink : Joint<5, 2> {
 /// n(theta_a) . (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
 struct SlidingJoint : Joint<5, 1> {
   Vector2d normal = Vector2d::UnitY();  ///< n of the line when unloaded
-  Vector2d offset = Vector2d::Zero();      ///< x_b - x_a when unloaded [m]
+  Vector2d offset = Vector2d::Zero();   ///< x_b - x_a when unloaded [m]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d n = rotated(normal, q[2]);
     const Vector2d relative_displacement = q.tail<2>() - q.head<2>();
-    const Vector2d change = cosine_minus_one(q[2]) * normal + std::sin(q[2]) * perpendicular(normal);
+    const Vector2d change =
+        cosine_minus_one(q[2]) * normal + std::sin(q[2]) * perpendicular(normal);
     residual[0] = n.dot(relative_displacement) + change.dot(offset);
     G << -n.transpose(), perpendicular(n).dot(offset + relative_displacement), n.transpose();
   }
@@ -105,7 +110,9 @@ struct DrivenCoordinate : Joint<1, 1> {
   }
   /// Partial derivative of g with respect to time.
   [[nodiscard]] Rows time_rate(double t) const { return Rows(-law(t)[1]); }
-  [[nodiscard]] static Square geometric_stiffness(const Coordinates&, const Rows&) { return Square::Zero(); }
+  [[nodiscard]] static Square geometric_stiffness(const Coordinates&, const Rows&) {
+    return Square::Zero();
+  }
   [[nodiscard]] static Gradient discrete_gradient(const Coordinates&, const Coordinates&) {
     return Gradient::Ones();
   }
@@ -116,13 +123,15 @@ struct DrivenCoordinate : Joint<1, 1> {
 /// Coordinates: ua (2), ub (2).
 struct LineSpringElement : Joint<4, 1> {
   Vector2d offset = Vector2d::Zero();  ///< x_b - x_a in the model's pose [m]
-  double initial_elongation = 0;             ///< |offset| - rest length [m]
-  double flexibility = 0;           ///< 1/k [m/N]
+  double initial_elongation = 0;       ///< |offset| - rest length [m]
+  double flexibility = 0;              ///< 1/k [m/N]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
-    const Vector2d relative_displacement = q.tail<2>() - q.head<2>(), current = offset + relative_displacement;
+    const Vector2d relative_displacement = q.tail<2>() - q.head<2>(),
+                   current = offset + relative_displacement;
     const double length = current.norm();
-    residual[0] = relative_displacement.dot(current + offset) / (length + offset.norm()) + initial_elongation;
+    residual[0] =
+        relative_displacement.dot(current + offset) / (length + offset.norm()) + initial_elongation;
     G << -current.transpose() / length, current.transpose() / length;
   }
   [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
@@ -154,10 +163,11 @@ struct Bar : LineSpringElement {
 
   [[nodiscard]] static Square stiffness() { return Square::Zero(); }
   [[nodiscard]] Square mass() const {
-    const double diagonal = total_mass / (lumped ? 2 : 3), off_diagonal = lumped ? 0 : total_mass / 6;
+    const double diagonal = total_mass / (lumped ? 2 : 3),
+                 off_diagonal = lumped ? 0 : total_mass / 6;
     const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
     return (Square() << diagonal * I, off_diagonal * I, off_diagonal * I, diagonal * I).finished();
   }
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

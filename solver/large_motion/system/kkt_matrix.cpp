@@ -7,7 +7,7 @@
 #include <cassert>
 #include <numeric>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -165,7 +165,8 @@ bool KktMatrix::factor_lu() {
 void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
   ++solves_;
   const Index size = coordinates_ + constraints_;
-  for (Index i = 0; i < size; ++i) work_[permutation_[static_cast<std::size_t>(i)]] = right_hand_side[i];
+  for (Index i = 0; i < size; ++i)
+    work_[permutation_[static_cast<std::size_t>(i)]] = right_hand_side[i];
   if (factors_->use_lu) {
     solution_ = factors_->lu.solve(work_);
   } else {
@@ -176,7 +177,8 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
   }
   for (Index r = 0; r < constraints_; ++r) {
     double& y = right_hand_side[coordinates_ + r];
-    y = solution_[permutation_[static_cast<std::size_t>(coordinates_ + r)]] + multiplier_scaling_[r] * y;
+    y = solution_[permutation_[static_cast<std::size_t>(coordinates_ + r)]] +
+        multiplier_scaling_[r] * y;
   }
 }
 
@@ -185,4 +187,4 @@ Index KktMatrix::negative_pivots() const {
   return (factors_->ldlt.vectorD().array() < 0).count() - constraints_;
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

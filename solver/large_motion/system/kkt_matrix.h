@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 using Eigen::Index;
 using Eigen::VectorXd;
@@ -56,7 +56,8 @@ class KktMatrix {
   template <class Matrix, class Gradient, class Rows>
   void add(Index block, const Matrix& S, const Gradient& D, const Gradient& G, const Rows& c,
            const Rows& rho) {
-    const Rows penalty = rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
+    const Rows penalty =
+        rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
     const Rows E = Rows::Ones(c.size()) - penalty.cwiseProduct(c);
     const Matrix augmented = S + D.transpose() * penalty.asDiagonal() * G;
     scatter(block, augmented, G.rows());
@@ -126,11 +127,11 @@ class KktMatrix {
   void add_row_diagonal(Index block, Index local, Index size, double value, double scaling);
 
   Index coordinates_ = 0, constraints_ = 0;
-  std::vector<Index> permutation_;            ///< elimination order: position of each unknown
+  std::vector<Index> permutation_;      ///< elimination order: position of each unknown
   Eigen::SparseMatrix<double> matrix_;  ///< in elimination order, both triangles
   std::vector<std::size_t> block_start_;
-  std::vector<int> value_index_;     ///< per block, column-major: position in the values, -1: not free
-  std::vector<int> diagonal_;  ///< per coordinate
+  std::vector<int> value_index_;  ///< per block, column-major: position in the values, -1: not free
+  std::vector<int> diagonal_;     ///< per coordinate
   std::vector<Index> row_of_value_;
   VectorXd multiplier_scaling_;  ///< rho / E of each row
   std::unique_ptr<Factors> factors_;
@@ -139,4 +140,4 @@ class KktMatrix {
   std::int64_t factorizations_ = 0;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

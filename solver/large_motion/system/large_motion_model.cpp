@@ -2,7 +2,7 @@
 
 #include "solver/model/labels.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -43,7 +43,7 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
     require(std::isfinite(spring.stiffness) && spring.stiffness > 0, part,
             "must have a positive stiffness");
     const Vector2d offset = model.nodes[static_cast<std::size_t>(spring.nodes[1])].position -
-                         model.nodes[static_cast<std::size_t>(spring.nodes[0])].position;
+                            model.nodes[static_cast<std::size_t>(spring.nodes[0])].position;
     require(offset.norm() > 0, part, "joins nodes in one place, so it has no direction");
   }
   for (const FollowerLoad& load : large_motion.follower_loads) {
@@ -56,10 +56,10 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
             "has no direction 0, 1 or 2");
     require(std::isfinite(initial.value), "a start velocity", "is not a finite number");
   }
-  require(std::isfinite(large_motion.mass_damping) && large_motion.mass_damping >= 0, "mass damping",
-          "must not be negative");
+  require(std::isfinite(large_motion.mass_damping) && large_motion.mass_damping >= 0,
+          "mass damping", "must not be negative");
   require(std::isfinite(large_motion.strain_rate_damping) && large_motion.strain_rate_damping >= 0,
           "strain-rate damping", "must not be negative");
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

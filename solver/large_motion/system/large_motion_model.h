@@ -11,7 +11,7 @@
 
 /// What large motion adds to a `Model`: drives, sliding joints, springs along a line, follower
 /// loads, histories, damping and a start. Everything in SI units and the model's pose.
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// Value, rate and second derivative at a time or, in statics, at a load factor.
 using TimeFunction = std::function<std::array<double, 3>(double)>;
@@ -25,8 +25,8 @@ struct Drive {
   TimeFunction law;
 };
 
-/// A node slides along a line through its position in the model's pose; the line turns with the node
-/// `rail`, or stands still (-1).
+/// A node slides along a line through its position in the model's pose; the line turns with the
+/// node `rail`, or stands still (-1).
 struct Slider {
   std::string name;
   Index node = 0;
@@ -68,9 +68,9 @@ struct LargeMotionModel {
   double strain_rate_damping = 0;              ///< stress from strain + this times strain rate [s]
 };
 
-/// @throws ModelError  where a part of the large-motion model names a node that does not exist, or its
-/// numbers
+/// @throws ModelError  where a part of the large-motion model names a node that does not exist, or
+/// its numbers
 ///                     have no meaning.
 void validate(const LargeMotionModel& large_motion, const Model& model);
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -8,7 +8,7 @@
 #include "solver/model/labels.h"
 #include "solver/model/numbers.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -178,7 +178,8 @@ class Numbering {
       }
     }
     for (const Drive& drive : large_motion_.drives) {
-      if (fixed_[to_size(representative(layout_.node[to_size(drive.node)][to_size(drive.direction)]))]) {
+      if (fixed_[to_size(
+              representative(layout_.node[to_size(drive.node)][to_size(drive.direction)]))]) {
         throw ModelError(part_label("drive", drive.name, 0) + " moves what a support holds");
       }
     }
@@ -221,7 +222,7 @@ class Numbering {
   const LargeMotionModel& large_motion_;
   int order_;
   Layout layout_;
-  std::vector<Index> owner_;   ///< node whose rotation a node shares
+  std::vector<Index> owner_;           ///< node whose rotation a node shares
   std::vector<Index> representative_;  ///< coordinate that a coordinate equals
   std::vector<bool> has_rotation_, fixed_;
 };
@@ -242,7 +243,8 @@ Index Layout::index_of(const Coordinate& coordinate) const {
   return node[to_size(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
 }
 
-std::optional<std::array<Index, 2>> Layout::equated_coordinates(const LinearConstraint& constraint) const {
+std::optional<std::array<Index, 2>> Layout::equated_coordinates(
+    const LinearConstraint& constraint) const {
   if (constraint.terms.size() != 2) return std::nullopt;
   const auto& [first, a] = constraint.terms[0];
   const auto& [second, b] = constraint.terms[1];
@@ -255,4 +257,4 @@ Layout number_coordinates(const Model& model, const LargeMotionModel& large_moti
   return Numbering(model, large_motion, order).run();
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -7,7 +7,7 @@
 #include "solver/large_motion/system/large_motion_model.h"
 #include "solver/model/model.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// An element of a member with its coordinates along it: (ux, uy, theta) of each node; of a bar
 /// (EI = 0) only (ux, uy) of its ends.
@@ -38,11 +38,13 @@ struct Layout {
 
   [[nodiscard]] Index index_of(const Coordinate& coordinate) const;
   /// The two coordinates that a constraint makes equal, if it is of that kind.
-  [[nodiscard]] std::optional<std::array<Index, 2>> equated_coordinates(const LinearConstraint& constraint) const;
+  [[nodiscard]] std::optional<std::array<Index, 2>> equated_coordinates(
+      const LinearConstraint& constraint) const;
 };
 
 /// @param order  degree of the beam elements, 1 to 3.
 /// @throws ModelError  where the model has no meaning.
-[[nodiscard]] Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion, int order);
+[[nodiscard]] Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion,
+                                        int order);
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

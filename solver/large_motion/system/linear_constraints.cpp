@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -32,7 +32,8 @@ void LinearConstraints::append_blocks(std::vector<std::vector<Index>>& blocks) {
   }
 }
 
-void LinearConstraints::add_constraint_forces(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const {
+void LinearConstraints::add_constraint_forces(const VectorXd& lambda,
+                                              Eigen::Ref<VectorXd> r) const {
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     const double force = lambda[first_row_ + static_cast<Index>(e)];
     for (std::size_t i = 0; i < rows_[e].coordinates.size(); ++i) {
@@ -46,13 +47,13 @@ void LinearConstraints::forces(const State& state, double, Eigen::Ref<VectorXd> 
   add_constraint_forces(state.lambda, r);
 }
 
-void LinearConstraints::discrete_gradient_forces(const State&, const State&, const VectorXd& lambda, double,
-                               Eigen::Ref<VectorXd> r) const {
+void LinearConstraints::discrete_gradient_forces(const State&, const State&, const VectorXd& lambda,
+                                                 double, Eigen::Ref<VectorXd> r) const {
   add_constraint_forces(lambda, r);
 }
 
 void LinearConstraints::constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
-                      Eigen::Ref<VectorXd> rate) const {
+                                            Eigen::Ref<VectorXd> rate) const {
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     const Index row = first_row_ + static_cast<Index>(e);
     residual[row] = dot(rows_[e], state.q);
@@ -60,15 +61,17 @@ void LinearConstraints::constraint_residual(const State& state, Eigen::Ref<Vecto
   }
 }
 
-void LinearConstraints::tangent(const State&, double, const TangentCoefficients& coefficients, KktMatrix& matrix) const {
+void LinearConstraints::tangent(const State&, double, const TangentCoefficients& coefficients,
+                                KktMatrix& matrix) const {
   const Eigen::Matrix<double, 1, 1> c = Eigen::Matrix<double, 1, 1>::Zero();
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     const double norm = rows_[e].factors.squaredNorm();
-    const Eigen::Matrix<double, 1, 1> rho(
-        (coefficients.stiffness * rows_[e].stiffness_scale + coefficients.mass * rows_[e].mass_scale) / norm);
+    const Eigen::Matrix<double, 1, 1> rho((coefficients.stiffness * rows_[e].stiffness_scale +
+                                           coefficients.mass * rows_[e].mass_scale) /
+                                          norm);
     matrix.add(first_block_ + static_cast<Index>(e), zero_blocks_[e],
                Eigen::RowVectorXd(rows_[e].factors.transpose()), c, rho);
   }
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -4,7 +4,7 @@
 
 #include "solver/large_motion/system/element_group.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// One row: sum of factor * coordinate = 0.
 struct LinearConstraintRow {
@@ -22,11 +22,12 @@ class LinearConstraints final : public ElementGroup {
 
   void append_blocks(std::vector<std::vector<Index>>& blocks) override;
   void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override;
-  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual, Eigen::Ref<VectorXd> rate) const override;
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
+                           Eigen::Ref<VectorXd> rate) const override;
   void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const override;
-  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda, double tau,
-                     Eigen::Ref<VectorXd> r) const override;
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
+                                double tau, Eigen::Ref<VectorXd> r) const override;
   [[nodiscard]] Index size() const override { return static_cast<Index>(rows_.size()); }
   std::vector<LinearConstraintRow>& rows() { return rows_; }
 
@@ -38,4 +39,4 @@ class LinearConstraints final : public ElementGroup {
   std::vector<Eigen::MatrixXd> zero_blocks_;  ///< a zero S of each row's size
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace trammel {
+namespace trammel::solver {
 
 void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& nodes) {
   for (const auto kind : {Coordinate::Kind::x, Coordinate::Kind::y}) {
@@ -11,7 +11,7 @@ void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& 
   }
 }
 
-void add_linear_slider(Model& model, const large::Slider& slider) {
+void add_linear_slider(Model& model, const large_motion::Slider& slider) {
   const Vector2d normal(-std::sin(slider.direction), std::cos(slider.direction));
   using Kind = Coordinate::Kind;
   LinearConstraint no_normal_displacement{
@@ -20,15 +20,16 @@ void add_linear_slider(Model& model, const large::Slider& slider) {
   LinearConstraint equal_rotation{slider.name, {{{Kind::rotation, slider.node, -1, 0}, 1.0}}};
   if (slider.rail >= 0) {
     const Vector2d offset = model.nodes[static_cast<std::size_t>(slider.node)].position -
-                         model.nodes[static_cast<std::size_t>(slider.rail)].position;
+                            model.nodes[static_cast<std::size_t>(slider.rail)].position;
     const double lever = normal.dot(Vector2d(-offset.y(), offset.x()));
     no_normal_displacement.terms.push_back({{Kind::x, slider.rail, -1, 0}, -normal.x()});
     no_normal_displacement.terms.push_back({{Kind::y, slider.rail, -1, 0}, -normal.y()});
-    if (lever != 0) no_normal_displacement.terms.push_back({{Kind::rotation, slider.rail, -1, 0}, -lever});
+    if (lever != 0)
+      no_normal_displacement.terms.push_back({{Kind::rotation, slider.rail, -1, 0}, -lever});
     equal_rotation.terms.push_back({{Kind::rotation, slider.rail, -1, 0}, -1.0});
   }
   model.constraints.push_back(std::move(no_normal_displacement));
   if (slider.keeps_angle) model.constraints.push_back(std::move(equal_rotation));
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -4,10 +4,10 @@
 #include <array>
 #include <vector>
 
-#include "solver/large_motion/system/joints.h"
 #include "solver/large_motion/system/element_group.h"
+#include "solver/large_motion/system/joints.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// Linear spring between two coordinates, k (q1 - q0).
 struct CoordinateSpring {
@@ -27,7 +27,7 @@ struct CoordinateSpring {
     return (k + d) * matrix();
   }
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
-                                          double rate) const {
+                                                     double rate) const {
     return matrix() * ((q0 + q1) / 2 + rate * (q1 - q0));
   }
   [[nodiscard]] Square mass() const { return Square::Zero(); }
@@ -64,14 +64,14 @@ class FollowerLoads final : public ElementGroup {
     for (std::size_t e = 0; e < forces_.size(); ++e) {
       const double angle = gather<3>(state.q, where_[e])[2];
       Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
-      S.block<2, 1>(0, 2) =
-          -coefficients.stiffness * state.load * perpendicular(rotated(forces_[e].head<2>(), angle));
+      S.block<2, 1>(0, 2) = -coefficients.stiffness * state.load *
+                            perpendicular(rotated(forces_[e].head<2>(), angle));
       matrix.add(first_block_ + static_cast<Index>(e), S);
     }
   }
 
   void discrete_gradient_forces(const State& from, const State& to, const VectorXd&, double,
-                     Eigen::Ref<VectorXd> r) const override {
+                                Eigen::Ref<VectorXd> r) const override {
     for (std::size_t e = 0; e < forces_.size(); ++e) {
       const double angle = (gather<3>(from.q, where_[e])[2] + gather<3>(to.q, where_[e])[2]) / 2;
       add_force(e, angle, (from.load + to.load) / 2, r);
@@ -100,4 +100,4 @@ class FollowerLoads final : public ElementGroup {
   std::vector<std::array<Index, 3>> where_;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

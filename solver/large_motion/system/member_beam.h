@@ -3,7 +3,7 @@
 #include "solver/large_motion/system/beam.h"
 #include "solver/large_motion/system/layout.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// The beam element of a part of a member; zero compliance where the member's theory rules a strain
 /// out.
@@ -23,4 +23,4 @@ Beam<P> make_beam(const Member& member, const MemberElement& element) {
   return beam;
 }
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

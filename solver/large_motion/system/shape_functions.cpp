@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -93,4 +93,4 @@ template struct ShapeFunctions<1>;
 template struct ShapeFunctions<2>;
 template struct ShapeFunctions<3>;
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 /// Lagrange polynomials of degree P on the Lobatto points of [-1, 1] and their integrals.
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 template <int P>
 struct ShapeFunctions {
@@ -31,4 +31,4 @@ const ShapeFunctions<P>& shape_functions() {
 /// Coordinate of node a of an element of that degree, in [0, 1].
 [[nodiscard]] double lobatto_coordinate(int degree, std::size_t a);
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 namespace {
 
@@ -42,11 +42,11 @@ constexpr std::array<Point, 3> kThreePointRule = {
 constexpr double kA4 = 0.44594849091596488632, kB4 = 0.09157621350977074346;
 constexpr double kWeightA = 0.22338158967801146570, kWeightB = 0.10995174365532186764;
 constexpr std::array<Point, 6> kSixPointRule = {{{kA4, kA4, kWeightA},
-                                       {1 - 2 * kA4, kA4, kWeightA},
-                                       {kA4, 1 - 2 * kA4, kWeightA},
-                                       {kB4, kB4, kWeightB},
-                                       {1 - 2 * kB4, kB4, kWeightB},
-                                       {kB4, 1 - 2 * kB4, kWeightB}}};
+                                                 {1 - 2 * kA4, kA4, kWeightA},
+                                                 {kA4, 1 - 2 * kA4, kWeightA},
+                                                 {kB4, kB4, kWeightB},
+                                                 {1 - 2 * kB4, kB4, kWeightB},
+                                                 {kB4, 1 - 2 * kB4, kWeightB}}};
 
 }  // namespace
 
@@ -168,9 +168,8 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates&
 }
 
 template <int Nodes>
-typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::discrete_gradient_forces(const Coordinates& q0,
-                                                                         const Coordinates& q1,
-                                                                         double rate) const {
+typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::discrete_gradient_forces(
+    const Coordinates& q0, const Coordinates& q1, double rate) const {
   Coordinates f = Coordinates::Zero();
   for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
     const Eigen::Matrix2d H0 = displacement_gradient(gradients_[p], q0);
@@ -190,11 +189,12 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::mass() const {
 template <int Nodes>
 Eigen::Vector3d Triangle2d<Nodes>::stress(const Coordinates& q) const {
   Strain mean = Strain::Zero();
-  for (const Gradients& gradients : gradients_) mean += strain(displacement_gradient(gradients, q)) / kPoints;
+  for (const Gradients& gradients : gradients_)
+    mean += strain(displacement_gradient(gradients, q)) / kPoints;
   return D_ * mean;
 }
 
 template struct Triangle2d<3>;
 template struct Triangle2d<6>;
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

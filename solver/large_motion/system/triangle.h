@@ -6,7 +6,7 @@
 
 #include "solver/model/model.h"
 
-namespace trammel::large {
+namespace trammel::solver::large_motion {
 
 /// Total-Lagrangian membrane triangle of a St. Venant-Kirchhoff material in plane stress, with 3 or
 /// 6 nodes (mid-sides 01, 12, 20) [m]: E = (H + H^T + H^T H)/2, H = du/dX, S = D E,
@@ -32,7 +32,7 @@ struct Triangle2d {
   /// Forces f with f . (q1 - q0) = energy(q1) - energy(q0) where tau = 0 (J. C. Simo,
   /// N. Tarnow, ZAMP 43, 1992); `rate` is tau over the step.
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
-                                          double rate) const;
+                                                     double rate) const;
   [[nodiscard]] Square mass() const;
   [[nodiscard]] Eigen::Vector3d stress(const Coordinates& q) const;
 
@@ -43,7 +43,8 @@ struct Triangle2d {
   [[nodiscard]] static Eigen::Matrix2d displacement_gradient(const Gradients& gradients,
                                                              const Coordinates& q);
   [[nodiscard]] static Strain strain(const Eigen::Matrix2d& H);
-  [[nodiscard]] static Operator strain_operator(const Gradients& gradients, const Eigen::Matrix2d& H);
+  [[nodiscard]] static Operator strain_operator(const Gradients& gradients,
+                                                const Eigen::Matrix2d& H);
 
   Eigen::Matrix3d D_;
   std::array<Gradients, kPoints> gradients_;
@@ -51,4 +52,4 @@ struct Triangle2d {
   Square mass_;
 };
 
-}  // namespace trammel::large
+}  // namespace trammel::solver::large_motion

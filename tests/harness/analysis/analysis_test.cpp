@@ -5,7 +5,9 @@
 
 #include "tests/support/harness/analysing.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;

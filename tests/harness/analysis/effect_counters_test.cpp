@@ -1,11 +1,13 @@
 #include <boost/test/unit_test.hpp>
 
 #include "harness/analysis/analysis.h"
+#include "harness/analysis/case_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/reference_library.h"
-#include "harness/analysis/case_effects.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 
 namespace {
 
@@ -16,7 +18,8 @@ Document at_one_point(Document document) {
   const JsonPointer circle("/model/trajectory/circle");
   if (document.value().contains(circle)) {
     const int points = analysis_kind(document) == "elastodynamics" ? 2 : 1;
-    document.apply_patch(file, "", Json{{"model", {{"trajectory", {{"circle", {{"points", points}}}}}}}});
+    document.apply_patch(file, "",
+                         Json{{"model", {{"trajectory", {{"circle", {{"points", points}}}}}}}});
   }
   return document;
 }

@@ -3,13 +3,15 @@
 #include <limits>
 #include <map>
 
-#include "harness/input/catalogue.h"
-#include "harness/studies/effect_study.h"
 #include "harness/cli/print_effects.h"
+#include "harness/input/catalogue.h"
 #include "harness/input/reference_library.h"
+#include "harness/studies/effect_study.h"
 #include "tests/support/harness/analysing.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;

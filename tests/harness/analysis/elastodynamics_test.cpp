@@ -3,7 +3,9 @@
 
 #include "tests/support/harness/analysing.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 using testing::result_of;

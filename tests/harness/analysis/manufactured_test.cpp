@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-namespace t = trammel;
-namespace m = trammel::manufactured;
+namespace t = trammel::harness;
+namespace m = trammel::references::manufactured;
 using t::Index;
 
 namespace {

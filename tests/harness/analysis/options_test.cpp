@@ -5,7 +5,9 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::Folder;
 
 namespace {

@@ -4,7 +4,9 @@
 
 #include "tests/support/harness/analysing.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using boost::test_tools::tolerance;
 using testing::complaint;
 using testing::contains;

@@ -4,7 +4,9 @@
 
 #include "harness/base/diagnostic.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 
 BOOST_AUTO_TEST_SUITE(quantity)
 

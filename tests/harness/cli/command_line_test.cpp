@@ -9,7 +9,9 @@
 #include "harness/input/schema.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::contains;
 using testing::Folder;
 

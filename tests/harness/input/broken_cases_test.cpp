@@ -4,11 +4,13 @@
 #include <random>
 #include <sstream>
 
-#include "harness/cli/command_line.h"
 #include "harness/base/json_file.h"
+#include "harness/cli/command_line.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::Folder;
 
 // Two hundred case files broken by a seeded generator. Those that are invalid by construction are

@@ -9,7 +9,9 @@
 #include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::contains;
 
 namespace {
@@ -88,7 +90,8 @@ BOOST_AUTO_TEST_CASE(an_analysis_is_exactly_one) {
 
 BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
   for (const char* name : {"case", "cost", "reference", "results"}) {
-    const Json text = read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json"));
+    const Json text =
+        read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json"));
     BOOST_TEST(text.contains("description"), name);
     for (const auto& item : text.at("properties").items()) {
       const bool elsewhere = item.value().contains("$ref") || item.key() == "runs" ||

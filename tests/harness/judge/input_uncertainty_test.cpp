@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-namespace t = trammel;
+namespace t = trammel::harness;
 
 namespace {
 

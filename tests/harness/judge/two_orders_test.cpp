@@ -5,7 +5,9 @@
 
 #include "harness/judge/convergence.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 
 namespace {
 

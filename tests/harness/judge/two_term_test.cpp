@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-namespace t = trammel;
+namespace t = trammel::harness;
 
 namespace {
 

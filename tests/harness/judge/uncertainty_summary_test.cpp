@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 
 namespace {
 
@@ -36,7 +38,8 @@ NumericalUncertaintySummary summarise(const std::vector<Convergence>& all) {
 BOOST_AUTO_TEST_SUITE(uncertainty_summary)
 
 BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_and_are_a_quarter_too_wide) {
-  const NumericalUncertaintySummary summary = summarise(std::vector<Convergence>(30, made_up(8, 1)));
+  const NumericalUncertaintySummary summary =
+      summarise(std::vector<Convergence>(30, made_up(8, 1)));
   BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no band
   BOOST_TEST(summary.hit_rate() == 1.0);
   BOOST_TEST(summary.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
@@ -52,7 +55,8 @@ BOOST_AUTO_TEST_CASE(bands_that_miss_too_often_fail) {
 }
 
 BOOST_AUTO_TEST_CASE(bands_that_are_huge_fail_although_they_never_miss) {
-  const NumericalUncertaintySummary summary = summarise(std::vector<Convergence>(30, made_up(8, 4)));
+  const NumericalUncertaintySummary summary =
+      summarise(std::vector<Convergence>(30, made_up(8, 4)));
   BOOST_TEST(summary.hit_rate() == 1.0);
   BOOST_TEST(summary.fails());
 }

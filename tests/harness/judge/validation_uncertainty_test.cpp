@@ -3,12 +3,14 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "harness/input/schema.h"
 #include "harness/run/results.h"
 #include "harness/run/run.h"
-#include "harness/input/schema.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::Folder;
 
 namespace {

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
-namespace t = trammel;
+namespace t = trammel::harness;
 using t::ValidationVerdict;
 
 BOOST_AUTO_TEST_SUITE(validation_verdict)

@@ -8,7 +8,9 @@
 #include "harness/input/schema.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 

@@ -3,11 +3,13 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "harness/run/results.h"
 #include "harness/input/schema.h"
+#include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::contains;
 using testing::Folder;
 

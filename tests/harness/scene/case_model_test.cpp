@@ -7,7 +7,9 @@
 
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;
@@ -29,7 +31,8 @@ std::string fault(Json json, const std::string& pointer, const Json& value) {
 BOOST_AUTO_TEST_SUITE(case_model)
 
 BOOST_AUTO_TEST_CASE(a_rectangle_has_the_stiffness_and_mass_of_a_rectangle) {
-  const Section section = build_model(case_model_of(testing::cantilever()), 0).members.at(0).section;
+  const Section section =
+      build_model(case_model_of(testing::cantilever()), 0).members.at(0).section;
   BOOST_TEST(section.EA == 2e11 * 0.1 * 0.05, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(section.EI == 2e11 * 0.05 * 1e-3 / 12, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(section.kappa_GA == 5.0 / 6 * 2e11 / 2.6 * 0.005, boost::test_tools::tolerance(1e-14));

@@ -3,13 +3,15 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "harness/run/cost_results.h"
 #include "harness/base/environment.h"
-#include "harness/run/results.h"
 #include "harness/input/schema.h"
+#include "harness/run/cost_results.h"
+#include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;
@@ -55,7 +57,8 @@ BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
   BOOST_TEST(entry.max == 0.1);  // of the true zero: 1 over the largest, 10
   BOOST_TEST(entry.mean == 0.2 / 3);
   BOOST_TEST(entry.rms == std::sqrt(0.02 / 3));
-  const ErrorNorms largest = error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::largest, 0});
+  const ErrorNorms largest =
+      error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::largest, 0});
   BOOST_TEST(largest.max == 0.1);
   const ErrorNorms fixed = error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::number, 4});
   BOOST_TEST(fixed.max == 0.25);
@@ -71,7 +74,8 @@ BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
   BOOST_TEST_REQUIRE(study.settings.size() == 5U);
   for (std::size_t i : {0U, 1U, 2U}) {
     const MeasuredSetting& one = study.settings[i];
-    BOOST_TEST((one.status == MeasurementStatus::measured || one.status == MeasurementStatus::excessive_spread));
+    BOOST_TEST((one.status == MeasurementStatus::measured ||
+                one.status == MeasurementStatus::excessive_spread));
     BOOST_TEST(one.error->max > 0);
     BOOST_TEST(one.timing->cpu_s.size() == 7U);
   }

@@ -3,7 +3,9 @@
 #include "harness/studies/effect_study.h"
 #include "harness/studies/random_scenes.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 
 BOOST_AUTO_TEST_SUITE(random_effects)
 

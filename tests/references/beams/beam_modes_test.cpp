@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "references/programs/program.h"
 #include "references/numerics/roots.h"
+#include "references/programs/program.h"
 
-using namespace trammel::derive;
+using namespace trammel::references;
 
 namespace {
 

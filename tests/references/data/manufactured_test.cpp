@@ -7,7 +7,7 @@
 #include <complex>
 #include <vector>
 
-namespace m = trammel::manufactured;
+namespace m = trammel::references::manufactured;
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include "tests/support/references/frames.h"
 
-using namespace trammel::derive;
-using namespace trammel::derive::test;
+using namespace trammel::references;
+using namespace trammel::testing;
 using boost::test_tools::tolerance;
 
 namespace {

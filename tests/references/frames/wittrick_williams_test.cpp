@@ -10,8 +10,8 @@
 #include "references/frames/frame_json.h"
 #include "tests/support/references/frames.h"
 
-using namespace trammel::derive;
-using namespace trammel::derive::test;
+using namespace trammel::references;
+using namespace trammel::testing;
 using boost::test_tools::tolerance;
 
 namespace {

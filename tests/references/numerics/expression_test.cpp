@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <string>
 
-using namespace trammel::derive;
+using namespace trammel::references;
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "references/programs/derivation_comparison.h"
 
 namespace fs = std::filesystem;
-using namespace trammel::derive;
+using namespace trammel::references;
 
 namespace {
 

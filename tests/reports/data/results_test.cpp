@@ -6,7 +6,7 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
-using namespace trammel::tests;
+using namespace trammel::testing;
 using nlohmann::ordered_json;
 using trammel::reports::read_results;
 

@@ -5,7 +5,7 @@
 #include "tests/support/reports/markup.h"
 
 using namespace trammel::reports;
-using namespace trammel::tests;
+using namespace trammel::testing;
 
 namespace {
 

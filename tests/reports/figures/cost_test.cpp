@@ -1,13 +1,14 @@
+#include "reports/figures/cost.h"
+
 #include <boost/test/unit_test.hpp>
 
-#include "reports/page/report.h"
 #include "reports/data/results.h"
+#include "reports/page/report.h"
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
-#include "reports/figures/cost.h"
 
-using namespace trammel::tests;
+using namespace trammel::testing;
 using namespace trammel::reports;
 
 namespace {
@@ -69,7 +70,8 @@ BOOST_AUTO_TEST_CASE(results_of_studies_alone_are_a_page_of_their_own) {
   json["cases"] = json["references"] = nlohmann::ordered_json::object();
   json["cost"]["sweep"] = "full";
   const Workspace space;
-  const std::string text = text_of(trammel::write_report(space.results(json), space.path()));
+  const std::string text =
+      text_of(trammel::reports::write_report(space.results(json), space.path()));
   BOOST_TEST(markup_fault(text, true) == "");
   BOOST_TEST(contains(text, "<h1>What accuracy costs in time</h1>"));
   BOOST_TEST(contains(text, "This is the full sweep"));

@@ -1,8 +1,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "reports/figures/figures.h"
 #include "reports/drawing/palette.h"
+#include "reports/figures/figures.h"
 
 using namespace trammel::reports;
 
@@ -72,11 +72,11 @@ BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
     const std::size_t color = figure->commands.rfind('#', key);
     return figure->commands.substr(color, 7);
   };
-  BOOST_TEST(shade_of_lowest() == palette::k\usequence.front());
+  BOOST_TEST(shade_of_lowest() == palette::kSequence.front());
   for (Number& number : run.quantities[2].second) number = -*number;
-  BOOST_TEST(shade_of_lowest() == palette::k\usequence.back());
+  BOOST_TEST(shade_of_lowest() == palette::kSequence.back());
   run.quantities[2].second[0] = 7.0;
-  BOOST_TEST(shade_of_lowest() == palette::k\usequence.front());
+  BOOST_TEST(shade_of_lowest() == palette::kSequence.front());
   BOOST_TEST(contains(draw(run, problem)->caption, "dark where it is high"));
 }
 

@@ -7,7 +7,7 @@
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/workspace.h"
 
-using namespace trammel::tests;
+using namespace trammel::testing;
 
 namespace {
 

@@ -6,13 +6,13 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
-using namespace trammel::tests;
+using namespace trammel::testing;
 
 namespace {
 
 std::string junit_of(const nlohmann::ordered_json& results) {
   const Workspace workspace;
-  trammel::write_junit(workspace.results(results), workspace.path() / "junit.xml");
+  trammel::reports::write_junit(workspace.results(results), workspace.path() / "junit.xml");
   return text_of(workspace.path() / "junit.xml");
 }
 

@@ -9,7 +9,7 @@
 #include "tests/support/reports/workspace.h"
 
 namespace fs = std::filesystem;
-using namespace trammel::tests;
+using namespace trammel::testing;
 
 namespace {
 
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(one_of_many_variants_is_marked_as_nearest_to_each_reference
 
 BOOST_AUTO_TEST_CASE(the_same_results_make_the_same_report_byte_for_byte) {
   const Workspace workspace;
-  trammel::write_report(workspace.results(sample_results()), workspace.path() / "again");
+  trammel::reports::write_report(workspace.results(sample_results()), workspace.path() / "again");
   std::size_t compared = 0;
   for (const auto& entry : fs::recursive_directory_iterator(sample_report())) {
     if (!entry.is_regular_file()) continue;
@@ -159,7 +159,8 @@ BOOST_AUTO_TEST_CASE(all_good_results_say_that_every_gate_holds) {
   for (const auto& run : results["runs"])
     if (run["case"] == "cantilever") good.push_back(run);
   results["runs"] = good;
-  const fs::path file = trammel::write_report(workspace.results(results), workspace.path() / "out");
+  const fs::path file =
+      trammel::reports::write_report(workspace.results(results), workspace.path() / "out");
   const std::string text = text_of(file);
   BOOST_TEST(text.find("Every gate holds.") != std::string::npos);
   BOOST_TEST(text.find("What fails") == std::string::npos);
@@ -170,10 +171,10 @@ BOOST_AUTO_TEST_CASE(a_second_report_in_the_same_folder_leaves_nothing_of_the_fi
   const Workspace workspace;
   auto results = sample_results();
   const fs::path out = workspace.path() / "out";
-  trammel::write_report(workspace.results(results), out);
+  trammel::reports::write_report(workspace.results(results), out);
   std::ofstream(out / "figures" / "mine.svg") << "kept";
   results["runs"] = nlohmann::ordered_json::array({results["runs"].back()});
-  const std::string text = text_of(trammel::write_report(workspace.results(results), out));
+  const std::string text = text_of(trammel::reports::write_report(workspace.results(results), out));
   std::size_t drawings = 0;
   for (const auto& entry : fs::directory_iterator(out / "figures"))
     drawings += entry.path().extension() == ".svg";
@@ -190,7 +191,7 @@ BOOST_AUTO_TEST_CASE(no_text_of_a_case_becomes_a_command_of_gnuplot) {
     info["title"] = title;
     for (auto& [variant, value] : info["variants"].items()) value["title"] = title + variant;
   }
-  trammel::write_report(workspace.results(results), workspace.path() / "out");
+  trammel::reports::write_report(workspace.results(results), workspace.path() / "out");
   BOOST_TEST(!fs::exists(file));
 }
 
@@ -200,7 +201,7 @@ BOOST_AUTO_TEST_CASE(results_without_any_run_still_make_a_page) {
   results["runs"] = nlohmann::ordered_json::array();
   results.erase("cost");
   const std::string text =
-      text_of(trammel::write_report(workspace.results(results), workspace.path() / "out"));
+      text_of(trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
   BOOST_TEST(text.find("Nothing was checked.") != std::string::npos);
   BOOST_TEST(markup_fault(text, true) == "");
 }

@@ -6,7 +6,7 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
-using namespace trammel::tests;
+using namespace trammel::testing;
 
 namespace {
 
@@ -23,7 +23,8 @@ std::string section(const std::string& id) {
 
 std::string page_of(const nlohmann::ordered_json& results) {
   const Workspace workspace;
-  return text_of(trammel::write_report(workspace.results(results), workspace.path() / "out"));
+  return text_of(
+      trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
 }
 
 bool says(const std::string& text, const std::string& part) {
@@ -32,7 +33,7 @@ bool says(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(evidence)
+BOOST_AUTO_TEST_SUITE(verification_tables)
 
 BOOST_AUTO_TEST_CASE(a_target_stands_as_printed_beside_the_better_value_and_both_ratios) {
   const std::string targets = section("targets");
@@ -83,7 +84,8 @@ BOOST_AUTO_TEST_CASE(a_law_of_two_orders_is_shown_by_how_well_it_meets_the_error
 
 BOOST_AUTO_TEST_CASE(differences_from_the_paper_stand_with_the_noise_that_they_stand_against) {
   const std::string uncertainty = section("noise");
-  BOOST_TEST(says(uncertainty, "16 comparisons with the paper: 8 within the noise, 8 the model is off."));
+  BOOST_TEST(
+      says(uncertainty, "16 comparisons with the paper: 8 within the noise, 8 the model is off."));
   BOOST_TEST(says(uncertainty, "that of the link thickness, for 16 of 16."));
   BOOST_TEST(says(uncertainty, "class=\"cell model-off above\""));
   BOOST_TEST(says(uncertainty, "+16.5\u202f%<span class=\"delta muted\">± 5.1\u202f%</span>"));

@@ -4,7 +4,7 @@
 
 #include "solver/mesh/distorted_mesh.h"
 
-namespace t = trammel;
+namespace t = trammel::solver;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 

@@ -2,11 +2,11 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "solver/statics/statics.h"
 #include "solver/assembly/system.h"
+#include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 
 namespace {

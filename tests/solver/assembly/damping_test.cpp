@@ -6,7 +6,7 @@
 
 #include "solver/time/modal_superposition.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using std::numbers::pi;
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "solver/mesh/distorted_mesh.h"
 
-namespace t = trammel;
+namespace t = trammel::solver;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "solver/mesh/block_mesh.h"
-#include "solver/statics/buckling.h"
 #include "solver/modes/prestressed_modes.h"
+#include "solver/statics/buckling.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
 

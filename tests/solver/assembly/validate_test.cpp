@@ -7,7 +7,7 @@
 #include "solver/assembly/system.h"
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include "solver/statics/statics.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
 namespace {

@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-using namespace trammel;
+using namespace trammel::solver;
 
 namespace {
 

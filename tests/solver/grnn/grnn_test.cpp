@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 

@@ -10,8 +10,8 @@
 
 namespace {
 
-using namespace trammel;
-using namespace trammel::large;
+using namespace trammel::solver;
+using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
 
 constexpr double kPi = std::numbers::pi;
@@ -46,7 +46,8 @@ PendulumError pendulum_error(Integrator integrator, double step) {
   const double speed = node_motion(system, state.v).row(1).head<2>().norm();
   const double pull = reactions(system, state).row(0).head<2>().norm();
   return {(place - exact).norm(), std::abs(speed - std::sqrt(2 * 9.81 * -exact.y())),
-          std::abs(pull - 3 * 9.81 * -exact.y()), summary.max_constraint_residual, summary.max_constraint_rate};
+          std::abs(pull - 3 * 9.81 * -exact.y()), summary.max_constraint_residual,
+          summary.max_constraint_rate};
 }
 
 double order(double coarse, double fine) {

@@ -6,8 +6,8 @@
 
 namespace {
 
-using namespace trammel;
-using namespace trammel::large;
+using namespace trammel::solver;
+using namespace trammel::solver::large_motion;
 
 template <int N>
 Eigen::Matrix<double, N, 1> random_vector(unsigned seed, double size) {
@@ -53,7 +53,8 @@ LineSpringElement some_spring() {
 }
 
 template <class Element>
-typename Element::Rows constraint_residual(const Element& element, const typename Element::Coordinates& q) {
+typename Element::Rows constraint_residual(const Element& element,
+                                           const typename Element::Coordinates& q) {
   typename Element::Rows residual;
   typename Element::Gradient G;
   element.constraint_residual(q, 0, residual, G);
@@ -71,15 +72,17 @@ typename Element::Gradient gradient(const Element& element,
 
 constexpr double kStep = 1e-5;
 
-/// Largest difference of the gradient from central differences of the residuals, of the geometric stiffness from
-/// those of the gradient, and of what the discrete gradient promises.
+/// Largest difference of the gradient from central differences of the residuals, of the geometric
+/// stiffness from those of the gradient, and of what the discrete gradient promises.
 template <class Element>
 void check_derivatives(const Element& element) {
   using Coordinates = typename Element::Coordinates;
   const Coordinates q = random_vector<Element::N>(1, 0.8), dq = random_vector<Element::N>(2, 1);
   const auto lambda = random_vector<Element::R>(3, 1);
   const Coordinates plus = q + kStep * dq, minus = q - kStep * dq;
-  const auto slope = ((constraint_residual(element, plus) - constraint_residual(element, minus)) / (2 * kStep)).eval();
+  const auto slope =
+      ((constraint_residual(element, plus) - constraint_residual(element, minus)) / (2 * kStep))
+          .eval();
   BOOST_TEST((gradient(element, q) * dq - slope).norm() < 1e-9);
   const Coordinates bend =
       (gradient(element, plus) - gradient(element, minus)).transpose() * lambda / (2 * kStep);
@@ -143,7 +146,8 @@ BOOST_AUTO_TEST_CASE(a_beam_turned_and_shifted_as_a_whole_has_no_strain) {
     for (int a = 0; a <= 3; ++a) {
       const Vector2d place =
           (0.3 + lobatto_coordinate(3, static_cast<std::size_t>(a))) * beam.length * beam.axis;
-      const Vector2d turn = cosine_minus_one(angle) * place + std::sin(angle) * perpendicular(place);
+      const Vector2d turn =
+          cosine_minus_one(angle) * place + std::sin(angle) * perpendicular(place);
       q.segment<3>(3 * a) << turn + Vector2d(2, -1) * angle, angle;
     }
     BOOST_TEST(constraint_residual(beam, q).norm() < 4e-15 * std::abs(angle));
@@ -156,7 +160,8 @@ BOOST_AUTO_TEST_CASE(strains_do_not_see_a_rotation_of_the_whole) {
   const double angle = 1.1;
   Beam<2>::Coordinates rotated_q;
   for (int a = 0; a <= 2; ++a) {
-    const Vector2d place = beam.length * lobatto_coordinate(2, static_cast<std::size_t>(a)) * beam.axis;
+    const Vector2d place =
+        beam.length * lobatto_coordinate(2, static_cast<std::size_t>(a)) * beam.axis;
     rotated_q.segment<2>(3 * a) = rotated(place + q.segment<2>(3 * a), angle) - place;
     rotated_q[3 * a + 2] = q[3 * a + 2] + angle;
   }

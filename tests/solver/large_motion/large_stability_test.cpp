@@ -9,8 +9,8 @@
 
 namespace {
 
-using namespace trammel;
-using namespace trammel::large;
+using namespace trammel::solver;
+using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
 
 constexpr double kPi = std::numbers::pi;

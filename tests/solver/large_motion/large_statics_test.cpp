@@ -3,9 +3,9 @@
 #include <numbers>
 #include <vector>
 
-#include "solver/large_motion/system/joints.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
+#include "solver/large_motion/system/joints.h"
 #include "solver/manipulator/manipulator.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/large_models.h"
@@ -13,8 +13,8 @@
 
 namespace {
 
-using namespace trammel;
-using namespace trammel::large;
+using namespace trammel::solver;
+using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
 
 constexpr double kPi = std::numbers::pi;
@@ -269,8 +269,8 @@ BOOST_AUTO_TEST_CASE(a_driven_tip_takes_the_force_that_would_move_it_there) {
   const double raised = tip(by_force, forced)[1];
   LargeMotionModel large_motion;
   large_motion.drives = {{"lift", 1, 1, [raised](double t) {
-                        return std::array<double, 3>{t * raised, raised, 0};
-                      }}};
+                            return std::array<double, 3>{t * raised, raised, 0};
+                          }}};
   const GeometricallyExactSystem by_drive(elastica(10), large_motion);
   const StaticPath driven = follow_static_path(by_drive);
   BOOST_REQUIRE(driven.outcome.solved());

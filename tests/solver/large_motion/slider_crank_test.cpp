@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/large_motion/system/callable_system.h"
 #include "solver/large_motion/solve/integrate.h"
+#include "solver/large_motion/system/callable_system.h"
 
 /// The slider-crank with a flexible connecting rod of the IVP test set (B. Simeon; F. Mazzia,
 /// C. Magherini, problem "crank"): equations that are not a model of ours and try the integrator
@@ -12,8 +12,8 @@
 /// the crank turns at 150 rad/s; there is no damping.
 namespace {
 
-using namespace trammel;
-using namespace trammel::large;
+using namespace trammel::solver;
+using namespace trammel::solver::large_motion;
 using Eigen::Matrix4d;
 using Eigen::MatrixXd;
 using Eigen::Vector4d;

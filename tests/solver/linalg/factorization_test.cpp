@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-using namespace trammel;
+using namespace trammel::solver;
 using Eigen::Index;
 
 namespace {

@@ -6,7 +6,7 @@
 
 #include "tests/support/solver/table_1.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using Eigen::VectorXd;
 using std::numbers::pi;
 

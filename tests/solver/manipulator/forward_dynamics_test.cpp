@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
 
 std::vector<double> times_to(double end, int count) {
   std::vector<double> times;

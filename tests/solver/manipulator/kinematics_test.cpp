@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
 
 constexpr double kPi = std::numbers::pi;
 

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
 
 ManipulatorDesign with_platform(PlatformDesign::Kind kind) {
   ManipulatorDesign design = table_1_design();

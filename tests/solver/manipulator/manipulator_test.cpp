@@ -11,7 +11,7 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
 
 /// "A1-B1" or "B1-C1".
 std::string link_name(char first, char second, std::size_t i) {

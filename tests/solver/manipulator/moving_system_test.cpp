@@ -4,14 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/manipulator/elastodynamics.h"
 #include "solver/assembly/inertia.h"
-#include "solver/time/modal_superposition.h"
-#include "solver/model/quadrature.h"
 #include "solver/assembly/strain.h"
+#include "solver/manipulator/elastodynamics.h"
+#include "solver/model/quadrature.h"
+#include "solver/time/modal_superposition.h"
 #include "tests/support/solver/table_1.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -140,8 +140,9 @@ void add_the_rest(const Moments& moments, VectorXd& force) {
         });
     force[c[0]] += point_mass.mass * center.x();
     force[c[1]] += point_mass.mass * center.y();
-    force[c[2]] += point_mass.inertia * a[c[2]] +
-                   point_mass.mass * (point_mass.offset.x() * center.y() - point_mass.offset.y() * center.x());
+    force[c[2]] +=
+        point_mass.inertia * a[c[2]] +
+        point_mass.mass * (point_mass.offset.x() * center.y() - point_mass.offset.y() * center.x());
   }
 }
 
@@ -227,8 +228,8 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
                   rigid.distal[i].mass * dynamics.bodies[3 + i].acceleration;
     }
     const VectorXd zero = VectorXd::Zero(walk.moving.K().rows());
-    const VectorXd with = walk.moving.forces(zero, zero, zero, 0, 0, true).outside;
-    const VectorXd without = walk.moving.forces(zero, zero, zero, 0, 0, false).outside;
+    const VectorXd with = walk.moving.forces(zero, zero, zero, 0, 0, true).external;
+    const VectorXd without = walk.moving.forces(zero, zero, zero, 0, 0, false).external;
     Vector2d sum = Vector2d::Zero();
     for (const auto& c : walk.moving.start().coordinates.node) {
       sum += Vector2d(with[c[0]] - without[c[0]], with[c[1]] - without[c[1]]);

@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace trammel;
+using namespace trammel::solver;
 using Complex = std::complex<double>;
 
 constexpr double kPi = std::numbers::pi;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/elements/triangle_interpolation.h"
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
-#include "solver/elements/triangle_interpolation.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
 namespace {

@@ -4,7 +4,7 @@
 
 #include "solver/elements/triangle_element.h"
 
-namespace t = trammel;
+namespace t = trammel::solver;
 using Eigen::Vector2d;
 
 namespace {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/assembly/restrict_model_effects.h"
 #include "solver/effects/effect_estimates.h"
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
-#include "solver/assembly/restrict_model_effects.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 
 namespace {
 

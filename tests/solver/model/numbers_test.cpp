@@ -1,9 +1,9 @@
+#include "solver/model/numbers.h"
+
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
-#include "solver/model/numbers.h"
-
-using namespace trammel;
+using namespace trammel::solver;
 
 BOOST_AUTO_TEST_SUITE(numbers)
 

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-namespace t = trammel;
+namespace t = trammel::solver;
 
 namespace {
 
@@ -22,8 +22,8 @@ double exact_mean(int a, int b, int c) {
 double mean(int a, int b, int c) {
   double sum = 0;
   for (const auto& point : t::triangle_quadrature()) {
-    sum += point.weight * std::pow(point.area_coordinates[0], a) * std::pow(point.area_coordinates[1], b) *
-           std::pow(point.area_coordinates[2], c);
+    sum += point.weight * std::pow(point.area_coordinates[0], a) *
+           std::pow(point.area_coordinates[1], b) * std::pow(point.area_coordinates[2], c);
   }
   return sum;
 }

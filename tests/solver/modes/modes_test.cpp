@@ -9,7 +9,7 @@
 #include "tests/support/solver/frames.h"
 #include "tests/support/solver/table_1.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
 using Eigen::MatrixXd;
@@ -73,7 +73,8 @@ BOOST_AUTO_TEST_CASE(the_span_of_a_repeated_pair_moves_by_no_more_than_a_perturb
     BOOST_TEST(std::abs(moved.modes.frequency[1] / as_is.modes.frequency[1] - 1) < 4 * d);
   }
   // Dense and sparse find the same span, and not the same vectors.
-  const Pair dense = centred_pair(0, EigenMethod::dense), sparse = centred_pair(0, EigenMethod::sparse);
+  const Pair dense = centred_pair(0, EigenMethod::dense),
+             sparse = centred_pair(0, EigenMethod::sparse);
   BOOST_TEST(angle_between(dense, sparse) < 1e-13);
 }
 

@@ -6,7 +6,7 @@
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 
 namespace {
@@ -56,7 +56,8 @@ BOOST_AUTO_TEST_CASE(modes_of_the_insides_bring_the_frequencies_down_to_the_full
     BOOST_TEST(reduced.K.rows() == 3 + 2 * modes);
     const Eigen::VectorXd excess =
         (frequencies(reduced, 3) - exact.head(3)).cwiseQuotient(exact.head(3));
-    BOOST_TEST(excess.minCoeff() > -1e-9);  // a constrained model is not frequency_change_without_stiffness
+    BOOST_TEST(excess.minCoeff() >
+               -1e-9);  // a constrained model is not frequency_change_without_stiffness
     BOOST_TEST(excess.maxCoeff() < 0.7 * before);
     before = excess.maxCoeff();
   }

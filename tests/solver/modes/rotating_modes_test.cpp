@@ -7,7 +7,7 @@
 #include "solver/modes/modes.h"
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
 

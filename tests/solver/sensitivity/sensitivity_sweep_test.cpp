@@ -4,7 +4,7 @@
 
 #include "tests/support/solver/sensitivity_differences.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "solver/sensitivity/workspace_curves.h"
 #include "tests/support/solver/sensitivity_differences.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using Eigen::VectorXd;
 
 BOOST_AUTO_TEST_SUITE(sensitivity)
@@ -131,8 +131,9 @@ BOOST_AUTO_TEST_CASE(complex_steps_say_where_they_cannot_tell) {
       differentiate_by_complex_step(design, centred_pose(0.1), {all(Quantity::length)}, 6);
   BOOST_TEST(static_cast<int>(repeated.outcome.status) == static_cast<int>(Status::singular));
   design.proximal[0].axially_flexible = false;
-  BOOST_CHECK_THROW((void)differentiate_by_complex_step(design, {0.26, 0.15, 0.1}, {all(Quantity::length)}, 6),
-                    ModelError);
+  BOOST_CHECK_THROW(
+      (void)differentiate_by_complex_step(design, {0.26, 0.15, 0.1}, {all(Quantity::length)}, 6),
+      ModelError);
 }
 
 BOOST_AUTO_TEST_CASE(difference_quotients_are_of_first_and_second_order) {

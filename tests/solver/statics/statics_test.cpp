@@ -5,7 +5,7 @@
 
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
 

@@ -8,7 +8,7 @@
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
 

@@ -8,7 +8,7 @@
 #include "solver/assembly/damping.h"
 #include "solver/time/oscillator.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using std::numbers::pi;
 
 namespace {

@@ -6,7 +6,7 @@
 #include "solver/modes/rotating_modes.h"
 #include "tests/support/solver/frames.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using namespace trammel::testing;
 using Eigen::VectorXd;
 
@@ -95,7 +95,8 @@ BOOST_AUTO_TEST_CASE(loads_that_would_not_turn_are_refused) {
   model.loads.push_back({1, Vector3d(0, 1, 0)});
   const System system = assemble(model);
   EquationOfMotion equation;
-  BOOST_CHECK_THROW(static_cast<void>(add_rotating_frame_terms(system, steady(1), equation)), ModelError);
+  BOOST_CHECK_THROW(static_cast<void>(add_rotating_frame_terms(system, steady(1), equation)),
+                    ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

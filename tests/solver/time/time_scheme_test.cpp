@@ -5,7 +5,7 @@
 
 #include "solver/model/model.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 
 BOOST_AUTO_TEST_SUITE(time_scheme)
 

@@ -8,7 +8,7 @@
 #include "solver/time/modal_superposition.h"
 #include "tests/support/solver/allocations.h"
 
-using namespace trammel;
+using namespace trammel::solver;
 using Eigen::VectorXd;
 using std::numbers::pi;
 

@@ -9,6 +9,10 @@
 
 namespace trammel::testing {
 
+using namespace references;
+using namespace solver;
+using namespace harness;
+
 /// A case as it stands, without the references that its checks may name.
 inline Document document_of(const Json& json) {
   const Folder folder;

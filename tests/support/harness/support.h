@@ -6,11 +6,15 @@
 #include <fstream>
 #include <string>
 
-#include "harness/input/case.h"
 #include "harness/base/errors.h"
 #include "harness/base/json.h"
+#include "harness/input/case.h"
 
 namespace trammel::testing {
+
+using namespace references;
+using namespace solver;
+using namespace harness;
 
 /// A folder of its own that is gone afterwards.
 class Folder {

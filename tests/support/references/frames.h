@@ -7,7 +7,9 @@
 #include "references/programs/program.h"
 
 /// Frames that several tests of the derivations share.
-namespace trammel::derive::test {
+namespace trammel::testing {
+
+using namespace references;
 
 /// One aluminium beam from A(0, 0) to B(1, 0); `supports` and the rest are merged into the model.
 inline Json beam_model(const char* patch) {
@@ -40,4 +42,4 @@ inline std::vector<double> frequencies(const Json& model, int count) {
   return derive("frame-frequencies", {{"model", model}, {"count", count}});
 }
 
-}  // namespace trammel::derive::test
+}  // namespace trammel::testing

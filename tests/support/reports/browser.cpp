@@ -7,7 +7,9 @@
 
 #include "tests/support/reports/workspace.h"
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 namespace {
 
@@ -79,4 +81,4 @@ int measured(const Visit& visit, const std::string& name) {
   return at == std::string::npos ? -1 : std::atoi(visit.document.c_str() + at + start.size());
 }
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

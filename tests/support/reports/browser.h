@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <string>
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 /// What headless Chromium makes of a page: its document after loading, and what it logged.
 struct Visit {
@@ -23,4 +25,4 @@ struct Visit {
 /// The number under data-<name>; -1 if there is none.
 [[nodiscard]] int measured(const Visit& visit, const std::string& name);
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

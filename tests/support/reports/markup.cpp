@@ -2,7 +2,9 @@
 
 #include <set>
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 namespace {
 
@@ -94,4 +96,4 @@ std::vector<std::string> attribute_values(const std::string& text, const std::st
   return values;
 }
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 /// Walks the tags of HTML or XML. @returns an empty text if every element is closed in order, else
 /// what is wrong. `html`: void elements need no end, script and style hold plain text.
@@ -16,4 +18,4 @@ namespace trammel::tests {
 [[nodiscard]] std::vector<std::string> attribute_values(const std::string& text,
                                                         const std::string& name);
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

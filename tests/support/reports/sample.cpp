@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 namespace {
 
@@ -679,4 +681,4 @@ nlohmann::ordered_json sample_results() {
   return results;
 }
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

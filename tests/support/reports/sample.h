@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 /// A results file as a real catalogue makes it, without any solver: several families, sixteen
 /// variants against two references at two poses, refinement sweeps down to round-off, a circle of
@@ -11,4 +13,4 @@ namespace trammel::tests {
 /// Titles contain what HTML, XML, CSV and gnuplot must not take as theirs.
 [[nodiscard]] nlohmann::ordered_json sample_results();
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

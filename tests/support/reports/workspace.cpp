@@ -10,7 +10,9 @@
 #include "reports/page/report.h"
 #include "tests/support/reports/sample.h"
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 namespace fs = std::filesystem;
 
@@ -49,4 +51,4 @@ const fs::path& sample_report() {
   return folder;
 }
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

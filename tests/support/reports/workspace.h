@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace trammel::tests {
+namespace trammel::testing {
+
+using namespace reports;
 
 /// A folder that is gone at the end of the test.
 class Workspace {
@@ -28,4 +30,4 @@ class Workspace {
 /// The report of the sample, made once for all tests of this program.
 [[nodiscard]] const std::filesystem::path& sample_report();
 
-}  // namespace trammel::tests
+}  // namespace trammel::testing

@@ -8,6 +8,8 @@
 /// Small frames that the tests of the solver share.
 namespace trammel::testing {
 
+using namespace solver;
+
 /// Rectangle `depth` x `width` of a material; depth in the plane.
 inline Section rectangle(const Material& material, double depth, double width,
                          double shear_coefficient = 5.0 / 6.0) {

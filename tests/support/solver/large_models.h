@@ -13,9 +13,11 @@
 /// Models in large motion that the tests share.
 namespace trammel::testing {
 
-using large::GeometricallyExactSystem;
-using large::LargeMotionModel;
-using large::State;
+using namespace solver;
+
+using large_motion::GeometricallyExactSystem;
+using large_motion::LargeMotionModel;
+using large_motion::State;
 
 /// EI = 1, inextensible, Euler-Bernoulli: the elastica.
 inline Model elastica(Index elements, double angle = 0) {
@@ -141,12 +143,12 @@ inline std::pair<Model, LargeMotionModel> spin_up(Index elements) {
   model.supports = {pin(0)};
   LargeMotionModel large_motion;
   large_motion.drives = {{"hub", 0, 2, [](double t) {
-                        const double w = 2 * std::numbers::pi / 15;
-                        if (t >= 15) return std::array<double, 3>{6 * t - 45, 6, 0};
-                        return std::array<double, 3>{
-                            0.4 * (t * t / 2 + (std::cos(w * t) - 1) / (w * w)),
-                            0.4 * (t - std::sin(w * t) / w), 0.4 * (1 - std::cos(w * t))};
-                      }}};
+                            const double w = 2 * std::numbers::pi / 15;
+                            if (t >= 15) return std::array<double, 3>{6 * t - 45, 6, 0};
+                            return std::array<double, 3>{
+                                0.4 * (t * t / 2 + (std::cos(w * t) - 1) / (w * w)),
+                                0.4 * (t - std::sin(w * t) / w), 0.4 * (1 - std::cos(w * t))};
+                          }}};
   return {model, large_motion};
 }
 

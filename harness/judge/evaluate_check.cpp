@@ -1,14 +1,14 @@
-#include "harness/judge/judge.h"
+#include "harness/judge/evaluate_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "harness/base/text.h"
 #include "harness/base/statistic.h"
+#include "harness/base/text.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
 
 /// Above so many entries only the worst one is told.
@@ -47,7 +47,7 @@ const std::vector<double>& find_quantity(const Quantities& quantities, const std
   if (found != quantities.end()) return found->second.values;
   const std::string guess = did_you_mean(name, names_of(quantities));
   throw NotComparable{"no quantity '" + name + "'" + where +
-                    (guess.empty() ? known_kinds(quantities) : guess)};
+                      (guess.empty() ? known_kinds(quantities) : guess)};
 }
 
 std::vector<double> pick(const std::vector<double>& values, const std::vector<std::size_t>& index,
@@ -56,8 +56,8 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
   std::vector<double> picked;
   for (const std::size_t i : index) {
     if (i >= values.size()) {
-      throw NotComparable{"index " + std::to_string(i) + " is outside of " + source + ", which has " +
-                        std::to_string(values.size()) + " entries"};
+      throw NotComparable{"index " + std::to_string(i) + " is outside of " + source +
+                          ", which has " + std::to_string(values.size()) + " entries"};
     }
     picked.push_back(values[i]);
   }
@@ -74,13 +74,13 @@ struct ComparedValues {
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {
   const std::string unit_found = unit_of(quantity);
   if (unit_found != unit) {
-    throw NotComparable{"the unit of " + quantity + " is " + unit_found + ", that of " + whose + " is " +
-                      unit};
+    throw NotComparable{"the unit of " + quantity + " is " + unit_found + ", that of " + whose +
+                        " is " + unit};
   }
 }
 
 void pair_with_reference(const Check& check, const CheckContext& context, ComparedValues& pairs) {
-  const Reference& reference = find_reference(context, check.pointer + "/reference");
+  const references::Reference& reference = find_reference(context, check.pointer + "/reference");
   require_unit(check.quantity, reference.unit, "reference " + reference.id);
   pairs.expected = pick(reference.values, check.reference_index, "reference " + reference.id);
   pairs.uncertainty =
@@ -115,11 +115,11 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   }
   if (check.has_target() && pairs.expected.size() != pairs.computed.size()) {
     throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
-                      " computed, " + std::to_string(pairs.expected.size()) + " expected"};
+                        " computed, " + std::to_string(pairs.expected.size()) + " expected"};
   }
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size()) {
     throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
-                      " computed, " + std::to_string(check.windows.size()) + " windows"};
+                        " computed, " + std::to_string(check.windows.size()) + " windows"};
   }
   return pairs;
 }
@@ -149,7 +149,8 @@ std::string outside(const Check& check, double value, const Window& window) {
 }
 
 /// Judges one entry into `entry`, whose computed and expected values are set.
-void evaluate_entry(const Check& check, const Window* window, double uncertainty, CheckResult& entry) {
+void evaluate_entry(const Check& check, const Window* window, double uncertainty,
+                    CheckResult& entry) {
   const double expected = entry.expected.value_or(0);
   if (!std::isfinite(*entry.computed)) {
     entry.message = "the computed value is " + shortest(*entry.computed);
@@ -206,7 +207,7 @@ std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
       [](const CheckResult& a, const CheckResult& b) { return severity(a) < severity(b); });
   CheckResult worst_result = *worst;
   worst_result.message = "worst of " + std::to_string(entries.size()) +
-                 (worst_result.message.empty() ? "" : ": " + worst_result.message);
+                         (worst_result.message.empty() ? "" : ": " + worst_result.message);
   return {worst_result};
 }
 
@@ -251,7 +252,8 @@ CheckResult failed_check_result(const Check& check, const std::string& message) 
   return entry;
 }
 
-const Reference& find_reference(const CheckContext& context, const std::string& pointer) {
+const references::Reference& find_reference(const CheckContext& context,
+                                            const std::string& pointer) {
   std::vector<std::string> tokens;
   for (JsonPointer left(pointer); !left.empty(); left.pop_back()) tokens.push_back(left.back());
   JsonView place(context.document);
@@ -289,4 +291,4 @@ bool fails_gate(Verdict verdict) {
   return verdict != Verdict::pass && verdict != Verdict::recorded;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness

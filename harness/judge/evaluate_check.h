@@ -10,7 +10,7 @@
 #include "harness/judge/convergence.h"
 
 /// From numbers to verdicts. Fails closed: what cannot be compared is an error, never a pass.
-namespace trammel {
+namespace trammel::harness {
 
 /// recorded: a validation without an expectation, which does not gate.
 enum class Verdict { pass, fail, error, not_run, recorded };
@@ -41,21 +41,24 @@ struct CheckContext {
 };
 
 /// One judgement an entry; of a long array the worst alone, which says so.
-[[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context);
+[[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check,
+                                                      const CheckContext& context);
 
 /// The judgements of an "order" check; `evaluate_check` calls it.
-[[nodiscard]] std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckContext& context);
+[[nodiscard]] std::vector<CheckResult> evaluate_order_check(const Check& check,
+                                                            const CheckContext& context);
 
 /// A judgement that carries the check's name, role and reasons; an error until it is filled in.
 [[nodiscard]] CheckResult start_check_result(const Check& check);
 [[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
 
 /// A place in the document that holds the name of a reference: the check's own, or one inside it.
-[[nodiscard]] const Reference& find_reference(const CheckContext& context, const std::string& pointer);
+[[nodiscard]] const references::Reference& find_reference(const CheckContext& context,
+                                                          const std::string& pointer);
 
 [[nodiscard]] const char* to_string(Verdict verdict);
 
 /// A gate that does not hold: everything but a pass and what is only recorded.
 [[nodiscard]] bool fails_gate(Verdict verdict);
 
-}  // namespace trammel
+}  // namespace trammel::harness

@@ -1,14 +1,16 @@
-#include "harness/judge/judge.h"
+#include "harness/judge/evaluate_check.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "tests/support/harness/support.h"
 #include "harness/base/statistic.h"
+#include "tests/support/harness/support.h"
 
-using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;
@@ -68,7 +70,7 @@ Bench validation(const char* kind, const Json& window) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_SUITE(judge)
+BOOST_AUTO_TEST_SUITE(evaluate_check)
 
 BOOST_AUTO_TEST_CASE(what_agrees_passes_entry_by_entry) {
   Bench bench;

@@ -2,13 +2,12 @@
 #include <cmath>
 #include <limits>
 
-#include "harness/judge/judge.h"
+#include "harness/base/numbers.h"
 #include "harness/base/text.h"
+#include "harness/judge/evaluate_check.h"
 
-namespace trammel {
+namespace trammel::harness {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One entry of the quantity, with what theory says of it.
 struct Entry {
@@ -17,7 +16,7 @@ struct Entry {
   double share = 1;
 };
 
-double entry_of(const Reference& reference, const std::vector<std::size_t>& index,
+double entry_of(const references::Reference& reference, const std::vector<std::size_t>& index,
                 std::size_t position) {
   const std::size_t at = index.empty() ? position : index.at(position);
   return at < reference.values.size() ? reference.values[at] : kNaN;
@@ -54,7 +53,7 @@ class OrderCheckEvaluator {
       check_result.message = "there is no exact value to measure errors by";
     } else if (meshes_ < criterion_.meshes) {
       check_result.message = "only " + std::to_string(meshes_) + " meshes qualify, " +
-                    std::to_string(criterion_.meshes) + " are needed";
+                             std::to_string(criterion_.meshes) + " are needed";
     } else {
       return false;
     }
@@ -66,11 +65,12 @@ class OrderCheckEvaluator {
     check_result.window = Window{-limit, limit};
     check_result.symmetric = true;
     check_result.verdict = std::abs(value) <= limit ? Verdict::pass : Verdict::fail;
-    if (check_result.message.empty()) check_result.message = std::to_string(meshes_) + " meshes qualify";
+    if (check_result.message.empty())
+      check_result.message = std::to_string(meshes_) + " meshes qualify";
   }
 
   [[nodiscard]] CheckResult start(const std::string& suffix, std::string measure,
-                                std::string unit) const {
+                                  std::string unit) const {
     CheckResult check_result = start_check_result(check_);
     check_result.name += suffix;
     check_result.measure = std::move(measure);
@@ -89,7 +89,7 @@ class OrderCheckEvaluator {
       if (std::isnan(farthest) || std::abs(here - target) > std::abs(farthest - target)) {
         farthest = here;
         check_result.message = std::to_string(meshes_) + " meshes qualify, the worst is " +
-                      shortest(found_.series.parameter[k]);
+                               shortest(found_.series.parameter[k]);
       }
     }
     return farthest;
@@ -107,10 +107,10 @@ class OrderCheckEvaluator {
     }
     check_result.computed = *fitted;
     const double farthest = worst(
-        theory,
-        [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? found_.order[k] : kNaN; }, check_result);
-    check_result.message = std::to_string(meshes_) + " meshes qualify; between two of them at worst " +
-                  shortest(farthest);
+        theory, [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? found_.order[k] : kNaN; },
+        check_result);
+    check_result.message = std::to_string(meshes_) +
+                           " meshes qualify; between two of them at worst " + shortest(farthest);
     conclude(check_result, *check_result.computed - theory, criterion_.within);
     return check_result;
   }
@@ -126,9 +126,10 @@ class OrderCheckEvaluator {
     }
     const auto& [a, b] = found_.two_term->coefficient;
     check_result.computed = found_.two_term->worst;
-    check_result.message = std::to_string(meshes_) + " meshes qualify; relative error = " + shortest(a) +
-                  " h^" + shortest(*found_.series.theory) + " + " + shortest(b) + " h^" +
-                  shortest(*found_.series.lower);
+    check_result.message = std::to_string(meshes_) +
+                           " meshes qualify; relative error = " + shortest(a) + " h^" +
+                           shortest(*found_.series.theory) + " + " + shortest(b) + " h^" +
+                           shortest(*found_.series.lower);
     conclude(check_result, *check_result.computed, *criterion_.two_term_within);
     return check_result;
   }
@@ -160,7 +161,8 @@ class OrderCheckEvaluator {
     }
     check_result.computed = *found_.richardson;
     const double exact = *found_.series.exact;
-    conclude(check_result, (*found_.richardson - exact) / std::abs(exact), *criterion_.richardson_within);
+    conclude(check_result, (*found_.richardson - exact) / std::abs(exact),
+             *criterion_.richardson_within);
     return check_result;
   }
 
@@ -189,7 +191,8 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
     if (!chosen) continue;
     Entry entry{found};
     if (criterion.wave_number) {
-      const auto& reference = find_reference(context, criterion.wave_number->pointer + "/reference");
+      const auto& reference =
+          find_reference(context, criterion.wave_number->pointer + "/reference");
       entry.wave_number = entry_of(reference, criterion.wave_number->index, position);
     }
     if (criterion.leading_term && !criterion.leading_term->share.empty()) {
@@ -203,13 +206,13 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
   if (position < wanted) {
     all.push_back(failed_check_result(check, "the sweep '" + criterion.sweep + "' follows " +
-                                              std::to_string(position) + " entries of " +
-                                              check.quantity + ", " + std::to_string(wanted) +
-                                              " are judged"));
+                                                 std::to_string(position) + " entries of " +
+                                                 check.quantity + ", " + std::to_string(wanted) +
+                                                 " are judged"));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });
   return all;
 }
 
-}  // namespace trammel
+}  // namespace trammel::harness
