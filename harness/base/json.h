@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace trammel::harness {
@@ -13,6 +14,9 @@ using JsonPointer = Json::json_pointer;
 /// null where the number is not finite, which JSON cannot hold.
 [[nodiscard]] inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+[[nodiscard]] inline Json number_or_null(const std::optional<double>& value) {
+  return value ? number_or_null(*value) : Json(nullptr);
 }
 
 }  // namespace trammel::harness

@@ -11,10 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Json number_or_null(const std::optional<double>& value) {
-  return value ? number_or_null(*value) : Json(nullptr);
-}
-
 Json numbers(const std::vector<double>& values) {
   Json array = Json::array();
   for (const double value : values) array.push_back(number_or_null(value));
