@@ -277,7 +277,7 @@ Document load_claims() {
   const auto file = data_root() / "cases" / "paper" / "claims" / kClaimsFile;
   Document document;
   document.apply_patch(file.string(), "", read_json(file));
-  document.validate("ledger");
+  document.validate("claims");
   return document;
 }
 

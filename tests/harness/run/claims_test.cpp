@@ -30,7 +30,7 @@ Document claims_of(const Json& readings, const std::string& expected,
                          {"conclusion", "So it is."}}}}}};
   Document document;
   document.apply_patch("ledger.json", "", json);
-  document.validate("ledger");
+  document.validate("claims");
   return document;
 }
 

@@ -35,7 +35,6 @@ std::string complaint(const std::function<void(Model&)>& spoil) {
   return "no complaint";
 }
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
