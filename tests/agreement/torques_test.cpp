@@ -8,6 +8,7 @@
 
 namespace {
 
+using namespace trammel;
 using namespace trammel::solver;
 using namespace trammel::references;
 
@@ -41,14 +42,14 @@ RigidManipulator table_1() {
   return m;
 }
 
-derive::LinkBody body(const RigidLink& link) {
+references::LinkBody body(const RigidLink& link) {
   return {link.mass, link.center, link.inertia};
 }
 
-derive::PlanarManipulator bodies(const RigidManipulator& m) {
-  derive::PlanarManipulator result;
+references::PlanarManipulator bodies(const RigidManipulator& m) {
+  references::PlanarManipulator result;
   for (std::size_t i = 0; i < 3; ++i) {
-    derive::LimbBodies& limb = result.limbs[i];
+    references::LimbBodies& limb = result.limbs[i];
     limb.base = {m.geometry.base[i].x(), m.geometry.base[i].y()};
     limb.corner = {m.geometry.platform[i].x(), m.geometry.platform[i].y()};
     limb.proximal_length = m.geometry.proximal[i];
@@ -78,9 +79,9 @@ struct RandomState {
     motion.acceleration *= 3;
     wrench = wrench.cwiseProduct(Vector3d(10, 10, 1));
   }
-  [[nodiscard]] std::array<derive::Jet, 3> jets() const {
+  [[nodiscard]] std::array<references::Jet, 3> jets() const {
     const Vector3d x(motion.pose.x, motion.pose.y, motion.pose.phi);
-    std::array<derive::Jet, 3> result;
+    std::array<references::Jet, 3> result;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<Index>(i);
       result[i] = {x(k), motion.velocity(k), motion.acceleration(k)};
@@ -97,12 +98,12 @@ BOOST_AUTO_TEST_CASE(ten_thousand_random_states_have_the_torques_of_newton_and_e
   double worst = 0, symmetry = 0, skewness = 0, least = 1;
   std::mt19937_64 engine(2017);
   for (const RigidManipulator& m : {table_1(), uneven()}) {
-    const derive::PlanarManipulator independent = bodies(m);
+    const references::PlanarManipulator independent = bodies(m);
     for (int trial = 0; trial < 5000; ++trial) {
       const RandomState state(engine);
       const InverseDynamics found = inverse_dynamics(m, state.motion, state.wrench);
       BOOST_TEST_REQUIRE(found.outcome.solved(), found.outcome.reason);
-      const auto expected = derive::newton_euler_torques(
+      const auto expected = references::newton_euler_torques(
           independent, state.jets(), {state.wrench(0), state.wrench(1), state.wrench(2)});
       Vector3d reference;
       for (Index i = 0; i < 3; ++i) {
@@ -130,10 +131,10 @@ BOOST_AUTO_TEST_CASE(a_wrong_inertia_in_one_link_is_seen) {
   std::mt19937_64 engine(1);
   const RandomState state(engine);
   RigidManipulator m = uneven();
-  const derive::PlanarManipulator independent = bodies(m);
+  const references::PlanarManipulator independent = bodies(m);
   m.distal[1].inertia *= 1 + 1e-6;
   const Vector3d torque = inverse_dynamics(m, state.motion, state.wrench).torque;
-  const auto expected = derive::newton_euler_torques(
+  const auto expected = references::newton_euler_torques(
       independent, state.jets(), {state.wrench(0), state.wrench(1), state.wrench(2)});
   double off = 0;
   for (Index i = 0; i < 3; ++i) {

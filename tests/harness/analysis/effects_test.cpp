@@ -9,6 +9,7 @@
 #include "harness/studies/effect_study.h"
 #include "tests/support/harness/analysing.h"
 
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;

@@ -3,6 +3,7 @@
 
 #include "tests/support/harness/analysing.h"
 
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;

@@ -8,6 +8,7 @@
 #include "tests/support/harness/support.h"
 
 /// Battery 14: whatever the options, a result is finite or says why there is none.
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;

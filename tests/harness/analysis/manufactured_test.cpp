@@ -7,23 +7,24 @@
 #include <limits>
 #include <vector>
 
-namespace t = trammel::harness;
+using namespace trammel;
+using namespace trammel::harness;
+using namespace trammel::solver;
+using namespace trammel::references;
 namespace m = trammel::references::manufactured;
-using t::Index;
 
 namespace {
 
 constexpr double kE = 7e10, kNu = 0.33, kRho = 2700;
 
-t::MembraneTest membrane(m::MembraneField field, bool six_nodes, double distortion,
-                         double omega = 0) {
+MembraneTest membrane(m::MembraneField field, bool six_nodes, double distortion, double omega = 0) {
   return {{field, kE, kNu, kRho, 0.8, 0.5, 1e-3, omega}, 0.01, 1, six_nodes, distortion};
 }
 
 /// A deep beam, so that shear is in its asymptotic range on few elements.
-t::BeamTest beam(m::BeamField field, m::ShearStrain shear, double distortion, double omega = 0) {
+BeamTest beam(m::BeamField field, m::ShearStrain shear, double distortion, double omega = 0) {
   const double depth = 0.4, width = 0.05;
-  t::Section s;
+  Section s;
   s.EA = kE * width * depth;
   s.EI = s.EA * depth * depth / 12;
   s.kappa_GA = 5.0 / 6 * s.EA / (2 * (1 + kNu));
@@ -61,50 +62,50 @@ struct MembraneTheory {
   double displacement, gradient;
 };
 
-void check_membrane(t::MembraneTest test, const std::vector<Index>& cells,
+void check_membrane(MembraneTest test, const std::vector<Index>& cells,
                     const MembraneTheory& theory) {
-  std::vector<t::MembraneErrors> errors;
+  std::vector<MembraneErrors> errors;
   const auto errors_of = [&](Index n) {
     test.cells = n;
-    const auto result = t::run_membrane_test(test);
+    const auto result = run_membrane_test(test);
     BOOST_REQUIRE(result.solution.outcome.solved());
     errors.push_back(result.errors);
     return result.errors.displacement;
   };
   check_orders("displacement", orders(cells, errors_of), theory.displacement, 2);
-  const auto stored = [&](double t::MembraneErrors::*which) {
+  const auto stored = [&](double MembraneErrors::*which) {
     std::size_t next = 0;
     return orders(cells, [&](Index) { return errors[next++].*which; });
   };
-  check_orders("rotation", stored(&t::MembraneErrors::rotation), theory.gradient, 2);
-  check_orders("stress", stored(&t::MembraneErrors::stress), theory.gradient, 2);
-  check_orders("energy", stored(&t::MembraneErrors::energy), theory.gradient, 2);
+  check_orders("rotation", stored(&MembraneErrors::rotation), theory.gradient, 2);
+  check_orders("stress", stored(&MembraneErrors::stress), theory.gradient, 2);
+  check_orders("energy", stored(&MembraneErrors::energy), theory.gradient, 2);
 }
 
 struct BeamTheoryOrders {
   double deflection, rotation, shear_force, bending_moment, energy;
 };
 
-void check_beam(t::BeamTest test, const BeamTheoryOrders& theory) {
+void check_beam(BeamTest test, const BeamTheoryOrders& theory) {
   const std::vector<Index> cells = {4, 8, 16, 32, 64, 128};
-  std::vector<t::BeamErrors> errors;
+  std::vector<BeamErrors> errors;
   for (const Index n : cells) {
     test.cells = n;
-    const auto result = t::run_beam_test(test);
+    const auto result = run_beam_test(test);
     BOOST_REQUIRE(result.solution.outcome.solved());
     errors.push_back(result.errors);
   }
-  const auto stored = [&](double t::BeamErrors::*which) {
+  const auto stored = [&](double BeamErrors::*which) {
     std::size_t next = 0;
     return orders(cells, [&](Index) { return errors[next++].*which; });
   };
-  check_orders("axial displacement", stored(&t::BeamErrors::axial_displacement), 2, 3);
-  check_orders("axial force", stored(&t::BeamErrors::axial_force), 1, 3);
-  check_orders("deflection", stored(&t::BeamErrors::deflection), theory.deflection, 3);
-  check_orders("rotation", stored(&t::BeamErrors::rotation), theory.rotation, 2);
-  check_orders("shear force", stored(&t::BeamErrors::shear_force), theory.shear_force, 2);
-  check_orders("moment", stored(&t::BeamErrors::bending_moment), theory.bending_moment, 2);
-  check_orders("energy", stored(&t::BeamErrors::energy), theory.energy, 3);
+  check_orders("axial displacement", stored(&BeamErrors::axial_displacement), 2, 3);
+  check_orders("axial force", stored(&BeamErrors::axial_force), 1, 3);
+  check_orders("deflection", stored(&BeamErrors::deflection), theory.deflection, 3);
+  check_orders("rotation", stored(&BeamErrors::rotation), theory.rotation, 2);
+  check_orders("shear force", stored(&BeamErrors::shear_force), theory.shear_force, 2);
+  check_orders("moment", stored(&BeamErrors::bending_moment), theory.bending_moment, 2);
+  check_orders("energy", stored(&BeamErrors::energy), theory.energy, 3);
 }
 
 const std::vector<double> kDistortions = {0.0, 0.25};
@@ -175,9 +176,9 @@ BOOST_AUTO_TEST_CASE(beams_are_exact_at_their_nodes_in_statics) {
        {m::ShearStrain::none, m::ShearStrain::from_bending, m::ShearStrain::independent}) {
     for (const double distortion : kDistortions) {
       for (const Index cells : {8, 32, 128}) {
-        t::BeamTest test = beam(m::BeamField::smooth, shear, distortion);
+        BeamTest test = beam(m::BeamField::smooth, shear, distortion);
         test.cells = cells;
-        const auto errors = t::run_beam_test(test).errors;
+        const auto errors = run_beam_test(test).errors;
         BOOST_TEST(errors.nodal_deflection < 1e-12);
         BOOST_TEST(errors.nodal_rotation < 1e-12);
         BOOST_TEST(errors.deflection > 100 * errors.nodal_deflection);
@@ -187,19 +188,19 @@ BOOST_AUTO_TEST_CASE(beams_are_exact_at_their_nodes_in_statics) {
 }
 
 BOOST_AUTO_TEST_CASE(nodes_of_a_vibrating_euler_bernoulli_beam_converge_with_order_four) {
-  t::BeamTest test = beam(m::BeamField::smooth, m::ShearStrain::none, 0.25, kBeamOmega);
+  BeamTest test = beam(m::BeamField::smooth, m::ShearStrain::none, 0.25, kBeamOmega);
   const auto nodal = [&](Index cells) {
     test.cells = cells;
-    return t::run_beam_test(test).errors.nodal_deflection;
+    return run_beam_test(test).errors.nodal_deflection;
   };
   check_orders("nodes", orders({4, 8, 16, 32, 64}, nodal), 4, 2);
 }
 
 BOOST_AUTO_TEST_CASE(distorted_triangles_pass_the_patch_test_to_round_off) {
   const auto check = [](m::MembraneField field, bool six_nodes, Index cells) {
-    t::MembraneTest test = membrane(field, six_nodes, 0.29);
+    MembraneTest test = membrane(field, six_nodes, 0.29);
     test.cells = cells;
-    const auto errors = t::run_membrane_test(test).errors;
+    const auto errors = run_membrane_test(test).errors;
     const double roundoff = 1e-15 * static_cast<double>(cells);  // gradients divide by the cell
     BOOST_TEST(errors.displacement < 10 * roundoff);
     BOOST_TEST(errors.rotation < 10 * roundoff);
@@ -215,16 +216,16 @@ BOOST_AUTO_TEST_CASE(distorted_triangles_pass_the_patch_test_to_round_off) {
 
 BOOST_AUTO_TEST_CASE(three_node_triangles_fail_the_patch_test_of_a_higher_order) {
   // Otherwise the tests above would pass whatever the element.
-  t::MembraneTest test = membrane(m::MembraneField::linear_strain, false, 0.25);
+  MembraneTest test = membrane(m::MembraneField::linear_strain, false, 0.25);
   test.cells = 8;
-  BOOST_TEST(t::run_membrane_test(test).errors.stress > 1e-3);
+  BOOST_TEST(run_membrane_test(test).errors.stress > 1e-3);
 }
 
 BOOST_AUTO_TEST_CASE(distorted_beams_pass_the_patch_test_of_linear_moment_to_round_off) {
   for (const auto shear : {m::ShearStrain::none, m::ShearStrain::from_bending}) {
-    t::BeamTest test = beam(m::BeamField::cubic, shear, 0.5);
+    BeamTest test = beam(m::BeamField::cubic, shear, 0.5);
     test.cells = 5;
-    const auto errors = t::run_beam_test(test).errors;
+    const auto errors = run_beam_test(test).errors;
     BOOST_TEST(errors.axial_displacement < 1e-14);
     BOOST_TEST(errors.deflection < 1e-13);
     BOOST_TEST(errors.rotation < 1e-13);

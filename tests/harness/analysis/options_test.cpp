@@ -5,6 +5,7 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/support.h"
 
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;

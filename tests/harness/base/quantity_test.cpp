@@ -4,8 +4,6 @@
 
 #include "harness/base/diagnostic.h"
 
-using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 
 BOOST_AUTO_TEST_SUITE(quantity)

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 
 BOOST_AUTO_TEST_SUITE(timing)

@@ -9,8 +9,7 @@
 #include "harness/input/schema.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel::references;
-using namespace trammel::solver;
+using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
 using testing::Folder;

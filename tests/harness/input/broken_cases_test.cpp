@@ -8,8 +8,7 @@
 #include "harness/cli/command_line.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel::references;
-using namespace trammel::solver;
+using namespace trammel;
 using namespace trammel::harness;
 using testing::Folder;
 

@@ -3,8 +3,7 @@
 #include "harness/input/case.h"
 #include "tests/support/harness/support.h"
 
-using namespace trammel::references;
-using namespace trammel::solver;
+using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;

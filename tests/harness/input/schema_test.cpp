@@ -9,8 +9,8 @@
 #include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 
+using namespace trammel;
 using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 using testing::contains;
 

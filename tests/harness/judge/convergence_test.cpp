@@ -3,8 +3,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 
 namespace {

@@ -8,6 +8,7 @@
 #include "harness/base/statistic.h"
 #include "tests/support/harness/support.h"
 
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <set>
 
-namespace t = trammel::harness;
+using namespace trammel;
+using namespace trammel::harness;
 
 namespace {
 
@@ -22,7 +23,7 @@ const Values kHalfWidths = {0.1, 0.2};
 BOOST_AUTO_TEST_SUITE(input_uncertainty)
 
 BOOST_AUTO_TEST_CASE(a_linear_model_adds_its_inputs_in_quadrature) {
-  const auto u = t::uncertainty_by_derivatives(linear_and_square, kHalfWidths);
+  const auto u = uncertainty_by_derivatives(linear_and_square, kHalfWidths);
   BOOST_REQUIRE(u.has_value());
   BOOST_TEST(u->contribution[0][0] == 0.3 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
   BOOST_TEST(u->contribution[1][0] == -0.8 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
@@ -32,7 +33,7 @@ BOOST_AUTO_TEST_CASE(a_linear_model_adds_its_inputs_in_quadrature) {
 }
 
 BOOST_AUTO_TEST_CASE(sampling_finds_the_standard_deviation_of_a_uniform_input) {
-  const auto u = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 400, 1);
+  const auto u = uncertainty_by_sampling(linear_and_square, kHalfWidths, 400, 1);
   BOOST_TEST(u.samples == 400);
   BOOST_TEST(u.failed == 0);
   BOOST_TEST(u.standard[0] == std::hypot(0.3, 0.8) / std::sqrt(3.0),
@@ -51,7 +52,7 @@ BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
     }
     return Values{0.0};
   };
-  (void)t::uncertainty_by_sampling(record, kHalfWidths, 50, 7);
+  (void)uncertainty_by_sampling(record, kHalfWidths, 50, 7);
   BOOST_TEST(visited[0].size() == 50U);
   BOOST_TEST(visited[1].size() == 50U);
   BOOST_TEST(*visited[1].begin() == 0);
@@ -59,9 +60,9 @@ BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
 }
 
 BOOST_AUTO_TEST_CASE(the_same_seed_gives_the_same_samples_and_another_gives_others) {
-  const auto a = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
-  const auto b = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
-  const auto c = t::uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 4);
+  const auto a = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
+  const auto b = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
+  const auto c = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 4);
   BOOST_TEST(a.standard[0] == b.standard[0]);
   BOOST_TEST(a.standard[0] != c.standard[0]);
 }
@@ -71,7 +72,7 @@ BOOST_AUTO_TEST_CASE(samples_without_a_solution_are_counted_and_left_out) {
     if (d[0] > 0.05) return std::nullopt;
     return Values{d[0]};
   };
-  const auto u = t::uncertainty_by_sampling(out_of_reach, kHalfWidths, 400, 5);
+  const auto u = uncertainty_by_sampling(out_of_reach, kHalfWidths, 400, 5);
   BOOST_TEST(u.failed == 100);
   BOOST_TEST(u.samples == 300);
   BOOST_TEST(u.high[0] <= 0.05);
@@ -82,7 +83,7 @@ BOOST_AUTO_TEST_CASE(no_derivative_is_made_up_where_the_model_has_no_solution) {
     if (d[1] < 0) return std::nullopt;
     return Values{1.0};
   };
-  BOOST_TEST(!t::uncertainty_by_derivatives(nothing, kHalfWidths).has_value());
+  BOOST_TEST(!uncertainty_by_derivatives(nothing, kHalfWidths).has_value());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,8 +5,6 @@
 
 #include "harness/judge/convergence.h"
 
-using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 
 namespace {

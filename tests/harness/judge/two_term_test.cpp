@@ -3,7 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-namespace t = trammel::harness;
+using namespace trammel;
+using namespace trammel::harness;
 
 namespace {
 
@@ -24,7 +25,7 @@ const std::vector<bool> kAll(5, true);
 BOOST_AUTO_TEST_SUITE(two_term)
 
 BOOST_AUTO_TEST_CASE(both_coefficients_of_a_two_term_error_are_found) {
-  const auto fit = t::fit_two_terms(kSizes, errors(0.3, 2e-3), kAll, {4, 2}, 0.05);
+  const auto fit = fit_two_terms(kSizes, errors(0.3, 2e-3), kAll, {4, 2}, 0.05);
   BOOST_REQUIRE(fit.has_value());
   BOOST_TEST(fit->coefficient[0] == 0.3, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(fit->coefficient[1] == 2e-3, boost::test_tools::tolerance(1e-12));
@@ -32,13 +33,13 @@ BOOST_AUTO_TEST_CASE(both_coefficients_of_a_two_term_error_are_found) {
 }
 
 BOOST_AUTO_TEST_CASE(terms_of_opposite_sign_may_cancel_between_two_levels) {
-  const auto fit = t::fit_two_terms(kSizes, errors(0.3, -0.03), kAll, {4, 2}, 0.05);
+  const auto fit = fit_two_terms(kSizes, errors(0.3, -0.03), kAll, {4, 2}, 0.05);
   BOOST_REQUIRE(fit.has_value());
   BOOST_TEST(fit->coefficient[1] == -0.03, boost::test_tools::tolerance(1e-10));
 }
 
 BOOST_AUTO_TEST_CASE(coarse_levels_that_feel_a_third_term_are_left_out) {
-  const auto fit = t::fit_two_terms(kSizes, errors(0.3, 2e-3, 0.1), kAll, {4, 2}, 0.01);
+  const auto fit = fit_two_terms(kSizes, errors(0.3, 2e-3, 0.1), kAll, {4, 2}, 0.01);
   BOOST_REQUIRE(fit.has_value());
   BOOST_TEST(!fit->used[0]);
   BOOST_TEST(fit->used[4]);
@@ -49,7 +50,7 @@ BOOST_AUTO_TEST_CASE(coarse_levels_that_feel_a_third_term_are_left_out) {
 BOOST_AUTO_TEST_CASE(another_law_is_not_met_and_says_by_how_much) {
   std::vector<double> cubic;
   for (const double h : kSizes) cubic.push_back(std::pow(h, 1));
-  const auto fit = t::fit_two_terms(kSizes, cubic, kAll, {4, 2}, 0.05);
+  const auto fit = fit_two_terms(kSizes, cubic, kAll, {4, 2}, 0.05);
   BOOST_REQUIRE(fit.has_value());
   BOOST_TEST(fit->worst > 0.05);
 }
@@ -57,23 +58,23 @@ BOOST_AUTO_TEST_CASE(another_law_is_not_met_and_says_by_how_much) {
 BOOST_AUTO_TEST_CASE(levels_at_round_off_are_not_used) {
   std::vector<double> noisy = errors(0.3, 2e-3);
   noisy[4] = 1e-3;
-  const auto fit = t::fit_two_terms(kSizes, noisy, {true, true, true, true, false}, {4, 2}, 0.05);
+  const auto fit = fit_two_terms(kSizes, noisy, {true, true, true, true, false}, {4, 2}, 0.05);
   BOOST_REQUIRE(fit.has_value());
   BOOST_TEST(fit->coefficient[0] == 0.3, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(two_levels_are_not_enough) {
   BOOST_TEST(
-      !t::fit_two_terms(kSizes, errors(0.3, 2e-3), {true, true, false, false, false}, {4, 2}, 0.05)
+      !fit_two_terms(kSizes, errors(0.3, 2e-3), {true, true, false, false, false}, {4, 2}, 0.05)
            .has_value());
 }
 
 BOOST_AUTO_TEST_CASE(the_limit_of_a_two_term_law_is_found_from_three_levels) {
   const auto value = [](double h) { return 7 + 0.3 * std::pow(h, 4) - 0.02 * h * h; };
   const double limit =
-      t::extrapolate_two_terms({0.5, 0.3, 0.1}, {value(0.5), value(0.3), value(0.1)}, {4, 2});
+      extrapolate_two_terms({0.5, 0.3, 0.1}, {value(0.5), value(0.3), value(0.1)}, {4, 2});
   BOOST_TEST(limit == 7.0, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(std::isnan(t::extrapolate_two_terms({0.5, 0.5, 0.1}, {1, 1, 2}, {4, 2})));
+  BOOST_TEST(std::isnan(extrapolate_two_terms({0.5, 0.5, 0.1}, {1, 1, 2}, {4, 2})));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 
 namespace {

@@ -8,6 +8,7 @@
 #include "harness/input/schema.h"
 #include "tests/support/harness/support.h"
 
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;
@@ -111,7 +112,7 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm
   second["check"] = "tip*";
   BOOST_TEST(evaluate_claims(claims_of({{"all", second}}, "confirmed"), runs)
                  .claims[0]
-                 .readings[0]
+                 .interpretations[0]
                  .entries.size() == 3U);
 }
 
@@ -140,7 +141,7 @@ BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
                       {"quantity", "frequency_Hz"}, {"take", "steps"},
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
   const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
-  const Interpretation& reading = found.claims[0].readings[0];
+  const Interpretation& reading = found.claims[0].interpretations[0];
   BOOST_REQUIRE(reading.entries.size() == 2U);
   BOOST_TEST(reading.entries[0].value == 2);
   BOOST_TEST(reading.entries[1].value == -1);
@@ -157,8 +158,8 @@ BOOST_AUTO_TEST_CASE(
   run.result.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
   const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == ClaimVerdict::not_measured));
-  BOOST_TEST(found.claims[0].readings[0].entries.size() == 2U);
-  for (const InterpretationEntry& entry : found.claims[0].readings[0].entries) {
+  BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);
+  for (const InterpretationEntry& entry : found.claims[0].interpretations[0].entries) {
     BOOST_TEST(std::isfinite(entry.value));
   }
 }

@@ -7,6 +7,7 @@
 #include "harness/scene/case_model.h"
 #include "tests/support/harness/analysing.h"
 
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;

@@ -5,8 +5,8 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/support.h"
 
+using namespace trammel;
 using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;

@@ -9,6 +9,7 @@
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
+using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;

@@ -5,8 +5,7 @@
 
 #include "tests/support/harness/support.h"
 
-using namespace trammel::references;
-using namespace trammel::solver;
+using namespace trammel;
 using namespace trammel::harness;
 using testing::Folder;
 

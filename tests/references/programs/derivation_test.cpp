@@ -18,7 +18,8 @@ const fs::path root = fs::path(TRAMMEL_SOURCE_DIR) / "references";
 
 std::vector<fs::path> stored_files() {
   std::vector<fs::path> files;
-  for (const auto& item : trammel::reference_files(root / "values")) files.push_back(item.second);
+  for (const auto& item : trammel::references::reference_files(root / "values"))
+    files.push_back(item.second);
   return files;
 }
 
@@ -78,7 +79,7 @@ BOOST_AUTO_TEST_CASE(an_exact_value_has_a_derivation_and_every_source_is_in_the_
 BOOST_AUTO_TEST_CASE(every_passport_is_read_with_the_uncertainty_that_the_derivation_is_held_to) {
   for (const fs::path& file : stored_files()) {
     BOOST_TEST_CONTEXT(file.filename().generic_string()) {
-      const trammel::Reference reference = trammel::load_reference(file);
+      const trammel::references::Reference reference = trammel::references::load_reference(file);
       const Comparison& comparison = comparisons().at(reference.id);
       BOOST_TEST(reference.values == comparison.stored, boost::test_tools::per_element());
       for (std::size_t i = 0; i < reference.values.size(); ++i) {

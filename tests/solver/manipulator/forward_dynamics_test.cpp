@@ -41,8 +41,8 @@ BOOST_AUTO_TEST_CASE(the_torques_of_the_circle_bring_the_platform_around_the_cir
   const Path circle = Circle{{0.25, 0.144}, 0.01, 1};
   const auto torque = [&](double t) { return inverse_dynamics(m, at(circle, t)).torque; };
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
-    const ForwardDynamics f = trammel::forward_dynamics(m, at(circle, 0), torque, times_to(6.3, 63),
-                                                        Vector3d::Zero(), {.tolerance = tolerance});
+    const ForwardDynamics f = trammel::solver::forward_dynamics(
+        m, at(circle, 0), torque, times_to(6.3, 63), Vector3d::Zero(), {.tolerance = tolerance});
     BOOST_TEST_REQUIRE(f.outcome.solved(), f.outcome.reason);
     double worst = 0;
     for (const TrajectoryPoint& p : f.motion)
@@ -57,12 +57,12 @@ BOOST_AUTO_TEST_CASE(without_torque_the_energy_stays_and_a_platform_at_rest_rest
   const RigidManipulator m = rigid_manipulator(table_1_design());
   const auto none = [](double) { return Vector3d(Vector3d::Zero()); };
   TrajectoryPoint start{0, centred_pose()};
-  ForwardDynamics f = trammel::forward_dynamics(m, start, none, times_to(1, 4));
+  ForwardDynamics f = trammel::solver::forward_dynamics(m, start, none, times_to(1, 4));
   BOOST_TEST_REQUIRE(f.outcome.solved());
   BOOST_TEST(distance(f.motion.back().pose, start.pose) == 0.0);
 
   start.velocity = {0.1, 0.05, 0.2};
-  f = trammel::forward_dynamics(m, start, none, times_to(0.5, 10));
+  f = trammel::solver::forward_dynamics(m, start, none, times_to(0.5, 10));
   BOOST_TEST_REQUIRE(f.outcome.solved(), f.outcome.reason);
   const double energy = inverse_dynamics(m, start).kinetic_energy;
   for (const TrajectoryPoint& p : f.motion)
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(a_fall_into_a_singular_posture_ends_with_its_time_and_reaso
   TrajectoryPoint start{0, centred_pose()};
   start.velocity = {1, 0, 0};
   const auto none = [](double) { return Vector3d(Vector3d::Zero()); };
-  const ForwardDynamics f = trammel::forward_dynamics(m, start, none, times_to(100, 1000));
+  const ForwardDynamics f = trammel::solver::forward_dynamics(m, start, none, times_to(100, 1000));
   BOOST_TEST(!f.outcome.solved());
   BOOST_TEST(f.outcome.reason.find("at ") == 0U, f.outcome.reason);
   BOOST_TEST(f.motion.size() < 1001U);
@@ -86,11 +86,13 @@ BOOST_AUTO_TEST_CASE(times_that_do_not_ascend_are_refused) {
   const RigidManipulator m = rigid_manipulator(table_1_design());
   const auto none = [](double) { return Vector3d(Vector3d::Zero()); };
   const TrajectoryPoint start{0, centred_pose()};
-  BOOST_CHECK_THROW((void)trammel::forward_dynamics(m, start, none, {0, 1, 0.5}), ModelError);
-  BOOST_CHECK_THROW((void)trammel::forward_dynamics(m, start, none, {std::nan("")}), ModelError);
-  BOOST_CHECK_THROW(
-      (void)trammel::forward_dynamics(m, start, none, {1}, Vector3d::Zero(), {.tolerance = 0}),
-      ModelError);
+  BOOST_CHECK_THROW((void)trammel::solver::forward_dynamics(m, start, none, {0, 1, 0.5}),
+                    ModelError);
+  BOOST_CHECK_THROW((void)trammel::solver::forward_dynamics(m, start, none, {std::nan("")}),
+                    ModelError);
+  BOOST_CHECK_THROW((void)trammel::solver::forward_dynamics(m, start, none, {1}, Vector3d::Zero(),
+                                                            {.tolerance = 0}),
+                    ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -10,6 +10,7 @@
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
+using namespace trammel;
 using namespace trammel::solver;
 
 namespace {

@@ -12,8 +12,6 @@
 
 namespace trammel::testing {
 
-using namespace references;
-using namespace solver;
 using namespace harness;
 
 /// A folder of its own that is gone afterwards.

@@ -9,8 +9,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -5,8 +5,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 /// What headless Chromium makes of a page: its document after loading, and what it logged.
 struct Visit {
   std::string document, console;

@@ -4,8 +4,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 namespace {
 
 const std::set<std::string>& void_elements() {

@@ -5,8 +5,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 /// Walks the tags of HTML or XML. @returns an empty text if every element is closed in order, else
 /// what is wrong. `html`: void elements need no end, script and style hold plain text.
 [[nodiscard]] std::string markup_fault(const std::string& text, bool html);

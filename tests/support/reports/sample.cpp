@@ -8,8 +8,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -4,8 +4,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 /// A results file as a real catalogue makes it, without any solver: several families, sixteen
 /// variants against two references at two poses, refinement sweeps down to round-off, a circle of
 /// 631 points, drawings with shapes, known discrepancies, and one of everything that goes wrong

@@ -12,8 +12,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 namespace fs = std::filesystem;
 
 Workspace::Workspace() {
@@ -45,7 +43,7 @@ const fs::path& sample_report() {
   static const Workspace workspace;
   static const fs::path folder = [] {
     fs::path out = workspace.path() / "report";
-    write_report(workspace.results(sample_results()), out);
+    reports::write_report(workspace.results(sample_results()), out);
     return out;
   }();
   return folder;

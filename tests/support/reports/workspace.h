@@ -6,8 +6,6 @@
 
 namespace trammel::testing {
 
-using namespace reports;
-
 /// A folder that is gone at the end of the test.
 class Workspace {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace trammel {
+namespace trammel::solver {
 
 /// d f / d s at 0 of a function that returns a vector, by central differences extrapolated twice:
 /// error of the order h^6.
@@ -15,4 +15,4 @@ auto richardson(const F& f, double h) {
   return ((16 * e2 - e1) / 15).eval();
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -9,7 +9,7 @@
 #include "tests/support/solver/table_1.h"
 
 /// Sensitivities by differences of the frequencies of the changed design.
-namespace trammel {
+namespace trammel::solver {
 
 using Eigen::VectorXd;
 using Quantity = DesignParameter::Quantity;
@@ -86,4 +86,4 @@ inline Comparison compare(const ManipulatorDesign& design, const DesignParameter
   return result;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver

@@ -6,7 +6,7 @@
 #include "solver/manipulator/manipulator.h"
 
 /// The manipulator of the paper's Table 1, for the tests.
-namespace trammel {
+namespace trammel::solver {
 
 inline ManipulatorGeometry table_1_geometry() {
   ManipulatorGeometry g;
@@ -52,4 +52,4 @@ inline ManipulatorDesign table_1_design() {
   return design;
 }
 
-}  // namespace trammel
+}  // namespace trammel::solver
