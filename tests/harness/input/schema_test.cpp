@@ -46,6 +46,20 @@ BOOST_AUTO_TEST_CASE(a_misspelt_key_is_answered_with_the_nearest_right_one) {
   BOOST_TEST(contains(robot_fault("/model/manipulator/qqqq", 1), "known here: 'base_m'"));
 }
 
+BOOST_AUTO_TEST_CASE(a_former_key_is_answered_with_the_present_one) {
+  BOOST_TEST(contains(robot_fault("/battery", Json::object()), "did you mean 'stress_suite'?"));
+  BOOST_TEST(contains(robot_fault("/analysis/modes/path", "dense"), "did you mean 'eigensolver'?"));
+  Json claims = {{"title", "t"}, {"source", "s"}, {"claims", {{"1", Json::object()}}}};
+  claims["claims"]["1"]["interpretations"]["r"]["take"] = "ratio";
+  BOOST_TEST(contains(find_schema_error(claims, "claims").value().message, "'metric'?"));
+}
+
+BOOST_AUTO_TEST_CASE(the_names_of_quantities_within_others_are_renamed_too) {
+  BOOST_TEST(current_quantity("relative_error:serial_distance") ==
+             "relative_error:serial_singularity_distance");
+  BOOST_TEST(current_quantity("frequency_Hz") == "frequency_Hz");
+}
+
 BOOST_AUTO_TEST_CASE(a_misspelt_word_is_answered_with_the_nearest_right_one) {
   BOOST_TEST(contains(robot_fault("/model/manipulator/joints/active", "lokced"),
                       "(got \"lokced\"); did you mean 'locked'?"));
