@@ -6,6 +6,7 @@
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/input/catalogue.h"
+#include "harness/input/former_names.h"
 #include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 
