@@ -31,7 +31,7 @@ void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& re
     for (solver::Index i = 0; i < solution.torque.rows(); ++i) {
       record.add("torque_N_m", name, solution.torque(i, joint));
       record.add("rigid_torque_N_m", name, solution.rigid_torque(i, joint));
-      record.add("added_torque_N_m", name,
+      record.add("elastic_torque_N_m", name,
                  solution.torque(i, joint) - solution.rigid_torque(i, joint));
     }
   }
@@ -61,7 +61,8 @@ void record_excess(const solver::ElastodynamicsSolution& solution, Recorder& rec
   const double size = slow.rowwise().norm().maxCoeff();
   if (!(size > 0)) return;
   for (solver::Index i = 0; i < slow.rows(); ++i) {
-    record.add("dynamic_excess", "P", (solution.deflection.row(i) - slow.row(i)).norm() / size);
+    record.add("dynamic_to_quasi_static_difference", "P",
+               (solution.deflection.row(i) - slow.row(i)).norm() / size);
   }
 }
 
@@ -96,7 +97,7 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
   if (!std::isfinite(above)) return;
   record.add("overdamped_above_Hz", "", above);
   const std::optional<solver::Index> below = solver::sturm_count(start, above);
-  record.add("modes_below", "", below ? static_cast<double>(*below) : std::nan(""));
+  record.add("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
 
 /// What says beforehand whether an effect matters, and what the integration took.
@@ -149,7 +150,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
     }
   }
   options.time = read_time_options(analysis);
-  options.time.quasi_static_start = analysis.text("start") == "quasi-static";
+  options.time.quasi_static_start = analysis.text("initial_state") == "quasi-static";
   options.modal_superposition = analysis.get("modal_superposition", false);
   if (options.modal_superposition && !solver::stands_still(options.path)) {
     throw analysis["modal_superposition"].error(

@@ -128,7 +128,8 @@ void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
     trivial.sigma = sigma;
     const double baseline_error = rms(solver::predict(trivial, queries) - expected, scales);
     record.add("held_out_rms_error", name, baseline_error);
-    record.add("skill_over", name, 1 - (error / baseline_error) * (error / baseline_error));
+    record.add("skill_score_against", name,
+               1 - (error / baseline_error) * (error / baseline_error));
   };
   against("mean", 1e150);
   against("nearest", 1e-300);
@@ -200,7 +201,7 @@ void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predi
       record.add("predicted_" + column.quantity + column.unit, column.item, predicted(k, j));
     }
   }
-  for (const bool trains_here : trains) record.add("trains", "", trains_here ? 1 : 0);
+  for (const bool trains_here : trains) record.add("in_training_set", "", trains_here ? 1 : 0);
 }
 
 /// Where the platform would be with the predicted angles of the active joints, by forward

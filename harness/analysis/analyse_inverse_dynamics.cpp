@@ -70,7 +70,7 @@ void record_properties(const solver::RigidManipulator& manipulator,
       manipulator, solver::rigid_terms(manipulator, point.pose, point.velocity));
   record.add("symmetry_residual", "", residuals.symmetry);
   record.add("skewness_residual", "", residuals.skewness);
-  record.add("least_inertia_kg_m2", "", residuals.min_eigenvalue);
+  record.add("min_inertia_eigenvalue_kg_m2", "", residuals.min_eigenvalue);
 }
 
 /// Work of the actuators over exactly one turn, by the trapezoid rule, which for a periodic
@@ -88,9 +88,9 @@ void record_turn(const solver::RigidManipulator& manipulator, const CaseModel& c
     work += found.actuator_power * period / points;
     turnover += std::abs(found.actuator_power) * period / points;
   }
-  record.add("turn_work_J", "", work);
-  record.add("turn_turnover_J", "", turnover);
-  record.add("turn_work_residual", "", work / turnover);
+  record.add("cycle_work_J", "", work);
+  record.add("cycle_absolute_work_J", "", turnover);
+  record.add("cycle_work_residual", "", work / turnover);
 }
 
 }  // namespace
@@ -117,7 +117,8 @@ StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& c
   }
   const auto* circle = case_model.path ? std::get_if<solver::Circle>(&*case_model.path) : nullptr;
   if (circle && circle->angular_speed != 0) {
-    record_turn(manipulator, case_model, *circle, analysis.get("turn_points", 64), record);
+    record_turn(manipulator, case_model, *circle, analysis.get("points_per_revolution", 64),
+                record);
   }
   return result;
 }

@@ -26,8 +26,8 @@ StepResult analyse_kinematics(const CaseModel& case_model, std::size_t step, boo
     record.add("distal_tension_N", distal[i], holding.tension[row]);
   }
   record.add("closure_error_m", "", posture.closure_error);
-  record.add("parallel_distance", "", at.parallel_distance);
-  record.add("serial_distance", "", at.serial_distance);
+  record.add("parallel_singularity_distance", "", at.parallel_distance);
+  record.add("serial_singularity_distance", "", at.serial_distance);
   return result;
 }
 

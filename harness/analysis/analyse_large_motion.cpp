@@ -42,10 +42,10 @@ OutputSelection read_kept(const JsonView& analysis, const solver::Model& model) 
       if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<solver::Index>(i));
     }
   }
-  if (analysis.has("seen_from")) selection.seen_from = find_node(analysis["seen_from"], model);
+  if (analysis.has("relative_to")) selection.seen_from = find_node(analysis["relative_to"], model);
   if (const auto angles = analysis.find("angles")) {
     for (const auto& [name, place] : angles->entries()) {
-      Angle angle{name, find_node(place["node"], model), -1, place.get("start_rad", 0.0)};
+      Angle angle{name, find_node(place["node"], model), -1, place.get("initial_rad", 0.0)};
       if (place.has("from")) angle.from = find_node(place["from"], model);
       selection.angles.push_back(angle);
     }
@@ -214,8 +214,8 @@ void record_summary(const solver::large_motion::IntegrationSummary& summary,
   record.add("rejected_steps", "", static_cast<double>(summary.rejected));
   record.add("newton_iterations", "", static_cast<double>(summary.iterations));
   record.add("smallest_step_s", "", summary.min_step);
-  record.add("constraint_gap", "", summary.max_constraint_residual);
-  record.add("constraint_gap_rate", "", summary.max_constraint_rate);
+  record.add("constraint_residual", "", summary.max_constraint_residual);
+  record.add("constraint_rate_residual", "", summary.max_constraint_rate);
   record.add("energy_drift", "", log.energy_drift());
 }
 
@@ -231,7 +231,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   const bool tracking = analysis.get("track", false);
   if (tracking) {
     add_tracking_drives(analysis["track"], case_model, model, large_motion);
-    for (const char* key : {"extrapolated", "start_velocities"}) {
+    for (const char* key : {"extrapolated", "initial_velocities"}) {
       if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
     }
     if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha") {

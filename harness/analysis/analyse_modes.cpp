@@ -36,8 +36,8 @@ solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
   if (case_model.effects.has(solver::Effect::geometric_stiffening)) {
     throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
   }
-  return solver::reduce_members(system,
-                                analysis["reduction"]["modes_of_a_member"].get<solver::Index>());
+  return solver::reduce_members(
+      system, analysis["reduction"]["fixed_interface_modes"].get<solver::Index>());
 }
 
 solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_model,
@@ -84,9 +84,9 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
   if (analysis.has("count_below_Hz")) {
     const std::optional<solver::Index> below =
         solver::sturm_count(system, analysis.number("count_below_Hz"));
-    record.add("modes_below", "", below ? static_cast<double>(*below) : std::nan(""));
+    record.add("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
   }
-  record.add("rigid_motions", "", static_cast<double>(modes.zero_energy_mode_count));
+  record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;
 }

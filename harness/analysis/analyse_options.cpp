@@ -46,11 +46,11 @@ std::vector<Json> combinations_of(const JsonView& place) {
 
 Options options_of(const JsonView& place, const std::string& kind) {
   Options options{{Json::object()}, false, {}};
-  const auto own = place["of"].find(kind);
+  const auto own = place["analyses"].find(kind);
   if (!own) return options;
   options.combinations = combinations_of(*own);
-  options.must_agree = own->get("alike", false);
-  options.required_terms = own->get("says", std::vector<std::string>{});
+  options.must_agree = own->get("same_results", false);
+  options.required_terms = own->get("reason_contains", std::vector<std::string>{});
   return options;
 }
 
@@ -111,7 +111,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
                       OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
   const Options options = options_of(place, kind);
-  const Origin written = place.document().origin(place["of"].pointer());
+  const Origin written = place.document().origin(place["analyses"].pointer());
   std::optional<AnalysisResult> first;
   for (const Json& combination : options.combinations) {
     Document patched = document;
@@ -152,14 +152,15 @@ std::vector<Document> computations_of(const Document& document, const JsonView& 
 }
 
 void record_counts(const std::string& item, const OptionCounts& counts, Recorder& record) {
-  record.add("tried", item, counts.tried);
+  record.add("attempted", item, counts.tried);
   record.add("solved", item, counts.solved);
   record.add("singular", item, counts.singular);
   record.add("not_converged", item, counts.not_converged);
   record.add("refused", item, counts.refused);
   record.add("not_finite", item, counts.not_finite);
-  record.add("unsaid", item, counts.incomplete_reasons);
-  if (counts.disagreement >= 0) record.add("disagreement", item, counts.disagreement);
+  record.add("unexplained", item, counts.incomplete_reasons);
+  if (counts.disagreement >= 0)
+    record.add("result_difference_over_roundoff", item, counts.disagreement);
 }
 
 void add(const OptionCounts& added, OptionCounts& all) {

@@ -85,7 +85,7 @@ void record_differences(const CaseModel& case_model, const Named& named,
   for (solver::Index i = 0; i < count; ++i) {
     if (found.frequency[i] == 0) continue;  // rigid motions
     const double error = std::abs(found.derivative(i, column) - differences.derivative[i]);
-    record.add("difference_error", named.name, error * value / found.frequency[i]);
+    record.add("finite_difference_error", named.name, error * value / found.frequency[i]);
   }
 }
 

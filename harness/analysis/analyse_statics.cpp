@@ -157,7 +157,7 @@ StepResult analyse_statics(const CaseModel& case_model, std::size_t step, bool d
   record.add("compliance_J", "", system.f.dot(solution.q), roundoff);
   record.add("equilibrium_residual_N", "", solution.equilibrium_residual);
   record.add("moment_residual_N_m", "", solution.moment_residual);
-  record.add("digits_left", "", solution.estimated_correct_digits);
+  record.add("estimated_correct_digits", "", solution.estimated_correct_digits);
   if (result.drawing) {
     result.drawing->shapes.push_back(draw_shape(system, solution.q, "under the loads"));
   }

@@ -12,8 +12,8 @@ namespace {
 
 /// The case with the inner analysis in place of the study.
 Document with_inner_analysis(Document document) {
-  const Json inner = document.value().at("analysis").at("study").at("of");
-  const Origin written = document.origin("/analysis/study/of");
+  const Json inner = document.value().at("analysis").at("study").at("analysis");
+  const Origin written = document.origin("/analysis/study/analysis");
   document.apply_patch(written.file, written.pointer, {{"analysis", {{"study", nullptr}}}});
   document.apply_patch(written.file, written.pointer, {{"analysis", inner}});
   return document;
@@ -55,7 +55,7 @@ KeptQuantity number_of(const Quantities& quantities, const std::string& name,
 std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, const JsonView& keep,
                                      const References& references) {
   if (!keep.has("reference")) {
-    const KeptQuantity& one = keep.text("against") == "first" ? kept.front() : kept.back();
+    const KeptQuantity& one = keep.text("relative_to") == "first" ? kept.front() : kept.back();
     return std::vector<double>(kept.size(), one.value);
   }
   const references::Reference& reference = references.get(keep["reference"]);
@@ -70,7 +70,7 @@ std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, cons
 void record_errors(const std::string& name, const std::vector<KeptQuantity>& kept,
                    const std::vector<double>& parameter, const JsonView& keep,
                    const References& references, Recorder& record) {
-  if (!keep.has("reference") && !keep.has("against")) return;
+  if (!keep.has("reference") && !keep.has("relative_to")) return;
   const std::vector<double> reference_solution = reference_values(kept, keep, references);
   double min_error = std::numeric_limits<double>::infinity(), best = kNaN;
   for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -89,7 +89,7 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
       record.add("error_over_roundoff", name, kNaN);
     }
   }
-  if (keep.has("reference") && !std::isnan(best)) record.add("least_error_at", name, best);
+  if (keep.has("reference") && !std::isnan(best)) record.add("min_error_at", name, best);
 }
 
 /// A level for each point of the model's trajectory; its parameter is the time.
@@ -112,7 +112,8 @@ std::vector<Level> trajectory_levels(const Document& document, const JsonView& s
 
 std::vector<Level> study_levels(const Document& document) {
   const JsonView study = JsonView(document)["analysis"]["study"];
-  if (study["of"].has("study")) throw study["of"].error("expected another analysis than a study");
+  if (study["analysis"].has("study"))
+    throw study["analysis"].error("expected another analysis than a study");
   const bool along = study.get("trajectory", false);
   if (along == study.has("values")) {
     throw study.error("expected either 'values' or 'trajectory'");
@@ -125,7 +126,7 @@ std::vector<Level> study_levels(const Document& document) {
 StepResult analyse_study(const Document& document, const References& references, bool draw,
                          Recorder& record) {
   const JsonView study = JsonView(document)["analysis"]["study"];
-  const auto kept_places = study.find("keep");
+  const auto kept_places = study.find("quantities");
   const auto keep =
       kept_places ? kept_places->entries() : std::vector<std::pair<std::string, JsonView>>{};
   std::vector<std::vector<KeptQuantity>> kept(keep.size());

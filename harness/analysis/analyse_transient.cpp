@@ -89,7 +89,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
     record_energy(system, motion, sample, drift, record);
   }
   record_peaks(motion, outputs, values, record);
-  if (system.load.isZero(0) && !analysis.has("turning_axes")) drift.record(record);
+  if (system.load.isZero(0) && !analysis.has("rotating_frame")) drift.record(record);
   record.add("steps", "", static_cast<double>(motion.steps));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;

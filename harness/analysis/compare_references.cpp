@@ -5,8 +5,8 @@ namespace trammel::harness {
 void compare_references(const JsonView& comparison, const References& references,
                         Recorder& record) {
   for (const auto& [name, pair] : comparison.entries()) {
-    const references::Reference& minuend = references.get(pair["of"]);
-    const references::Reference& subtrahend = references.get(pair["from"]);
+    const references::Reference& minuend = references.get(pair["compared"]);
+    const references::Reference& subtrahend = references.get(pair["baseline"]);
     if (minuend.unit != subtrahend.unit || minuend.values.size() != subtrahend.values.size()) {
       throw pair.error("expected two references of one unit and length (got " +
                        std::to_string(minuend.values.size()) + " in " + minuend.unit + ", " +

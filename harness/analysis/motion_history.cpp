@@ -83,9 +83,9 @@ Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector
 
 InitialState read_initial(const JsonView& transient, const solver::System& system,
                           solver::Outcome& outcome) {
-  const auto initial = transient.find("initial");
-  if (!initial || initial->json() == "rest") return {};
-  if (initial->json() == "static") {
+  const auto initial = transient.find("initial_state");
+  if (!initial || initial->json() == "at-rest") return {};
+  if (initial->json() == "static-equilibrium") {
     const solver::StaticSolution statics = solver::solve_statics(system);
     outcome = statics.outcome;
     return {statics.q, {}};
@@ -113,17 +113,17 @@ std::vector<double> sample_times(const JsonView& transient) {
 
 /// The axes that the motion is seen from.
 solver::PrescribedRotation read_axes(const JsonView& transient) {
-  for (const char* key : {"load_history", "initial"}) {
-    if (transient.has(key)) throw transient[key].error("expected it without 'turning_axes'");
+  for (const char* key : {"load_history", "initial_state"}) {
+    if (transient.has(key)) throw transient[key].error("expected it without 'rotating_frame'");
   }
-  const JsonView place = transient["turning_axes"];
+  const JsonView place = transient["rotating_frame"];
   solver::PrescribedRotation axes;
   axes.speed = [law = read_law(place["law"])](double time) {
     const std::array<double, 3> motion = law(time);
     return std::array<double, 2>{motion[1], motion[2]};
   };
   if (place.has("center_m")) axes.centre = read_point(place["center_m"]);
-  axes.stiffening = place.get("stiffening", true);
+  axes.stiffening = place.get("geometric_stiffening", true);
   return axes;
 }
 
@@ -152,7 +152,7 @@ class Motion {
     equation.M = system_.M;
     equation.K = system_.K;
     if (!damp(equation)) return;
-    if (transient_.has("turning_axes")) {
+    if (transient_.has("rotating_frame")) {
       history_.outcome = solver::add_rotating_frame_terms(system_, read_axes(transient_), equation);
       if (!history_.outcome.solved()) return;
     } else {
@@ -198,8 +198,8 @@ class Motion {
     if (transient_.has("error_control")) {
       throw transient_["error_control"].error("expected it without 'modal-superposition'");
     }
-    if (transient_.has("turning_axes")) {
-      throw transient_["turning_axes"].error("expected it without 'modal-superposition'");
+    if (transient_.has("rotating_frame")) {
+      throw transient_["rotating_frame"].error("expected it without 'modal-superposition'");
     }
     const solver::ModalBasis basis = solver::all_modes(system_.M, system_.K);
     const solver::HarmonicDamping damping = read_damping(transient_, basis.omega.size());

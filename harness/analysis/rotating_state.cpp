@@ -61,7 +61,7 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   options.frame.axis = read_axis(rotating);
   if (rotating.has("center_m")) options.frame.centre = read_point(rotating["center_m"]);
   options.prestress_at_steady_state =
-      rotating.get<std::string>("tension", "deformed") == "deformed";
+      rotating.get<std::string>("prestress_configuration", "deformed") == "deformed";
   return options;
 }
 

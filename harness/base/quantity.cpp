@@ -56,9 +56,9 @@ std::string unit_of(const std::string& name) {
 
 bool is_count(const std::string& name) {
   static const std::set<std::string> counts = {
-      "modes_below",    "rigid_motions",     "degrees_of_freedom", "steps",
-      "rejected_steps", "evaluations",       "newton_iterations",  "unstable_directions",
-      "sigmas_tried",   "kernel_evaluations"};
+      "mode_count_below", "rigid_body_modes",  "degrees_of_freedom", "steps",
+      "rejected_steps",   "evaluations",       "newton_iterations",  "unstable_directions",
+      "sigmas_tried",     "kernel_evaluations"};
   return counts.count(name) > 0;
 }
 

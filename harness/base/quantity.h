@@ -17,7 +17,7 @@ struct Quantity {
 using Quantities = std::map<std::string, Quantity>;
 
 /// The unit in a quantity's name, as references write it: "frequency_Hz" -> "Hz",
-/// "reaction_moment_N_m:A1" -> "N m", "parallel_distance" -> "1".
+/// "reaction_moment_N_m:A1" -> "N m", "parallel_singularity_distance" -> "1".
 [[nodiscard]] std::string unit_of(const std::string& name);
 
 /// Whether a quantity counts things, so that it has no order of convergence.

@@ -10,6 +10,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
+#include "harness/input/former_names.h"
 #include "trammel_build.h"
 
 namespace trammel::harness {
@@ -31,7 +32,7 @@ Examples:
   trammel compare manipulator-modes manipulator-modes:rigid-platform
   trammel converge beam-cantilever          orders, extrapolation, uncertainty bands
   trammel cost modes                        what accuracy costs in time
-  trammel ledger                            the paper's claims, and a verdict for each
+  trammel claims                            the paper's claims, and a verdict for each
   trammel effects scene-soft-platform       what each effect is worth in a scene
   trammel report                            the whole catalogue as a page
   trammel report ~/my-robot.json            a page of your own case
@@ -79,7 +80,8 @@ class CommandLine {
     const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
     if (first.empty()) return "expected a command (see trammel --help)";
     if (!is_command && first.front() != '-') {
-      return "expected a command (got '" + printable(first) + "')" + did_you_mean(first, names);
+      return "expected a command (got '" + printable(first) + "')" +
+             did_you_mean(current_command(first), names);
     }
     std::string line = printable(error.what(), 200);
     return line + " (see trammel " + (is_command ? first + " " : "") + "--help)";
@@ -174,9 +176,9 @@ class CommandLine {
   }
   void define_claims() {
     CLI::App* sub =
-        add("ledger", "The paper's claims, and what the results say of each",
+        add("claims", "The paper's claims, and the verdict on each",
             "\nRuns the cases that the claims rest on. Exit status 1 where a verdict is "
-            "not the recorded one.\n\nExample:\n  trammel ledger");
+            "not the recorded one.\n\nExample:\n  trammel claims");
     add_jobs(sub);
     sub->add_flag("--json", json_, "As JSON, with every number");
     sub->callback([this] { command_ = [this] { return claims_command(run_.jobs, json_); }; });

@@ -67,12 +67,12 @@ void check_names(const Case& given) {
 /// Indicators of the battery are checks of the case.
 void check_indicators(const Case& given) {
   const JsonView root(given.document);
-  if (!root.has("battery")) return;
+  if (!root.has("stress_suite")) return;
   std::vector<std::string> names;
   if (const auto checks = root.find("checks")) {
     for (const auto& entry : checks->entries()) names.push_back(entry.first);
   }
-  for (const auto& [number, place] : root["battery"]["indicators"].entries()) {
+  for (const auto& [number, place] : root["stress_suite"]["indicators"].entries()) {
     const auto name = place.get<std::string>();
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     throw place.error("expected the name of a check of the case (got '" + printable(name) + "')" +

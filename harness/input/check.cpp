@@ -91,7 +91,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
       throw place["sweep"].error("expected a sweep with 'lower_order'");
     }
   }
-  order.meshes = place.get("meshes", std::size_t{3});
+  order.meshes = place.get("min_meshes", std::size_t{3});
   if (const auto wave = place.find("wave_number")) {
     order.wave_number = {wave->text("reference"), read_indices(*wave, "reference_index"),
                          wave->number("at_most"), wave->pointer()};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/base/text.h"
+#include "harness/input/former_names.h"
 
 namespace trammel::harness {
 namespace {
@@ -148,7 +149,10 @@ std::string got_keys(const Plain& object) {
 SchemaError unknown_key(const Plain::json_pointer& pointer, const std::string& key,
                         const std::vector<std::string>& allowed) {
   std::string message = "expected no key of that name";
-  const std::string guess = did_you_mean(key, allowed);
+  std::vector<std::string> path = {key};
+  for (auto outer = pointer; !outer.empty(); outer.pop_back()) path.push_back(outer.back());
+  std::reverse(path.begin(), path.end());
+  const std::string guess = did_you_mean(current_key(path), allowed);
   message += guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess;
   return {(pointer / key).to_string(), message};
 }

@@ -151,7 +151,7 @@ Series track_entry(const Sweep& sweep, const JsonView& place,
   series.theory = tracked_quantity.theory;
   if (!series.theory && place.has("theory_order")) series.theory = place.number("theory_order");
   if (place.has("lower_order")) series.lower = place.number("lower_order");
-  const std::string measures = place.get<std::string>("measures", "elements");
+  const std::string measures = place.get<std::string>("refinement_by", "elements");
   for (const SweepLevel& level : sweep.levels) {
     const auto [value, roundoff] = entry_of(level.result, tracked_quantity, index);
     series.parameter.push_back(level.parameter);
@@ -173,7 +173,7 @@ bool changes(const Series& series) {
 
 /// From coarse to fine; a size of zero or less has no meaning.
 void check_levels(const JsonView& place, const std::vector<Level>& levels) {
-  const std::string measures = place.get<std::string>("measures", "elements");
+  const std::string measures = place.get<std::string>("refinement_by", "elements");
   double before = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double size = size_of(measures, levels[i].parameter);

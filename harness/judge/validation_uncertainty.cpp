@@ -168,7 +168,7 @@ class ValidationStudy {
       if (!is_number(document_, pointer)) continue;
       std::vector<std::vector<double>> levels;
       std::vector<double> parameter;
-      const bool halvings = place.text("measures") == "halvings";
+      const bool halvings = place.text("refinement_by") == "halvings";
       for (int step = 0; step < 3; ++step) {
         double number = 0;
         const Document finer = moved(document_, {pointer}, [&](double value) {
@@ -276,7 +276,7 @@ class ValidationStudy {
                                      seed);
     };
     const SampledUncertainty design = draw(false, "samples");
-    const SampledUncertainty literal = draw(true, "literal_samples");
+    const SampledUncertainty literal = draw(true, "samples_all_inputs");
     study_.samples = design.samples;
     study_.failed = design.failed;
     study_.literal_samples = literal.samples;

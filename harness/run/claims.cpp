@@ -38,7 +38,7 @@ Window read_window(const JsonView& interval) {
 
 Rule read_rule(const JsonView& interpretation) {
   Rule rule;
-  rule.jointly = interpretation.get("jointly", false);
+  rule.jointly = interpretation.get("require_all_entries", false);
   const auto read = [&](const char* key, std::optional<Window>& window,
                         InterpretationVerdict verdict) {
     if (!interpretation.has(key)) return;
@@ -175,15 +175,15 @@ Interpretation evaluate_interpretation(const std::string& name, const JsonView& 
                                        const std::vector<Run>& runs) {
   Interpretation found;
   found.name = name;
-  found.what = interpretation.text("what");
-  found.metric = interpretation.text("take");
+  found.what = interpretation.text("description");
+  found.metric = interpretation.text("metric");
   const bool by_check = interpretation.has("check") || interpretation.has("reference");
   if (by_check == interpretation.has("quantity")) {
     throw interpretation.error("expected either a 'check' or 'reference', or a 'quantity'");
   }
   if (by_check ? found.metric == "steps" || interpretation.has("statistic")
                : found.metric != "value" && found.metric != "steps") {
-    throw interpretation["take"].error(
+    throw interpretation["metric"].error(
         "expected a check's value, ratio, relative or difference, or a "
         "quantity's value or steps");
   }
@@ -236,19 +236,19 @@ Claim evaluate_claim(const std::string& id, const JsonView& claim, const std::ve
   found.place = claim.text("place");
   found.conclusion = claim.text("conclusion");
   found.expected = read_verdict(claim.text("expected"));
-  if (claim.has("readings") == claim.has("undecidable")) {
-    throw claim.error("expected either 'readings' or why it is 'undecidable'");
+  if (claim.has("interpretations") == claim.has("undecidable")) {
+    throw claim.error("expected either 'interpretations' or why it is 'undecidable'");
   }
   if (claim.has("undecidable")) {
     found.undecidable = claim.text("undecidable");
     found.verdict = ClaimVerdict::cannot_be_decided;
     return found;
   }
-  for (const auto& [name, interpretation] : claim["readings"].entries()) {
+  for (const auto& [name, interpretation] : claim["interpretations"].entries()) {
     found.interpretations.push_back(evaluate_interpretation(name, interpretation, runs));
   }
   found.verdict = verdict_of(found.interpretations,
-                             claim.get<std::string>("together", "parts") == "alternatives");
+                             claim.get<std::string>("combine_as", "parts") == "alternatives");
   return found;
 }
 
@@ -284,8 +284,8 @@ Document load_claims() {
 std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& catalogue) {
   std::vector<JsonView> interpretations;
   for (const auto& [id, claim] : JsonView(claim_set)["claims"].entries()) {
-    if (!claim.has("readings")) continue;
-    for (const auto& [name, interpretation] : claim["readings"].entries())
+    if (!claim.has("interpretations")) continue;
+    for (const auto& [name, interpretation] : claim["interpretations"].entries())
       interpretations.push_back(interpretation);
   }
   std::vector<Case> cases;

@@ -231,7 +231,7 @@ Json run_json(const Run& run) {
 Json case_json(const Case& given) {
   const Json& document = given.document.value();
   Json json = {{"title", given.title()}};
-  for (const char* key : {"description", "family", "labels", "battery", "figures", "tables"}) {
+  for (const char* key : {"description", "family", "labels", "stress_suite", "figures", "tables"}) {
     if (document.contains(key)) json[key] = document.at(key);
   }
   json["analysis"] = analysis_kind(given.document);

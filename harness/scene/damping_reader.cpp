@@ -21,7 +21,7 @@ solver::HarmonicDamping read_damping(const JsonView& analysis, std::optional<sol
   const auto damping = analysis.find("damping");
   if (!damping) return read;
   if (const auto rayleigh = damping->find("rayleigh")) {
-    read.rayleigh = {rayleigh->get("mass_1_per_s", 0.0), rayleigh->get("stiffness_s", 0.0)};
+    read.rayleigh = {rayleigh->get("mass_per_s", 0.0), rayleigh->get("stiffness_s", 0.0)};
   }
   const auto modal = damping->find("modal");
   if (!modal) return read;

@@ -21,7 +21,7 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
                                                              {"width", Quantity::width},
                                                              {"E", Quantity::E},
                                                              {"density", Quantity::density}};
-  solver::DesignParameter read{.quantity = quantities.at(parameter.text("of"))};
+  solver::DesignParameter read{.quantity = quantities.at(parameter.text("property"))};
   read.platform = parameter.get("platform", false);
   if (const auto links = parameter.find("links")) {
     read.proximal.fill(false);

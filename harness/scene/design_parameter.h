@@ -8,7 +8,7 @@
 /// Numbers of the manipulator's design, as cases name them.
 namespace trammel::harness {
 
-/// {"of": "length", "links": ["A1-B1", ...], "platform": false}
+/// {"property": "length", "links": ["A1-B1", ...], "platform": false}
 /// @throws InputError  where it names no number: the length or width of a platform alone.
 [[nodiscard]] solver::DesignParameter read_design_parameter(const JsonView& parameter);
 

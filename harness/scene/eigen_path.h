@@ -5,7 +5,7 @@
 
 namespace trammel::harness {
 
-/// Key "path" of an analysis: automatic, dense or sparse.
+/// Key "eigensolver" of an analysis: automatic, dense or sparse.
 [[nodiscard]] solver::EigenMethod read_eigen_path(const JsonView& analysis);
 
 }  // namespace trammel::harness

@@ -113,7 +113,7 @@ bool tapers(const JsonView& place) {
 MemberChain read_chain(const JsonView& place) {
   MemberChain chain;
   if (const auto center = place.find("arc_center_m")) chain.arc_center = read_point(*center);
-  if (const auto held = place.find("held")) chain.held = read_motions(*held);
+  if (const auto held = place.find("restrained_motions")) chain.held = read_motions(*held);
   chain.exponential = tapers(place);
   return chain;
 }

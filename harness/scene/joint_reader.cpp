@@ -107,7 +107,7 @@ solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model
       large_motion.sliders.push_back(read_slider(name, place, built));
     }
   }
-  if (const auto springs = model.find("line_springs")) {
+  if (const auto springs = model.find("axial_springs")) {
     for (const auto& [name, place] : springs->entries()) {
       large_motion.line_springs.push_back(read_line_spring(name, place, built));
     }
@@ -140,7 +140,7 @@ void read_history(const JsonView& analysis, const solver::Model& built,
     const solver::large_motion::TimeFunction law = rest_to_rest(1, ramp->get<double>());
     large_motion.load_history = [law](double t) { return law(t)[0]; };
   }
-  const auto starts = analysis.find("start_velocities");
+  const auto starts = analysis.find("initial_velocities");
   if (!starts) return;
   for (const auto& [name, place] : starts->entries()) {
     const solver::Index node = find_node_by_name(name, place, built);

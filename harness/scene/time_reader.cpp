@@ -34,7 +34,7 @@ solver::TransientOptions read_time_options(const JsonView& analysis) {
   solver::TransientOptions options;
   options.step = analysis.number("step_s");
   if (const auto scheme = analysis.find("scheme")) options.scheme = read_time_scheme(*scheme);
-  if (const auto adaptive = analysis.find("adaptive")) {
+  if (const auto adaptive = analysis.find("error_control")) {
     solver::ErrorControl control;
     control.relative = adaptive->get("relative", control.relative);
     control.absolute = adaptive->get("absolute", control.absolute);

@@ -15,7 +15,8 @@ namespace trammel::harness {
 /// {"mass_per_s": w1, "stiffness_s": w2}; none where it is absent.
 [[nodiscard]] solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
 
-/// "scheme" (newmark by default), "step_s", "adaptive": {"relative", "absolute", "finest_level"}.
+/// "scheme" (newmark by default), "step_s", "error_control": {"relative", "absolute",
+/// "finest_level"}.
 [[nodiscard]] solver::TransientOptions read_time_options(const JsonView& analysis);
 
 }  // namespace trammel::harness

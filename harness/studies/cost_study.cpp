@@ -42,7 +42,7 @@ std::vector<ObservedQuantity> read_observed(const JsonView& quantities,
   for (const auto& [name, place] : quantities.entries()) {
     ObservedQuantity entry;
     entry.quantity = name;
-    entry.addend = place.get<std::string>("plus", "");
+    entry.addend = place.get<std::string>("plus_quantity", "");
     entry.statistic = place.get<std::string>("statistic", "");
     entry.index = indices(place, "index");
     entry.is_error = place.get("is_error", false);
@@ -135,15 +135,15 @@ void check_curve(const JsonView& curve) {
 }
 
 bool is_swept(const JsonView& curve, double value, SweepExtent extent) {
-  if (extent == SweepExtent::full || !curve.has("quick")) return true;
-  const auto quick = curve["quick"].get<std::vector<double>>();
+  if (extent == SweepExtent::full || !curve.has("quick_values")) return true;
+  const auto quick = curve["quick_values"].get<std::vector<double>>();
   return std::find(quick.begin(), quick.end(), value) != quick.end();
 }
 
 void check_quick(const JsonView& curve) {
-  if (!curve.has("quick") || !curve.has("values")) return;
+  if (!curve.has("quick_values") || !curve.has("values")) return;
   const auto values = curve["values"].get<std::vector<double>>();
-  for (const auto& entry : curve["quick"].entries()) {
+  for (const auto& entry : curve["quick_values"].entries()) {
     if (std::find(values.begin(), values.end(), entry.second.get<double>()) == values.end()) {
       throw entry.second.error("expected one of the curve's values");
     }
@@ -163,7 +163,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
   const Document start = start_of(study, curve);
   std::vector<Setting> settings;
   if (!curve.has("values")) {
-    const bool left_out = extent == SweepExtent::quick && curve.has("quick");
+    const bool left_out = extent == SweepExtent::quick && curve.has("quick_values");
     if (left_out) return {};
     setting.document = start;
     setting.document.validate("case");
@@ -175,7 +175,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
     if (!is_swept(curve, value, extent)) continue;
     Setting level_setting = setting;
     level_setting.value = value;
-    level_setting.title += ", " + named(curve.get<std::string>("each", "{}"), value);
+    level_setting.title += ", " + named(curve.get<std::string>("value_title", "{}"), value);
     level_setting.document = at_value(curve, start, i);
     level_setting.document.validate("case");
     settings.push_back(std::move(level_setting));
@@ -190,7 +190,7 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
     return setting.curve == place.text("curve") && same_value;
   });
   if (found == settings.end()) {
-    throw place.error("expected a curve and one of its values, also of its quick ones");
+    throw place.error("expected a curve and one of its values, also of 'quick_values'");
   }
   return static_cast<std::size_t>(found - settings.begin());
 }
@@ -244,9 +244,9 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
   const bool needed = std::any_of(wanted.begin(), wanted.end(), [](const ObservedQuantity& entry) {
     return entry.needs_reference_solution();
   });
-  if (needed != root.has("truth")) {
-    throw root.error(needed ? "expected 'truth', or a reference for each quantity"
-                            : "expected either 'truth' or references, not both");
+  if (needed != root.has("reference_solution")) {
+    throw root.error(needed ? "expected 'reference_solution', or a reference for each quantity"
+                            : "expected either 'reference_solution' or references, not both");
   }
   if (!needed) {
     const std::string named = references_of(root["quantities"]);
@@ -254,7 +254,7 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
         named.empty() ? "the error norms of the computation itself" : named;
     return;
   }
-  const JsonView place = root["truth"];
+  const JsonView place = root["reference_solution"];
   Setting reference_solution;
   reference_solution.title = study.reference_description = place.text("title");
   const JsonView quantities = place.has("quantities") ? place["quantities"] : root["quantities"];
@@ -272,7 +272,7 @@ void check_counts(const JsonView& root, const CostStudy& study) {
                                               " quantities, as the first curve has");
   }
   if (study.reference_solution && study.reference_solution->observed.size() != wanted) {
-    throw root["truth"].error("expected " + std::to_string(wanted) + " quantities");
+    throw root["reference_solution"].error("expected " + std::to_string(wanted) + " quantities");
   }
 }
 

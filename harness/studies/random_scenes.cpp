@@ -211,7 +211,7 @@ Json moving_manipulator(Draw& draw, Json& scene) {
   if (draw.chance(0.3)) model["gravity_m_s2"] = {0, -draw.logarithmic(0.01, 10)};
   Json motion = {{"scheme", {{"generalized-alpha", {{"spectral_radius", 0.8}}}}},
                  {"step_s", step / 16},
-                 {"start", draw.chance(0.75) ? "quasi-static" : "at-rest"}};
+                 {"initial_state", draw.chance(0.75) ? "quasi-static" : "at-rest"}};
   if (draw.chance(0.75)) {
     motion["damping"] = {{"mass_per_s", draw.logarithmic(1e-3, 1)},
                          {"stiffness_s", draw.logarithmic(1e-6, 3e-3)}};

@@ -320,7 +320,7 @@ CaseInfo read_case(const std::string& id, const JsonView& view) {
   info.description = view.find("description").text_or("");
   info.family = view.find("family").text_or(id.c_str());
   info.labels = texts(view.find("labels"));
-  if (const JsonView suite = view.find("battery"); !suite.null())
+  if (const JsonView suite = view.find("stress_suite"); !suite.null())
     info.stress_suite = {suite.at("item").integer(kAnyIndex), texts(suite.at("indicators"))};
   for (const auto& [figure, plot] : view.find("figures").members()) {
     PlotRequest request;

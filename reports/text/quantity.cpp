@@ -68,7 +68,7 @@ bool takes_prefix(const std::string& unit) {
 /// relative_error:frequency_Hz.
 bool is_of_a_quantity(const std::string& base) {
   static const std::array<const char*, 4> names = {"relative_error", "roundoff",
-                                                   "error_over_roundoff", "least_error_at"};
+                                                   "error_over_roundoff", "min_error_at"};
   return std::find(names.begin(), names.end(), base) != names.end();
 }
 

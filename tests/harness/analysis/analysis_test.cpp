@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(the_torques_of_a_slow_motion_hold_the_load) {
     }
   }
   BOOST_TEST(moved.quantities.at("center_velocity_y_m_per_s:platform").values.size() == 20);
-  BOOST_TEST(std::abs(moved.quantities.at("turn_work_residual").values.at(0)) < 1e-12);
+  BOOST_TEST(std::abs(moved.quantities.at("cycle_work_residual").values.at(0)) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(the_torques_of_a_path_bring_the_platform_along_it) {
@@ -284,12 +284,12 @@ BOOST_AUTO_TEST_CASE(references_are_compared_with_each_other) {
   write("c", "m", {10, 20});
   Json json = {{"id", "x"},
                {"title", "X"},
-               {"analysis", {{"comparison", {{"rows", {{"of", "a"}, {"from", "b"}}}}}}}};
+               {"analysis", {{"comparison", {{"rows", {{"compared", "a"}, {"baseline", "b"}}}}}}}};
   const References references;
   const auto result = analyse(testing::read(folder, json).document, references, {});
   BOOST_TEST(result.quantities.at("difference_percent:rows").values[1] == 10,
              boost::test_tools::tolerance(1e-14));
-  json["analysis"]["comparison"]["rows"]["from"] = "c";
+  json["analysis"]["comparison"]["rows"]["baseline"] = "c";
   BOOST_TEST(contains(
       complaint([&] { (void)analyse(testing::read(folder, json).document, references, {}); }),
       "/analysis/comparison/rows: expected two references of one unit"));
@@ -327,7 +327,7 @@ BOOST_AUTO_TEST_CASE(
   Json json = testing::manipulator();
   json["model"]["manipulator"]["links"]["elements"] = 8;
   const AnalysisResult full = result_of(json);
-  json["analysis"]["modes"]["reduction"]["modes_of_a_member"] = 3;
+  json["analysis"]["modes"]["reduction"]["fixed_interface_modes"] = 3;
   const AnalysisResult few = result_of(json);
   // 6 links, 7 inner nodes each of 3 coordinates: 18 modes take the place of 126.
   BOOST_TEST(only(full, "degrees_of_freedom") - only(few, "degrees_of_freedom") == 126 - 18);

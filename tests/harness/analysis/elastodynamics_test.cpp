@@ -30,7 +30,7 @@ Json motion(const Json& trajectory) {
       },
       "loads": {"F": {"node": "P", "force_N": [1, 0]}}
     },
-    "analysis": {"elastodynamics": {"step_s": 0.001, "start": "quasi-static"}}
+    "analysis": {"elastodynamics": {"step_s": 0.001, "initial_state": "quasi-static"}}
   })");
   json["model"]["trajectory"] = trajectory;
   return json;

@@ -20,7 +20,7 @@ namespace {
 Json catalogue_case(const char* id) {
   Json json = load_case(find_case(id)).document.value();
   for (const char* key :
-       {"extends", "checks", "battery", "variants", "sweeps", "figures", "expect_status"}) {
+       {"extends", "checks", "stress_suite", "variants", "sweeps", "figures", "expect_status"}) {
     json.erase(key);
   }
   return json;
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(every_solver_of_linear_hard_models_gives_numbers_or_a_reaso
     json["analysis"] = {{"large-statics", Json::object()}};
     check_outcome(json, {"load factor"});
     for (const char* path : {"automatic", "dense", "sparse"}) {
-      json["analysis"] = {{"modes", {{"count", 6}, {"path", path}}}};
+      json["analysis"] = {{"modes", {{"count", 6}, {"eigensolver", path}}}};
       check_outcome(json, {});
     }
   }

@@ -103,11 +103,11 @@ BOOST_AUTO_TEST_CASE(a_motion_starts_from_rest_from_statics_or_with_a_velocity) 
   Json json = oscillator();
   Json& transient = json["analysis"]["transient"];
   transient["method"] = "modal-superposition";
-  transient["initial"] = "static";
+  transient["initial_state"] = "static-equilibrium";
   BOOST_TEST(last(result_of(json), "displacement_x_m:P") == 0.01, tolerance(1e-10));
   transient["load_history"] = {{"time_s", {0}}, {"factor", {0}}};
   BOOST_TEST(last(result_of(json), "displacement_x_m:P") == 0.01 * std::cos(5.0), tolerance(1e-10));
-  transient["initial"] = {{"velocity_m_per_s", {2, 7}}};  // held along y
+  transient["initial_state"] = {{"velocity_m_per_s", {2, 7}}};  // held along y
   transient["outputs"] = {"displacement_x_m:P", "velocity_x_m_per_s:P", "acceleration_x_m_per_s2:P",
                           "displacement_y_m:P"};
   const AnalysisResult result = result_of(json);
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(damping_by_modes_and_by_rayleigh_are_one_for_one_mode) {
     transient["method"] = method;
     transient["damping"] = {{"modal", {{"ratio", {0.2}}}}};
     const double modal = last(result_of(json), "displacement_x_m:P");
-    transient["damping"] = {{"rayleigh", {{"mass_1_per_s", 2}, {"stiffness_s", 0.02}}}};
+    transient["damping"] = {{"rayleigh", {{"mass_per_s", 2}, {"stiffness_s", 0.02}}}};
     BOOST_TEST(last(result_of(json), "displacement_x_m:P") == modal, tolerance(1e-9));
     const double w = 10 * std::sqrt(1 - 0.04);
     const double exact = 0.01 * (1 - std::exp(-1.0) * (std::cos(w / 2) + 2 / w * std::sin(w / 2)));

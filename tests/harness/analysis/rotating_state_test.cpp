@@ -101,7 +101,8 @@ BOOST_AUTO_TEST_CASE(the_tension_of_a_stretched_blade_exceeds_that_of_a_stiff_on
     json["analysis"] = {
         {"modes",
          {{"count", 1},
-          {"rotating", {{"angular_speed_rad_s", 20}, {"axis", "y"}, {"tension", tension}}}}}};
+          {"rotating",
+           {{"angular_speed_rad_s", 20}, {"axis", "y"}, {"prestress_configuration", tension}}}}}};
     const AnalysisResult result = result_of(json);
     return values(result, "frequency_Hz")[0];
   };

@@ -17,14 +17,14 @@ BOOST_AUTO_TEST_CASE(the_unit_is_the_end_of_the_name) {
   BOOST_TEST(unit_of("inertia_kg_m2:total") == "kg m^2");
   BOOST_TEST(unit_of("stress_Pa:AB") == "Pa");
   BOOST_TEST(unit_of("difference_percent:rows") == "%");
-  BOOST_TEST(unit_of("parallel_distance") == "1");
+  BOOST_TEST(unit_of("parallel_singularity_distance") == "1");
   BOOST_TEST(unit_of("frequency_roundoff") == "1");
   BOOST_TEST(unit_of("odd:name_m") == "1");
 }
 
 BOOST_AUTO_TEST_CASE(what_says_how_well_was_computed_is_no_result_that_converges) {
-  for (const char* name :
-       {"frequency_roundoff", "equilibrium_residual_N", "step_residual:J", "constraint_gap_rate"}) {
+  for (const char* name : {"frequency_roundoff", "equilibrium_residual_N", "step_residual:J",
+                           "constraint_rate_residual"}) {
     BOOST_TEST(is_diagnostic(name), name);
   }
   for (const char* name : {"frequency_Hz", "displacement_error", "compliance_J", "x:roundoff"}) {

@@ -56,7 +56,7 @@ std::vector<Json> sound_cases() {
       {"method", {{"newmark", {{"beta", 0.25}, {"gamma", 0.5}}}}},
       {"damping", {{"modal", {{"ratio", 0.02}, {"modes", 3}}}}},
       {"load_history", {{"time_s", {0, 0.002, 0.002}}, {"factor", {0, 1, 0}}}},
-      {"initial", {{"velocity_m_per_s", {0, 1}}}},
+      {"initial_state", {{"velocity_m_per_s", {0, 1}}}},
       {"outputs", {"displacement_y_m:B", "bending_moment_N_m:AB.start"}}};
   motion["analysis"].erase("statics");
   Json response = testing::cantilever();
@@ -65,7 +65,7 @@ std::vector<Json> sound_cases() {
        {{"from_Hz", 1},
         {"to_Hz", 40},
         {"points", 5},
-        {"damping", {{"rayleigh", {{"mass_1_per_s", 1}, {"stiffness_s", 0.001}}}}},
+        {"damping", {{"rayleigh", {{"mass_per_s", 1}, {"stiffness_s", 0.001}}}}},
         {"outputs", {"stress_Pa:AB"}}}}};
   response["model"]["members"]["AB"]["arc_center_m"] = {1, -3};
   response["model"]["members"]["AB"]["nodes"] = {"B", "A"};

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(a_case_extends_another_and_keeps_its_own_judgement) {
   const Folder folder;
   Json base = testing::cantilever();
   base["labels"] = {"mine"};
-  base["checks"]["c"] = {{"quantity", "digits_left"},
+  base["checks"]["c"] = {{"quantity", "estimated_correct_digits"},
                          {"role", "verification"},
                          {"bound", {{"at_least", 1}, {"why", "w"}}}};
   base["variants"]["v"] = {{"model", {{"elements", 2}}}, {"checks", {{"c", nullptr}}}};
@@ -103,11 +103,11 @@ BOOST_AUTO_TEST_CASE(an_indicator_of_the_battery_is_a_check_of_the_case) {
   const Folder folder;
   const auto file =
       folder.write("beam.json", R"({"id": "beam", "title": "t", "analysis": {"modes": {"count": 1}},
-    "battery": {"item": 1, "indicators": ["digits", "driftt"]},
+    "stress_suite": {"item": 1, "indicators": ["digits", "driftt"]},
     "checks": {"digits": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}},
                "drift": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}}}})");
   const std::string said = complaint([&] { static_cast<void>(load_case(file)); });
-  BOOST_TEST(contains(said, "/battery/indicators/1"));
+  BOOST_TEST(contains(said, "/stress_suite/indicators/1"));
   BOOST_TEST(contains(said, "did you mean 'drift'?"));
 }
 

@@ -50,8 +50,8 @@ Json beam(const Folder& folder, double off) {
       "length": {"pointers": ["/model/nodes/B/0"], "half_width": 0.5, "nominal": true, "why": "round"},
       "words": {"pointers": ["/model/members/AB/section"], "half_width": 1, "why": "no number here"}
     },
-    "refinements": {"beam": {"pointer": "/model/elements", "measures": "elements", "theory_order": 4}},
-    "samples": 300, "literal_samples": 50, "seed": 1
+    "refinements": {"beam": {"pointer": "/model/elements", "refinement_by": "elements", "theory_order": 4}},
+    "samples": 300, "samples_all_inputs": 50, "seed": 1
   })");
   return json;
 }

@@ -25,12 +25,12 @@ Document claims_of(const Json& readings, const std::string& expected,
                       {{"1",
                         {{"claim", "It holds."},
                          {"place", "Page 1"},
-                         {"readings", readings},
-                         {"together", together},
+                         {"interpretations", readings},
+                         {"combine_as", together},
                          {"expected", expected},
                          {"conclusion", "So it is."}}}}}};
   Document document;
-  document.apply_patch("ledger.json", "", json);
+  document.apply_patch("claims.json", "", json);
   document.validate("claims");
   return document;
 }
@@ -58,9 +58,12 @@ Run bend(double first, double second) {
   return run;
 }
 
-const Json ratio = {
-    {"what", "tip over target"}, {"case", "bend"},         {"check", "tip"},
-    {"take", "ratio"},           {"confirms", {0.9, 1.1}}, {"contradicts", {1.5, nullptr}}};
+const Json ratio = {{"description", "tip over target"},
+                    {"case", "bend"},
+                    {"check", "tip"},
+                    {"metric", "ratio"},
+                    {"confirms", {0.9, 1.1}},
+                    {"contradicts", {1.5, nullptr}}};
 
 ClaimVerdict verdict(const Document& document, const std::vector<Run>& runs) {
   return evaluate_claims(document, runs).claims.at(0).verdict;
@@ -118,7 +121,7 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm
 
 BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
   Json jointly = ratio;
-  jointly["jointly"] = true;
+  jointly["require_all_entries"] = true;
   jointly["contradicts"] = "otherwise";
   const Document document = claims_of({{"r", jointly}}, "confirmed");
   BOOST_TEST((verdict(document, {bend(1, 1)}) == ClaimVerdict::confirmed));
@@ -137,8 +140,8 @@ BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
-  const Json grows = {{"what", "growth"},           {"case", "bend"},
-                      {"quantity", "frequency_Hz"}, {"take", "steps"},
+  const Json grows = {{"description", "growth"},    {"case", "bend"},
+                      {"quantity", "frequency_Hz"}, {"metric", "steps"},
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
   const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
   const Interpretation& reading = found.claims[0].interpretations[0];
@@ -151,8 +154,8 @@ BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
 
 BOOST_AUTO_TEST_CASE(
     a_quantity_that_is_no_number_leaves_its_claim_unmeasured_and_its_entries_finite) {
-  const Json grows = {{"what", "growth"},           {"case", "bend"},
-                      {"quantity", "frequency_Hz"}, {"take", "value"},
+  const Json grows = {{"description", "growth"},    {"case", "bend"},
+                      {"quantity", "frequency_Hz"}, {"metric", "value"},
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
   Run run = bend(1, 1);
   run.result.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
@@ -173,11 +176,12 @@ BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
       (void)evaluate_claims(claims_of({{"r", reading}}, "confirmed"), {bend(1, 1)});
     });
   };
-  BOOST_TEST(contains(refusal("contradicts", {1, 2}),
-                      "/claims/1/readings/r: expected windows of which no value is in both"));
+  BOOST_TEST(
+      contains(refusal("contradicts", {1, 2}),
+               "/claims/1/interpretations/r: expected windows of which no value is in both"));
   BOOST_TEST(contains(refusal("quantity", "frequency_Hz"), "expected either a 'check'"));
-  BOOST_TEST(contains(refusal("take", "steps"), "/claims/1/readings/r/take: expected"));
-  BOOST_TEST(contains(refusal("take", "quotient"), "/claims/1/readings/r/take"));
+  BOOST_TEST(contains(refusal("metric", "steps"), "/claims/1/interpretations/r/metric: expected"));
+  BOOST_TEST(contains(refusal("metric", "quotient"), "/claims/1/interpretations/r/metric"));
 }
 
 BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its_cases) {
@@ -192,8 +196,8 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its
   // No reading names a case or a check that is not there.
   const std::vector<Case> catalogue = load_catalogue({});
   for (const auto& [id, claim] : JsonView(document)["claims"].entries()) {
-    if (!claim.has("readings")) continue;
-    for (const auto& [name, reading] : claim["readings"].entries()) {
+    if (!claim.has("interpretations")) continue;
+    for (const auto& [name, reading] : claim["interpretations"].entries()) {
       if (!reading.has("case")) continue;
       const auto owner = std::find_if(
           catalogue.begin(), catalogue.end(),

@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(a_singular_model_holds_where_it_is_expected_and_fails_where
   const Folder folder;
   Json json = testing::cantilever();
   json["model"]["supports"] = {{"A", {"x", "y"}}};
-  json["checks"]["c"] = {{"quantity", "digits_left"},
+  json["checks"]["c"] = {{"quantity", "estimated_correct_digits"},
                          {"role", "verification"},
                          {"bound", {{"at_least", 3}, {"why", "w"}}}};
   std::vector<Run> runs = run_all({testing::read(folder, json)});

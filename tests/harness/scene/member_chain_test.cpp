@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(a_rod_held_across_stretches_without_bending_stiffness) {
   json["model"]["sections"]["bar"] = {
       {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 0}};
   json["model"]["members"]["AB"]["ends"] = {"hinged", "hinged"};
-  json["model"]["members"]["AB"]["held"] = {"y"};
+  json["model"]["members"]["AB"]["restrained_motions"] = {"y"};
   json["model"]["supports"] = {{"A", {"x", "y"}}, {"B", {"y"}}};
   json["model"]["loads"]["tip"]["force_N"] = {1000, 0};
   const AnalysisResult result = result_of(json);

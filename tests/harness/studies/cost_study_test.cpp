@@ -19,12 +19,12 @@ Json study_json() {
     "id": "arm", "family": "arms", "title": "A cantilever's first frequencies", "case": "cantilever",
     "patch": {"analysis": {"statics": null, "modes": {"count": 2}}},
     "quantities": {"frequency_Hz": {"index": [0, 1]}},
-    "truth": {"title": "32 elements", "patch": {"model": {"elements": 32}}},
+    "reference_solution": {"title": "32 elements", "patch": {"model": {"elements": 32}}},
     "curves": {
       "consistent": {"title": "consistent mass", "pointers": ["/model/elements"], "values": [1, 2, 4, 8],
-                     "each": "{} elements", "quick": [2, 4]},
+                     "value_title": "{} elements", "quick_values": [2, 4]},
       "lumped": {"title": "lumped mass", "patch": {"model": {"members": {"AB": {"mass_matrix": "lumped"}}}},
-                 "pointers": ["/model/elements"], "values": [4, 16], "quick": []}
+                 "pointers": ["/model/elements"], "values": [4, 16], "quick_values": []}
     },
     "baseline": {"curve": "consistent", "value": 4}
   })");
@@ -89,7 +89,8 @@ BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
   BOOST_TEST(contains(spoiled("/curves/lumped/pointers/0", "/model/elemnts"),
                       "/curves/lumped/pointers/0: expected a pointer to a value of the case"));
   BOOST_TEST(contains(spoiled("/curves/lumped/values/1", -3), "arm.json: /curves/lumped/values/1"));
-  BOOST_TEST(contains(spoiled("/curves/consistent/quick/0", 3), "/curves/consistent/quick/0"));
+  BOOST_TEST(contains(spoiled("/curves/consistent/quick_values/0", 3),
+                      "/curves/consistent/quick_values/0"));
   BOOST_TEST(contains(spoiled("/curves/lumped/patches", Json::parse("[{}]")),
                       "expected either 'pointers' or 'patches'"));
   BOOST_TEST(contains(spoiled("/baseline/curve", "none"), "/baseline"));
@@ -97,11 +98,11 @@ BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
                       "expected either 'truth' or references"));
   BOOST_TEST(contains(spoiled("/patch/model", {{"elemnts", 3}}), "elemnts"));
   Json json = study_json();
-  json.erase("truth");
+  json.erase("reference_solution");
   BOOST_TEST(contains(fault_of(json), "expected 'truth'"));
   json = study_json();
   json["quantities"] = {{"frequency_Hz", {{"reference", "cantilever-tip-force-rotation"}}}};
-  json.erase("truth");
+  json.erase("reference_solution");
   BOOST_TEST(contains(fault_of(json), "expected a reference in Hz"));
 }
 

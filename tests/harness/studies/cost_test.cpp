@@ -27,7 +27,7 @@ Json study_json() {
     "id": "arm", "family": "arms", "title": "A cantilever's first frequencies", "case": "cantilever",
     "patch": {"analysis": {"statics": null, "modes": {"count": 2}}},
     "quantities": {"frequency_Hz": {"index": [0, 1]}},
-    "truth": {"title": "16 elements", "patch": {"model": {"elements": 16}}},
+    "reference_solution": {"title": "16 elements", "patch": {"model": {"elements": 16}}},
     "curves": {
       "elements": {"title": "elements", "pointers": ["/model/elements"], "values": [1, 2, 4, 16]},
       "more": {"title": "six modes of one element",
@@ -121,7 +121,8 @@ BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
   json["time_limit_s"] = 1;
   json["curves"]["more"] = {
       {"title", "far too fine"},
-      {"patch", {{"model", {{"elements", 4000}}}, {"analysis", {{"modes", {{"path", "dense"}}}}}}}};
+      {"patch",
+       {{"model", {{"elements", 4000}}}, {"analysis", {{"modes", {{"eigensolver", "dense"}}}}}}}};
   const MeasuredStudy study = measured(json);
   BOOST_TEST((study.settings[4].status == MeasurementStatus::timed_out));
   BOOST_TEST(study.settings[4].cpu_s == 1);
@@ -138,7 +139,7 @@ BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
 
 BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
   Json json = study_json();
-  json["truth"]["patch"]["model"]["supports"] = {{"A", nullptr}};
+  json["reference_solution"]["patch"]["model"]["supports"] = {{"A", nullptr}};
   json["quantities"]["frequency_Hz"]["index"] = {7};
   BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a truth"));
   json = study_json();
