@@ -95,11 +95,11 @@ BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
                       "expected either 'pointers' or 'patches'"));
   BOOST_TEST(contains(spoiled("/baseline/curve", "none"), "/baseline"));
   BOOST_TEST(contains(spoiled("/quantities/frequency_Hz/reference", "cantilever-frequencies"),
-                      "expected either 'truth' or references"));
+                      "expected either 'reference_solution' or references"));
   BOOST_TEST(contains(spoiled("/patch/model", {{"elemnts", 3}}), "elemnts"));
   Json json = study_json();
   json.erase("reference_solution");
-  BOOST_TEST(contains(fault_of(json), "expected 'truth'"));
+  BOOST_TEST(contains(fault_of(json), "expected 'reference_solution'"));
   json = study_json();
   json["quantities"] = {{"frequency_Hz", {{"reference", "cantilever-tip-force-rotation"}}}};
   json.erase("reference_solution");

@@ -9,7 +9,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// The sample's results with some of its cases in a battery, by item.
+/// The sample's results with some of its cases in the stress suite, by item.
 nlohmann::ordered_json with_stress_suite() {
   auto results = sample_results();
   int item = 0;
@@ -30,7 +30,7 @@ std::string stress_suite_of(const nlohmann::ordered_json& results) {
   const std::string page =
       text_of(trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
   BOOST_TEST(markup_fault(page, true) == "");
-  const std::size_t from = page.find("<section id=\"battery\">");
+  const std::size_t from = page.find("<section id=\"stress-suite\">");
   return from == std::string::npos ? "" : page.substr(from, page.find("</section>", from) - from);
 }
 
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(an_indicator_that_no_run_has_does_not_hold) {
   BOOST_TEST(text.find("3 not run") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(without_cases_of_a_battery_there_is_no_section) {
+BOOST_AUTO_TEST_CASE(without_cases_of_a_stress_suite_there_is_no_section) {
   BOOST_TEST(stress_suite_of(sample_results()).empty());
 }
 

@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(a_law_of_two_orders_is_shown_by_how_well_it_meets_the_error
 }
 
 BOOST_AUTO_TEST_CASE(differences_from_the_paper_stand_with_the_noise_that_they_stand_against) {
-  const std::string uncertainty = section("noise");
+  const std::string uncertainty = section("validation-uncertainty");
   BOOST_TEST(
       says(uncertainty, "16 comparisons with the paper: 8 within the noise, 8 the model is off."));
   BOOST_TEST(says(uncertainty, "that of the link thickness, for 16 of 16."));
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(without_evidence_of_a_kind_its_section_is_left_out) {
   }
   for (auto& [id, info] : results["cases"].items()) info.erase("labels");
   const std::string page = page_of(results);
-  for (const char* id : {"targets", "orders", "noise"}) {
+  for (const char* id : {"targets", "orders", "validation-uncertainty"}) {
     BOOST_TEST(section(page, id) == "", id);
     BOOST_TEST(!says(page, std::string("href=\"#") + id + "\""));
   }
