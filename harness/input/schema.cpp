@@ -18,8 +18,7 @@ struct Place {
 
   [[nodiscard]] JsonPointer pointer() const {
     if (parent == nullptr) return JsonPointer();
-    return key.data() == nullptr ? parent->pointer() / index
-                                 : parent->pointer() / std::string(key);
+    return key.data() == nullptr ? parent->pointer() / index : parent->pointer() / std::string(key);
   }
 };
 
@@ -63,8 +62,7 @@ bool array_obeys(const Json& value, const std::string& name, const SchemaRule& l
 bool object_obeys(const Json& value, const std::string& name, const SchemaRule& limit) {
   if (name == "minProperties") return value.size() >= limit.GetUint64();
   if (name == "maxProperties") return value.size() <= limit.GetUint64();
-  return name != "required" ||
-         std::all_of(limit.Begin(), limit.End(), [&](const SchemaRule& key) {
+  return name != "required" || std::all_of(limit.Begin(), limit.End(), [&](const SchemaRule& key) {
            return value.contains(key.GetString());
          });
 }
