@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "harness/analysis/analysis_kinds.h"
-#include "harness/scene/eigen_path.h"
+#include "harness/readers/eigen_method.h"
 #include "solver/statics/buckling.h"
 
 namespace trammel::harness {
@@ -17,7 +17,7 @@ std::string label(solver::Index mode, double factor) {
 }
 
 solver::BucklingOptions read_buckling_options(const JsonView& analysis) {
-  return {analysis.get<solver::Index>("count", 3), read_eigen_path(analysis)};
+  return {analysis.get<solver::Index>("count", 3), read_eigen_method(analysis)};
 }
 
 /// The forces on nodes at a load factor: critical_force_N:NAME.

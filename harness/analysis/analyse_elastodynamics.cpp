@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "harness/analysis/analysis_kinds.h"
+#include "harness/readers/time_reader.h"
 #include "harness/scene/rigid_case_model.h"
-#include "harness/scene/time_reader.h"
 #include "solver/manipulator/elastodynamics.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"

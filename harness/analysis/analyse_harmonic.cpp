@@ -2,7 +2,7 @@
 
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/base/numbers.h"
-#include "harness/scene/damping_reader.h"
+#include "harness/readers/damping_reader.h"
 #include "harness/scene/outputs.h"
 
 namespace trammel::harness {

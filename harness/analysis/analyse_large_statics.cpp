@@ -2,8 +2,8 @@
 
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/base/text.h"
+#include "harness/readers/joint_reader.h"
 #include "harness/scene/draw_large.h"
-#include "harness/scene/joint_reader.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"

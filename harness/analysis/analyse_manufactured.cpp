@@ -3,7 +3,7 @@
 
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/analysis/manufactured.h"
-#include "harness/scene/material_reader.h"
+#include "harness/readers/material_reader.h"
 
 namespace trammel::harness {
 namespace {

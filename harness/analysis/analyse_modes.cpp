@@ -2,7 +2,7 @@
 
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/analysis/rotating_state.h"
-#include "harness/scene/eigen_path.h"
+#include "harness/readers/eigen_method.h"
 #include "solver/modes/modes.h"
 #include "solver/modes/prestressed_modes.h"
 #include "solver/modes/reduction.h"
@@ -13,7 +13,7 @@ namespace {
 constexpr solver::Index kMaxDrawnShapes = 12;
 
 solver::ModesOptions read_modes_options(const JsonView& analysis) {
-  return {analysis["count"].get<solver::Index>(), read_eigen_path(analysis)};
+  return {analysis["count"].get<solver::Index>(), read_eigen_method(analysis)};
 }
 
 std::string label(solver::Index mode, double frequency) {

@@ -179,9 +179,10 @@ void add(const OptionCounts& added, OptionCounts& all) {
 void analyse_options(const Document& document, const References& references, Recorder& record) {
   const JsonView place = JsonView(document)["analysis"]["options"];
   const std::string here = document.origin(place.pointer()).file;
+  const Catalogue catalogue;
   OptionCounts all;
   for (const auto& [name, choice] : place["cases"].entries()) {
-    const Case tried = load_case(find_base_case(name, here));
+    const Case tried = load_case(catalogue.find_base_case(name, here), catalogue);
     OptionCounts own;
     for (const std::string& variant : tried.variants()) {
       const Document whole = patched(tried, variant);

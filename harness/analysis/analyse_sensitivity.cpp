@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "harness/analysis/analysis_kinds.h"
-#include "harness/scene/design_parameter.h"
+#include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
 #include "solver/sensitivity/frequency_complex_step.h"
 #include "solver/sensitivity/frequency_differences.h"

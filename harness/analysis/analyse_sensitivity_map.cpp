@@ -5,7 +5,7 @@
 
 #include "harness/analysis/analysis_kinds.h"
 #include "harness/base/text.h"
-#include "harness/scene/design_parameter.h"
+#include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
 #include "solver/sensitivity/workspace_curves.h"
 

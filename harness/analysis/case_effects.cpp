@@ -7,7 +7,7 @@
 #include "harness/analysis/rotating_state.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/scene/time_reader.h"
+#include "harness/readers/time_reader.h"
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/effects/dynamic_effect_estimates.h"
 

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "harness/scene/damping_reader.h"
-#include "harness/scene/joint_reader.h"
-#include "harness/scene/material_reader.h"
+#include "harness/readers/damping_reader.h"
+#include "harness/readers/joint_reader.h"
+#include "harness/readers/material_reader.h"
 #include "solver/assembly/damping.h"
 #include "solver/modes/modes.h"
 #include "solver/time/modal_superposition.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <complex>
 
-#include "harness/scene/eigen_path.h"
-#include "harness/scene/material_reader.h"
+#include "harness/readers/eigen_method.h"
+#include "harness/readers/material_reader.h"
 
 namespace trammel::harness {
 namespace {
@@ -57,7 +57,7 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   const JsonView rotating = modes["rotating"];
   solver::RotatingOptions options;
   options.count = modes["count"].get<solver::Index>();
-  options.method = read_eigen_path(modes);
+  options.method = read_eigen_method(modes);
   options.frame.axis = read_axis(rotating);
   if (rotating.has("center_m")) options.frame.centre = read_point(rotating["center_m"]);
   options.prestress_at_steady_state =

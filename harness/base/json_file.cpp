@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include "harness/base/errors.h"
@@ -13,96 +12,101 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 100;
 
-/// Walks through a text without building it, and notes the first thing that is wrong.
+/// Builds what it reads, and throws at the first thing that is wrong.
 class StrictReader : public nlohmann::json_sax<Json> {
  public:
-  StrictReader(std::string file, const std::string& text) : file_(std::move(file)), text_(text) {}
+  explicit StrictReader(std::string name) : name_(std::move(name)) {}
 
-  bool null() override { return value(); }
-  bool boolean(bool) override { return value(); }
-  bool number_integer(number_integer_t) override { return value(); }
-  bool number_unsigned(number_unsigned_t) override { return value(); }
-  bool number_float(number_float_t, const string_t&) override { return value(); }
-  bool string(string_t&) override { return value(); }
-  bool binary(binary_t&) override { return value(); }
-  bool start_object(std::size_t) override { return open(true); }
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t&) override { return add(value); }
+  bool string(string_t& value) override { return add(std::move(value)); }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(Json::object()); }
   bool end_object() override { return close(); }
-  bool start_array(std::size_t) override { return open(false); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
   bool end_array() override { return close(); }
 
   bool key(string_t& name) override {
-    Level& level = levels_.back();
-    level.step = name;
-    if (level.keys.insert(name).second) return true;
-    throw InputError(file_, pointer(),
-                     "expected every key once (got '" + printable(name) + "' twice)");
-  }
-
-  bool parse_error(std::size_t position, const std::string& token,
-                   const nlohmann::detail::exception& error) override {
-    const std::size_t offset = position > 0 ? position - 1 : 0;  // of the last byte read
-    const std::string what = error.what();
-    const bool overflow = what.find("out_of_range") != std::string::npos;
-    throw InputError(file_ + ": " + place_of(offset) + ": expected " +
-                     (overflow ? "a number that a double can hold" : "JSON") + " (got '" +
-                     printable(token, 30) + "')");
-  }
-
- private:
-  struct Level {
-    bool object = false;
-    std::set<std::string> keys;
-    std::string step;
-    std::size_t items = 0;
-  };
-
-  /// Where a byte stands, as an editor counts.
-  [[nodiscard]] std::string place_of(std::size_t offset) const {
-    const std::string before = text_.substr(0, std::min(offset, text_.size()));
-    const auto line = std::count(before.begin(), before.end(), '\n');
-    const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
-    return "line " + std::to_string(line + 1) + ", column " +
-           std::to_string(before.size() - start + 1);
-  }
-  [[nodiscard]] std::string pointer() const {
-    JsonPointer path;
-    for (const Level& level : levels_) path /= level.step;
-    return path.to_string();
-  }
-  bool value() {
-    if (!levels_.empty() && !levels_.back().object) {
-      levels_.back().step = std::to_string(levels_.back().items++);
+    if (open_.back()->contains(name)) {
+      throw InputError(name_, (pointer() / name).to_string(),
+                       "expected every key once (got '" + printable(name) + "' twice)");
     }
+    member_ = &(*open_.back())[name];
     return true;
   }
-  bool open(bool object) {
-    value();
-    if (levels_.size() == kMaxDepth) {
-      throw InputError(file_, pointer(),
+
+  bool parse_error(std::size_t, const std::string& token,
+                   const nlohmann::detail::exception& error) override {
+    const std::string got = " (got '" + printable(token, 30) + "')";
+    const std::string what = error.what();
+    const std::string head = "parse error at ";
+    const std::size_t place = what.find(head);
+    if (place == std::string::npos) {  // out_of_range, of a number
+      throw InputError(name_, here(), "expected a number that a double can hold" + got);
+    }
+    const std::size_t start = place + head.size();  // "line 1, column 5: ..."
+    throw InputError(name_ + ": " + what.substr(start, what.find(':', start) - start) +
+                     ": expected JSON" + got);
+  }
+
+  Json take() { return std::move(root_); }
+
+ private:
+  /// Of the innermost open object or array.
+  [[nodiscard]] JsonPointer pointer() const {
+    JsonPointer path;
+    for (std::size_t i = 1; i < open_.size(); ++i) path = path / last_step(*open_[i - 1]);
+    return path;
+  }
+  [[nodiscard]] static std::string last_step(const Json& open) {
+    return open.is_object() ? std::prev(open.end()).key() : std::to_string(open.size() - 1);
+  }
+  /// Of the value that comes next.
+  [[nodiscard]] std::string here() const {
+    if (open_.empty()) return "";
+    const Json& last = *open_.back();
+    return (last.is_object() ? pointer() / last_step(last) : pointer() / last.size()).to_string();
+  }
+  Json* place(Json value) {
+    if (open_.empty()) return &(root_ = std::move(value));
+    if (open_.back()->is_object()) return &(*member_ = std::move(value));
+    return &open_.back()->emplace_back(std::move(value));
+  }
+  bool add(Json value) {
+    place(std::move(value));
+    return true;
+  }
+  bool open(Json empty) {
+    if (open_.size() == kMaxDepth) {
+      throw InputError(name_, here(),
                        "expected at most " + std::to_string(kMaxDepth) + " levels of nesting");
     }
-    levels_.push_back({object, {}, {}, 0});
+    open_.push_back(place(std::move(empty)));
     return true;
   }
   bool close() {
-    levels_.pop_back();
+    open_.pop_back();
     return true;
   }
 
-  std::string file_;
-  const std::string& text_;
-  std::vector<Level> levels_;
+  std::string name_;
+  Json root_;
+  Json* member_ = nullptr;   ///< the value of the key read last
+  std::vector<Json*> open_;  ///< objects and arrays from the root inwards
 };
 
 }  // namespace
 
 Json parse_json(const std::string& text, const std::string& name) {
-  StrictReader reader(name, text);
+  StrictReader reader(name);
   Json::sax_parse(text, &reader);
-  return Json::parse(text);
+  return reader.take();
 }
 
-Json read_json(const std::filesystem::path& file) {
+std::string read_text(const std::filesystem::path& file) {
   std::error_code ignored;
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file, ignored)) {
@@ -110,7 +114,11 @@ Json read_json(const std::filesystem::path& file) {
   }
   std::ostringstream text;
   text << in.rdbuf();
-  return parse_json(text.str(), file.string());
+  return text.str();
+}
+
+Json read_json(const std::filesystem::path& file) {
+  return parse_json(read_text(file), file.string());
 }
 
 namespace {

@@ -7,9 +7,13 @@
 
 namespace trammel::harness {
 
+/// All of a file.
+/// @throws InputError  where it cannot be read.
+[[nodiscard]] std::string read_text(const std::filesystem::path& file);
+
 /// Reads one JSON document, strictly: UTF-8, no duplicate keys, no number beyond a double.
-/// @throws InputError  with the byte offset where the text is not JSON, with the JSON pointer of a
-///                     key that stands twice.
+/// @throws InputError  with line and column where the text is not JSON, with the JSON pointer of a
+///                     key that stands twice or a number that is too large.
 [[nodiscard]] Json read_json(const std::filesystem::path& file);
 
 /// The same for a text in memory; `name` stands in for the file in messages.

@@ -47,7 +47,7 @@ int claims_command(unsigned jobs, bool json) {
   options.jobs = jobs;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   const std::vector<Run> runs =
-      run_cases(cases_of(document, load_catalogue({})), references, options);
+      run_cases(cases_of(document, Catalogue().load()), references, options);
   const ClaimSet claim_set = evaluate_claims(document, runs);
   if (json) {
     std::cout << pretty(to_json(claim_set));

@@ -30,7 +30,7 @@ Side load_side(const std::string& name, const References& references) {
   const auto colon = name.rfind(':');
   const bool split =
       colon != std::string::npos && name.find('/', colon) == std::string::npos && colon > 0;
-  const Case given = load_case(find_case(split ? name.substr(0, colon) : name));
+  const Case given = load_named_case(split ? name.substr(0, colon) : name);
   const std::string variant = split ? name.substr(colon + 1) : kBaseVariant;
   Side side{given.id() + ":" + variant, patched(given, variant), {}};
   Run& run = side.run;
@@ -141,7 +141,7 @@ bool is_results(const Json& json) {
 
 /// Why something cannot be compared with a results file.
 [[noreturn]] void refuse_beside_results(const std::string& name, const Json& json) {
-  if (!is_json_file(name)) (void)find_case(name.substr(0, name.rfind(':')));
+  if (!is_json_file(name)) (void)Catalogue().find_case(name.substr(0, name.rfind(':')));
   if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
     const auto schema_error = find_schema_error(json, "results");
     if (schema_error) throw InputError(name, schema_error->pointer, schema_error->message);

@@ -58,7 +58,7 @@ void print(const Convergence& found) {
 }  // namespace
 
 int converge_command(const std::string& name, const std::string& variant, unsigned jobs) {
-  const Case given = load_case(find_case(name));
+  const Case given = load_named_case(name);
   if (!given.document.value().contains("sweeps")) {
     throw given.document.error("", "expected 'sweeps', which say what to refine");
   }

@@ -33,7 +33,7 @@ std::vector<fs::path> studies_named(const std::string& word, std::vector<std::st
 
 fs::path find_one(const std::string& word, const std::vector<std::string>& known) {
   try {
-    return find_case(word);
+    return Catalogue().find_case(word);
   } catch (const InputError&) {
     if (word.find('/') != std::string::npos || fs::path(word).extension() == ".json") throw;
     const std::string hint = did_you_mean(word, known);

@@ -153,7 +153,7 @@ int effects_command(const EffectsCommand& command) {
   const bool random = command.name.empty();
   const Document document = [&] {
     if (random) return random_case(command, command.scene);
-    const Case given = load_case(find_case(command.name));
+    const Case given = load_named_case(command.name);
     return patched(given, command.variant.empty() ? kBaseVariant : command.variant);
   }();
   const EffectStudy study = study_effects(document, {command.tolerance, true, command.repeats});
@@ -178,7 +178,7 @@ int labelled_effects_command(const EffectsCommand& command) {
                ">elements", ">solves"});
   bool within = true;
   std::size_t scenes = 0;
-  for (const Case& given : load_catalogue(command.labels)) {
+  for (const Case& given : Catalogue().load(command.labels)) {
     const Document document = patched(given, kBaseVariant);
     if (!knows_effects(document)) continue;
     const EffectStudy study = study_effects(document, {command.tolerance, false, command.repeats});

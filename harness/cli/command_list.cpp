@@ -166,7 +166,7 @@ void describe_references(const References& references) {
 }  // namespace
 
 int list_cases(const std::vector<std::string>& labels, bool json) {
-  const std::vector<Case> cases = load_catalogue(labels);
+  const std::vector<Case> cases = Catalogue().load(labels);
   if (json) {
     Json all = Json::array();
     for (const Case& test_case : cases) all.push_back(summary(test_case));
@@ -188,7 +188,7 @@ int list_cases(const std::vector<std::string>& labels, bool json) {
 }
 
 int describe_case(const std::string& name, bool json) {
-  const Case given = load_case(find_case(name));
+  const Case given = load_named_case(name);
   if (json) {
     Json document = given.document.value();
     document["file"] = given.file.string();

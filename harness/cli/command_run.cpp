@@ -25,11 +25,11 @@ struct Selection {
 };
 
 /// Bad files among several must not take the good ones' results with them.
-Selection load(const std::vector<std::filesystem::path>& files) {
+Selection load(const std::vector<std::filesystem::path>& files, const Catalogue& catalogue) {
   Selection selection;
   for (const auto& file : files) {
     try {
-      selection.cases.push_back(load_case(file));
+      selection.cases.push_back(load_case(file, catalogue));
     } catch (const InputError& error) {
       if (files.size() == 1) throw;
       Run run;
@@ -223,11 +223,12 @@ std::filesystem::path write_all(const Json& json, const std::string& out,
 
 /// The cases that are named, and those with the labels.
 Selection select(const RunCommand& command) {
+  const Catalogue catalogue;
   std::vector<std::filesystem::path> files;
-  for (const std::string& name : command.cases) files.push_back(find_case(name));
-  Selection selection = load(files);
+  for (const std::string& name : command.cases) files.push_back(catalogue.find_case(name));
+  Selection selection = load(files, catalogue);
   if (!command.labels.empty()) {
-    for (Case& test_case : load_catalogue(command.labels)) {
+    for (Case& test_case : catalogue.load(command.labels)) {
       const bool there =
           std::any_of(selection.cases.begin(), selection.cases.end(),
                       [&](const Case& other) { return other.id() == test_case.id(); });
@@ -294,7 +295,8 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
 int report_command(const RunCommand& command, const Renderers& renderers) {
   if (!command.cases.empty() || !command.labels.empty()) return report_cases(command, renderers);
   require_writable(command.out);
-  const Selection selection = load(catalogue_files());
+  const Catalogue catalogue;
+  const Selection selection = load(catalogue.runnable_files(), catalogue);
   const References references;
   const std::vector<Run> runs =
       compute(selection, references, {"", command.jobs, TrackedQuantities::named, {}});

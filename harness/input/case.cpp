@@ -31,7 +31,8 @@ Json inherited(const Json& base) {
 }
 
 /// Lays the file over all that it extends, outermost first.
-void apply_with_bases(Document& document, const fs::path& file, std::vector<fs::path> seen) {
+void apply_with_bases(Document& document, const fs::path& file, const Catalogue& catalogue,
+                      std::vector<fs::path> seen) {
   const Json json = read_json(file);
   if (!json.is_object()) throw InputError(file.string(), "", "expected an object");
   seen.push_back(fs::weakly_canonical(file));
@@ -39,11 +40,11 @@ void apply_with_bases(Document& document, const fs::path& file, std::vector<fs::
     if (!extends->is_string()) {
       throw InputError(file.string(), "/extends", "expected the name or the file of a case");
     }
-    const fs::path base = find_base_case(extends->get<std::string>(), file);
+    const fs::path base = catalogue.find_base_case(extends->get<std::string>(), file);
     if (std::find(seen.begin(), seen.end(), fs::weakly_canonical(base)) != seen.end()) {
       throw InputError(file.string(), "/extends", "expected a case that does not extend this one");
     }
-    apply_with_bases(document, base, seen);
+    apply_with_bases(document, base, catalogue, seen);
   }
   const bool outermost = seen.size() == 1;
   document.apply_patch(file.string(), "", outermost ? json : inherited(json));
@@ -143,9 +144,13 @@ std::string Case::variant_title(const std::string& variant) const {
 }
 
 Case load_case(const fs::path& file) {
+  return load_case(file, Catalogue());
+}
+
+Case load_case(const fs::path& file, const Catalogue& catalogue) {
   Case loaded;
   loaded.file = file;
-  apply_with_bases(loaded.document, file, {});
+  apply_with_bases(loaded.document, file, catalogue, {});
   loaded.document.validate("case");
   check_names(loaded);
   check_indicators(loaded);

@@ -9,6 +9,8 @@
 
 namespace trammel::harness {
 
+class Catalogue;
+
 /// A case file, with what it extends; obeys the schema.
 struct Case {
   std::filesystem::path file;
@@ -28,6 +30,8 @@ inline constexpr const char* kBaseVariant = "base";
 
 /// @throws InputError  where the file, or one that it extends, cannot be read or breaks the schema.
 [[nodiscard]] Case load_case(const std::filesystem::path& file);
+/// @param catalogue  where names of cases to extend are looked up
+[[nodiscard]] Case load_case(const std::filesystem::path& file, const Catalogue& catalogue);
 
 /// The case with the variant's patch laid over it; "variants" itself is gone.
 /// @throws InputError  for an unknown name, or where the patched case breaks the schema.

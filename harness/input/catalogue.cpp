@@ -12,41 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path catalogue() {
-  return data_root() / "cases";
-}
-
 /// Rooms that hold something else than cases.
 bool holds_no_cases(const fs::path& folder) {
   const std::string name = folder.filename().string();
   return name == "schema" || name == "cost" || name == "claims";
-}
-
-/// All case files of all rooms, sorted by name.
-std::vector<fs::path> all_files() {
-  std::vector<fs::path> files;
-  for (auto entry = fs::recursive_directory_iterator(catalogue());
-       entry != fs::recursive_directory_iterator(); ++entry) {
-    if (entry->is_directory() && holds_no_cases(entry->path())) entry.disable_recursion_pending();
-    if (entry->path().extension() == ".json") files.push_back(entry->path());
-  }
-  std::sort(files.begin(), files.end(),
-            [](const fs::path& a, const fs::path& b) { return a.filename() < b.filename(); });
-  return files;
-}
-
-std::vector<std::string> all_names() {
-  std::vector<std::string> names;
-  for (const fs::path& file : all_files()) names.push_back(file.stem().string());
-  return names;
-}
-
-bool has_analysis(const fs::path& file, int depth = 0) {
-  const Json json = read_json(file);
-  if (!json.is_object()) return true;  // broken: for load_case to say
-  if (json.contains("analysis")) return true;
-  if (!json.contains("extends") || !json["extends"].is_string() || depth > 20) return false;
-  return has_analysis(find_base_case(json["extends"].get<std::string>(), file), depth + 1);
 }
 
 /// Nothing a user types as a name may leave the catalogue's folder.
@@ -54,27 +23,54 @@ bool is_name(const std::string& text) {
   return text.find('/') == std::string::npos && !text.empty() && text.front() != '.';
 }
 
-fs::path by_name(const std::string& name) {
-  if (!is_name(name)) return {};
-  fs::path wanted(name);
-  if (wanted.extension() != ".json") wanted += ".json";
-  for (const fs::path& file : all_files()) {
-    if (file.filename() == wanted) return file;
-  }
-  return {};
-}
-
 }  // namespace
 
-std::vector<fs::path> catalogue_files() {
-  std::vector<fs::path> files = all_files();
-  files.erase(std::remove_if(files.begin(), files.end(),
-                             [](const fs::path& file) { return !has_analysis(file); }),
-              files.end());
+Catalogue::Catalogue() : Catalogue(data_root() / "cases") {}
+
+Catalogue::Catalogue(const fs::path& folder) {
+  for (auto entry = fs::recursive_directory_iterator(folder);
+       entry != fs::recursive_directory_iterator(); ++entry) {
+    const fs::path& file = entry->path();
+    if (entry->is_directory() && holds_no_cases(file)) entry.disable_recursion_pending();
+    if (file.extension() != ".json") continue;
+    const auto [known, is_new] = files_.try_emplace(file.stem().string(), file);
+    if (is_new) continue;
+    throw InputError(std::max(known->second, file).string(), "/id",
+                     "expected a name that no other case has (got that of " +
+                         std::min(known->second, file).string() + ")");
+  }
+}
+
+bool Catalogue::has_analysis(const fs::path& file, int depth) const {
+  const Json json = read_json(file);
+  if (!json.is_object()) return true;  // broken: for load_case to say
+  if (json.contains("analysis")) return true;
+  if (!json.contains("extends") || !json["extends"].is_string() || depth > 20) return false;
+  return has_analysis(find_base_case(json["extends"].get<std::string>(), file), depth + 1);
+}
+
+fs::path Catalogue::by_name(const std::string& name) const {
+  if (!is_name(name)) return {};
+  const fs::path wanted(name);
+  const auto found = files_.find((wanted.extension() == ".json" ? wanted.stem() : wanted).string());
+  return found == files_.end() ? fs::path() : found->second;
+}
+
+std::string Catalogue::nearest_name(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& item : files_) names.push_back(item.first);
+  return did_you_mean(name, names);
+}
+
+std::vector<fs::path> Catalogue::runnable_files() const {
+  std::vector<fs::path> files;
+  for (const auto& item : files_) {
+    if (has_analysis(item.second)) files.push_back(item.second);
+  }
   return files;
 }
 
-fs::path find_case(const std::string& name_or_file) {
+fs::path Catalogue::find_case(const std::string& name_or_file) const {
   fs::path file(name_or_file);
   std::error_code error;
   const bool looks_like_file = !is_name(name_or_file) || file.extension() == ".json";
@@ -82,27 +78,26 @@ fs::path find_case(const std::string& name_or_file) {
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   if (looks_like_file) throw InputError(name_or_file + ": expected a readable file");
   throw InputError("expected a case of the catalogue or a file (got '" + printable(name_or_file) +
-                   "')" + did_you_mean(name_or_file, all_names()));
+                   "')" + nearest_name(name_or_file));
 }
 
-fs::path find_base_case(const std::string& name_or_file, const fs::path& from) {
+fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::path& from) const {
   std::error_code error;
   fs::path beside = from.parent_path() / name_or_file;
   if (fs::is_regular_file(beside, error)) return beside;
-  fs::path with_extension = beside;
-  with_extension += ".json";
-  if (fs::is_regular_file(with_extension, error)) return with_extension;
+  beside += ".json";
+  if (fs::is_regular_file(beside, error)) return beside;
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   throw InputError(from.string(), "/extends",
                    "expected a file relative to this one or a case of the catalogue (got '" +
-                       printable(name_or_file) + "')" + did_you_mean(name_or_file, all_names()));
+                       printable(name_or_file) + "')" + nearest_name(name_or_file));
 }
 
-std::vector<Case> load_catalogue(const std::vector<std::string>& labels) {
+std::vector<Case> Catalogue::load(const std::vector<std::string>& labels) const {
   std::vector<Case> chosen;
   std::set<std::string> known;
-  for (const fs::path& file : catalogue_files()) {
-    Case loaded = load_case(file);
+  for (const fs::path& file : runnable_files()) {
+    Case loaded = load_case(file, *this);
     const std::vector<std::string> case_labels = loaded.labels();
     known.insert(case_labels.begin(), case_labels.end());
     const bool wanted =
@@ -117,6 +112,11 @@ std::vector<Case> load_catalogue(const std::vector<std::string>& labels) {
                      did_you_mean(label, {known.begin(), known.end()}));
   }
   return chosen;
+}
+
+Case load_named_case(const std::string& name_or_file) {
+  const Catalogue catalogue;
+  return load_case(catalogue.find_case(name_or_file), catalogue);
 }
 
 }  // namespace trammel::harness

@@ -1,7 +1,9 @@
 #include "harness/input/schema_diagnostics.h"
 
+#include <rapidjson/stringbuffer.h>
+#include <rapidjson/writer.h>
+
 #include <algorithm>
-#include <cmath>
 
 #include "harness/base/text.h"
 #include "harness/input/former_names.h"
@@ -9,63 +11,43 @@
 namespace trammel::harness {
 namespace {
 
-using Plain = nlohmann::json;
-using Rules = std::vector<const Plain*>;
+using Rules = std::vector<const SchemaRule*>;
 
 /// The rules that stand behind a schema node, its references and alternatives opened.
-void open(const Plain& root, const Plain& node, Rules& rules) {
-  if (!node.is_object()) return;
-  if (const auto ref = node.find("$ref"); ref != node.end()) {
-    const std::string target = ref->get<std::string>().substr(1);  // "#/definitions/x"
-    open(root, root.at(Plain::json_pointer(target)), rules);
+void open(const SchemaRule& root, const SchemaRule& stated, Rules& rules) {
+  const SchemaRule& rule = resolved(root, stated);
+  const SchemaRule* any = keyword(rule, "anyOf");
+  if (any == nullptr) {
+    rules.push_back(&rule);
     return;
   }
-  if (const auto any = node.find("anyOf"); any != node.end()) {
-    for (const Plain& alternative : *any) open(root, alternative, rules);
-    return;
-  }
-  rules.push_back(&node);
+  for (const SchemaRule& alternative : any->GetArray()) open(root, alternative, rules);
 }
 
-Rules step(const Plain& root, const Rules& rules, const std::string& token) {
-  Rules inner;
-  for (const Plain* rule : rules) {
-    const auto properties = rule->find("properties");
-    if (properties != rule->end() && properties->contains(token)) {
-      open(root, properties->at(token), inner);
-    } else if (rule->contains("items")) {
-      open(root, rule->at("items"), inner);
-    } else if (rule->contains("additionalProperties")) {
-      open(root, rule->at("additionalProperties"), inner);
-    }
-  }
-  return inner;
+std::size_t count_of(const SchemaRule& rule, const char* name, std::size_t otherwise) {
+  const SchemaRule* count = keyword(rule, name);
+  return count == nullptr ? otherwise : count->GetUint64();
 }
 
-bool wants(const Plain& rule, const char* type) {
-  const auto stated = rule.find("type");
-  if (stated == rule.end()) return false;
-  if (stated->is_string()) return *stated == type;
-  return std::find(stated->begin(), stated->end(), type) != stated->end();
-}
-
-std::string limits(const Plain& rule) {
+std::string limits(const SchemaRule& rule) {
   std::vector<std::string> parts;
   const auto add = [&](const char* key, const char* word) {
-    if (rule.contains(key)) parts.push_back(word + shortest(rule.at(key).get<double>()));
+    if (const SchemaRule* limit = keyword(rule, key)) {
+      parts.push_back(word + shortest(limit->GetDouble()));
+    }
   };
   add("exclusiveMinimum", "above ");
   add("minimum", "at least ");
   add("maximum", "at most ");
-  return parts.empty() ? std::string() : std::string(" ").append(join(parts, "and"));
+  return parts.empty() ? std::string() : " " + join(parts, "and");
 }
 
-std::string describe_rule(const Plain& root, const Plain& rule);
+std::string describe_rule(const SchemaRule& root, const SchemaRule& rule);
 
-std::string describe_array(const Plain& root, const Plain& rule) {
+std::string describe_array(const SchemaRule& root, const SchemaRule& rule) {
   std::string text = "an array";
-  const std::size_t min_count = rule.value("minItems", std::size_t{0});
-  const std::size_t max_count = rule.value("maxItems", std::size_t{0});
+  const std::size_t min_count = count_of(rule, "minItems", 0);
+  const std::size_t max_count = count_of(rule, "maxItems", 0);
   if (min_count > 0 && min_count == max_count) {
     text += " of " + std::to_string(min_count);
   } else if (max_count > 0) {
@@ -73,64 +55,54 @@ std::string describe_array(const Plain& root, const Plain& rule) {
   } else if (min_count > 0) {
     text += " of at least " + std::to_string(min_count);
   }
-  if (!rule.contains("items")) return text;
-  Rules items;
-  open(root, rule.at("items"), items);
+  const SchemaRule* items = keyword(rule, "items");
+  if (items == nullptr) return text;
+  Rules alternatives;
+  open(root, *items, alternatives);
   std::vector<std::string> each;
-  for (const Plain* item : items) each.push_back(describe_rule(root, *item));
+  for (const SchemaRule* item : alternatives) each.push_back(describe_rule(root, *item));
   return text + " (each " + join(each, "or") + ")";
 }
 
-std::string describe_rule(const Plain& root, const Plain& rule) {
-  if (rule.contains("enum")) {
+std::string describe_choice(const SchemaRule& choice) {
+  if (choice.IsString()) return quoted(text_of(choice));
+  rapidjson::StringBuffer text;
+  rapidjson::Writer<rapidjson::StringBuffer> writer(text);
+  choice.Accept(writer);
+  return text.GetString();
+}
+
+std::string describe_rule(const SchemaRule& root, const SchemaRule& rule) {
+  if (const SchemaRule* choices = keyword(rule, "enum")) {
     std::vector<std::string> values;
-    for (const Plain& value : rule.at("enum")) {
-      values.push_back(value.is_string() ? quoted(value.get<std::string>()) : value.dump());
-    }
+    for (const SchemaRule& choice : choices->GetArray()) values.push_back(describe_choice(choice));
     return join(values, "or");
   }
+  const char* or_null = wants(rule, "null") ? " or null" : "";
   if (wants(rule, "integer")) return "a whole number" + limits(rule);
-  if (wants(rule, "number")) {
-    return "a number" + limits(rule) + (wants(rule, "null") ? " or null" : "");
-  }
+  if (wants(rule, "number")) return "a number" + limits(rule) + or_null;
   if (wants(rule, "array")) return describe_array(root, rule);
   if (wants(rule, "boolean")) return "true or false";
-  if (wants(rule, "object")) return wants(rule, "null") ? "an object or null" : "an object";
-  if (wants(rule, "string")) {
-    if (rule.contains("pattern")) return "a name of letters, digits, '-', '_' and '.'";
-    return "text";
-  }
-  return "something else";
+  if (wants(rule, "object")) return std::string("an object") + or_null;
+  if (!wants(rule, "string")) return "something else";
+  const bool has_pattern = keyword(rule, "pattern") != nullptr;
+  return has_pattern ? "a name of letters, digits, '-', '_' and '.'" : "text";
 }
 
-std::string describe(const Plain& value) {
-  switch (value.type()) {
-    case Plain::value_t::object:
-      return "an object";
-    case Plain::value_t::array:
-      return "an array of " + std::to_string(value.size());
-    case Plain::value_t::null:
-      return "null";
-    default:
-      return printable(value.dump(-1, ' ', false, Plain::error_handler_t::replace));
-  }
-}
-
-std::vector<std::string> keys_of(const Plain& object) {
-  std::vector<std::string> keys;
-  for (const auto& item : object.items()) keys.push_back(item.key());
-  return keys;
+std::string describe_value(const Json& value) {
+  if (value.is_object()) return "an object";
+  if (value.is_array()) return "an array of " + std::to_string(value.size());
+  return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 /// Keys that an object may have; empty when it may have any.
 std::vector<std::string> allowed_keys(const Rules& rules) {
   std::vector<std::string> keys;
-  for (const Plain* rule : rules) {
-    if (!rule->contains("additionalProperties") || rule->at("additionalProperties") != false) {
-      return {};
-    }
-    if (rule->contains("properties")) {
-      for (const auto& item : rule->at("properties").items()) keys.push_back(item.key());
+  for (const SchemaRule* rule : rules) {
+    const SchemaRule* others = keyword(*rule, "additionalProperties");
+    if (others == nullptr || !others->IsFalse()) return {};
+    if (const SchemaRule* properties = keyword(*rule, "properties")) {
+      for (const auto& item : properties->GetObject()) keys.push_back(text_of(item.name));
     }
   }
   return keys;
@@ -142,85 +114,77 @@ std::string all_quoted(std::vector<std::string> names, const char* last) {
 }
 
 /// What stands there instead: "(got 'a' and 'b')".
-std::string got_keys(const Plain& object) {
-  return " (got " + (object.empty() ? "none" : all_quoted(keys_of(object), "and")) + ")";
+std::string got_keys(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return " (got " + (keys.empty() ? "none" : all_quoted(keys, "and")) + ")";
 }
 
-SchemaError unknown_key(const Plain::json_pointer& pointer, const std::string& key,
-                        const std::vector<std::string>& allowed) {
-  std::string message = "expected no key of that name";
-  std::vector<std::string> path = {key};
-  for (auto outer = pointer; !outer.empty(); outer.pop_back()) path.push_back(outer.back());
-  std::reverse(path.begin(), path.end());
-  const std::string guess = did_you_mean(current_key(path), allowed);
-  message += guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess;
-  return {(pointer / key).to_string(), message};
+std::vector<std::string> steps_of(JsonPointer pointer) {
+  std::vector<std::string> steps;
+  for (; !pointer.empty(); pointer.pop_back()) steps.push_back(pointer.back());
+  std::reverse(steps.begin(), steps.end());
+  return steps;
 }
 
-SchemaError explain_object(const Plain::json_pointer& pointer, const Plain& object,
-                           const Rules& rules) {
+SchemaError explain_object(const Json& object, const JsonPointer& pointer, const Rules& rules) {
   const std::vector<std::string> allowed = allowed_keys(rules);
   for (const auto& item : object.items()) {
     const bool known = std::find(allowed.begin(), allowed.end(), item.key()) != allowed.end();
-    if (!allowed.empty() && !known) return unknown_key(pointer, item.key(), allowed);
+    if (allowed.empty() || known) continue;
+    const JsonPointer place = pointer / item.key();
+    const std::string guess = did_you_mean(current_key(steps_of(place)), allowed);
+    return {place.to_string(),
+            "expected no key of that name" +
+                (guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess)};
   }
-  for (const Plain* rule : rules) {
-    for (const Plain& key : rule->value("required", Plain::array())) {
-      const std::string name = key.get<std::string>();
-      if (!object.contains(name)) {
-        return {pointer.to_string(), "expected the key '" + name + "'" + got_keys(object)};
+  std::string wanted = "another object";
+  for (const SchemaRule* rule : rules) {
+    const SchemaRule* required = keyword(*rule, "required");
+    for (rapidjson::SizeType i = 0; required != nullptr && i < required->Size(); ++i) {
+      const std::string key = text_of((*required)[i]);
+      if (!object.contains(key)) {
+        return {pointer.to_string(), "expected the key " + quoted(key) + got_keys(object)};
       }
     }
-  }
-  for (const Plain* rule : rules) {
-    const std::size_t min_count = rule->value("minProperties", std::size_t{0});
-    const std::size_t max_count = rule->value("maxProperties", std::size_t{1000000});
-    if (object.size() < min_count || object.size() > max_count) {
+    const std::size_t max_count = count_of(*rule, "maxProperties", object.size());
+    if (object.size() < count_of(*rule, "minProperties", 0) || object.size() > max_count) {
       const std::string count = max_count == 1 ? "exactly one of " : "at least one of ";
-      return {pointer.to_string(),
-              "expected " +
-                  (allowed.empty() ? "at least one key" : count + all_quoted(allowed, "or")) +
-                  got_keys(object)};
+      wanted = (allowed.empty() ? "at least one key" : count + all_quoted(allowed, "or")) +
+               got_keys(object);
     }
   }
-  return {pointer.to_string(), "expected another object"};
+  return {pointer.to_string(), "expected " + wanted};
+}
+
+SchemaError explain_value(const SchemaRule& root, const BrokenRules& broken) {
+  std::vector<std::string> wanted, choices;
+  std::string suffix;
+  for (const SchemaRule* rule : broken.rules) {
+    const std::string text = describe_rule(root, *rule);
+    if (std::find(wanted.begin(), wanted.end(), text) == wanted.end()) wanted.push_back(text);
+    if (const SchemaRule* stated = keyword(*rule, "enum")) {
+      for (const SchemaRule& choice : stated->GetArray()) {
+        if (choice.IsString()) choices.push_back(text_of(choice));
+      }
+    }
+    if (broken.value->is_array() && keyword(*rule, "uniqueItems") != nullptr) {
+      suffix = ", none twice";
+    }
+  }
+  if (broken.value->is_string()) suffix = did_you_mean(broken.value->get<std::string>(), choices);
+  return {broken.pointer.to_string(), "expected " + join(wanted, "or") + " (got " +
+                                          describe_value(*broken.value) + ")" + suffix};
 }
 
 }  // namespace
 
-SchemaError explain(const Plain& schema, const Plain& document,
-                    const std::vector<std::string>& path) {
-  Rules rules;
-  open(schema, schema, rules);
-  const Plain* value = &document;
-  Plain::json_pointer pointer;
-  for (const std::string& token : path) {
-    rules = step(schema, rules, token);
-    pointer /= token;
-    value = value->is_array() ? &value->at(std::stoul(token)) : &value->at(token);
-  }
+SchemaError explain(const SchemaRule& schema, const BrokenRules& broken) {
   Rules of_objects;
-  std::copy_if(rules.begin(), rules.end(), std::back_inserter(of_objects),
-               [](const Plain* rule) { return wants(*rule, "object"); });
-  if (value->is_object() && !of_objects.empty()) {
-    return explain_object(pointer, *value, of_objects);
-  }
-  std::vector<std::string> wanted, choices;
-  for (const Plain* rule : rules) {
-    const std::string text = describe_rule(schema, *rule);
-    if (std::find(wanted.begin(), wanted.end(), text) == wanted.end()) wanted.push_back(text);
-    for (const Plain& choice : rule->value("enum", Plain::array())) {
-      if (choice.is_string()) choices.push_back(choice.get<std::string>());
-    }
-  }
-  std::string message = "expected " + join(wanted, "or") + " (got " + describe(*value) + ")";
-  if (value->is_string()) message += did_you_mean(value->get<std::string>(), choices);
-  if (value->is_array()) {
-    for (const Plain* rule : rules) {
-      if (rule->value("uniqueItems", false)) message += ", none twice";
-    }
-  }
-  return {pointer.to_string(), message};
+  std::copy_if(broken.rules.begin(), broken.rules.end(), std::back_inserter(of_objects),
+               [](const SchemaRule* rule) { return wants(*rule, "object"); });
+  if (!broken.value->is_object() || of_objects.empty()) return explain_value(schema, broken);
+  return explain_object(*broken.value, broken.pointer, of_objects);
 }
 
 }  // namespace trammel::harness

@@ -1,18 +1,22 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
+#include "harness/base/json.h"
 #include "harness/input/schema.h"
+#include "harness/input/schema_rules.h"
 
-/// What a JSON Schema wants, in words. Whether a document obeys is for the validator to say; this
-/// only explains.
 namespace trammel::harness {
 
-/// Explains the value at `path`, which the validator refused.
+/// A value and the rules, all those of an anyOf, that it breaks.
+struct BrokenRules {
+  const Json* value = nullptr;
+  JsonPointer pointer;
+  std::vector<const SchemaRule*> rules;
+};
+
+/// What the schema wants instead, in words.
 /// @param schema  root of the schema document
-[[nodiscard]] SchemaError explain(const nlohmann::json& schema, const nlohmann::json& document,
-                                  const std::vector<std::string>& path);
+[[nodiscard]] SchemaError explain(const SchemaRule& schema, const BrokenRules& broken);
 
 }  // namespace trammel::harness

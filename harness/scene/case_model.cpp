@@ -1,8 +1,8 @@
 #include "harness/scene/case_model.h"
 
-#include "harness/scene/frame_reader.h"
-#include "harness/scene/joint_reader.h"
-#include "harness/scene/manipulator_reader.h"
+#include "harness/readers/frame_reader.h"
+#include "harness/readers/joint_reader.h"
+#include "harness/readers/manipulator_reader.h"
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/large_motion/system/linear_joints.h"
 #include "solver/manipulator/restrict_design_effects.h"
@@ -23,7 +23,10 @@ CaseModel read_case_model(const Document& document) {
   const JsonView model = root["model"];
   CaseModel case_model;
   if (model.has("manipulator")) {
-    read_manipulator(model, case_model);
+    case_model.manipulator = read_manipulator(model["manipulator"]);
+    PlatformMotion motion = read_platform_motion(model, case_model.manipulator->geometry);
+    case_model.path = std::move(motion.path);
+    case_model.motion = std::move(motion.points);
   } else {
     for (const char* key : {"pose", "trajectory"}) {
       if (model.has(key)) throw model[key].error("expected a manipulator beside it");

@@ -58,7 +58,8 @@ Document open_case(const JsonView& study, const JsonView& part) {
   const Origin written = study.document().origin(name.pointer());
   Case given;
   try {
-    given = load_case(find_base_case(name.get<std::string>(), written.file));
+    const Catalogue catalogue;
+    given = load_case(catalogue.find_base_case(name.get<std::string>(), written.file), catalogue);
   } catch (const InputError& error) {
     throw name.error(error.what());
   }

@@ -20,7 +20,7 @@ const std::map<std::string, Arrows>& rules() {
   static const std::map<std::string, Arrows> table = {
       {"solver",
        {{"solver"},
-        {"nlohmann", "valijson", "CLI", "gsl", "kainjow", "gnuplot-iostream.h", "fstream"}}},
+        {"nlohmann", "rapidjson", "CLI", "gsl", "kainjow", "gnuplot-iostream.h", "fstream"}}},
       {"references",
        {{"references"}, {"Eigen", "Spectra", "CLI", "kainjow", "gnuplot-iostream.h"}}},
       {"harness", {{"harness", "solver", "references"}, {"kainjow", "gnuplot-iostream.h", "gsl"}}},

@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_SUITE(effect_counters)
 BOOST_AUTO_TEST_CASE(what_is_off_is_never_evaluated_in_the_whole_catalogue) {
   const References references;
   std::size_t runs = 0;
-  for (const Case& given : load_catalogue({})) {
+  for (const Case& given : Catalogue().load()) {
     if (!knows_effects(given.document)) continue;
     for (const std::string& variant : given.variants()) {
       const Document document = at_one_point(patched(given, variant));

@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(each_scene_calls_for_the_effects_that_it_was_made_for) {
       {"scene-welded-truss", "axial-flexibility"},
   };
   BOOST_TEST(expected.size() >= 12);
-  for (const Case& labelled_case : load_catalogue({"effects"})) {
+  for (const Case& labelled_case : Catalogue().load({"effects"})) {
     const Document document = patched(labelled_case, kBaseVariant);
     const EffectStudy study = study_effects(document, {0.01, false, 0});
     BOOST_TEST_CONTEXT(labelled_case.id()) {

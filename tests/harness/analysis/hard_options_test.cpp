@@ -18,7 +18,7 @@ using testing::Folder;
 namespace {
 
 Json catalogue_case(const char* id) {
-  Json json = load_case(find_case(id)).document.value();
+  Json json = load_named_case(id).document.value();
   for (const char* key :
        {"extends", "checks", "stress_suite", "variants", "sweeps", "figures", "expect_status"}) {
     json.erase(key);

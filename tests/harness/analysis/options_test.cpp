@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(endings_that_differ_where_none_may_are_an_endless_disagreem
 
 BOOST_AUTO_TEST_CASE(the_battery_of_the_catalogue_has_its_fourteen_items) {
   std::set<int> items;
-  for (const Case& one : load_catalogue({"hard"})) {
+  for (const Case& one : Catalogue().load({"hard"})) {
     const Json& document = one.document.value();
     BOOST_TEST(document.contains("stress_suite"), one.id());
     if (document.contains("stress_suite"))

@@ -35,9 +35,8 @@ BOOST_AUTO_TEST_CASE(a_key_that_stands_twice_is_refused_where_it_stands) {
 }
 
 BOOST_AUTO_TEST_CASE(a_number_beyond_a_double_is_refused) {
-  BOOST_TEST(fault(R"({"a": 1e999})")
-                 .rfind("x.json: line 1, column 11: expected a number that a double can hold", 0) ==
-             0);
+  BOOST_TEST(fault(R"({"a": [1, 1e999]})") ==
+             "x.json: /a/1: expected a number that a double can hold (got '1e999')");
 }
 
 BOOST_AUTO_TEST_CASE(bottomless_nesting_does_not_overflow_the_stack) {

@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
@@ -116,6 +118,48 @@ BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_schemas_use_only_what_is_checked) {
+  const std::set<std::string> checked = {"type",
+                                         "enum",
+                                         "minimum",
+                                         "maximum",
+                                         "exclusiveMinimum",
+                                         "minLength",
+                                         "pattern",
+                                         "minItems",
+                                         "maxItems",
+                                         "uniqueItems",
+                                         "items",
+                                         "required",
+                                         "anyOf",
+                                         "properties",
+                                         "description",
+                                         "minProperties",
+                                         "maxProperties",
+                                         "$ref",
+                                         "additionalProperties"};
+  const std::set<std::string> at_the_root = {"$schema", "title", "definitions"};
+  const std::function<void(const Json&, bool)> visit = [&](const Json& rule, bool is_root) {
+    if (!rule.is_object()) return;
+    const bool refers = rule.contains("$ref") || rule.contains("anyOf");
+    for (const auto& item : rule.items()) {
+      const std::string& key = item.key();
+      BOOST_TEST((checked.count(key) > 0 || (is_root && at_the_root.count(key) > 0)), key);
+      if (key == "pattern") BOOST_TEST(item.value() == "^[A-Za-z0-9][A-Za-z0-9._-]*$");
+      const bool used = key == "description" || key == "$ref" || key == "anyOf";
+      BOOST_TEST((!refers || used), key << " beside $ref or anyOf is not checked");
+      if (key == "properties" || key == "definitions" || key == "anyOf") {
+        for (const Json& inner : item.value()) visit(inner, false);
+      } else if (key == "items" || key == "additionalProperties") {
+        visit(item.value(), false);
+      }
+    }
+  };
+  for (const char* name : {"case", "claims", "cost", "reference", "results"}) {
+    visit(read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json")), true);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
   int seen = 0;
   for (const auto& [id, file] : reference_files(data_root() / "references" / "values")) {
@@ -132,7 +176,7 @@ BOOST_AUTO_TEST_CASE(orders_of_singular_corners_are_twice_the_stored_exponents) 
     return read_json(files.at(of + "-corner-exponent"))["values"][0].get<double>();
   };
   const auto sweep = [](const std::string& of, const std::string& variant) {
-    const Json json = read_json(find_case(of));
+    const Json json = read_json(Catalogue().find_case(of));
     return (variant.empty() ? json : json["variants"][variant])["sweeps"]["divisions"];
   };
   const auto check = [](const Json& order, double exponent_at_corner) {

@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its
                 (undecidable ? ClaimVerdict::cannot_be_decided : ClaimVerdict::not_measured)));
   }
   // No reading names a case or a check that is not there.
-  const std::vector<Case> catalogue = load_catalogue({});
+  const std::vector<Case> catalogue = Catalogue().load();
   for (const auto& [id, claim] : JsonView(document)["claims"].entries()) {
     if (!claim.has("interpretations")) continue;
     for (const auto& [name, reading] : claim["interpretations"].entries()) {

@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(the_sweeps_of_a_case_are_a_study) {
 
 BOOST_AUTO_TEST_CASE(what_the_checks_of_a_case_know_exactly_is_what_its_sweep_is_measured_by) {
   const References references;
-  const Case given = load_case(find_case("beam-cantilever"));
+  const Case given = load_named_case("beam-cantilever");
   const CostStudy study = cost_study_of_sweeps(given, kBaseVariant, {}, references);
   BOOST_TEST(!study.reference_solution.has_value());
   BOOST_TEST_REQUIRE(study.settings.front().observed.size() == 1U);

@@ -1,10 +1,10 @@
-#include "harness/scene/manipulator_reader.h"
+#include "harness/readers/manipulator_reader.h"
 
 #include <map>
 
 #include "harness/base/text.h"
-#include "harness/scene/material_reader.h"
-#include "harness/scene/trajectory_reader.h"
+#include "harness/readers/material_reader.h"
+#include "harness/readers/trajectory_reader.h"
 
 namespace trammel::harness {
 namespace {
@@ -104,30 +104,9 @@ std::array<solver::Joint<Kind>, 3> read_joints(const JsonView& joints, const cha
   return read;
 }
 
-void read_motion(const JsonView& model, CaseModel& case_model) {
-  const bool single = has_first(model, "pose", "trajectory");
-  if (single) {
-    const JsonView pose = model["pose"];
-    case_model.motion = {{0, {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}}};
-  } else {
-    Trajectory trajectory = read_trajectory(model["trajectory"]);
-    case_model.path = std::move(trajectory.path);
-    case_model.motion = std::move(trajectory.motion);
-  }
-  for (std::size_t i = 0; i < case_model.motion.size(); ++i) {
-    const solver::Posture posture =
-        solver::inverse_kinematics(case_model.manipulator->geometry, case_model.motion[i].pose);
-    if (posture.outcome.solved()) continue;
-    const std::string point = single ? "" : " at point " + std::to_string(i);
-    throw model[single ? "pose" : "trajectory"].error("expected a pose within reach" + point +
-                                                      " (" + posture.outcome.reason + ")");
-  }
-}
-
 }  // namespace
 
-void read_manipulator(const JsonView& model, CaseModel& case_model) {
-  const JsonView manipulator = model["manipulator"];
+solver::ManipulatorDesign read_manipulator(const JsonView& manipulator) {
   solver::ManipulatorDesign design;
   design.geometry = read_geometry(manipulator);
   try {
@@ -152,8 +131,28 @@ void read_manipulator(const JsonView& model, CaseModel& case_model) {
                                               {"welded", solver::PlatformJointKind::welded},
                                               {"eq25-mean", solver::PlatformJointKind::eq25_mean},
                                               {"eq25-sum", solver::PlatformJointKind::eq25_sum}});
-  case_model.manipulator = design;
-  read_motion(model, case_model);
+  return design;
+}
+
+PlatformMotion read_platform_motion(const JsonView& model,
+                                    const solver::ManipulatorGeometry& geometry) {
+  PlatformMotion motion;
+  const bool single = has_first(model, "pose", "trajectory");
+  if (single) {
+    const JsonView pose = model["pose"];
+    motion.points = {{0, {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}}};
+  } else {
+    Trajectory trajectory = read_trajectory(model["trajectory"]);
+    motion = {std::move(trajectory.path), std::move(trajectory.motion)};
+  }
+  for (std::size_t i = 0; i < motion.points.size(); ++i) {
+    const solver::Posture posture = solver::inverse_kinematics(geometry, motion.points[i].pose);
+    if (posture.outcome.solved()) continue;
+    const std::string point = single ? "" : " at point " + std::to_string(i);
+    throw model[single ? "pose" : "trajectory"].error("expected a pose within reach" + point +
+                                                      " (" + posture.outcome.reason + ")");
+  }
+  return motion;
 }
 
 }  // namespace trammel::harness

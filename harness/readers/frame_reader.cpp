@@ -1,14 +1,14 @@
-#include "harness/scene/frame_reader.h"
+#include "harness/readers/frame_reader.h"
 
 #include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 
-#include "harness/scene/material_reader.h"
-#include "harness/scene/member_chain.h"
-#include "harness/scene/plate_reader.h"
-#include "harness/scene/symbol_table.h"
+#include "harness/readers/material_reader.h"
+#include "harness/readers/member_chain.h"
+#include "harness/readers/plate_reader.h"
+#include "harness/readers/symbol_table.h"
 #include "solver/large_motion/system/linear_joints.h"
 
 namespace trammel::harness {

@@ -1,4 +1,4 @@
-#include "harness/scene/design_parameter.h"
+#include "harness/readers/design_parameter.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "harness/scene/time_reader.h"
+#include "harness/readers/time_reader.h"
 
 namespace trammel::harness {
 namespace {

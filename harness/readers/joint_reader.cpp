@@ -1,10 +1,10 @@
-#include "harness/scene/joint_reader.h"
+#include "harness/readers/joint_reader.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "harness/base/text.h"
-#include "harness/scene/material_reader.h"
+#include "harness/readers/material_reader.h"
 
 namespace trammel::harness {
 namespace {

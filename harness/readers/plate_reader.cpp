@@ -1,4 +1,4 @@
-#include "harness/scene/plate_reader.h"
+#include "harness/readers/plate_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "harness/scene/material_reader.h"
+#include "harness/readers/material_reader.h"
 #include "solver/mesh/block_mesh.h"
 #include "solver/model/plane.h"
 

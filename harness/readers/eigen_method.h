@@ -6,6 +6,6 @@
 namespace trammel::harness {
 
 /// Key "eigensolver" of an analysis: automatic, dense or sparse.
-[[nodiscard]] solver::EigenMethod read_eigen_path(const JsonView& analysis);
+[[nodiscard]] solver::EigenMethod read_eigen_method(const JsonView& analysis);
 
 }  // namespace trammel::harness

@@ -1,4 +1,4 @@
-#include "harness/scene/trajectory_reader.h"
+#include "harness/readers/trajectory_reader.h"
 
 #include "harness/base/text.h"
 

@@ -1,4 +1,4 @@
-#include "harness/scene/member_chain.h"
+#include "harness/readers/member_chain.h"
 
 #include <cmath>
 #include <numbers>

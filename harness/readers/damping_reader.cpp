@@ -1,4 +1,4 @@
-#include "harness/scene/damping_reader.h"
+#include "harness/readers/damping_reader.h"
 
 #include <iterator>
 

@@ -1,4 +1,4 @@
-#include "harness/scene/material_reader.h"
+#include "harness/readers/material_reader.h"
 
 namespace trammel::harness {
 

@@ -1,0 +1,48 @@
+#include "harness/input/schema_rules.h"
+
+#include <rapidjson/pointer.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include "harness/base/data_root.h"
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+
+namespace trammel::harness {
+
+const SchemaRule* keyword(const SchemaRule& rule, const char* name) {
+  const auto found = rule.FindMember(name);
+  return found == rule.MemberEnd() ? nullptr : &found->value;
+}
+
+const SchemaRule& load_schema(const std::string& name) {
+  static std::mutex lock;
+  static std::map<std::string, rapidjson::Document> loaded;
+  const std::lock_guard<std::mutex> guard(lock);
+  const auto [entry, fresh] = loaded.try_emplace(name);
+  if (fresh) {
+    const auto file = data_root() / "cases" / "schema" / (name + ".schema.json");
+    if (entry->second.Parse(read_text(file).c_str()).HasParseError()) {
+      throw InputError(file.string() + ": expected JSON");
+    }
+  }
+  return entry->second;
+}
+
+const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule) {
+  const SchemaRule* reference = keyword(rule, "$ref");
+  if (reference == nullptr) return rule;
+  return resolved(root, *rapidjson::Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
+}
+
+bool wants(const SchemaRule& rule, const char* type) {
+  const SchemaRule* stated = keyword(rule, "type");
+  if (stated == nullptr) return false;
+  const auto is_type = [&](const SchemaRule& value) { return value == type; };
+  return stated->IsString() ? is_type(*stated)
+                            : std::any_of(stated->Begin(), stated->End(), is_type);
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,35 @@
+#include "harness/input/catalogue.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::complaint;
+
+BOOST_AUTO_TEST_SUITE(catalogue)
+
+BOOST_AUTO_TEST_CASE(two_rooms_cannot_hold_cases_of_one_name) {
+  const testing::Folder folder;
+  const auto first = folder.write("beams/cantilever.json", "{}");
+  BOOST_TEST(complaint([&] { (void)Catalogue(folder.path()); }).empty());
+  const auto second = folder.write("hard/cantilever.json", "{}");
+  BOOST_TEST(complaint([&] { (void)Catalogue(folder.path()); }) ==
+             second.string() + ": /id: expected a name that no other case has (got that of " +
+                 first.string() + ")");
+}
+
+BOOST_AUTO_TEST_CASE(a_case_is_found_in_any_room_and_files_without_analysis_are_not_run) {
+  const testing::Folder folder;
+  const auto run = folder.write("a/b/runs.json", R"({"extends": "base"})");
+  (void)folder.write("c/base.json", R"({"analysis": {}})");
+  (void)folder.write("c/only-extended.json", "{}");
+  const Catalogue catalogue(folder.path());
+  BOOST_TEST(catalogue.find_case("runs") == run);
+  BOOST_TEST(catalogue.runnable_files().size() == 2);
+  BOOST_TEST(testing::contains(complaint([&] { (void)catalogue.find_case("rnus"); }),
+                               "did you mean 'runs'?"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
