@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/manipulator/rigid_dynamics.h"
+#include "solver/manipulator/rigid_terms.h"
 
 /// From actuator torques back to the motion of the rigid manipulator.
 namespace trammel::solver {
