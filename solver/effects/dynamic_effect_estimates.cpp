@@ -204,10 +204,12 @@ class MotionEstimates {
     damping_ = damping_ratio(options_.damping, omega);
     const EnergyShares shares(system, modes.shape.col(first), omega * omega);
     for (const Effect effect : flexibilities())
-      frequency_change_[effect] = frequency_change_without_inertia(shares.elastic(effect));
+      frequency_change_[effect] = frequency_change_without(effect, shares.elastic(effect));
     const double rotary = shares.kinetic(true), all = shares.kinetic(false);
-    frequency_change_[Effect::link_mass] = frequency_change_without_inertia(all - rotary);
-    frequency_change_[Effect::rotary_inertia] = frequency_change_without_inertia(rotary);
+    frequency_change_[Effect::link_mass] =
+        frequency_change_without(Effect::link_mass, all - rotary);
+    frequency_change_[Effect::rotary_inertia] =
+        frequency_change_without(Effect::rotary_inertia, rotary);
     sizes_.share[Effect::link_mass] = all - rotary;
     sizes_.share[Effect::rotary_inertia] = rotary;
   }
