@@ -9,7 +9,11 @@
 #include "harness/base/text.h"
 #include "harness/readers/time_reader.h"
 #include "solver/assembly/restrict_model_effects.h"
+#include "solver/effects/axial_constraints.h"
 #include "solver/effects/dynamic_effect_estimates.h"
+#include "solver/effects/modal_effect_estimates.h"
+#include "solver/effects/rotating_effect_estimates.h"
+#include "solver/effects/static_effect_estimates.h"
 
 namespace trammel::harness {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "harness/input/document.h"
 #include "harness/scene/case_model.h"
-#include "solver/effects/effect_estimates.h"
+#include "solver/effects/effect_choice.h"
 
 namespace trammel::harness {
 

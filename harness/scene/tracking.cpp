@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "solver/large_motion/solve/rigid_member_velocities.h"
-#include "solver/manipulator/rigid_dynamics.h"
+#include "solver/manipulator/inverse_dynamics.h"
 
 namespace trammel::harness {
 namespace {

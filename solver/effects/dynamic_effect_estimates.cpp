@@ -8,6 +8,8 @@
 
 #include "solver/effects/energy_shares.h"
 #include "solver/linalg/factorization.h"
+#include "solver/manipulator/nominal_motion.h"
+#include "solver/manipulator/path_follower.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"
 
@@ -21,6 +23,7 @@ constexpr Index kElements = 8;
 
 /// The whole motion, on a mesh that is good enough to decide by.
 ElastodynamicsOptions coarsened(ElastodynamicsOptions options) {
+  options.elastic_inertia = options.gyroscopic = true;
   for (std::size_t i = 0; i < 3; ++i) {
     for (LinkDesign* link : {&options.design.proximal[i], &options.design.distal[i]}) {
       link->elements = std::min(link->elements, kElements);
@@ -42,52 +45,6 @@ double path_rate(const ElastodynamicsOptions& options) {
   }
   return velocity > 0 ? acceleration / velocity : 0;
 }
-
-/// The system built at a pose of the path, which moves on from there.
-class PathPose {
- public:
-  PathPose(const ElastodynamicsOptions& options, double time)
-      : options_(options),
-        rigid_(rigid_manipulator(options.design)),
-        moving_(model_at(options, time), true) {
-    rigid_.gravity = options.gravity;
-    start_ = inverse_dynamics(rigid_, at(options.path, time), options.wrench).q;
-  }
-
-  [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity) {
-    const TrajectoryPoint point = at(options_.path, time);
-    const InverseDynamics dynamics = inverse_dynamics(rigid_, point, options_.wrench);
-    if (!dynamics.outcome.solved()) return dynamics.outcome;
-    const Outcome outcome = moving_.move_to(
-        nominal_motion(options_.design, moving_.start().model, dynamics, start_, point, gravity));
-    for (const auto* parts : {&moving_.motion().member, &moving_.motion().rigid_body}) {
-      for (const PartMotion& part : *parts)
-        max_angular_velocity = std::max(max_angular_velocity, std::abs(part.rate));
-    }
-    return outcome;
-  }
-
-  [[nodiscard]] VectorXd load() const {
-    VectorXd f = moving_.load();
-    if (options_.nominal_inertia) f += moving_.inertia_load();
-    return f;
-  }
-  [[nodiscard]] const MovingSystem& system() const { return moving_; }
-
-  double max_angular_velocity = 0;  ///< fastest of a part so far [rad/s]
-
- private:
-  static Model model_at(const ElastodynamicsOptions& options, double time) {
-    Model model = build_manipulator(options.design, at(options.path, time).pose);
-    if (!options.wrench.isZero(0)) model.loads.push_back({model.find_node("P"), options.wrench});
-    return model;
-  }
-
-  const ElastodynamicsOptions& options_;
-  RigidManipulator rigid_;
-  MovingSystem moving_;
-  Vector9d start_;
-};
 
 /// A response to a load, by its largest translation [m] and by its energy, which stands for forces.
 struct ResponseSize {
@@ -141,9 +98,11 @@ class MotionEstimates {
   }
 
   /// K q = F + f; empty where it has no solution.
-  VectorXd quasi_static_response(PathPose& pose, double time, const Vector2d& gravity) {
+  VectorXd quasi_static_response(PathFollower& pose, double time, const Vector2d& gravity) {
     estimates_.outcome = pose.move_to(time, gravity);
     if (!estimates_.outcome.solved()) return {};
+    max_angular_velocity_ =
+        std::max(max_angular_velocity_, largest_angular_velocity(pose.system().motion()));
     factorization_.compute(pose.system().K());
     ++estimates_.counters.factorizations;
     ++estimates_.counters.solves;
@@ -155,7 +114,7 @@ class MotionEstimates {
   }
 
   void estimate_at(double time) {
-    PathPose pose(options_, time);
+    PathFollower pose(options_, time);
     const double step = rate_ > 0 ? 1e-3 / rate_ : 1e-4 * (options_.time.end - options_.time.start);
     const VectorXd before = quasi_static_response(pose, time - step, options_.gravity);
     if (!estimates_.outcome.solved()) return;
@@ -194,7 +153,6 @@ class MotionEstimates {
     }
     const VectorXd load = pose.load();
     without_masses(time, load, system);
-    max_angular_velocity_ = std::max(max_angular_velocity_, pose.max_angular_velocity);
     if (estimates_.outcome.solved()) estimate_frequency_changes(system);
     if (!applicable_.has(Effect::gravity) || !estimates_.outcome.solved()) return;
     estimates_.outcome = pose.move_to(time, Vector2d::Zero());
@@ -220,7 +178,7 @@ class MotionEstimates {
       if (!applicable_.has(effect)) continue;
       ElastodynamicsOptions light = options_;
       light.design = restrict_effects(light.design, Effects::all().without(effect));
-      PathPose pose(light, time);
+      PathFollower pose(light, time);
       estimates_.outcome = pose.move_to(time, options_.gravity);
       if (!estimates_.outcome.solved()) return;
       ++estimates_.counters.solves;
@@ -246,10 +204,12 @@ class MotionEstimates {
     damping_ = damping_ratio(options_.damping, omega);
     const EnergyShares shares(system, modes.shape.col(first), omega * omega);
     for (const Effect effect : flexibilities())
-      frequency_change_[effect] = frequency_change_without_inertia(shares.elastic(effect));
+      frequency_change_[effect] = frequency_change_without(effect, shares.elastic(effect));
     const double rotary = shares.kinetic(true), all = shares.kinetic(false);
-    frequency_change_[Effect::link_mass] = frequency_change_without_inertia(all - rotary);
-    frequency_change_[Effect::rotary_inertia] = frequency_change_without_inertia(rotary);
+    frequency_change_[Effect::link_mass] =
+        frequency_change_without(Effect::link_mass, all - rotary);
+    frequency_change_[Effect::rotary_inertia] =
+        frequency_change_without(Effect::rotary_inertia, rotary);
     sizes_.share[Effect::link_mass] = all - rotary;
     sizes_.share[Effect::rotary_inertia] = rotary;
   }

@@ -2,7 +2,6 @@
 
 #include "solver/effects/effect_estimates.h"
 #include "solver/manipulator/elastodynamics.h"
-#include "solver/modes/rotating_modes.h"
 
 /// What a motion would lose without an effect, to first order. Numbers without dimension: with the
 /// first angular frequency w1 and damping ratio z, how fast the path turns W, the time T.
@@ -26,19 +25,9 @@ namespace trammel::solver {
 /// x_i^T (G + S / w_i) x_j / 2, for no longer than they keep step, 1 / |w_i - w_j|. A load that
 /// sets in at once is taken by the plate before the links, whose forces it changes wholly.
 ///   Source: quasi-static expansion, e.g. L. Meirovitch, Analytical Methods in Vibrations (1967).
-/// @param options  the whole motion, convective terms included; what `applicable` lacks is not
+/// @param options  the whole motion, gyroscopic terms included; what `applicable` lacks is not
 /// there
 [[nodiscard]] EffectEstimates estimate_motion_effects(const ElastodynamicsOptions& options,
                                                       Effects applicable);
-
-/// Modes of a frame that rotates steadily, from the whole ones: with x^H of the complex shape,
-///   Q(w) = K + K_G - W^2 S + 2 i w W G - w^2 M, Q(w) x = 0, a part R of Q left out changes w by
-///   x^H R x / (x^H Q'(w) x); half of it for Coriolis forces, which count by their square.
-///   Source: P. Lancaster, Lambda-Matrices and Vibrating Systems (1966).
-/// Flexibilities and masses by their shares of the energies, as in modes at rest.
-/// @param speeds  [rad/s]
-[[nodiscard]] EffectEstimates estimate_rotating_effects(const Model& model, Effects applicable,
-                                                        const RotatingOptions& options,
-                                                        const std::vector<double>& speeds);
 
 }  // namespace trammel::solver

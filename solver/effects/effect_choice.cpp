@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "solver/effects/effect_choice.h"
 
-#include "solver/effects/effect_estimates.h"
+#include <algorithm>
 
 namespace trammel::solver {
 
@@ -29,7 +29,7 @@ Effects choose_effects(const EffectEstimates& estimates, const EffectScope& scop
     removed = false;
     for (const EffectEstimate* estimate : candidates) {
       if (!active.has(estimate->effect)) continue;
-      // What it carries must go first.
+      // What depends on it must go first.
       if (!(scope.without(active, estimate->effect) == active.without(estimate->effect))) continue;
       const Eigen::VectorXd trial_change =
           total_change.size() == 0 ? estimate->change : total_change + estimate->change;

@@ -11,11 +11,7 @@ namespace trammel::solver {
 
 using Eigen::VectorXd;
 
-namespace {
-
-/// How much of each of an element's deformations is the effect's; the last is antisymmetric
-/// bending.
-Vector3d part_of(const System& system, const FrameElement& e, Effect effect) {
+Vector3d deformation_share(const System& system, const FrameElement& e, Effect effect) {
   if (e.is_bar()) return Vector3d::Zero();
   if (effect == Effect::axial_flexibility) return {1, 0, 0};
   if (effect != Effect::shear) return Vector3d::Zero();
@@ -23,8 +19,6 @@ Vector3d part_of(const System& system, const FrameElement& e, Effect effect) {
   const double phi = shear_ratio(e.section, member.theory, e.length);
   return {0, 0, phi / (1 + phi)};
 }
-
-}  // namespace
 
 VectorXd EnergyShares::forces(Effect effect) const {
   const auto frames = static_cast<Index>(system_.mesh.frame.size());
@@ -39,7 +33,8 @@ VectorXd EnergyShares::forces(Effect effect) const {
     const Index i = visited++;
     auto part = (c.asDiagonal() * (B * detail::gather(coordinates, u_))).eval();
     if (i < frames) {
-      const Vector3d w = part_of(system_, system_.mesh.frame[static_cast<std::size_t>(i)], effect);
+      const Vector3d w =
+          deformation_share(system_, system_.mesh.frame[static_cast<std::size_t>(i)], effect);
       for (Index k = 0; k < part.size(); ++k) part[k] *= w[k];
     } else {
       const bool plate = i < plates && effect == Effect::platform_flexibility;
@@ -81,13 +76,12 @@ double EnergyShares::kinetic(bool rotary_only) const {
   return energy;
 }
 
-double frequency_change_without_stiffness(double share) {
-  return std::sqrt(std::max(0.0, 1 - share)) - 1;
-}
-
-double frequency_change_without_inertia(double share) {
+double frequency_change_without(Effect effect, double share) {
   constexpr double kMaxShare = 1 - 1e-12;
-  return 1 / std::sqrt(1 - std::min(share, kMaxShare)) - 1;
+  const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gravity ||
+                         effect == Effect::gyroscopic;
+  return stiffness ? std::sqrt(std::max(0.0, 1 - share)) - 1
+                   : 1 / std::sqrt(1 - std::min(share, kMaxShare)) - 1;
 }
 
 }  // namespace trammel::solver

@@ -29,9 +29,13 @@ class EnergyShares {
   double energy_;
 };
 
-/// The relative change of a frequency whose square loses the share (a stiffness left out) ...
-[[nodiscard]] double frequency_change_without_stiffness(double share);
-/// ... or whose inverse square does (a flexibility or an inertia left out).
-[[nodiscard]] double frequency_change_without_inertia(double share);
+/// How much of each of an element's three deformations is the effect's; the last is antisymmetric
+/// bending.
+[[nodiscard]] Vector3d deformation_share(const System& system, const FrameElement& e,
+                                         Effect effect);
+
+/// The relative change of a frequency without an effect that has the share s of its energy:
+/// (1 - s)^(1/2) - 1 of a stiffness, (1 - s)^(-1/2) - 1 of a flexibility or an inertia.
+[[nodiscard]] double frequency_change_without(Effect effect, double share);
 
 }  // namespace trammel::solver

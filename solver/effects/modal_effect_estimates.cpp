@@ -1,9 +1,9 @@
-#include <algorithm>
+#include "solver/effects/modal_effect_estimates.h"
+
 #include <cmath>
 #include <numbers>
 
 #include "solver/assembly/strain.h"
-#include "solver/effects/effect_estimates.h"
 #include "solver/effects/energy_shares.h"
 #include "solver/modes/prestressed_modes.h"
 #include "solver/statics/postprocessing.h"
@@ -46,9 +46,7 @@ class ModalPose {
       const double w = 2 * std::numbers::pi * modes.frequency[i];
       if (w == 0) continue;  // a rigid motion stays one
       const double share = share_of(effect, modes.shape.col(i), w * w);
-      const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gravity;
-      change[i] = stiffness ? frequency_change_without_stiffness(share)
-                            : frequency_change_without_inertia(share);
+      change[i] = frequency_change_without(effect, share);
       if (std::abs(share) > std::abs(number)) number = share;
     }
     return change;
@@ -87,17 +85,14 @@ class ModalPose {
 EffectEstimates estimate_modal_effects(const std::vector<Model>& poses, Effects applicable,
                                        Index count) {
   EffectEstimates estimates;
-  for (const Effect effect : applicable.list()) estimates.effects.push_back({effect, 0, {}});
+  estimates.effects = no_estimates(applicable);
   for (const Model& model : poses) {
     const ModalPose pose(model, applicable, count);
     estimates.counters += pose.modes.counters;
     estimates.outcome = pose.modes.outcome;
     if (!pose.modes.outcome.solved()) return estimates;
     for (EffectEstimate& estimate : estimates.effects) {
-      const VectorXd change = pose.without(estimate.effect, estimate.number);
-      VectorXd joined(estimate.change.size() + change.size());
-      joined << estimate.change, change;
-      estimate.change = joined;
+      estimate.append(pose.without(estimate.effect, estimate.number));
     }
   }
   return estimates;

@@ -1,9 +1,10 @@
+#include "solver/effects/rotating_effect_estimates.h"
+
 #include <cmath>
 #include <numbers>
 
 #include "solver/assembly/rotating_frame.h"
 #include "solver/assembly/strain.h"
-#include "solver/effects/dynamic_effect_estimates.h"
 #include "solver/effects/energy_shares.h"
 
 namespace trammel::solver {
@@ -62,12 +63,6 @@ class RotatingMode {
   double omega_, mass_ = 0, coupling_ = 0, stiffened_ = 0;
 };
 
-double change_of(Effect effect, double share) {
-  const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gyroscopic;
-  return stiffness ? frequency_change_without_stiffness(share)
-                   : frequency_change_without_inertia(share);
-}
-
 }  // namespace
 
 EffectEstimates estimate_rotating_effects(const Model& model, Effects applicable,
@@ -77,7 +72,7 @@ EffectEstimates estimate_rotating_effects(const Model& model, Effects applicable
   const System system = assemble(model);
   const SparseMatrix G = gyroscopic_matrix(system);
   const SparseMatrix S = centrifugal_softening(system, options.frame.axis);
-  for (const Effect effect : applicable.list()) estimates.effects.push_back({effect, 0, {}});
+  estimates.effects = no_estimates(applicable);
   for (const double speed : speeds) {
     RotatingOptions at_speed = options;
     at_speed.frame.speed = speed;
@@ -100,12 +95,10 @@ EffectEstimates estimate_rotating_effects(const Model& model, Effects applicable
         const RotatingMode mode(system, C, softening, modes.shape.col(i),
                                 2 * std::numbers::pi * modes.frequency[i]);
         const double share = mode.share(estimate.effect);
-        change[i] = change_of(estimate.effect, share);
+        change[i] = frequency_change_without(estimate.effect, share);
         if (std::abs(share) > std::abs(estimate.number)) estimate.number = share;
       }
-      VectorXd joined(estimate.change.size() + change.size());
-      joined << estimate.change, change;
-      estimate.change = joined;
+      estimate.append(change);
     }
   }
   return estimates;

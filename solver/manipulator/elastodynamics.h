@@ -1,41 +1,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <vector>
 
-#include "solver/assembly/damping.h"
-#include "solver/manipulator/manipulator.h"
-#include "solver/manipulator/moving_system.h"
-#include "solver/manipulator/rigid_dynamics.h"
-#include "solver/manipulator/trajectory.h"
+#include "solver/manipulator/elastodynamics_options.h"
+#include "solver/model/numbers.h"
 #include "solver/statics/statics.h"
-#include "solver/time/transient.h"
 
 /// Elastic vibration of the manipulator about its nominal rigid motion along a path (paper Eq.
 /// 12-19, with the rigid platform of Eq. 20-27):
 ///   M(t) q.. + (C(t) + G(t)) q. + (K(t) + S(t)) q = T^T F + f(t),   C = w1 M + w2 K,
 /// where the joints follow the path exactly, F is the load on the platform, f the inertia of the
-/// nominal motion, and G and S the convective terms (moving_system.h), an effect of their own.
+/// nominal motion, and G and S the gyroscopic, centrifugal and Euler terms of the moving links
+/// (moving_system.h), an effect of their own.
 namespace trammel::solver {
-
-struct ElastodynamicsOptions {
-  ManipulatorDesign design;
-  Path path;
-  Vector3d wrench = Vector3d::Zero();   ///< on the platform at P, world axes (Fx, Fy [N], M [N m])
-  Vector2d gravity = Vector2d::Zero();  ///< in the plane [m/s^2]
-  RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed, Eq. 19
-
-  bool nominal_inertia = true;  ///< f, Eq. 14-17
-  bool elastic_inertia = true;  ///< M q.., and with it damping; off: quasi-static, K q = F + f
-  bool gyroscopic = false;      ///< G and S; a part of elastic inertia, without which it is refused
-
-  /// start, end, step, scheme, error control, samples; `quasi_static_start` or at rest.
-  TransientOptions time;
-  /// The exact response instead of a scheme: all modes superposed. Only where the platform stands
-  /// still, so that the matrices are constant.
-  bool modal_superposition = false;
-};
 
 /// Numbers without dimension that say when an effect matters; the largest over the samples. NaN
 /// where there is no such number: no elastic mode was found, or the stiffness is singular.
@@ -45,8 +23,6 @@ struct ElastodynamicsEffects {
   double nominal_inertia = 0;     ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
   double elastic_inertia = 0;     ///< path frequency over the first frequency, squared
   double gyroscopic = 0;          ///< twice the fastest turning of a part over the first frequency
-
-  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// One entry a sample, as many as `time`.
@@ -72,13 +48,7 @@ struct ElastodynamicsSolution {
 };
 
 /// @throws ModelError  as `build_manipulator`, `at` and `solve_transient`; for modal superposition
-///                     of a platform that moves; for convective terms without elastic inertia.
+///                     of a platform that moves; for gyroscopic terms without elastic inertia.
 [[nodiscard]] ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options);
-
-/// The nominal motion of every part of the built model, from that of the platform.
-/// @param from  joint coordinates where the model was built (theta_a, theta_p, x, y, phi)
-[[nodiscard]] NominalMotion nominal_motion(const ManipulatorDesign& design, const Model& model,
-                                           const InverseDynamics& motion, const Vector9d& from,
-                                           const TrajectoryPoint& point, const Vector2d& gravity);
 
 }  // namespace trammel::solver

@@ -2,116 +2,121 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <boost/numeric/odeint/algebra/vector_space_algebra.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <utility>
 
+#include "solver/model/numbers.h"
+
 namespace trammel::solver {
 
 namespace {
 
+namespace odeint = boost::numeric::odeint;
 using State = Eigen::Matrix<double, 6, 1>;  // pose, velocity
-using Stages = Eigen::Matrix<double, 6, 7>;
 
 Pose pose_of(const State& y) {
   return {y(0), y(1), y(2)};
 }
 
-/// Dormand, Prince (1980), table 2: stage times, stage weights, error weights.
-struct Tableau {
-  static constexpr std::array<double, 7> c = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
-  static constexpr double a[7][6] = {
-      {},
-      {1.0 / 5},
-      {3.0 / 40, 9.0 / 40},
-      {44.0 / 45, -56.0 / 15, 32.0 / 9},
-      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-      {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
-  static constexpr std::array<double, 7> error = {
-      71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+/// Local error over the tolerance, as ForwardOptions measures it; odeint accepts a step up to 1.
+class ErrorNorm {
+ public:
+  ErrorNorm(const ManipulatorGeometry& geometry, double tolerance) : tolerance_(tolerance) {
+    for (const Vector2d& c : geometry.platform) radius_ += c.norm() / 3;
+  }
+  template <class Algebra>
+  double error(Algebra&, const State& y, const State&, const State& error, double) const {
+    if (!error.allFinite()) return std::numeric_limits<double>::infinity();
+    return std::max(relative(error, y, 0), relative(error, y, 3)) / tolerance_;
+  }
+
+ private:
+  /// Of positions (first = 0) or velocities (3); rotations count by the platform's radius.
+  [[nodiscard]] double relative(const State& error, const State& y, Index first) const {
+    const Vector3d scale(1, 1, radius_);
+    const double largest = y.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff();
+    return error.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff() /
+           std::max(largest, radius_);
+  }
+
+  double tolerance_, radius_ = 0;
 };
 
-class Integrator {
+using DormandPrince =
+    odeint::runge_kutta_dopri5<State, double, State, double, odeint::vector_space_algebra>;
+using ControlledStepper = odeint::controlled_runge_kutta<DormandPrince, ErrorNorm>;
+
+class MotionIntegrator {
  public:
-  Integrator(const RigidManipulator& manipulator, const std::function<Vector3d(double)>& torque,
-             const Vector3d& wrench, const ForwardOptions& options, const TrajectoryPoint& start)
+  MotionIntegrator(const RigidManipulator& manipulator,
+                   const std::function<Vector3d(double)>& torque, const Vector3d& wrench,
+                   const ForwardOptions& options, const TrajectoryPoint& start)
       : manipulator_(manipulator),
         torque_(torque),
         wrench_(wrench),
-        options_(options),
+        max_steps_(options.max_steps),
+        stepper_(ErrorNorm(manipulator.geometry, options.tolerance)),
         t_(start.time) {
     y_ << start.pose.x, start.pose.y, start.pose.phi, start.velocity;
-    for (const Vector2d& c : manipulator.geometry.platform) size_ += c.norm() / 3;
-    result.outcome = evaluate(t_, y_, k_, 0);
+    result.outcome = evaluate(t_, y_, rate_);
   }
 
   /// Goes on to the time `end`; the last step is shortened to meet it.
   void advance(double end) {
     while (result.outcome.solved() && t_ < end) {
-      if (result.steps + result.rejected >= options_.max_steps) {
+      if (result.steps + result.rejected >= max_steps_) {
         stop(Status::not_converged, "too many steps");
-        return;
+      } else {
+        step(end);
       }
-      const bool last = t_ + 1.01 * h_ >= end;
-      step(last ? end - t_ : h_, last ? end : t_ + h_);
     }
   }
 
   [[nodiscard]] TrajectoryPoint point() const {
-    return {t_, pose_of(y_), y_.tail<3>(), k_.col(0).tail<3>()};
+    return {t_, pose_of(y_), y_.tail<3>(), rate_.tail<3>()};
   }
 
   ForwardDynamics result;
 
  private:
-  Outcome evaluate(double t, const State& y, Stages& k, Index stage) {
+  Outcome evaluate(double t, const State& y, State& rate) {
     ++result.evaluations;
     const PlatformAcceleration a =
         forward_acceleration(manipulator_, pose_of(y), y.tail<3>(), torque_(t), wrench_);
-    if (a.outcome.solved()) k.col(stage) << y.tail<3>(), a.acceleration;
+    rate << y.tail<3>(), a.acceleration;
     return a.outcome;
   }
 
-  void step(double h, double end) {
-    State y = y_;
-    for (Index s = 1; s < 7; ++s) {
-      y = y_;
-      for (Index j = 0; j < s; ++j) y += h * Tableau::a[s][j] * k_.col(j);
-      const Outcome outcome = evaluate(t_ + h * Tableau::c[static_cast<std::size_t>(s)], y, k_, s);
-      if (!outcome.solved()) return shrink(h / 4, outcome.reason);
+  void step(double end) {
+    const bool last = t_ + 1.01 * h_ >= end;
+    const double tried = last ? end - t_ : h_;
+    double h = tried;
+    Outcome stages;  // after a singular stage the others are not evaluated
+    const auto system = [&](const State& y, State& rate, double t) {
+      if (stages.solved()) {
+        stages = evaluate(t, y, rate);
+      } else {
+        rate.setConstant(kNaN);
+      }
+    };
+    if (stepper_.try_step(system, y_, rate_, t_, h) == odeint::success) {
+      ++result.steps;
+      if (last) t_ = end;
+      h_ = tried < h_ ? std::max(h_, h) : h;  // a step shortened to meet a time says little
+      return;
     }
-    State error = State::Zero();
-    for (Index s = 0; s < 7; ++s)
-      error += h * Tableau::error[static_cast<std::size_t>(s)] * k_.col(s);
-    const double norm = std::max(relative(error, y, 0), relative(error, y, 3)) / options_.tolerance;
-    if (!(norm <= 1)) return shrink(h * std::clamp(0.9 * std::pow(norm, -0.2), 0.2, 0.9), "");
-    ++result.steps;
-    t_ = end;
-    y_ = y;
-    k_.col(0) = k_.col(6);  // first same as last
-    const double next = h * std::clamp(0.9 * std::pow(std::max(norm, 1e-9), -0.2), 0.5, 5.0);
-    h_ = h < h_ ? std::max(h_, next) : next;  // a step shortened to meet a time says little
-  }
-
-  /// Error of positions (first = 0) or velocities (3); rotations count by the platform's radius.
-  [[nodiscard]] double relative(const State& error, const State& y, Index first) const {
-    const Vector3d scale(1, 1, size_);
-    const double largest = y.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff();
-    return error.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff() /
-           std::max(largest, size_);
-  }
-
-  void shrink(double h, const std::string& reason) {
     ++result.rejected;
     h_ = h;
-    if (std::abs(h_) > 16 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(t_)))
-      return;
-    if (reason.empty()) {
+    if (h > 16 * kEps * std::max(1.0, std::abs(t_))) return;
+    if (stages.solved()) {
       stop(Status::not_converged, "the step has become smaller than the rounding of time");
     } else {
-      stop(Status::singular, reason);
+      stop(Status::singular, stages.reason);
     }
   }
 
@@ -124,12 +129,10 @@ class Integrator {
   const RigidManipulator& manipulator_;
   const std::function<Vector3d(double)>& torque_;
   const Vector3d wrench_;
-  const ForwardOptions options_;
-  double size_ = 0;
-  double t_;
-  double h_ = 1e-3;
-  State y_;
-  Stages k_;
+  const Index max_steps_;
+  ControlledStepper stepper_;
+  double t_, h_ = 1e-3;
+  State y_, rate_;
 };
 
 }  // namespace
@@ -138,8 +141,7 @@ PlatformAcceleration forward_acceleration(const RigidManipulator& m, const Pose&
                                           const Vector3d& velocity, const Vector3d& torque,
                                           const Vector3d& wrench) {
   const RigidTerms terms = rigid_terms(m, pose, velocity);
-  PlatformAcceleration result{terms.outcome,
-                              Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())};
+  PlatformAcceleration result{terms.outcome, Vector3d::Constant(kNaN)};
   if (!terms.outcome.solved()) return result;
   const Matrix3d G = terms.W.bottomRows<3>();
   const Vector3d rates = terms.q_dot.head<3>();
@@ -165,7 +167,7 @@ ForwardDynamics forward_dynamics(const RigidManipulator& m, const TrajectoryPoin
       throw ModelError("the times of the motion must ascend from its start");
     last = t;
   }
-  Integrator integrator(m, torque, wrench, options, start);
+  MotionIntegrator integrator(m, torque, wrench, options, start);
   integrator.result.motion.reserve(times.size());
   for (const double t : times) {
     integrator.advance(t);

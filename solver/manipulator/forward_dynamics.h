@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/manipulator/rigid_dynamics.h"
+#include "solver/manipulator/rigid_terms.h"
 
 /// From actuator torques back to the motion of the rigid manipulator.
 namespace trammel::solver {
@@ -36,7 +36,7 @@ struct ForwardDynamics {
 };
 
 /// Integrates pose and velocity of the platform, so that the loops stay closed by themselves, with
-/// the embedded pair of Dormand and Prince (1980), order 5(4), local extrapolation.
+/// the embedded pair of Dormand and Prince (1980), order 5(4), local extrapolation (Boost.Odeint).
 /// @param start   pose and velocity at start.time [s]
 /// @param torque  of the actuators at a time [N m]
 /// @param times   ascending, from start.time on [s]

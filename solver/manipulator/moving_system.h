@@ -1,30 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <array>
 #include <vector>
 
 #include "solver/assembly/system.h"
-#include "solver/elements/frame_element.h"
+#include "solver/manipulator/member_interpolation.h"
+#include "solver/manipulator/moving_constraints.h"
+#include "solver/manipulator/moving_element.h"
+#include "solver/manipulator/moving_pattern.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver {
-
-/// Rotation of a rigid part about the position in which the model was built.
-struct PartMotion {
-  double angle = 0;         ///< [rad]
-  double rate = 0;          ///< [rad/s]
-  double acceleration = 0;  ///< [rad/s^2]
-};
-
-/// The nominal motion: every member, plate and rigid body of a model moves as a rigid part.
-struct NominalMotion {
-  Eigen::MatrixX2d position;      ///< model node x (x, y) [m]
-  Eigen::MatrixX2d acceleration;  ///< model node x (x, y) [m/s^2]
-  std::vector<PartMotion> member, plate, rigid_body;
-  Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
-};
 
 /// A model whose parts move: K, M and loads of inertia as functions of the pose, on one pattern.
 /// Element matrices are evaluated once, in the axes of their parts; a pose rotates them and adds
@@ -36,7 +22,7 @@ struct NominalMotion {
 ///   int rho W^T (r.. + W u.. + 2 W. u. + W.. u) dV,
 /// r.. the nominal acceleration. The paper keeps the first two terms: loads of inertia, Eq. 14-17,
 /// and the mass. The other two come from the time derivative of T_s and R; they and the same terms
-/// of T(t) are the `convective` effect, 2 W^T W. a damping matrix and W^T W.. a stiffness.
+/// of T(t) are the `gyroscopic` effect, 2 W^T W. a damping matrix and W^T W.. a stiffness.
 class MovingSystem {
  public:
   /// @param inertia  false: no M, and none of the start
@@ -60,10 +46,12 @@ class MovingSystem {
 
   [[nodiscard]] const NominalMotion& motion() const { return motion_; }
   /// Nominal position of a node of the mesh [m].
-  [[nodiscard]] Vector2d position(Index mesh_node) const;
+  [[nodiscard]] Vector2d position(Index mesh_node) const {
+    return interpolation_.at(mesh_node, motion_.position);
+  }
   /// The model where it was built; its mesh, coordinates and numbering hold at every pose.
   [[nodiscard]] const System& start() const { return start_; }
-  [[nodiscard]] const Constraints& constraints() const { return constraints_; }
+  [[nodiscard]] const Constraints& constraints() const { return constraints_.constraints(); }
 
   /// Forces at the ends of the frame elements and on all coordinates u, at the present pose.
   struct Forces {
@@ -78,66 +66,27 @@ class MovingSystem {
                               const Eigen::VectorXd& a, double mass_damping,
                               double stiffness_damping, bool with_inertia) const;
 
-  [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }
+  [[nodiscard]] std::int64_t element_evaluations() const {
+    return 2 * (std::ssize(start_.mesh.frame) + std::ssize(start_.model.triangles));
+  }
 
  private:
-  using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  enum class Layout { frame, triangle, point_mass, scalar };  // what the coordinates are
-
-  /// Matrices in the axes of the part at the start.
-  struct Element {
-    Layout layout = Layout::frame;
-    std::array<Index, 6> coordinates{-1, -1, -1, -1, -1, -1};
-    Matrix6d k = Matrix6d::Zero(), m = Matrix6d::Zero();
-    Matrix6d first_derivative = Matrix6d::Zero();                  // int rho N^T dN/dangle
-    Matrix6d second_derivative = Matrix6d::Zero();                 // int rho N^T d2N/dangle2
-    const std::vector<PartMotion> NominalMotion::*part = nullptr;  // null: does not turn
-    std::size_t part_index = 0;
-    Vector2d first_moment = Vector2d::Zero();  // lump: mass * offset
-    std::size_t first_contribution = 0;        // of its terms
-  };
-  /// value(destination) += T(a) * element(local) * T(b)
-  struct Contribution {
-    int local, a, b, destination;
-  };
-
-  void make_frames();
-  void make_triangles();
-  void make_point_masses();
-  void make_springs();
-  void extend_constraint_pattern();
-  void make_pattern();
-  void make_spans();
-  [[nodiscard]] double coefficient(const ConstraintRow& row, std::size_t term,
-                                   const NominalMotion& motion, int order) const;
-  [[nodiscard]] bool constraints_move(const NominalMotion& motion) const;
-  [[nodiscard]] Eigen::MatrixXd dependent_coordinates(const NominalMotion& motion);
-  [[nodiscard]] Outcome solve_constraints(const NominalMotion& motion);
-  [[nodiscard]] PartMotion part_of(const Element& element) const;
-  [[nodiscard]] Matrix6d rotated_matrix(const Element& element, const Matrix6d& A,
-                                        double turn) const;
-  [[nodiscard]] Vector6d nominal_acceleration(const Element& element) const;
-  [[nodiscard]] Vector6d weight(const Element& element, const Matrix6d& m) const;
-  [[nodiscard]] Vector6d element_inertia_load(const Element& element, const Matrix6d& m) const;
-  void add_gyroscopic(const Element& element, const PartMotion& part, const Matrix6d& m,
-                      std::size_t end);
+  [[nodiscard]] Vector6d nominal_acceleration(const MovingElement& element) const;
+  [[nodiscard]] Vector6d weight(const MovingElement& element, const Matrix6d& m) const;
+  [[nodiscard]] Vector6d element_inertia_load(const MovingElement& element,
+                                              const Matrix6d& m) const;
+  void add_stiffness_and_mass(std::size_t index, const Matrix6d& k, const Matrix6d& m);
+  void add_gyroscopic(std::size_t index, const PartMotion& part, const Matrix6d& m);
 
   System start_;
-  Constraints constraints_;  // of the present pose
   bool gyroscopic_, inertia_;
-  bool T_is_variable_ = false;  // T changes with the pose
-  std::vector<Element> elements_;
-  std::vector<Contribution> contributions_;
-  SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_;
-  RowMajorMatrix T_dot_, T_ddot_;            // pattern of T
-  std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
-  std::vector<Index> dependent_row_of_;  // ... and of each coordinate that they eliminate, or -1
-  Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
-  std::vector<std::array<Index, 2>> span_;  // mesh node -> ends of its member ...
-  std::vector<double> fraction_;            // ... and where it lies between them
   NominalMotion motion_;
+  MovingConstraints constraints_;
+  std::vector<MovingElement> elements_;
+  MovingPattern pattern_;
+  MemberInterpolation interpolation_;
+  SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_;
   Eigen::VectorXd inertia_u_, load_u_, inertia_load_, load_;
-  std::int64_t element_evaluations_ = 0;
 };
 
 }  // namespace trammel::solver

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/sensitivity/sensitivity.h"
+#include "solver/sensitivity/frequency_sensitivity.h"
 
 /// Sensitivities of the natural frequencies by complex steps of the design: a route that goes
 /// through the eigenvalue problem itself, where Eq. 35 goes through its energies.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/sensitivity/sensitivity.h"
+#include "solver/sensitivity/frequency_sensitivity.h"
 
 /// Sensitivities of the natural frequencies by differences of the changed design: a second route,
 /// which shares no derivative with `frequency_sensitivity`.

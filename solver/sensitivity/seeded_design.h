@@ -4,36 +4,13 @@
 #include <cmath>
 
 #include "solver/elements/frame_element.h"
-#include "solver/sensitivity/sensitivity.h"
+#include "solver/sensitivity/design_parameter.h"
 
 /// A design whose numbers carry their derivatives with respect to one parameter, up to what the
 /// elements are made of, the pose held.
 namespace trammel::solver {
 
 namespace detail {
-
-/// The number of a part that the parameter names, or null.
-template <class Part>
-[[nodiscard]] auto number(Part& part, DesignParameter::Quantity quantity)
-    -> decltype(&part.thickness) {
-  switch (quantity) {
-    case DesignParameter::Quantity::thickness:
-      return &part.thickness;
-    case DesignParameter::Quantity::E:
-      return &part.material.E;
-    case DesignParameter::Quantity::density:
-      return &part.material.rho;
-    case DesignParameter::Quantity::length:
-    case DesignParameter::Quantity::width:
-      break;
-  }
-  return nullptr;
-}
-
-template <class T>
-[[nodiscard]] T* link_number(LinkDesignOf<T>& link, DesignParameter::Quantity quantity) {
-  return quantity == DesignParameter::Quantity::width ? &link.width : number(link, quantity);
-}
 
 template <Real T>
 [[nodiscard]] MaterialOf<T> lifted(const Material& m) {

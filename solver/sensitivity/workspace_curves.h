@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/sensitivity/sensitivity.h"
+#include "solver/sensitivity/sensitivity_map.h"
 
 /// Curves in the plane of positions, for one orientation of the platform.
 namespace trammel::solver {

@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(where_nothing_moves_the_matrices_are_made_and_factored_once
   BOOST_TEST(s.summary.counters.factorizations == 3);  // mass, step, stiffness
 }
 
-BOOST_AUTO_TEST_CASE(convective_terms_are_not_left_out_of_a_quasi_static_equation_in_silence) {
+BOOST_AUTO_TEST_CASE(gyroscopic_terms_are_not_left_out_of_a_quasi_static_equation_in_silence) {
   // they once stood in the forces and not in the equation: 2e-4 N were missing
   ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-2);
   options.wrench = {10, 0, 0};
@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(reactions_loads_inertia_and_drag_are_in_equilibrium_all_alo
   }
 }
 
-BOOST_AUTO_TEST_CASE(convective_terms_matter_as_much_as_their_number_says) {
+BOOST_AUTO_TEST_CASE(gyroscopic_terms_matter_as_much_as_their_number_says) {
   ElastodynamicsOptions options = options_on(circle(10), 0.3, 1e-3);
   options.wrench = {10, 0, 0};
   options.time.quasi_static_start = true;

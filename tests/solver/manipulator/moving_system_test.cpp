@@ -7,6 +7,7 @@
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/strain.h"
 #include "solver/manipulator/elastodynamics.h"
+#include "solver/manipulator/nominal_motion.h"
 #include "solver/model/quadrature.h"
 #include "solver/time/modal_superposition.h"
 #include "tests/support/solver/table_1.h"
@@ -238,9 +239,9 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(convective_terms_are_the_second_derivative_of_the_turning_interpolation) {
+BOOST_AUTO_TEST_CASE(gyroscopic_terms_are_the_second_derivative_of_the_turning_interpolation) {
   // u(x, t) = W(t) T(t) q(t) with a quadratic q(t); its acceleration at each mass point by
-  // differences in time, against M q.. + C q. + K q with the convective C and K
+  // differences in time, against M q.. + C q. + K q with the gyroscopic C and the centrifugal and Euler K
   for (const ManipulatorDesign& design : designs()) {
     if (!design.proximal[0].axially_flexible) continue;  // other coordinates may be eliminated
     const Path path = waltz();
@@ -270,7 +271,7 @@ BOOST_AUTO_TEST_CASE(convective_terms_are_the_second_derivative_of_the_turning_i
   }
 }
 
-BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_convective_force) {
+BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_gyroscopic_force) {
   Walk walk(table_1_design(), waltz(), 0.1, true);
   BOOST_TEST_REQUIRE(walk.go_to(0.4).solved());
   const System& system = walk.moving.start();

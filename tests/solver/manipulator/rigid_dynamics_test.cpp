@@ -1,5 +1,5 @@
 // ctest: labels=manipulator;dynamics
-#include "solver/manipulator/rigid_dynamics.h"
+#include "solver/manipulator/inverse_dynamics.h"
 
 #include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>

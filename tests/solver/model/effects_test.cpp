@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "solver/assembly/restrict_model_effects.h"
-#include "solver/effects/effect_estimates.h"
+#include "solver/effects/effect_choice.h"
+#include "solver/effects/modal_effect_estimates.h"
+#include "solver/effects/static_effect_estimates.h"
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"

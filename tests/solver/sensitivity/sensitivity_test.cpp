@@ -1,5 +1,5 @@
 // ctest: timeout=300
-#include "solver/sensitivity/sensitivity.h"
+#include "solver/sensitivity/sensitivity_map.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,0 +1,89 @@
+#include "solver/manipulator/elastodynamics_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/manipulator/motion_postprocessing.h"
+#include "solver/model/plane.h"
+
+namespace trammel::solver {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// One row a sample.
+template <class Matrix, class Vector>
+void stack(const std::vector<Vector>& samples, Matrix& rows) {
+  rows.resize(static_cast<Index>(samples.size()), Vector::RowsAtCompileTime);
+  for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = samples[to_size(i)];
+}
+
+}  // namespace
+
+void ElastodynamicsRecorder::record(double time, const VectorXd& q, const VectorXd& v,
+                                    const VectorXd& a, const MotionEnergy& energy) {
+  if (!follower_.advance_to(time)) return;
+  const MovingSystem& moving = follower_.system();
+  const MovingSystem::Forces forces = moving.forces(
+      q, v, a, options_.damping.mass, options_.damping.stiffness, options_.nominal_inertia);
+  solution_.time.push_back(time);
+  solution_.nominal.push_back(follower_.point());
+  solution_.energy.push_back(energy);
+  solution_.state.push_back(postprocess_motion(moving, q, forces));
+  const StaticSolution& state = solution_.state.back();
+  rotation_.push_back(mean_platform_rotation(moving, state.displacement));
+  const Index P = moving.start().model.find_node("P");
+  deflection_.emplace_back(state.displacement.row(P).head<2>());
+  quasi_static_.push_back(options_.elastic_inertia ? quasi_static_displacement(P)
+                                                   : deflection_.back());
+  torque_.emplace_back(state.reaction.col(2));
+  rigid_torque_.push_back(follower_.rigid_torque());
+  update_effect_numbers();
+}
+
+void ElastodynamicsRecorder::finish() {
+  stack(deflection_, solution_.deflection);
+  stack(quasi_static_, solution_.quasi_static_deflection);
+  stack(torque_, solution_.torque);
+  stack(rigid_torque_, solution_.rigid_torque);
+  const auto n = static_cast<Index>(solution_.time.size());
+  solution_.platform_rotation = Eigen::Map<const VectorXd>(rotation_.data(), n);
+  solution_.tangential_error.resize(n);
+  solution_.normal_error.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const Vector2d velocity = solution_.nominal[to_size(i)].velocity.head<2>();
+    const Vector2d along = velocity / velocity.norm();  // NaN at a standstill
+    solution_.tangential_error[i] = along.dot(deflection_[to_size(i)]);
+    solution_.normal_error[i] = cross(along, deflection_[to_size(i)]);
+  }
+  ElastodynamicsEffects& effects = solution_.effects;
+  const double first = 2 * std::numbers::pi * effects.first_frequency;
+  const double path = max_velocity_ > 0 ? max_acceleration_ / max_velocity_ : 0;
+  effects.nominal_inertia = inertia_;
+  effects.elastic_inertia = path * path / (first * first);
+  effects.gyroscopic = 2 * max_angular_velocity_ / first;
+}
+
+Vector2d ElastodynamicsRecorder::quasi_static_displacement(Index node) {
+  VectorXd q;
+  if (!follower_.solve_statically(follower_.load(), q)) return Vector2d::Constant(kNaN);
+  const MovingSystem& moving = follower_.system();
+  const auto& c = moving.start().coordinates.node[to_size(node)];
+  const auto& T = moving.constraints().T;
+  return {T.row(c[0]).dot(q), T.row(c[1]).dot(q)};
+}
+
+void ElastodynamicsRecorder::update_effect_numbers() {
+  const MovingSystem& moving = follower_.system();
+  const double inertia = follower_.energy_norm(moving.inertia_load());
+  const double share = inertia == 0 ? 0 : inertia / follower_.energy_norm(moving.load());
+  inertia_ = nan_max(inertia_, share);
+  max_angular_velocity_ =
+      std::max(max_angular_velocity_, largest_angular_velocity(moving.motion()));
+  max_velocity_ = std::max(max_velocity_, follower_.point().velocity.norm());
+  max_acceleration_ = std::max(max_acceleration_, follower_.point().acceleration.norm());
+}
+
+}  // namespace trammel::solver

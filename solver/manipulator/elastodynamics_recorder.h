@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "solver/manipulator/elastodynamics.h"
+#include "solver/manipulator/path_follower.h"
+
+namespace trammel::solver {
+
+/// Fills an ElastodynamicsSolution sample by sample.
+class ElastodynamicsRecorder {
+ public:
+  ElastodynamicsRecorder(const ElastodynamicsOptions& options, PathFollower& follower,
+                         ElastodynamicsSolution& solution)
+      : options_(options), follower_(follower), solution_(solution) {}
+
+  /// Moves the follower to `time`; records nothing where there is no pose.
+  /// @param q, v, a  free coordinates of the elastic displacements and their rates
+  void record(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+              const Eigen::VectorXd& a, const MotionEnergy& energy);
+  /// Stacks what the samples have given.
+  void finish();
+
+ private:
+  [[nodiscard]] Vector2d quasi_static_displacement(Index node);
+  void update_effect_numbers();
+
+  const ElastodynamicsOptions& options_;
+  PathFollower& follower_;
+  ElastodynamicsSolution& solution_;
+  std::vector<double> rotation_;
+  std::vector<Vector2d> deflection_, quasi_static_;
+  std::vector<Vector3d> torque_, rigid_torque_;
+  double inertia_ = 0, max_angular_velocity_ = 0, max_velocity_ = 0, max_acceleration_ = 0;
+};
+
+}  // namespace trammel::solver

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "solver/manipulator/rigid_terms.h"
+#include "solver/manipulator/trajectory.h"
+
+/// Motion of all bodies, torques and powers of the rigid manipulator on its path.
+namespace trammel::solver {
+
+/// Plane motion of one body; position, velocity and acceleration of its centre of mass.
+struct BodyMotion {
+  Vector2d position, velocity, acceleration;
+  double angle = 0, angular_velocity = 0, angular_acceleration = 0;
+};
+
+/// NaN unless solved.
+struct InverseDynamics {
+  Outcome outcome;  ///< as RigidTerms
+  Vector9d q, q_dot, q_ddot;
+  std::array<BodyMotion, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
+  Vector3d torque;                   ///< of the actuators on the proximal links [N m]
+  double kinetic_energy = 0;         ///< [J]
+  /// Rate of the kinetic energy, body by body: sum of m v . a + J omega alpha [W]. Power balance:
+  /// kinetic_power = actuator_power + load_power + gravity_power.
+  double kinetic_power = 0;
+  double actuator_power = 0;
+  double load_power = 0;
+  double gravity_power = 0;
+};
+
+/// @param wrench  load on the platform at P: (Fx, Fy [N], moment [N m]) in world axes
+[[nodiscard]] InverseDynamics inverse_dynamics(const RigidManipulator& manipulator,
+                                               const TrajectoryPoint& motion,
+                                               const Vector3d& wrench = Vector3d::Zero());
+
+}  // namespace trammel::solver

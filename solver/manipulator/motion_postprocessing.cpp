@@ -1,0 +1,179 @@
+#include "solver/manipulator/motion_postprocessing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/elements/triangle_element.h"
+#include "solver/model/numbers.h"
+#include "solver/model/plane.h"
+
+namespace trammel::solver {
+namespace {
+
+using Eigen::VectorXd;
+
+class MotionPostprocessor {
+ public:
+  MotionPostprocessor(const MovingSystem& moving, const VectorXd& q,
+                      const MovingSystem::Forces& forces)
+      : moving_(moving),
+        system_(moving.start()),
+        model_(system_.model),
+        u_(moving.constraints().T * q),
+        forces_(forces),
+        multipliers_(moving.constraints().multipliers(forces.total)) {
+    state_.q = q;
+  }
+
+  StaticSolution run() {
+    displacements();
+    reactions();
+    members();
+    triangles();
+    equilibrium();
+    return std::move(state_);
+  }
+
+ private:
+  [[nodiscard]] double u(Index coordinate) const { return coordinate < 0 ? kNaN : u_[coordinate]; }
+
+  void displacements() {
+    const auto nodes = static_cast<Index>(model_.nodes.size());
+    state_.displacement.resize(nodes, 3);
+    for (Index i = 0; i < nodes; ++i) {
+      const auto& c = system_.coordinates.node[static_cast<std::size_t>(i)];
+      state_.displacement.row(i) << u(c[0]), u(c[1]), u(c[2]);
+    }
+    const auto members = static_cast<Index>(model_.members.size());
+    state_.end_rotation.resize(members, 2);
+    for (Index i = 0; i < members; ++i) {
+      const auto& c = system_.coordinates.member_end[static_cast<std::size_t>(i)];
+      state_.end_rotation.row(i) << u(c[0]), u(c[1]);
+    }
+  }
+
+  void reactions() {
+    state_.reaction.setZero(static_cast<Index>(model_.supports.size()), 3);
+    const auto& rows = moving_.constraints().rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (rows[r].source != ConstraintRow::Source::support) continue;
+      const Support& support = model_.supports[static_cast<std::size_t>(rows[r].index)];
+      const auto& node = system_.coordinates.node[static_cast<std::size_t>(support.node)];
+      const auto k = std::find(node.begin(), node.end(), rows[r].terms.front().first);
+      state_.reaction(rows[r].index, k - node.begin()) = multipliers_[static_cast<Index>(r)];
+    }
+  }
+
+  void members() {
+    const auto count = static_cast<Index>(model_.members.size());
+    state_.resultant_start.resize(count, 3);
+    state_.resultant_end.resize(count, 3);
+    state_.member_stress.setZero(count);
+    Eigen::MatrixXd ends = forces_.element;
+    const auto& rows = moving_.constraints().rows;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (rows[r].source != ConstraintRow::Source::inextensible) continue;
+      const double tension = -multipliers_[static_cast<Index>(r)];
+      ends(0, rows[r].index) -= tension;
+      ends(3, rows[r].index) += tension;
+    }
+    Index before = -1;
+    for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i) {
+      const FrameElement& e = system_.mesh.frame[i];
+      const Vector6d f = ends.col(static_cast<Index>(i));
+      const Eigen::RowVector3d first = -f.head<3>().transpose();
+      const Eigen::RowVector3d second = f.tail<3>().transpose();
+      if (e.member != before) state_.resultant_start.row(e.member) = first;
+      state_.resultant_end.row(e.member) = second;
+      before = e.member;
+      double& largest = state_.member_stress[e.member];
+      for (const Eigen::RowVector3d& s : {first, second}) {
+        largest = nan_max(
+            largest, std::abs(s[0]) / e.section.area + std::abs(s[2]) / e.section.section_modulus);
+      }
+    }
+  }
+
+  void triangles() {
+    state_.triangle_stress.resize(static_cast<Index>(model_.triangles.size()), 3);
+    for (std::size_t i = 0; i < model_.triangles.size(); ++i) {
+      const Triangle& triangle = model_.triangles[i];
+      TrianglePoints points;
+      Vector6d local;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto node = static_cast<std::size_t>(triangle.nodes[k]);
+        points[k] = moving_.position(triangle.nodes[k]);
+        local[static_cast<Index>(2 * k)] = u_[system_.coordinates.node[node][0]];
+        local[static_cast<Index>(2 * k + 1)] = u_[system_.coordinates.node[node][1]];
+      }
+      const Material& material = model_.plates[static_cast<std::size_t>(triangle.plate)].material;
+      state_.triangle_stress.row(static_cast<Index>(i)) =
+          membrane_stress(material, triangle_deformation(points) * local);
+    }
+  }
+
+  /// Reactions, loads, weight, inertia and the drag of damping by mass add up to nothing.
+  void equilibrium() {
+    Vector2d force = Vector2d::Zero();
+    double moment = 0;
+    const auto add = [&](const Vector2d& at, const Vector2d& f, double m) {
+      force += f;
+      moment += m + cross(at, f);
+    };
+    const auto nodes = static_cast<Index>(system_.coordinates.node.size());
+    for (Index node = 0; node < nodes; ++node) {
+      const auto& c = system_.coordinates.node[static_cast<std::size_t>(node)];
+      add(moving_.position(node), {forces_.external[c[0]], forces_.external[c[1]]},
+          c[2] < 0 ? 0 : forces_.external[c[2]]);
+    }
+    for (std::size_t i = 0; i < model_.members.size(); ++i) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const Index own = system_.coordinates.member_end[i][end];
+        const auto node = static_cast<std::size_t>(model_.members[i].nodes[end]);
+        if (own >= 0 && own != system_.coordinates.node[node][2]) moment += forces_.external[own];
+      }
+    }
+    for (std::size_t i = 0; i < model_.supports.size(); ++i) {
+      const Eigen::RowVector3d r = state_.reaction.row(static_cast<Index>(i));
+      add(moving_.position(model_.supports[i].node), {r[0], r[1]}, r[2]);
+    }
+    state_.equilibrium_residual = force.norm();
+    state_.moment_residual = std::abs(moment);
+  }
+
+  const MovingSystem& moving_;
+  const System& system_;
+  const Model& model_;
+  VectorXd u_;
+  const MovingSystem::Forces& forces_;
+  VectorXd multipliers_;
+  StaticSolution state_;
+};
+
+}  // namespace
+
+StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
+                                  const MovingSystem::Forces& forces) {
+  return MotionPostprocessor(moving, q, forces).run();
+}
+
+double mean_platform_rotation(const MovingSystem& moving, const Eigen::MatrixX3d& displacement) {
+  const Model& model = moving.start().model;
+  std::array<Vector2d, 3> r;
+  std::array<Vector2d, 3> u;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index node = model.find_node("C" + std::to_string(i + 1));
+    r[i] = moving.position(node);
+    u[i] = displacement.row(node).head<2>();
+  }
+  const Vector2d center = (r[0] + r[1] + r[2]) / 3;
+  double turning = 0;
+  double size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    turning += cross(r[i] - center, u[i]);
+    size += (r[i] - center).squaredNorm();
+  }
+  return turning / size;
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,202 @@
+#include "solver/manipulator/moving_constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/model/plane.h"
+
+namespace trammel::solver {
+
+using Eigen::MatrixXd;
+
+namespace {
+
+/// Entries of T beyond this have cost four digits.
+constexpr double kLargestT = 1e4;
+/// An entry of T below this share of its row's largest is round-off of zero.
+constexpr double kVanishing = 1e-11;
+
+/// The vector's derivative in time, of order 0, 1 or 2, when it turns with a part.
+Vector2d derivative(const Vector2d& at_start, const PartMotion& part, int order) {
+  const Vector2d now = rotated(at_start, part.angle);
+  if (order == 0) return now;
+  if (order == 1) return part.rate * perpendicular(now);
+  return part.acceleration * perpendicular(now) - part.rate * part.rate * now;
+}
+
+/// The coefficient of a term in a row, or its derivative in time.
+double coefficient(const System& start, const ConstraintRow& row, std::size_t term,
+                   const NominalMotion& motion, int order) {
+  if (row.source == ConstraintRow::Source::inextensible) {
+    const FrameElement& e = start.mesh.frame[static_cast<std::size_t>(row.index)];
+    const Vector2d d =
+        derivative(e.direction, motion.member[static_cast<std::size_t>(e.member)], order);
+    const Index u = row.terms[term].first;
+    const auto at = std::find(e.coordinates.begin(), e.coordinates.end(), u);
+    const auto local = at - e.coordinates.begin();
+    return (local >= 3 ? 1 : -1) * (local % 3 == 0 ? d.x() : d.y());
+  }
+  const Index first = row.terms.front().first;
+  const auto& coordinates = start.coordinates;
+  const bool arm_term = row.source == ConstraintRow::Source::rigid_body && term == 2 &&
+                        !coordinates.is_rotation[static_cast<std::size_t>(first)];
+  if (!arm_term) return order == 0 ? row.terms[term].second : 0.0;
+  const auto body = static_cast<std::size_t>(row.index);
+  const Index node = coordinates.node_of[static_cast<std::size_t>(first)];
+  const Vector2d arm =
+      start.mesh.positions[static_cast<std::size_t>(node)] -
+      start.mesh.positions[static_cast<std::size_t>(start.model.rigid_bodies[body].reference)];
+  const Vector2d now = derivative(arm, motion.rigid_body[body], order);
+  return first == coordinates.node[static_cast<std::size_t>(node)][0] ? now.y() : -now.x();
+}
+
+}  // namespace
+
+MovingConstraints::MovingConstraints(const System& start, const NominalMotion& motion,
+                                     bool derivatives)
+    : constraints_(start.constraints), derivatives_(derivatives) {
+  for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
+    const auto source = constraints_.rows[r].source;
+    variable_ = variable_ ||
+                (constraints_.pivot[r] >= 0 && (source == ConstraintRow::Source::rigid_body ||
+                                                source == ConstraintRow::Source::inextensible));
+  }
+  if (!variable_) return;
+  find_dependent_rows();
+  extend_pattern(start, motion);
+}
+
+/// Rows that T is solved from.
+void MovingConstraints::find_dependent_rows() {
+  dependent_row_of_.assign(static_cast<std::size_t>(constraints_.T.rows()), -1);
+  for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
+    if (constraints_.pivot[r] < 0 ||
+        constraints_.rows[r].source == ConstraintRow::Source::support) {
+      continue;
+    }
+    dependent_row_of_[static_cast<std::size_t>(constraints_.pivot[r])] =
+        static_cast<Index>(dependent_rows_.size());
+    dependent_rows_.push_back(r);
+  }
+}
+
+/// T with every entry that some pose needs: those that do not vanish at three turns of the parts in
+/// general position. Of the pattern alone, each node of an inextensible member would follow all
+/// before it; in numbers what they add cancels.
+void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
+  auto& T = constraints_.T;
+  Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
+  needed.setConstant(false);
+  NominalMotion general = motion;
+  double turn = 1;
+  for (int found = 0, trial = 0; found < 3 && trial < 100; ++trial) {
+    for (auto* parts : {&general.member, &general.rigid_body}) {
+      for (PartMotion& part : *parts) part.angle = 0.4 * std::sin(turn += std::numbers::phi);
+    }
+    const MatrixXd X = dependent_coordinates(start, general).cwiseAbs();
+    if (!(X.allFinite() && X.maxCoeff() < kLargestT)) continue;
+    ++found;
+    for (Index i = 0; i < X.rows(); ++i) {
+      needed.row(i) = needed.row(i) || X.row(i).array() > kVanishing * X.row(i).maxCoeff();
+    }
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index u = 0; u < T.rows(); ++u) {
+    const Index row = dependent_row_of_[static_cast<std::size_t>(u)];
+    const Index own = constraints_.free[static_cast<std::size_t>(u)];
+    for (Index q = 0; q < T.cols(); ++q) {
+      const bool enters = row >= 0 ? needed(row, q) : q == own;
+      if (enters) entries.emplace_back(static_cast<int>(u), static_cast<int>(q), T.coeff(u, q));
+    }
+  }
+  T.setFromTriplets(entries.begin(), entries.end());
+  T.makeCompressed();
+  T_dot_ = 0.0 * T;
+  T_ddot_ = T_dot_;
+}
+
+bool MovingConstraints::change(const System& start, const NominalMotion& from,
+                               const NominalMotion& to) const {
+  const auto moves = [this](const PartMotion& a, const PartMotion& b) {
+    return a.angle != b.angle ||
+           (derivatives_ && (a.rate != b.rate || a.acceleration != b.acceleration));
+  };
+  for (const ConstraintRow& row : constraints_.rows) {
+    if (row.source == ConstraintRow::Source::inextensible) {
+      const auto member =
+          static_cast<std::size_t>(start.mesh.frame[static_cast<std::size_t>(row.index)].member);
+      if (moves(to.member[member], from.member[member])) return true;
+    } else if (row.source == ConstraintRow::Source::rigid_body) {
+      const auto body = static_cast<std::size_t>(row.index);
+      if (moves(to.rigid_body[body], from.rigid_body[body])) return true;
+    }
+  }
+  return false;
+}
+
+/// X of C_p X = - C_f: what the eliminated coordinates are of the free ones: row x q.
+MatrixXd MovingConstraints::dependent_coordinates(const System& start,
+                                                  const NominalMotion& motion) {
+  const auto k = static_cast<Index>(dependent_rows_.size());
+  MatrixXd pivots = MatrixXd::Zero(k, k);
+  MatrixXd rhs = MatrixXd::Zero(k, constraints_.T.cols());
+  for (Index i = 0; i < k; ++i) {
+    const ConstraintRow& row = constraints_.rows[dependent_rows_[static_cast<std::size_t>(i)]];
+    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+      const auto u = static_cast<std::size_t>(row.terms[t].first);
+      const double c = coefficient(start, row, t, motion, 0);
+      if (dependent_row_of_[u] >= 0) pivots(i, dependent_row_of_[u]) += c;
+      if (constraints_.free[u] >= 0) rhs(i, constraints_.free[u]) -= c;
+    }
+  }
+  pivots_.compute(pivots);
+  return pivots_.solve(rhs);
+}
+
+MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
+                                    const RowMajorMatrix& matrix) const {
+  MatrixXd sum = MatrixXd::Zero(static_cast<Index>(dependent_rows_.size()), matrix.cols());
+  for (Index i = 0; i < sum.rows(); ++i) {
+    const ConstraintRow& row = constraints_.rows[dependent_rows_[to_size(i)]];
+    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+      const double c = coefficient(start, row, t, motion, order);
+      if (c != 0) sum.row(i) += c * matrix.row(row.terms[t].first);
+    }
+  }
+  return sum;
+}
+
+void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) const {
+  for (Index u = 0; u < target.rows(); ++u) {
+    const Index row = dependent_row_of_[to_size(u)];
+    if (row < 0) continue;
+    for (RowMajorMatrix::InnerIterator it(target, u); it; ++it) {
+      it.valueRef() = values(row, it.col());
+    }
+  }
+}
+
+Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
+                                const NominalMotion& to) {
+  if (!variable_ || !change(start, from, to)) return {};
+  const MatrixXd X = dependent_coordinates(start, to);
+  if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
+    return {Status::singular,
+            "the coordinates that the constraints eliminated at the start do not suit this pose"};
+  }
+  for (const std::size_t r : dependent_rows_) {
+    ConstraintRow& row = constraints_.rows[r];
+    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+      row.terms[t].second = coefficient(start, row, t, to, 0);
+    }
+  }
+  store(X, constraints_.T);
+  if (!derivatives_) return {};
+  store(pivots_.solve(-product(start, to, 1, constraints_.T)), T_dot_);
+  store(pivots_.solve(-product(start, to, 2, constraints_.T) - 2 * product(start, to, 1, T_dot_)),
+        T_ddot_);
+  return {};
+}
+
+}  // namespace trammel::solver

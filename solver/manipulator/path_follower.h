@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/linalg/sparse_factor.h"
+#include "solver/manipulator/elastodynamics_options.h"
+#include "solver/manipulator/moving_system.h"
+
+namespace trammel::solver {
+
+/// The manipulator on its way along the path: the rigid motion at a time, and the elastic system
+/// about it.
+class PathFollower {
+ public:
+  /// @param built_at  the time at whose pose the model is built and its coordinates are numbered
+  /// [s]
+  /// @pre `options` outlive the follower
+  PathFollower(const ElastodynamicsOptions& options, double built_at);
+
+  /// A time is evaluated once, and only one for a platform that stands still.
+  /// @returns false: `outcome` names the time and the reason.
+  bool advance_to(double time);
+  /// The same at any time under any gravity [m/s^2], each time anew.
+  [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity);
+
+  [[nodiscard]] const MovingSystem& system() const { return moving_; }
+  [[nodiscard]] const TrajectoryPoint& point() const { return point_; }
+  [[nodiscard]] const Outcome& outcome() const { return outcome_; }
+  [[nodiscard]] bool stands_still() const { return stands_still_; }
+  [[nodiscard]] bool damped() const;
+
+  // At the present pose, in free coordinates.
+
+  /// F and, where it is on, f [N, N m].
+  [[nodiscard]] Eigen::VectorXd load() const;
+  /// M, C + G and K + S; C stays as it is where nothing goes with velocities.
+  void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
+  /// K q = f; false where K is singular.
+  [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);
+  /// (f^T K^-1 f)^(1/2), twice the energy that the load f alone would store [J^(1/2)]; NaN where K
+  /// is singular.
+  [[nodiscard]] double energy_norm(const Eigen::VectorXd& f);
+  /// Torques of rigid links under the same loads and, where it is on, the same inertia [N m].
+  [[nodiscard]] Vector3d rigid_torque() const;
+
+  /// Elements, what was solved with K, and the effects: what the parts have, once; what only the
+  /// motion has, each time.
+  [[nodiscard]] Counters counters() const;
+
+ private:
+  const ElastodynamicsOptions& options_;
+  bool stands_still_;
+  RigidManipulator rigid_;
+  MovingSystem moving_;
+  SparseFactor stiffness_;
+  bool factored_ = false, regular_ = false;
+  Counters counters_;
+  Vector9d start_;
+  double time_ = kNaN;
+  TrajectoryPoint point_;
+  InverseDynamics dynamics_;
+  Outcome outcome_;
+};
+
+}  // namespace trammel::solver

@@ -1,0 +1,95 @@
+#include "solver/sensitivity/frequency_sensitivity.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "solver/sensitivity/set_derivative.h"
+
+namespace trammel::solver {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Modes enough that the last set wanted is whole.
+ModalSolution whole_sets(const System& system, Index count) {
+  constexpr Index kSpareModes = 3;
+  const Index all = system.K.rows();
+  Index wanted = std::min(all, count + kSpareModes);
+  for (;;) {
+    ModalSolution modes = solve_modes(system, {.count = wanted});
+    if (!modes.outcome.solved() || wanted == all || modes.frequency.size() <= count) return modes;
+    if (equal_frequencies(modes.frequency).back().first >= count) return modes;
+    wanted = std::min(all, 2 * wanted);
+  }
+}
+
+/// Distance of a set from the nearest frequency outside it, over its own unless that is zero.
+double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
+  const double f = frequency[set.first];
+  const Index end = set.first + set.count;
+  double gap = std::numeric_limits<double>::infinity();
+  if (set.first > 0) gap = f - frequency[set.first - 1];
+  if (end < frequency.size()) gap = std::min(gap, frequency[end] - f);
+  return f > 0 ? gap / f : gap;
+}
+
+}  // namespace
+
+FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, const Pose& pose,
+                                           const std::vector<DesignParameter>& parameters,
+                                           Index count) {
+  const System system = assemble(build_manipulator(design, pose));
+  const Posture posture = inverse_kinematics(design.geometry, pose);
+  const ModalSolution modes = whole_sets(system, count);
+  FrequencySensitivity result;
+  result.outcome = modes.outcome;
+  result.counters = modes.counters;
+  const Index kept = std::min(count, modes.frequency.size());
+  const auto columns = static_cast<Index>(parameters.size());
+  result.frequency = modes.frequency.head(kept);
+  result.derivative = MatrixXd::Constant(kept, columns, kNaN);
+  result.gap = VectorXd::Constant(kept, std::numeric_limits<double>::infinity());
+  if (!modes.outcome.solved()) return result;
+
+  std::vector<SeededDesign<Dual>> designs;
+  designs.reserve(parameters.size());
+  for (const DesignParameter& parameter : parameters) {
+    designs.emplace_back(design, posture, parameter);
+  }
+  for (const FrequencySet& set : equal_frequencies(modes.frequency)) {
+    if (set.first >= kept) break;
+    const Index shown = std::min(set.count, kept - set.first);
+    result.sets.push_back({set.first, shown});
+    const double f = modes.frequency[set.first];
+    result.gap.segment(set.first, shown).setConstant(relative_gap(modes.frequency, set));
+    if (f == 0) {
+      result.derivative.middleRows(set.first, shown).setZero();
+      continue;
+    }
+    const double omega = 2 * std::numbers::pi * f;
+    const MatrixXd U = system.T * modes.shape.middleCols(set.first, set.count);
+    const SetDerivative derivative(system, U, omega * omega);
+    for (Index p = 0; p < columns; ++p) {
+      const MatrixXd small = derivative.of(designs[static_cast<std::size_t>(p)]);
+      result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
+      if (!small.allFinite()) {
+        result.outcome = {Status::singular,
+                          "a limb is straight or folded: its angles, and with them the "
+                          "frequencies, change infinitely fast with the link lengths"};
+        result.derivative.setConstant(kNaN);
+        return result;
+      }
+      const VectorXd rates =
+          Eigen::SelfAdjointEigenSolver<MatrixXd>(small, Eigen::EigenvaluesOnly).eigenvalues();
+      result.derivative.col(p).segment(set.first, shown) =
+          rates.head(shown) / (4 * std::numbers::pi * omega);
+    }
+  }
+  return result;
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,77 @@
+#include "solver/sensitivity/sensitivity_map.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+namespace trammel::solver {
+
+FirstFrequency first_frequency(const ManipulatorDesign& design, const DesignParameter& parameter,
+                               const Pose& pose) {
+  FirstFrequency first{.outcome = {}, .frequency = kNaN, .derivative = kNaN, .counters = {}};
+  for (Index count = 1;; count *= 2) {
+    const FrequencySensitivity s = frequency_sensitivity(design, pose, {parameter}, count);
+    first.counters += s.counters;
+    first.outcome = s.outcome;
+    const auto rigid = (s.frequency.array() == 0).count();
+    if (rigid < s.frequency.size()) {
+      first.frequency = s.frequency[rigid];
+      first.derivative = s.derivative(rigid, 0);
+      return first;
+    }
+    if (rigid < count) break;
+  }
+  if (first.outcome.solved()) first.outcome = {Status::singular, "every motion is rigid"};
+  return first;
+}
+
+PoseGrid reachable_grid(const ManipulatorGeometry& geometry, double phi, Index columns) {
+  check_geometry(geometry);
+  if (columns < 2) throw ModelError("a grid of poses has at least two columns");
+  Vector2d low = Vector2d::Constant(-std::numeric_limits<double>::infinity());
+  Vector2d high = -low;
+  const Eigen::Rotation2Dd turn(phi);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector2d center = geometry.base[i] - turn * geometry.platform[i];
+    const double reach = geometry.proximal[i] + geometry.distal[i];
+    low = low.cwiseMax((center.array() - reach).matrix());
+    high = high.cwiseMin((center.array() + reach).matrix());
+  }
+  const Vector2d size = high - low;
+  if (!(size.minCoeff() > 0)) {
+    throw ModelError("no pose of this orientation is within reach of the three limbs");
+  }
+  const double step = size.x() / static_cast<double>(columns - 1);
+  const auto rows = static_cast<Index>(std::floor(size.y() / step * (1 + 1e-12))) + 1;
+  return {low.x(), low.y(), step, step, columns, rows, phi};
+}
+
+SensitivityMap map_first_frequency(const ManipulatorDesign& design,
+                                   const DesignParameter& parameter, const PoseGrid& grid) {
+  SensitivityMap map;
+  map.grid = grid;
+  for (Eigen::MatrixXd* m :
+       {&map.frequency, &map.derivative, &map.parallel_distance, &map.serial_distance}) {
+    m->setConstant(grid.rows, grid.columns, kNaN);
+  }
+  map.reachable.setConstant(grid.rows, grid.columns, false);
+  for (Index j = 0; j < grid.rows; ++j) {
+    for (Index i = 0; i < grid.columns; ++i) {
+      const Pose pose{grid.x0 + static_cast<double>(i) * grid.dx,
+                      grid.y0 + static_cast<double>(j) * grid.dy, grid.phi};
+      const Posture posture = inverse_kinematics(design.geometry, pose);
+      if (!posture.outcome.solved()) continue;
+      map.reachable(j, i) = true;
+      const Jacobians distances = jacobians(design.geometry, pose, posture);
+      map.parallel_distance(j, i) = distances.parallel_distance;
+      map.serial_distance(j, i) = distances.serial_distance;
+      const FirstFrequency first = first_frequency(design, parameter, pose);
+      map.frequency(j, i) = first.frequency;
+      map.derivative(j, i) = first.derivative;
+      map.counters += first.counters;
+    }
+  }
+  return map;
+}
+
+}  // namespace trammel::solver

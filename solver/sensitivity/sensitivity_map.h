@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/sensitivity/frequency_sensitivity.h"
+
+/// The first elastic frequency and its sensitivity over the workspace (paper Fig. 16).
+namespace trammel::solver {
+
+/// The first elastic frequency at one pose; NaN unless solved.
+struct FirstFrequency {
+  Outcome outcome;       ///< as FrequencySensitivity; singular too where all motions are rigid
+  double frequency = 0;  ///< [Hz]; has a value at a straight or folded limb, too
+  double derivative =
+      0;  ///< as the parameter grows; of a repeated frequency the lowest [Hz / unit]
+  Counters counters;
+};
+[[nodiscard]] FirstFrequency first_frequency(const ManipulatorDesign& design,
+                                             const DesignParameter& parameter, const Pose& pose);
+
+/// Poses x = x0 + i dx, y = y0 + j dy at one orientation.
+struct PoseGrid {
+  double x0 = 0, y0 = 0;  ///< [m]
+  double dx = 0, dy = 0;  ///< > 0 [m]
+  Index columns = 0, rows = 0;
+  double phi = 0;  ///< [rad]
+};
+
+/// The grid that just holds all poses within reach of the three limbs, square cells.
+[[nodiscard]] PoseGrid reachable_grid(const ManipulatorGeometry& geometry, double phi,
+                                      Index columns);
+
+/// row x column; NaN where there is no value. At a pose on the boundary of the reach, where the
+/// derivative is infinite, only the frequency and the distances have values.
+struct SensitivityMap {
+  PoseGrid grid;
+  Eigen::MatrixXd frequency;   ///< f_1 [Hz]
+  Eigen::MatrixXd derivative;  ///< d f_1 / dp [Hz / unit], as the parameter grows
+  Eigen::MatrixXd parallel_distance, serial_distance;  ///< as in Jacobians [-]
+  Eigen::ArrayXX<bool> reachable;
+  Counters counters;
+};
+
+/// Map of the first elastic frequency over the reachable workspace.
+[[nodiscard]] SensitivityMap map_first_frequency(const ManipulatorDesign& design,
+                                                 const DesignParameter& parameter,
+                                                 const PoseGrid& grid);
+
+}  // namespace trammel::solver
