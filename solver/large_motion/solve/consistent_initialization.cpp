@@ -37,7 +37,7 @@ class ConsistentInitialization {
   Outcome failed(const std::string& what) const {
     std::ostringstream message;
     message << "no consistent " << what << " at the start, time " << state_.t
-            << " s: largest constraint gap " << (m_ > 0 ? rigid_constraint_residual() : 0.0)
+            << " s: largest constraint residual " << (m_ > 0 ? rigid_constraint_residual() : 0.0)
             << " m or rad";
     return {Status::not_converged, message.str()};
   }
@@ -186,13 +186,6 @@ class ConsistentInitialization {
 };
 
 }  // namespace
-
-double weighted_rms_norm(const ConstrainedSystem& system,
-                         const Eigen::Ref<const VectorXd>& change) {
-  if (change.size() == 0) return 0;
-  return change.cwiseQuotient(system.scale()).norm() /
-         std::sqrt(static_cast<double>(change.size()));
-}
 
 Outcome make_consistent(const ConstrainedSystem& system, State& state,
                         const PrescribedVelocities& given, double step) {

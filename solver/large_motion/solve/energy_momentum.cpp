@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "solver/large_motion/solve/consistent_initialization.h"
-
 namespace trammel::solver::large_motion {
 
 EnergyMomentum::EnergyMomentum(const ConservativeSystem& system)

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/large_motion/solve/consistent_initialization.h"
-
 namespace trammel::solver::large_motion {
 
 GeneralizedAlpha::GeneralizedAlpha(const ConstrainedSystem& system, double spectral_radius)

@@ -41,8 +41,7 @@ class PathFollower {
     VectorXd shape;
     const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
     equilibrium_.load_direction(point.state, direction_.step);
-    const double response =
-        equilibrium_.weighted_rms_norm(direction_.step.head(system_.coordinates()));
+    const double response = weighted_rms_norm(system_, direction_.step.head(system_.coordinates()));
     // A rigid-body motion leaves a pivot of pure round-off: a response beyond every scale.
     if (!std::isfinite(eigenvalue) || !std::isfinite(response) || response > 1e11) {
       return stop({Status::singular, "free motion: " + describe_motion(system_, shape)});
@@ -64,7 +63,7 @@ class PathFollower {
   }
 
   double squared_norm(const VectorXd& step) const {
-    const double length = equilibrium_.weighted_rms_norm(step.head(system_.coordinates()));
+    const double length = weighted_rms_norm(system_, step.head(system_.coordinates()));
     return displacement_weight_ * length * length;
   }
 
@@ -116,11 +115,11 @@ class PathFollower {
       apply_correction(state, residual_step_);
       set_load(state, state.load + change);
       const double correction_norm =
-          equilibrium_.weighted_rms_norm(residual_step_.head(system_.coordinates()));
+          weighted_rms_norm(system_, residual_step_.head(system_.coordinates()));
       point.newton.correction.back() = correction_norm;
       distance += std::sqrt(squared_norm(residual_step_) + change * change);
       if (!(distance < 0.5 * std::abs(arc))) return false;
-      if (equilibrium_.converged(point.newton.correction, equilibrium_.weighted_rms_norm(state.q)))
+      if (equilibrium_.converged(point.newton.correction, weighted_rms_norm(system_, state.q)))
         return true;
     }
     return false;
@@ -182,7 +181,7 @@ class PathFollower {
     point.newton = equilibrium_.solve(point.state, options_.target);
     if (!point.newton.outcome.solved()) return false;
     const VectorXd distance = point.state.q - guess.q;
-    return std::sqrt(displacement_weight_) * equilibrium_.weighted_rms_norm(distance) <
+    return std::sqrt(displacement_weight_) * weighted_rms_norm(system_, distance) <
                0.5 * std::abs(arc) &&
            equilibrium_.factor(point.state);
   }
