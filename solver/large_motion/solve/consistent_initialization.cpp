@@ -136,8 +136,8 @@ class ConsistentInitialization {
     system_.force_residual(state_, force_residual_);
     if (!solve_with_mass_scaling(0.5, bias)) return false;
     const VectorXd resolved = solution_;
-    // Without the step's view where that makes no great difference; where it does, what vibrates
-    // faster than the step, or has no mass, would start wildly.
+    // Nearly the exact acceleration, unless it is more than four times that of an implicit step:
+    // then something vibrates faster than the step resolves, or has no mass.
     if (!solve_with_mass_scaling(1e-4, bias) ||
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
@@ -160,7 +160,7 @@ class ConsistentInitialization {
   }
 
   /// d(G v + dg/dt)/dt without accelerations, by a central difference along the motion. The
-  /// acceleration only starts the integrator, so ten digits are plenty.
+  /// acceleration only starts the integrator, so ten digits are enough.
   VectorXd acceleration_bias() {
     const double speed = state_.v.size() > 0 ? weighted_rms_norm(system_, state_.v) : 0.0;
     double d = 1e-2 * step_;

@@ -63,7 +63,7 @@ void Equilibrium::load_direction(const State& state, VectorXd& direction) {
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {
   const Index n = system_.coordinates(), m = system_.constraints();
   if (n == 0) return 0;
-  // A start without symmetry, so that no shape is missed.
+  // A start vector without symmetry is orthogonal to no mode.
   VectorXd x(n + m);
   for (Index i = 0; i < n; ++i) {
     x[i] = system_.scale()[i] * (1 + 0.37 * std::sin(1.7 * static_cast<double>(i) + 0.4));
