@@ -7,6 +7,7 @@
 #include <boost/math/special_functions/bessel.hpp>
 #include <map>
 
+#include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
 namespace trammel::references {
@@ -28,28 +29,6 @@ std::array<T, 3> radial(bool second_kind, int n, const T& k, const T& r) {
   const T value = bessel(second_kind, n, x);
   const T slope = n * value / x - bessel(second_kind, n + 1, x);
   return {value, k * slope, k * k * ((n * n / (x * x) - 1) * value - slope / x)};
-}
-
-template <class T>
-T determinant(std::array<std::array<T, 4>, 4> m) {
-  using std::abs;
-  T det = 1;
-  for (int k = 0; k < 4; ++k) {
-    int p = k;
-    for (int i = k + 1; i < 4; ++i) {
-      if (abs(m[i][k]) > abs(m[p][k])) p = i;
-    }
-    if (p != k) {
-      std::swap(m[p], m[k]);
-      det = -det;
-    }
-    det *= m[k][k];
-    for (int i = k + 1; i < 4 && det != 0; ++i) {
-      const T factor = m[i][k] / m[k][k];
-      for (int j = k; j < 4; ++j) m[i][j] -= factor * m[k][j];
-    }
-  }
-  return det;
 }
 
 struct Annulus {
@@ -77,6 +56,19 @@ T characteristic(const Annulus& annulus, int n, const T& w) {
   return determinant(m);
 }
 
+/// Pairs of waves n and number k >= 1 of the frequency.
+std::vector<std::pair<int, int>> wanted_modes(const Arguments& arguments) {
+  std::vector<std::pair<int, int>> wanted;
+  for (const Json& mode : arguments["modes"]) {
+    if (!mode.is_array() || mode.size() != 2 || !mode[0].is_number_unsigned() ||
+        !mode[1].is_number_unsigned() || mode[1] < 1) {
+      arguments.fail("modes", "expected pairs of waves and a number from 1");
+    }
+    wanted.emplace_back(mode[0].get<int>(), mode[1].get<int>());
+  }
+  return wanted;
+}
+
 }  // namespace
 
 std::vector<double> annular_membrane_program(const Json& json) {
@@ -89,28 +81,19 @@ std::vector<double> annular_membrane_program(const Json& json) {
   if (annulus.inner >= annulus.outer) {
     arguments.fail("outer_radius_m", "expected more than the inner radius");
   }
-  const Json& modes = arguments["modes"];
-  std::map<int, int> wanted;  // waves -> how many frequencies
-  for (const Json& mode : modes) {
-    if (!mode.is_array() || mode.size() != 2 || !mode[0].is_number_unsigned() ||
-        !mode[1].is_number_unsigned() || mode[1] < 1) {
-      arguments.fail("modes", "expected pairs of waves and a number from 1");
-    }
-    int& count = wanted[mode[0].get<int>()];
-    count = std::max(count, mode[1].get<int>());
-  }
+  const auto wanted = wanted_modes(arguments);
   const auto scale = static_cast<double>(annulus.c_s / annulus.outer);
+  std::map<int, int> counts;  // waves -> how many frequencies
+  for (const auto& [n, k] : wanted) counts[n] = std::max(counts[n], k);
   std::map<int, std::vector<Real>> roots;
-  for (const auto& [n, count] : wanted) {
+  for (const auto& [n, count] : counts) {
     const int waves = n;
     roots[n] = first_roots(
         equation([&annulus, waves](const auto& w) { return characteristic(annulus, waves, w); }),
         0.02 * scale, 0.02 * scale, count);
   }
   std::vector<Real> values;
-  for (const Json& mode : modes) {
-    values.push_back(roots[mode[0].get<int>()][mode[1].get<int>() - 1] / (2 * pi<Real>()));
-  }
+  for (const auto& [n, k] : wanted) values.push_back(roots[n][k - 1] / (2 * pi<Real>()));
   return to_doubles(values);
 }
 

@@ -8,7 +8,7 @@
 
 /// Bending vibration of one uniform Euler-Bernoulli beam of length L: roots b = beta L of its
 /// characteristic equation, f = b^2 / (2 pi L^2) sqrt(EI / rho A).
-/// The equations are divided by cosh b, so that nothing swamps (Blevins 1979, Table 8-1):
+/// The equations are divided by cosh b, so that nothing overflows (Blevins 1979, Table 8-1):
 ///   clamped-free                      cos b + sech b = 0
 ///   clamped-clamped, free-free        cos b - sech b = 0
 ///   clamped-pinned, pinned-free       sin b - cos b tanh b = 0
@@ -22,10 +22,12 @@ namespace trammel::references {
 
 struct BeamEnds {
   std::string kind = "clamped-free";
-  Real tip_mass_ratio = 0;
-  Real tip_inertia_ratio = 0;
+  Real tip_mass_ratio = 0;     ///< mu [-]
+  Real tip_inertia_ratio = 0;  ///< j [-]
 };
 
+/// The first `count` roots beta L > 0 [-], to 45 digits.
+/// @throws DerivationError  where fewer are found.
 [[nodiscard]] std::vector<Real> beam_roots(const BeamEnds& ends, int count);
 
 /// Arguments: ends, count, tip_mass_ratio, tip_inertia_ratio. Values: beta L.

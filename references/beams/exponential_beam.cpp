@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
 namespace trammel::references {
@@ -21,15 +22,6 @@ std::array<Real, 2> wave(const Real& z2, const Real& L) {
   }
   const Real z = sqrt(-z2);
   return {cos(z * L), sin(z * L) / z};
-}
-
-Real determinant(const std::array<std::array<Real, 4>, 4>& m) {
-  const auto minor2 = [&m](int i, int j, int k, int l) {
-    return m[i][k] * m[j][l] - m[i][l] * m[j][k];
-  };
-  return minor2(0, 1, 0, 1) * minor2(2, 3, 2, 3) - minor2(0, 1, 0, 2) * minor2(2, 3, 1, 3) +
-         minor2(0, 1, 0, 3) * minor2(2, 3, 1, 2) + minor2(0, 1, 1, 2) * minor2(2, 3, 0, 3) -
-         minor2(0, 1, 1, 3) * minor2(2, 3, 0, 2) + minor2(0, 1, 2, 3) * minor2(2, 3, 0, 1);
 }
 
 /// Both values of P, the smaller first.

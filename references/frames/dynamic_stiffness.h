@@ -19,6 +19,7 @@ namespace trammel::references {
 template <class T>
 class DynamicStiffness {
  public:
+  /// @throws DerivationError  as `FrameCoordinates`.
   explicit DynamicStiffness(const Frame& frame);
 
   struct Count {

@@ -18,8 +18,9 @@ using RealMatrix = Dense<Real>;
 class FrameCoordinates {
  public:
   /// @param constrain_inextensible  whether members without axial compliance are constraints
-  /// (dynamics)
-  ///                           or carry an axial force of their own (statics).
+  ///                                (dynamics) or carry an axial force of their own (statics).
+  /// @throws DerivationError  where a constraint names a rotation that a node does not have, or a
+  ///                          member has no length.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
   [[nodiscard]] int size() const { return size_; }                           ///< of u

@@ -2,44 +2,33 @@
 
 #include <map>
 
+#include "references/frames/frame_section.h"
+
 namespace trammel::references {
 
 namespace {
 
-struct MaterialData {
-  Real E, rho, nu;
-};
-
-/// A section as read: what a member makes of it depends on the member's beam theory.
-struct SectionData {
-  MaterialData material;
-  Real area, second_moment, shear_coefficient;
-};
-
-using Sections = std::map<std::string, SectionData>;
+using Sections = std::map<std::string, CrossSection>;
 
 Arguments object_at(const Arguments& parent, const std::string& key) {
   return {parent.has(key) ? parent[key] : Json::object(), parent.pointer(key)};
 }
 
-MaterialData read_material(const Arguments& materials, const std::string& name,
-                           const Arguments& section) {
+FrameMaterial read_material(const Arguments& materials, const std::string& name,
+                            const Arguments& section) {
   if (!materials.has(name)) section.fail("material", "there is no material '" + name + "'");
   const Arguments material(materials[name], materials.pointer(name), {"E_Pa", "rho_kg_m3", "nu"});
   return {material.positive("E_Pa"), material.not_negative("rho_kg_m3", 0),
           material.number("nu", 0)};
 }
 
-SectionData read_section(const Arguments& materials, const Arguments& section) {
-  SectionData data;
-  data.material = read_material(materials, section.text("material"), section);
-  data.shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
+CrossSection read_section(const Arguments& materials, const Arguments& section) {
+  const FrameMaterial material = read_material(materials, section.text("material"), section);
+  CrossSection data{material, 0, 0, 0};
   if (section.has("rectangle")) {
     const Arguments r(section["rectangle"], section.pointer("rectangle"),
                       {"thickness_m", "width_m"});
-    const Real thickness = r.positive("thickness_m");
-    data.area = thickness * r.positive("width_m");
-    data.second_moment = data.area * thickness * thickness / 12;
+    data = rectangle(material, r.positive("thickness_m"), r.positive("width_m"));
   } else if (section.has("circle")) {
     const Arguments c(section["circle"], section.pointer("circle"), {"diameter_m"});
     const Real diameter = c.positive("diameter_m");
@@ -49,6 +38,7 @@ SectionData read_section(const Arguments& materials, const Arguments& section) {
     data.area = section.positive("area_m2");
     data.second_moment = section.positive("second_moment_m4");
   }
+  data.shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
   return data;
 }
 
@@ -63,20 +53,6 @@ Sections read_sections(const Arguments& model) {
                               "half_depth_m", "shear_coefficient"}));
   }
   return result;
-}
-
-FrameSection section_of_member(const SectionData& data, bool timoshenko, bool extensible) {
-  FrameSection section;
-  const MaterialData& m = data.material;
-  if (extensible) section.axial_compliance = 1 / (m.E * data.area);
-  section.EI = m.E * data.second_moment;
-  section.mass = m.rho * data.area;
-  if (timoshenko) {
-    const Real G = m.E / (2 * (1 + m.nu));
-    section.shear_compliance = 1 / (data.shear_coefficient * G * data.area);
-    section.rotary_inertia = m.rho * data.second_moment;
-  }
-  return section;
 }
 
 int node_named(const Frame& frame, const Json& name, const Arguments& where,
@@ -112,13 +88,9 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
     member.nodes[i] = node_named(frame, nodes[i], object, "nodes");
   const auto section = sections.find(object.text("section"));
   if (section == sections.end()) object.fail("section", "expected the name of a section");
-  const bool timoshenko =
-      object.choice("beam", "euler-bernoulli", {"euler-bernoulli", "timoshenko"}) == "timoshenko";
-  const bool extensible =
-      object.choice("axial", "flexible", {"flexible", "inextensible"}) == "flexible";
-  member.section = section_of_member(section->second, timoshenko, extensible);
+  member.section = member_section(section->second, object);
   member.section.tension = object.number("axial_force_N", 0);
-  if (timoshenko && member.section.tension != 0) {
+  if (member.section.shear_compliance > 0 && member.section.tension != 0) {
     object.fail("axial_force_N", "only an Euler-Bernoulli member is derived with an axial force");
   }
   if (object.has("ends")) {

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "references/frames/frame_programs.h"
+#include "references/frames/frame_arguments.h"
 #include "references/frames/wittrick_williams.h"
 #include "references/numerics/roots.h"
 

@@ -1,10 +1,12 @@
-#include <algorithm>
+#include "references/frames/frame_statics.h"
 
+#include <algorithm>
+#include <string>
+
+#include "references/frames/frame_arguments.h"
 #include "references/frames/frame_coordinates.h"
-#include "references/frames/frame_programs.h"
 #include "references/frames/unit_load.h"
 
-/// The outputs of unit_load_statics by name.
 namespace trammel::references {
 
 namespace {

@@ -1,5 +1,6 @@
 #include "references/frames/manipulator_frame.h"
 
+#include "references/frames/frame_section.h"
 #include "references/frames/manipulator_geometry.h"
 
 namespace trammel::references {
@@ -32,32 +33,14 @@ std::array<Limb, 3> limbs(const Arguments& manipulator, const Arguments& links,
   return result;
 }
 
-struct Material {
-  Real E, rho, nu;
-};
-
-/// A number where one is given; the text "from-density", "from-mass" or nothing otherwise.
-bool is_given(const Arguments& object, const std::string& key) {
-  return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
-}
-
-FrameSection link_section(const Arguments& links, const Material& material, const Real& length) {
-  const Real thickness = links.positive("thickness_m");
-  const Real area = thickness * links.positive("width_m");
-  const Real second_moment = area * thickness * thickness / 12;
-  FrameSection section;
-  section.EI = material.E * second_moment;
-  if (links.choice("axial", "flexible", {"flexible", "inextensible"}) == "flexible") {
-    section.axial_compliance = 1 / (material.E * area);
-  }
-  section.mass = is_given(links, "mass_kg") ? Real(links.positive("mass_kg") / length)
-                                            : Real(material.rho * area);
-  if (links.choice("beam", "euler-bernoulli", {"euler-bernoulli", "timoshenko"}) == "timoshenko") {
-    const Real G = material.E / (2 * (1 + material.nu));
-    section.shear_compliance = 1 / (links.number("shear_coefficient", Real(5) / 6) * G * area);
-    section.rotary_inertia = material.rho * second_moment;
-  }
-  return section;
+FrameSection link_section(const Arguments& links, const FrameMaterial& material,
+                          const Real& length) {
+  CrossSection section =
+      rectangle(material, links.positive("thickness_m"), links.positive("width_m"));
+  section.shear_coefficient = links.number("shear_coefficient", Real(5) / 6);
+  FrameSection result = member_section(section, links);
+  if (is_given(links, "mass_kg")) result.mass = links.positive("mass_kg") / length;
+  return result;
 }
 
 /// welded, hinged or sprung; "locked" and "free" are the words for an active joint.
@@ -84,9 +67,9 @@ void add_eq25(const Arguments& joints, Frame& frame) {
   frame.constraints.push_back(constraint);
 }
 
-void add_links(const Arguments& links, const Arguments& joints, const Material& material,
+void add_links(const Arguments& links, const Arguments& joints, const FrameMaterial& material,
                Frame& frame) {
-  const Real J = is_given(links, "inertia_kg_m2") ? links.positive("inertia_kg_m2") : Real(0);
+  const Real J = given_or(links, "inertia_kg_m2", 0);
   for (const char* i : {"1", "2", "3"}) {
     const std::string limb = i;
     for (const bool proximal : {true, false}) {
@@ -109,14 +92,12 @@ void add_links(const Arguments& links, const Arguments& joints, const Material& 
   }
 }
 
-void add_platform(const Arguments& platform, const Material& material, Frame& frame) {
+void add_platform(const Arguments& platform, const FrameMaterial& material, Frame& frame) {
   const Real side = platform.positive("side_m");
   const Real mass =
-      is_given(platform, "mass_kg")
-          ? platform.positive("mass_kg")
-          : Real(sqrt(Real(3)) / 4 * side * side * platform.positive("thickness_m") * material.rho);
-  const Real inertia = is_given(platform, "inertia_kg_m2") ? platform.positive("inertia_kg_m2")
-                                                           : Real(mass * side * side / 12);
+      given_or(platform, "mass_kg",
+               sqrt(Real(3)) / 4 * side * side * platform.positive("thickness_m") * material.rho);
+  const Real inertia = given_or(platform, "inertia_kg_m2", mass * side * side / 12);
   const int P = frame.find_node("P");
   frame.masses.push_back({P, mass, inertia, {}});
   frame.bodies.push_back(
@@ -135,7 +116,7 @@ Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose) {
   static_cast<void>(platform.choice("kind", "", {"rigid"}));
   const Arguments m(manipulator["material"], manipulator.pointer("material"),
                     {"E_Pa", "rho_kg_m3", "nu"});
-  const Material material{m.positive("E_Pa"), m.positive("rho_kg_m3"), m.number("nu", 0)};
+  const FrameMaterial material{m.positive("E_Pa"), m.positive("rho_kg_m3"), m.number("nu", 0)};
   const Arguments joints(manipulator["joints"], manipulator.pointer("joints"),
                          {"active", "elbow", "platform"});
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "references/numerics/arguments.h"
 
-/// Where the joints of a planar 3-RRR are, in closed form. Number: Real, or Jet for a motion.
+/// Where the joints of a planar 3-RRR are, in closed form, and which of its numbers are given.
+/// Number: Real, or Jet<Real> for a motion.
 namespace trammel::references {
 
 template <class Number>
@@ -37,6 +39,17 @@ template <class Number>
   if (height2 < Real(0)) throw DerivationError("a limb cannot reach its platform joint");
   const Number across = Real(mode) * sqrt(height2);
   return {A[0] + along * dx - across * dy, A[1] + along * dy + across * dx};
+}
+
+/// Whether a mass or an inertia is a number, not one of the texts "from-density" and "from-mass".
+[[nodiscard]] inline bool is_given(const Arguments& object, const std::string& key) {
+  return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
+}
+
+/// A mass [kg] or an inertia [kg m^2] where it is given, otherwise what the texts stand for.
+[[nodiscard]] inline Real given_or(const Arguments& object, const std::string& key,
+                                   const Real& computed) {
+  return is_given(object, key) ? object.positive(key) : computed;
 }
 
 }  // namespace trammel::references

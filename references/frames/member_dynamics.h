@@ -16,9 +16,10 @@
 /// T the tension of a prestressed Euler-Bernoulli member, which adds T v' to the force V below.
 /// Motions even and odd about mid-span decouple; with C = cos(h) or cosh, S = sin or sinh of k x
 /// over k, x from mid-span,
-///   even: v = C,     psi = (k^2 + g) S,  M = EI (k^2 + g) C,      V = -(k^2 + g)(EI k^2 + w^2 rho
-///   I) S odd:  v = k^2 S, psi = (k^2 + g) C,  M = EI (k^2 + g) k^2 S,  V = -(k^2 + g)(EI k^2 + w^2
-///   rho I) C.
+///   even: v = C,      psi = (k^2 + g) S,  M = EI (k^2 + g) C,
+///         V = -(k^2 + g)(EI k^2 + w^2 rho I) S;
+///   odd:  v = k^2 S,  psi = (k^2 + g) C,  M = EI (k^2 + g) k^2 S,
+///         V = -(k^2 + g)(EI k^2 + w^2 rho I) C.
 /// Hyperbolic pairs are divided by cosh(k L/2), so that nothing overflows.
 namespace trammel::references {
 
@@ -86,15 +87,10 @@ int waves_below(const T& k, const T& length) {
   return n > 0 ? static_cast<int>(n) : 0;
 }
 
-}  // namespace detail
-
-/// @param w2  w^2 > 0 [1/s^2].
-/// @param load_factor  multiplies the member's tension.
+/// Bending at w^2: the stiffnesses of motions even and odd about mid-span, and the clamped
+/// frequencies.
 template <class T>
-[[nodiscard]] MemberStiffness<T> member_stiffness(const MemberData<T>& m, const T& w2,
-                                                  const T& load_factor) {
-  using std::cos;
-  using std::sin;
+MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const T& load_factor) {
   using std::sqrt;
   const T h = m.length / 2;
   const T g = w2 * m.mass * m.shear_compliance;
@@ -109,7 +105,7 @@ template <class T>
   std::array<std::array<T, 2>, 2> even_motion, even_force, odd_motion, odd_force;
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
-    const auto [C, S] = detail::half_wave(k2, h);
+    const auto [C, S] = half_wave(k2, h);
     const T slope = k2 + g;
     const T shear = -slope * (m.EI * k2 + w2 * m.rotary_inertia) + tension * k2;
     even_motion[0][i] = C;
@@ -121,15 +117,28 @@ template <class T>
     odd_force[0][i] = shear * C;
     odd_force[1][i] = m.EI * slope * k2 * S;
   }
-  MemberStiffness<T> result{detail::stiffness_from_solutions(even_force, even_motion),
-                            detail::stiffness_from_solutions(odd_force, odd_motion), T(0), T(0), 0};
-
+  MemberStiffness<T> result{stiffness_from_solutions(even_force, even_motion),
+                            stiffness_from_solutions(odd_force, odd_motion), T(0), T(0), 0};
   // Pinned ends have known frequencies; clamping the two rotations takes away as many as their
   // stiffness has negative eigenvalues.
-  int pinned = detail::waves_below(T(sqrt(-below)), m.length);
-  if (above < 0) pinned += 1 + detail::waves_below(T(sqrt(-above)), m.length);
+  int pinned = waves_below(T(sqrt(-below)), m.length);
+  if (above < 0) pinned += 1 + waves_below(T(sqrt(-above)), m.length);
   result.clamped_below = pinned - (result.even.pp < 0 ? 1 : 0) - (result.odd.pp < 0 ? 1 : 0);
+  return result;
+}
 
+}  // namespace detail
+
+/// @param w2  w^2 > 0 [1/s^2].
+/// @param load_factor  multiplies the member's tension.
+template <class T>
+[[nodiscard]] MemberStiffness<T> member_stiffness(const MemberData<T>& m, const T& w2,
+                                                  const T& load_factor) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const T h = m.length / 2;
+  MemberStiffness<T> result = detail::bending_stiffness(m, w2, load_factor);
   if (m.axial_compliance == 0) {
     result.axial_even = -w2 * m.mass * h;
     return result;

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "references/frames/frame.h"
-#include "references/numerics/arguments.h"
 
 /// Exact statics of a frame by the unit-load (force) method: the unknowns are the internal forces
 /// at each member's start; their compliances are the integrals of unit-load diagrams
@@ -29,11 +27,5 @@ struct FrameStatics {
 
 /// @throws DerivationError  where the frame can move freely, or its forces are not determined.
 [[nodiscard]] FrameStatics unit_load_statics(const Frame& frame);
-
-/// Arguments: model (or manipulator and pose, with loads), outputs (array of names). Names:
-/// displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start,
-/// reaction_x_N:NODE, reaction_y_N:NODE, reaction_moment_N_m:NODE, axial_force_N:MEMBER.start,
-/// bending_moment_N_m:MEMBER.end.
-[[nodiscard]] std::vector<double> frame_statics_program(const Json& arguments);
 
 }  // namespace trammel::references

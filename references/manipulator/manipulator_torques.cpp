@@ -8,11 +8,6 @@ namespace trammel::references {
 
 namespace {
 
-/// A number, or what the words "from-density" and "from-mass" stand for.
-Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
-  return object.has(key) && object[key].is_number() ? object.positive(key) : computed;
-}
-
 LinkBody link_body(const Arguments& links, const Real& density, const Real& length) {
   const Real volume = length * links.positive("thickness_m") * links.positive("width_m");
   LinkBody body;

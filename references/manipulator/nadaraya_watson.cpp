@@ -38,7 +38,7 @@ Sample sample_at(const PlanarManipulator& manipulator, const Arguments& trajecto
   Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto joints = limb_joints(manipulator.limbs[i], motion);
-    const Jet x = joints[1][0] - joints[0][0], y = joints[1][1] - joints[0][1];
+    const Jet<Real> x = joints[1][0] - joints[0][0], y = joints[1][1] - joints[0][1];
     sample.joints[i] = atan2(y.value, x.value);
     sample.joints[3 + i] =
         (x.value * y.rate - y.value * x.rate) / (x.value * x.value + y.value * y.value);

@@ -6,10 +6,10 @@ namespace trammel::references {
 
 namespace {
 
-using PointJet = Point2<Jet>;
+using PointJet = Point2<Jet<Real>>;
 
-PointJet rotated(const Point2<Real>& v, const Jet& angle) {
-  const Jet c = cos(angle), s = sin(angle);
+PointJet rotated(const Point2<Real>& v, const Jet<Real>& angle) {
+  const Jet<Real> c = cos(angle), s = sin(angle);
   return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
 }
 
@@ -22,7 +22,7 @@ PointJet between(const PointJet& from, const PointJet& to, const Real& distance,
 
 /// Angular acceleration of the line from one point to another, which keeps its length.
 Real angular_acceleration(const PointJet& from, const PointJet& to) {
-  const Jet x = to[0] - from[0], y = to[1] - from[1];
+  const Jet<Real> x = to[0] - from[0], y = to[1] - from[1];
   return (x.value * y.acceleration - y.value * x.acceleration) /
          (x.value * x.value + y.value * y.value);
 }
@@ -67,16 +67,16 @@ class Body {
 
 }  // namespace
 
-std::array<PointJet, 3> limb_joints(const LimbBodies& limb, const std::array<Jet, 3>& motion) {
+std::array<PointJet, 3> limb_joints(const LimbBodies& limb, const std::array<Jet<Real>, 3>& motion) {
   const PointJet base_joint = {limb.base[0], limb.base[1]};
   const PointJet corner = rotated(limb.corner, motion[2]);
   const PointJet C = {motion[0] + corner[0], motion[1] + corner[1]};
   return {base_joint,
-          elbow<Jet>(base_joint, C, limb.proximal_length, limb.distal_length, limb.mode), C};
+          elbow<Jet<Real>>(base_joint, C, limb.proximal_length, limb.distal_length, limb.mode), C};
 }
 
 std::array<Real, 3> newton_euler_torques(const PlanarManipulator& m,
-                                         const std::array<Jet, 3>& motion,
+                                         const std::array<Jet<Real>, 3>& motion,
                                          const PlanarWrench& wrench) {
   Dense<Real> A(21, 21);
   std::vector<Real> b(21, Real(0));

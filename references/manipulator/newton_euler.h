@@ -40,14 +40,14 @@ struct PlanarWrench {
 /// A_i, B_i and C_i of a limb.
 /// @param motion  of the platform: x, y of P and its orientation, with their derivatives
 /// @throws DerivationError  where the limb cannot reach.
-[[nodiscard]] std::array<Point2<Jet>, 3> limb_joints(const LimbBodies& limb,
-                                                     const std::array<Jet, 3>& motion);
+[[nodiscard]] std::array<Point2<Jet<Real>>, 3> limb_joints(const LimbBodies& limb,
+                                                           const std::array<Jet<Real>, 3>& motion);
 
 /// Torques of the base on the three proximal links, counterclockwise, in SI.
 /// @param motion  as in `limb_joints`
 /// @throws DerivationError  where a limb cannot reach, or the posture is singular.
 [[nodiscard]] std::array<Real, 3> newton_euler_torques(const PlanarManipulator& manipulator,
-                                                       const std::array<Jet, 3>& motion,
+                                                       const std::array<Jet<Real>, 3>& motion,
                                                        const PlanarWrench& wrench);
 
 }  // namespace trammel::references

@@ -6,12 +6,12 @@ namespace trammel::references {
 
 namespace {
 
-using Motion = std::array<Jet, 3>;
+using Motion = std::array<Jet<Real>, 3>;
 
-Motion on_circle(const Arguments& circle, const Jet& t) {
+Motion on_circle(const Arguments& circle, const Jet<Real>& t) {
   const std::vector<Real> center = circle.numbers("center_m", 2);
   const Real radius = circle.positive("radius_m");
-  const Jet s = circle.number("angular_speed_rad_s", 1) * t;
+  const Jet<Real> s = circle.number("angular_speed_rad_s", 1) * t;
   return {center[0] + radius * cos(s), center[1] + radius * sin(s), circle.number("phi_rad", 0)};
 }
 
@@ -20,15 +20,15 @@ std::array<Real, 3> pose(const Arguments& parent, const std::string& key) {
   return {p.number("x_m"), p.number("y_m"), p.number("phi_rad")};
 }
 
-Motion interpolate_poses(const Arguments& line, const Jet& share) {
+Motion interpolate_poses(const Arguments& line, const Jet<Real>& share) {
   const auto from = pose(line, "from"), to = pose(line, "to");
   Motion motion;
   for (std::size_t c = 0; c < 3; ++c) motion[c] = from[c] + Real(to[c] - from[c]) * share;
   return motion;
 }
 
-Motion from_rest_to_rest(const Arguments& line, const Jet& t) {
-  const Jet u = t / line.positive("duration_s");
+Motion from_rest_to_rest(const Arguments& line, const Jet<Real>& t) {
+  const Jet<Real> u = t / line.positive("duration_s");
   if (!(u.value > 0)) return interpolate_poses(line, 0);
   if (!(u.value < 1)) return interpolate_poses(line, 1);
   return interpolate_poses(line, u * u * u * (Real(10) - Real(15) * u + Real(6) * u * u));
@@ -63,23 +63,23 @@ std::vector<Real> slopes(const std::vector<Real>& t, const std::vector<Real>& y,
   Dense<Real> A(n, n);
   std::vector<Real> b(n, Real(0));
   const auto h = [&](std::size_t k) { return Real(t[k + 1] - t[k]); };
-  const auto secant = [&](std::size_t k) { return Real((y[k + 1] - y[k]) / h(k)); };
+  const auto chord_slope = [&](std::size_t k) { return Real((y[k + 1] - y[k]) / h(k)); };
   // Second derivative to the left of the end of interval `k` equals that at the start of `l`.
   const auto smooth = [&](std::size_t row, std::size_t k, std::size_t l) {
     A(row, k) += 2 / h(k);
     A(row, k + 1) += 4 / h(k);
     A(row, l) += 4 / h(l);
     A(row, l + 1) += 2 / h(l);
-    b[row] = 6 * secant(k) / h(k) + 6 * secant(l) / h(l);
+    b[row] = 6 * chord_slope(k) / h(k) + 6 * chord_slope(l) / h(l);
   };
   for (std::size_t k = 1; k + 1 < n; ++k) smooth(k, k - 1, k);
   if (ends == "natural") {
     A(0, 0) = 2;
     A(0, 1) = 1;
-    b[0] = 3 * secant(0);
+    b[0] = 3 * chord_slope(0);
     A(n - 1, n - 2) = 1;
     A(n - 1, n - 1) = 2;
-    b[n - 1] = 3 * secant(n - 2);
+    b[n - 1] = 3 * chord_slope(n - 2);
   } else if (ends == "at-rest") {
     A(0, 0) = A(n - 1, n - 1) = 1;
   } else {
@@ -91,14 +91,14 @@ std::vector<Real> slopes(const std::vector<Real>& t, const std::vector<Real>& y,
   return b;
 }
 
-Motion on_spline(const Arguments& spline, const Jet& t) {
+Motion on_spline(const Arguments& spline, const Jet<Real>& t) {
   const Knots knots = read_knots(spline);
   const std::string ends = spline.choice("ends", "natural", {"natural", "at-rest", "periodic"});
   std::size_t k = 0;
   while (k + 2 < knots.time.size() && !(t.value < knots.time[k + 1])) ++k;
   const Real h = knots.time[k + 1] - knots.time[k];
-  const Jet u = (t - knots.time[k]) / h;
-  const Jet v = Real(1) - u;
+  const Jet<Real> u = (t - knots.time[k]) / h;
+  const Jet<Real> v = Real(1) - u;
   Motion motion;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::vector<Real>& y = knots.pose[c];
@@ -113,7 +113,7 @@ Motion on_spline(const Arguments& spline, const Jet& t) {
 }  // namespace
 
 Motion platform_motion(const Arguments& trajectory, const Real& time) {
-  const Jet t(time, 1, 0);
+  const Jet<Real> t(time, 1, 0);
   const auto section = [&](const char* key, std::initializer_list<const char*> known) {
     return Arguments(trajectory[key], trajectory.pointer(key), known);
   };

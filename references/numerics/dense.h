@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -75,6 +76,29 @@ template <class T>
     b[k] /= A(k, k);
   }
   return true;
+}
+
+/// Determinant of a small matrix by Gaussian elimination with partial pivoting.
+template <class T, std::size_t N>
+[[nodiscard]] T determinant(std::array<std::array<T, N>, N> m) {
+  using std::abs;
+  T det = 1;
+  for (std::size_t k = 0; k < N; ++k) {
+    std::size_t p = k;
+    for (std::size_t i = k + 1; i < N; ++i) {
+      if (abs(m[i][k]) > abs(m[p][k])) p = i;
+    }
+    if (p != k) {
+      std::swap(m[p], m[k]);
+      det = -det;
+    }
+    det *= m[k][k];
+    for (std::size_t i = k + 1; i < N && det != 0; ++i) {
+      const T factor = m[i][k] / m[k][k];
+      for (std::size_t j = k; j < N; ++j) m[i][j] -= factor * m[k][j];
+    }
+  }
+  return det;
 }
 
 }  // namespace trammel::references

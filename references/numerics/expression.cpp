@@ -7,37 +7,36 @@ namespace trammel::references {
 
 namespace {
 
-using Function = Real (*)(const Real&);
-
-const std::map<std::string, Function>& functions() {
-  static const std::map<std::string, Function> table = {
-      {"abs", [](const Real& x) -> Real { return abs(x); }},
-      {"acos", [](const Real& x) -> Real { return acos(x); }},
-      {"asin", [](const Real& x) -> Real { return asin(x); }},
-      {"atan", [](const Real& x) -> Real { return atan(x); }},
-      {"cos", [](const Real& x) -> Real { return cos(x); }},
-      {"cosh", [](const Real& x) -> Real { return cosh(x); }},
-      {"exp", [](const Real& x) -> Real { return exp(x); }},
-      {"log", [](const Real& x) -> Real { return log(x); }},
-      {"sin", [](const Real& x) -> Real { return sin(x); }},
-      {"sinh", [](const Real& x) -> Real { return sinh(x); }},
-      {"sqrt", [](const Real& x) -> Real { return sqrt(x); }},
-      {"tan", [](const Real& x) -> Real { return tan(x); }},
-      {"tanh", [](const Real& x) -> Real { return tanh(x); }}};
+template <class T>
+const std::map<std::string, T (*)(const T&)>& functions() {
+  static const std::map<std::string, T (*)(const T&)> table = {
+      {"abs", [](const T& x) -> T { return abs(x); }},
+      {"acos", [](const T& x) -> T { return acos(x); }},
+      {"asin", [](const T& x) -> T { return asin(x); }},
+      {"atan", [](const T& x) -> T { return atan(x); }},
+      {"cos", [](const T& x) -> T { return cos(x); }},
+      {"cosh", [](const T& x) -> T { return cosh(x); }},
+      {"exp", [](const T& x) -> T { return exp(x); }},
+      {"log", [](const T& x) -> T { return log(x); }},
+      {"sin", [](const T& x) -> T { return sin(x); }},
+      {"sinh", [](const T& x) -> T { return sinh(x); }},
+      {"sqrt", [](const T& x) -> T { return sqrt(x); }},
+      {"tan", [](const T& x) -> T { return tan(x); }},
+      {"tanh", [](const T& x) -> T { return tanh(x); }}};
   return table;
 }
 
 /// sum = product (('+'|'-') product)*; product = power (('*'|'/') power)*;
-/// power = '-' power | primary ('^' power)?; primary = number | name | function '(' sum ')' | '('
-/// sum
-/// ')'.
+/// power = '-' power | primary ('^' power)?;
+/// primary = number | name | function '(' sum ')' | '(' sum ')'.
+template <class T>
 class Parser {
  public:
-  Parser(const std::string& text, const std::map<std::string, Real>& values)
+  Parser(const std::string& text, const std::map<std::string, T>& values)
       : text_(text), values_(values) {}
 
-  Real parse() {
-    const Real value = sum();
+  T parse() {
+    const T value = sum();
     if (peek() != '\0') fail("expected an operator");
     return value;
   }
@@ -58,8 +57,8 @@ class Parser {
     return true;
   }
 
-  Real sum() {
-    Real value = product();
+  T sum() {
+    T value = product();
     for (;;) {
       if (accept('+')) {
         value += product();
@@ -71,8 +70,8 @@ class Parser {
     }
   }
 
-  Real product() {
-    Real value = power();
+  T product() {
+    T value = power();
     for (;;) {
       if (accept('*')) {
         value *= power();
@@ -84,20 +83,20 @@ class Parser {
     }
   }
 
-  Real power() {
+  T power() {
     if (accept('-')) return -power();
-    const Real base = primary();
-    return accept('^') ? Real(pow(base, power())) : base;
+    const T base = primary();
+    return accept('^') ? T(pow(base, power())) : base;
   }
 
-  Real parenthesised() {
+  T parenthesised() {
     if (!accept('(')) fail("expected '('");
-    const Real value = sum();
+    const T value = sum();
     if (!accept(')')) fail("expected ')'");
     return value;
   }
 
-  Real primary() {
+  T primary() {
     const char c = peek();
     if (c == '(') return parenthesised();
     if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
@@ -105,7 +104,7 @@ class Parser {
     fail("expected a number, a name or '('");
   }
 
-  Real number() {
+  T number() {
     const std::size_t from = position_;
     const auto digits = [&] {
       while (position_ < text_.size() &&
@@ -124,10 +123,10 @@ class Parser {
         ++position_;
       digits();
     }
-    return Real(text_.substr(from, position_ - from));
+    return T(text_.substr(from, position_ - from));
   }
 
-  Real identifier() {
+  T identifier() {
     const std::size_t from = position_;
     while (position_ < text_.size() &&
            (std::isalnum(static_cast<unsigned char>(text_[position_])) != 0 ||
@@ -137,25 +136,28 @@ class Parser {
     const std::string name = text_.substr(from, position_ - from);
     const auto value = values_.find(name);
     if (value != values_.end()) return value->second;
-    if (name == "pi") return pi<Real>();
-    const auto function = functions().find(name);
-    if (function != functions().end()) return function->second(parenthesised());
+    if (name == "pi") return pi<T>();
+    const auto function = functions<T>().find(name);
+    if (function != functions<T>().end()) return function->second(parenthesised());
     position_ = from;
     fail("unknown name '" + name + "'");
   }
 
   const std::string& text_;
-  const std::map<std::string, Real>& values_;
+  const std::map<std::string, T>& values_;
   std::size_t position_ = 0;
 };
 
 }  // namespace
 
-Real evaluate_expression(const std::string& text, const std::map<std::string, Real>& values) {
-  const Real value = Parser(text, values).parse();
+template <class T>
+T evaluate_expression(const std::string& text, const std::map<std::string, T>& values) {
+  const T value = Parser<T>(text, values).parse();
   if (!(boost::math::isfinite)(value)) throw DerivationError("'" + text + "' is not finite");
   return value;
 }
+
+template Real evaluate_expression<Real>(const std::string&, const std::map<std::string, Real>&);
 
 std::vector<double> formula_program(const Json& json) {
   const Arguments arguments(json, "", {"formulas", "values"});

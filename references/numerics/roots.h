@@ -31,6 +31,7 @@ template <class F>
 [[nodiscard]] std::vector<Real> first_roots(const Equation& f, double start, double step,
                                             int count);
 
+/// Each value rounded to the nearest double.
 [[nodiscard]] std::vector<double> to_doubles(const std::vector<Real>& values);
 
 }  // namespace trammel::references

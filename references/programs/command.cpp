@@ -60,13 +60,7 @@ void print_values(const Comparison& comparison, std::ostream& out) {
 }
 
 bool print_comparison(const std::string& file, std::ostream& out) {
-  Comparison comparison;
-  const Json reference = read_json(file);
-  try {
-    comparison = compare_with_derivation(reference);
-  } catch (const DerivationError& error) {
-    throw DerivationError(file + ": " + error.what());
-  }
+  const Comparison comparison = compare_with_derivation(read_json(file), file);
   out << comparison.id << " [" << comparison.unit << "]";
   if (comparison.program.empty()) {
     out << ": no derivation\n";

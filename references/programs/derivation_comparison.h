@@ -22,8 +22,9 @@ struct Comparison {
 };
 
 /// @param reference  the content of a file of references/values/.
-/// @throws DerivationError  with the JSON pointer inside it.
-[[nodiscard]] Comparison compare_with_derivation(const Json& reference);
+/// @param file  stands for the file in messages.
+/// @throws DerivationError  with the file and the JSON pointer inside it.
+[[nodiscard]] Comparison compare_with_derivation(const Json& reference, const std::string& file);
 
 /// @throws DerivationError  with the file and the pointer, or the byte where it is not JSON.
 [[nodiscard]] Json read_json(const std::filesystem::path& file);

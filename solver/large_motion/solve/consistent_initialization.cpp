@@ -37,7 +37,7 @@ class ConsistentInitialization {
   Outcome failed(const std::string& what) const {
     std::ostringstream message;
     message << "no consistent " << what << " at the start, time " << state_.t
-            << " s: largest constraint gap " << (m_ > 0 ? rigid_constraint_residual() : 0.0)
+            << " s: largest constraint residual " << (m_ > 0 ? rigid_constraint_residual() : 0.0)
             << " m or rad";
     return {Status::not_converged, message.str()};
   }
@@ -136,8 +136,8 @@ class ConsistentInitialization {
     system_.force_residual(state_, force_residual_);
     if (!solve_with_mass_scaling(0.5, bias)) return false;
     const VectorXd resolved = solution_;
-    // Without the step's view where that makes no great difference; where it does, what vibrates
-    // faster than the step, or has no mass, would start wildly.
+    // Nearly the exact acceleration, unless it is more than four times that of an implicit step:
+    // then something vibrates faster than the step resolves, or has no mass.
     if (!solve_with_mass_scaling(1e-4, bias) ||
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
@@ -160,7 +160,7 @@ class ConsistentInitialization {
   }
 
   /// d(G v + dg/dt)/dt without accelerations, by a central difference along the motion. The
-  /// acceleration only starts the integrator, so ten digits are plenty.
+  /// acceleration only starts the integrator, so ten digits are enough.
   VectorXd acceleration_bias() {
     const double speed = state_.v.size() > 0 ? weighted_rms_norm(system_, state_.v) : 0.0;
     double d = 1e-2 * step_;
@@ -186,13 +186,6 @@ class ConsistentInitialization {
 };
 
 }  // namespace
-
-double weighted_rms_norm(const ConstrainedSystem& system,
-                         const Eigen::Ref<const VectorXd>& change) {
-  if (change.size() == 0) return 0;
-  return change.cwiseQuotient(system.scale()).norm() /
-         std::sqrt(static_cast<double>(change.size()));
-}
 
 Outcome make_consistent(const ConstrainedSystem& system, State& state,
                         const PrescribedVelocities& given, double step) {

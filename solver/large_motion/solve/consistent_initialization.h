@@ -19,8 +19,4 @@ using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 [[nodiscard]] Outcome make_consistent(const ConstrainedSystem& system, State& state,
                                       const PrescribedVelocities& given, double step);
 
-/// Root mean square of a change of coordinates over their scale.
-[[nodiscard]] double weighted_rms_norm(const ConstrainedSystem& system,
-                                       const Eigen::Ref<const VectorXd>& change);
-
 }  // namespace trammel::solver::large_motion

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solver/large_motion/solve/consistent_initialization.h"
+#include "solver/large_motion/solve/step_convergence.h"
 
 namespace trammel::solver::large_motion {
 
@@ -90,9 +90,7 @@ StepReport EnergyMomentum::attempt(double h) {
   return report;
 }
 
-StepReport EnergyMomentum::newton(double h, bool exact) {
-  StepReport report;
-  const Index n = system_.coordinates(), m = system_.constraints();
+void EnergyMomentum::predict(double h) {
   system_.constraint_residual(from_, previous_constraint_residual_, constraint_rate_);
   to_.t = from_.t + h;
   to_.load = system_.load_factor(to_.t);
@@ -100,6 +98,12 @@ StepReport EnergyMomentum::newton(double h, bool exact) {
   to_.q = from_.q + h * from_.v + h * h / 2 * from_.a;
   to_.v = 2 / h * (to_.q - from_.q) - from_.v;
   mean_lambda_ = previous_mean_lambda_;
+}
+
+StepReport EnergyMomentum::newton(double h, bool exact) {
+  StepReport report;
+  const Index n = system_.coordinates(), m = system_.constraints();
+  predict(h);
   StepConvergence convergence;
   bool fresh = false;
   for (int i = 0; i < 30; ++i) {
@@ -118,7 +122,7 @@ StepReport EnergyMomentum::newton(double h, bool exact) {
     convergence.record(correction, 0);
     report.correction = correction;
     to_.a = (to_.v - from_.v) / h;
-    // Energy leaks by what Newton leaves, so nearly to round-off.
+    // What Newton's method leaves is lost or gained energy: it iterates nearly to round-off.
     if (convergence.converged(1e-4 * h * h * weighted_rms_norm(system_, to_.a),
                               h * weighted_rms_norm(system_, to_.v),
                               weighted_rms_norm(system_, to_.q))) {

@@ -24,6 +24,7 @@ class EnergyMomentum final : public Stepper {
 
  private:
   [[nodiscard]] StepReport newton(double h, bool exact);
+  void predict(double h);
   [[nodiscard]] bool factor(double h, bool exact);
   void compute_residuals(double h);
   void set_end_multipliers(double h);

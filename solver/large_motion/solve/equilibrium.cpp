@@ -20,11 +20,6 @@ Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOpt
       constraint_rate_(VectorXd::Zero(system.constraints())),
       step_(VectorXd::Zero(system.coordinates() + system.constraints())) {}
 
-double Equilibrium::weighted_rms_norm(const Eigen::Ref<const VectorXd>& dq) const {
-  if (dq.size() == 0) return 0;
-  return dq.cwiseQuotient(system_.scale()).norm() / std::sqrt(static_cast<double>(dq.size()));
-}
-
 bool Equilibrium::converged(const std::vector<double>& correction, double displacement) const {
   const std::size_t count = correction.size();
   const double last = correction[count - 1];
@@ -50,7 +45,7 @@ void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& h
   history.constraint_residual.push_back(step.tail(m).norm());
   step = -step;
   matrix_.solve(step);
-  history.correction.push_back(weighted_rms_norm(step.head(n)));
+  history.correction.push_back(weighted_rms_norm(system_, step.head(n)));
 }
 
 void Equilibrium::load_direction(const State& state, VectorXd& direction) {
@@ -68,7 +63,7 @@ void Equilibrium::load_direction(const State& state, VectorXd& direction) {
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {
   const Index n = system_.coordinates(), m = system_.constraints();
   if (n == 0) return 0;
-  // A start without symmetry, so that no shape is missed.
+  // A start vector without symmetry is orthogonal to no mode.
   VectorXd x(n + m);
   for (Index i = 0; i < n; ++i) {
     x[i] = system_.scale()[i] * (1 + 0.37 * std::sin(1.7 * static_cast<double>(i) + 0.4));
@@ -103,7 +98,8 @@ NewtonResult Equilibrium::solve(State& state, double load) {
     correction(state, step_, result);
     if (!step_.allFinite()) return fail(Status::singular, "the tangent is singular");
     apply_correction(state, step_);
-    const double last = result.correction.back(), displacement = weighted_rms_norm(state.q.head(n));
+    const double last = result.correction.back(),
+                 displacement = weighted_rms_norm(system_, state.q.head(n));
     if (converged(result.correction, displacement)) return result;
     if (last > 1e6 * (1 + displacement)) break;
   }

@@ -44,8 +44,6 @@ class Equilibrium {
   /// True where the corrections so far end the iteration at a displacement of that size: the last
   /// is small enough, or they have stopped to shrink at round-off.
   [[nodiscard]] bool converged(const std::vector<double>& correction, double displacement) const;
-  /// Root mean square of a change of coordinates over their scale.
-  [[nodiscard]] double weighted_rms_norm(const Eigen::Ref<const VectorXd>& dq) const;
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
 
  private:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/large_motion/solve/consistent_initialization.h"
+#include "solver/large_motion/solve/step_convergence.h"
 
 namespace trammel::solver::large_motion {
 
@@ -146,7 +146,7 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
                               h * weighted_rms_norm(system_, to_.v),
                               weighted_rms_norm(system_, to_.q))) {
       report.converged = true;
-      // A factorization that has aged is renewed before it costs another iteration.
+      // Many iterations: the factorization is out of date, the next step makes a new one.
       if (i > 3) factored_step_ = 0;
       return report;
     }

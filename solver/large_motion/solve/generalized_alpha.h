@@ -17,7 +17,8 @@ namespace trammel::solver::large_motion {
 /// and the equations are scaled by h^2, so tiny steps are harmless.
 class GeneralizedAlpha final : public Stepper {
  public:
-  /// @param spectral_radius  rho in [0, 1]: 1 leaves high frequencies, 0 kills them at once.
+  /// @param spectral_radius  rho in [0, 1]: 1 does not damp high frequencies, 0 annihilates
+  ///                          them in one step.
   GeneralizedAlpha(const ConstrainedSystem& system, double spectral_radius);
 
   [[nodiscard]] StepReport attempt(double h) override;

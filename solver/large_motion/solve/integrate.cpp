@@ -41,7 +41,8 @@ class TimeIntegration {
  private:
   double state_time() const { return stepper_.state().t; }
 
-  /// Where steps fail again and again equal steps have become tiny: that must come to an end.
+  /// With fixed steps, at most ten times as many as asked for (and 1000): steps that keep failing
+  /// are made ever smaller, and the run must end.
   void set_step_limit() {
     max_steps_ = options_.max_steps;
     if (options_.adaptive) return;
@@ -69,7 +70,7 @@ class TimeIntegration {
     while (state_time() < target) {
       if (summary_.steps + summary_.rejected >= max_steps_) return fail(step_limit_reason_, h, {});
       const double remaining = target - state_time();
-      // Equal steps up to the target, so that none is tiny.
+      // Equal steps up to the target: no tiny last one.
       const double count = std::ceil(remaining / h * (1 - 1e-9));
       const double step = count <= 1 ? remaining : remaining / count;
       if (step < 1e-7 * options_.step && remaining > step)
@@ -98,8 +99,8 @@ class TimeIntegration {
     return true;
   }
 
-  /// After a step that does not converge: a smaller one, but also a larger one now and then, since
-  /// what is in the way may be a singular position to be stepped over.
+  /// After a step that does not converge: a smaller one, and every second time a larger one, since
+  /// a singular position may lie within the step and beyond it the equations are regular again.
   static double retry(double& failed_step, double step, int failures) {
     if (failed_step == 0) failed_step = step;
     const double smaller = failed_step * std::pow(0.5, (failures + 1) / 2);

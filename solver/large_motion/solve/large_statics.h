@@ -6,12 +6,12 @@
 namespace trammel::solver {
 
 /// A state of large motion in the terms of `solve_statics`: displacements, end rotations,
-/// reactions, and section forces along the axes that the sections have turned to.
+/// reactions, and section forces along the axes of the rotated sections.
 [[nodiscard]] StaticSolution static_solution(const large_motion::GeometricallyExactSystem& system,
                                              const large_motion::State& state);
 
-/// Statics in the geometrically exact tier (solver/large_motion). The whole load is put on in steps
-/// that find themselves.
+/// Statics in the geometrically exact tier (solver/large_motion). The load is put on in steps of
+/// automatic size.
 /// not_converged: the path of equilibria does not reach the load.
 /// @throws ModelError  where the model has no meaning.
 [[nodiscard]] StaticSolution solve_large_statics(

@@ -6,7 +6,7 @@
 namespace trammel::solver::large_motion {
 
 /// Velocities of every coordinate where members move as rigid bars, for `make_consistent`: a
-/// mechanism that starts in motion without vibrating.
+/// mechanism that starts in motion without vibration.
 /// @param node    of each model node (x, y [m/s], rotation [rad/s])
 /// @param member  angular velocity of each member [rad/s]
 [[nodiscard]] PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,

@@ -1,11 +1,8 @@
 #include "solver/large_motion/solve/state_results.h"
 
-#include <limits>
-
-#include "solver/large_motion/system/element_group.h"
-#include "solver/large_motion/system/joints.h"
-#include "solver/large_motion/system/member_beam.h"
+#include "solver/large_motion/system/member_elements.h"
 #include "solver/model/numbers.h"
+#include "solver/model/plane.h"
 
 namespace trammel::solver::large_motion {
 
@@ -16,45 +13,44 @@ double value_or(const VectorXd& values, Index k, double absent) {
   return k < values.size() ? values[k] : 0.0;
 }
 
-/// Forces of the nodes on an element, less its own share of loads and inertia: what the rest of the
-/// structure applies at its ends.
-template <class Element, int N>
-Eigen::Matrix<double, N, 1> end_forces(const Element& element,
-                                       const GeometricallyExactSystem& system, const State& state,
-                                       Index index, const std::array<Index, N>& where) {
-  typename Element::Rows residual;
-  typename Element::Gradient G;
-  const typename Element::Coordinates q = gather<N>(state.q, where);
-  element.constraint_residual(q, state.t, residual, G);
-  constexpr int R = Element::R;
-  typename Element::Coordinates f =
-      G.transpose() * state.lambda.template segment<R>(system.element_row(index));
-  const double tau = system.strain_rate_damping();
-  typename Element::Coordinates strained = q;
-  if (state.v.size() > 0) strained += tau * gather<N>(state.v, where);
-  f += element.stiffness() * strained;
-  typename Element::Coordinates inertia = Element::Coordinates::Zero();
+/// Forces and moments at the nodes of a beam element that the rest of the structure applies,
+/// G^T lambda + K (q + tau v) + M (a + alpha v - g) - loads [N, N, N m].
+template <int P>
+typename Beam<P>::Coordinates nodal_forces(const Beam<P>& beam,
+                                           const GeometricallyExactSystem& system,
+                                           const State& state, Index index,
+                                           const std::array<Index, Beam<P>::N>& where) {
+  constexpr int N = Beam<P>::N, R = Beam<P>::R;
+  using Coordinates = typename Beam<P>::Coordinates;
+  typename Beam<P>::Rows residual;
+  typename Beam<P>::Gradient G;
+  const Coordinates q = gather<N>(state.q, where);
+  beam.constraint_residual(q, state.t, residual, G);
+  Coordinates f = G.transpose() * state.lambda.template segment<R>(system.element_row(index));
+  Coordinates strained = q;
+  if (state.v.size() > 0) {
+    strained += system.strain_rate_damping() * gather<N>(state.v, where);
+  }
+  f += beam.stiffness() * strained;
+  Coordinates inertia = Coordinates::Zero();
   if (state.a.size() > 0) {
     inertia =
         gather<N>(state.a, where) + system.large_motion().mass_damping * gather<N>(state.v, where);
   }
   const Vector2d g = state.gravity * system.model().gravity;
-  constexpr int stride = N == 4 ? 2 : 3;
-  for (int a = 0; a < N; a += stride) inertia.template segment<2>(a) -= g;
-  f += element.mass() * inertia;
+  for (int a = 0; a < N; a += 3) inertia.template segment<2>(a) -= g;
+  f += beam.mass() * inertia;
   return f;
 }
 
 template <int P>
-void beam_resultants(const GeometricallyExactSystem& system, const State& state, Index index,
-                     bool first, Eigen::Ref<Eigen::RowVector3d> out) {
+Eigen::RowVector3d beam_resultants(const GeometricallyExactSystem& system, const State& state,
+                                   Index index, bool first) {
   const MemberElement& element = system.layout().elements[to_size(index)];
   const Member& member = system.model().members[to_size(element.member)];
   const Beam<P> beam = make_beam<P>(member, element);
-  std::array<Index, 3 * (P + 1)> where{};
-  std::copy(element.coordinates.begin(), element.coordinates.end(), where.begin());
-  typename Beam<P>::Coordinates f =
-      end_forces<Beam<P>, Beam<P>::N>(beam, system, state, index, where);
+  const auto where = coordinates_of<Beam<P>::N>(element);
+  typename Beam<P>::Coordinates f = nodal_forces<P>(beam, system, state, index, where);
   const int k = first ? 0 : 3 * P;
   const double share = beam.length * shape_functions<P>().integral[first ? 0 : P] * state.load;
   f.template segment<2>(k) -= share * member.load;
@@ -63,25 +59,18 @@ void beam_resultants(const GeometricallyExactSystem& system, const State& state,
   const Vector2d e2 = perpendicular(e1);
   const double sign = first ? -1 : 1;
   const Vector2d force = f.template segment<2>(k);
-  out << sign * e1.dot(force), sign * e2.dot(force), sign * f[k + 2];
+  return {sign * e1.dot(force), sign * e2.dot(force), sign * f[k + 2]};
 }
 
-void bar_resultants(const GeometricallyExactSystem& system, const State& state, Index index,
-                    Eigen::Ref<Eigen::RowVector3d> out) {
-  out << state.lambda[system.element_row(index)], 0, 0;
-}
-
-void element_resultants(const GeometricallyExactSystem& system, const State& state, Index index,
-                        bool first, Eigen::Ref<Eigen::RowVector3d> out) {
+/// (N, V, M) at the first or the second end of an element.
+Eigen::RowVector3d element_resultants(const GeometricallyExactSystem& system, const State& state,
+                                      Index index, bool first) {
   if (system.layout().elements[to_size(index)].is_bar()) {
-    bar_resultants(system, state, index, out);
-  } else if (system.order() == 1) {
-    beam_resultants<1>(system, state, index, first, out);
-  } else if (system.order() == 2) {
-    beam_resultants<2>(system, state, index, first, out);
-  } else {
-    beam_resultants<3>(system, state, index, first, out);
+    return {state.lambda[system.element_row(index)], 0, 0};
   }
+  if (system.order() == 1) return beam_resultants<1>(system, state, index, first);
+  if (system.order() == 2) return beam_resultants<2>(system, state, index, first);
+  return beam_resultants<3>(system, state, index, first);
 }
 
 }  // namespace
@@ -129,11 +118,10 @@ Resultants member_resultants(const GeometricallyExactSystem& system, const State
   const auto count = static_cast<Index>(system.model().members.size());
   Resultants resultants{Eigen::MatrixX3d(count, 3), Eigen::MatrixX3d(count, 3)};
   for (Index m = 0; m < count; ++m) {
-    Eigen::RowVector3d start, end;
-    element_resultants(system, state, layout.first_element[to_size(m)], true, start);
-    element_resultants(system, state, layout.first_element[to_size(m + 1)] - 1, false, end);
-    resultants.start.row(m) = start;
-    resultants.end.row(m) = end;
+    resultants.start.row(m) =
+        element_resultants(system, state, layout.first_element[to_size(m)], true);
+    resultants.end.row(m) =
+        element_resultants(system, state, layout.first_element[to_size(m + 1)] - 1, false);
   }
   return resultants;
 }
@@ -154,9 +142,9 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
     for (std::size_t a = points.empty() ? 0 : 1; a < count; ++a) {
       const double x =
           element.is_bar() ? static_cast<double>(a) : lobatto_coordinate(system.order(), a);
-      const Vector2d moved(value_or(q, element.coordinates[stride * a], 0),
-                           value_or(q, element.coordinates[stride * a + 1], 0));
-      points.emplace_back(element.start + x * (element.end - element.start) + moved);
+      const Vector2d displacement(value_or(q, element.coordinates[stride * a], 0),
+                                  value_or(q, element.coordinates[stride * a + 1], 0));
+      points.emplace_back(element.start + x * (element.end - element.start) + displacement);
     }
   }
   Eigen::MatrixX2d line(static_cast<Index>(points.size()), 2);

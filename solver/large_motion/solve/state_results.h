@@ -21,8 +21,8 @@ namespace trammel::solver::large_motion {
 [[nodiscard]] Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system,
                                          const State& state);
 
-/// Section forces (N [N], V [N], M [N m]) at the members' ends, along the axes that the section has
-/// turned to.
+/// Section forces (N [N], V [N], M [N m]) at the members' ends, along the axes of the rotated
+/// section.
 struct Resultants {
   Eigen::MatrixX3d start, end;  ///< member x (N, V, M)
 };

@@ -15,6 +15,37 @@ struct Direction {
   double load = 0;
 };
 
+/// A root between two points by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT
+/// 11, 1971).
+class IllinoisBracket {
+ public:
+  IllinoisBracket(double right, double f_left, double f_right)
+      : right_(right), f_left_(f_left), f_right_(f_right) {}
+
+  [[nodiscard]] bool has_no_root() const { return f_left_ * f_right_ > 0; }
+  [[nodiscard]] double width() const { return std::abs(right_ - left_); }
+  [[nodiscard]] double next() const {
+    return left_ - f_left_ * (right_ - left_) / (f_right_ - f_left_);
+  }
+  void update(double x, double f) {
+    if (f * f_left_ > 0) {
+      left_ = x;
+      f_left_ = f;
+      f_right_ /= last_side_ < 0 ? 2 : 1;
+      last_side_ = -1;
+    } else {
+      right_ = x;
+      f_right_ = f;
+      f_left_ /= last_side_ > 0 ? 2 : 1;
+      last_side_ = 1;
+    }
+  }
+
+ private:
+  double left_ = 0, right_, f_left_, f_right_;
+  int last_side_ = 0;
+};
+
 class PathFollower {
  public:
   PathFollower(const GeometricallyExactSystem& system, const StaticPathOptions& options)
@@ -41,8 +72,7 @@ class PathFollower {
     VectorXd shape;
     const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
     equilibrium_.load_direction(point.state, direction_.step);
-    const double response =
-        equilibrium_.weighted_rms_norm(direction_.step.head(system_.coordinates()));
+    const double response = weighted_rms_norm(system_, direction_.step.head(system_.coordinates()));
     // A rigid-body motion leaves a pivot of pure round-off: a response beyond every scale.
     if (!std::isfinite(eigenvalue) || !std::isfinite(response) || response > 1e11) {
       return stop({Status::singular, "free motion: " + describe_motion(system_, shape)});
@@ -64,7 +94,7 @@ class PathFollower {
   }
 
   double squared_norm(const VectorXd& step) const {
-    const double length = equilibrium_.weighted_rms_norm(step.head(system_.coordinates()));
+    const double length = weighted_rms_norm(system_, step.head(system_.coordinates()));
     return displacement_weight_ * length * length;
   }
 
@@ -116,11 +146,11 @@ class PathFollower {
       apply_correction(state, residual_step_);
       set_load(state, state.load + change);
       const double correction_norm =
-          equilibrium_.weighted_rms_norm(residual_step_.head(system_.coordinates()));
+          weighted_rms_norm(system_, residual_step_.head(system_.coordinates()));
       point.newton.correction.back() = correction_norm;
       distance += std::sqrt(squared_norm(residual_step_) + change * change);
       if (!(distance < 0.5 * std::abs(arc))) return false;
-      if (equilibrium_.converged(point.newton.correction, equilibrium_.weighted_rms_norm(state.q)))
+      if (equilibrium_.converged(point.newton.correction, weighted_rms_norm(system_, state.q)))
         return true;
     }
     return false;
@@ -136,7 +166,7 @@ class PathFollower {
     PathPoint point;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return not_converged("no step is small enough");
-      // A step over the target would leave it behind for good: it ends there, or is cut.
+      // A step beyond the target ends on the target, or is halved.
       const bool reached = crosses_target(from) ? solve_at_target(from, point)
                                                 : corrector(from, direction_, arc_step_, point) &&
                                                       !passed_target(from, point.state) &&
@@ -182,7 +212,7 @@ class PathFollower {
     point.newton = equilibrium_.solve(point.state, options_.target);
     if (!point.newton.outcome.solved()) return false;
     const VectorXd distance = point.state.q - guess.q;
-    return std::sqrt(displacement_weight_) * equilibrium_.weighted_rms_norm(distance) <
+    return std::sqrt(displacement_weight_) * weighted_rms_norm(system_, distance) <
                0.5 * std::abs(arc) &&
            equilibrium_.factor(point.state);
   }
@@ -208,8 +238,8 @@ class PathFollower {
     return switches;
   }
 
-  /// Illinois' method along the arc on what changes sign: dload/darc at a limit point, the smallest
-  /// eigenvalue at a bifurcation.
+  /// Finds along the arc where dload/darc vanishes (a limit point) or the smallest eigenvalue does
+  /// (a bifurcation).
   void locate(const State& from, Index previous_unstable, bool load_reversed, const PathPoint& to,
               PathPoint& critical) {
     const Direction d = direction_;
@@ -220,37 +250,23 @@ class PathFollower {
       return equilibrium_.matrix().negative_pivots() == previous_unstable ? eigenvalue
                                                                           : -eigenvalue;
     };
-    const VectorXd secant = [&] {
-      VectorXd s(to.state.q.size() + to.state.lambda.size());
-      s << to.state.q - from.q, to.state.lambda - from.lambda;
-      return s;
-    }();
-    double left = 0, right = dot(d, secant, to.state.load - from.load);
+    VectorXd chord(to.state.q.size() + to.state.lambda.size());
+    chord << to.state.q - from.q, to.state.lambda - from.lambda;
+    const double interval = dot(d, chord, to.state.load - from.load);
     if (!equilibrium_.factor(from)) return;
-    double f_left = indicator(from);
+    const double f_from = indicator(from);
     if (!equilibrium_.factor(to.state)) return;
-    double f_right = indicator(to.state);
-    const double interval = right;
-    for (int i = 0; i < 60 && std::abs(right - left) > 1e-12 * std::abs(interval); ++i) {
-      if (f_left * f_right > 0) return;
-      double middle = left - f_left * (right - left) / (f_right - f_left);
+    IllinoisBracket bracket(interval, f_from, indicator(to.state));
+    for (int i = 0; i < 60 && bracket.width() > 1e-12 * std::abs(interval); ++i) {
+      if (bracket.has_no_root()) return;
+      const double arc = bracket.next();
       PathPoint trial;
-      if (!corrector(from, d, middle, trial) || !equilibrium_.factor(trial.state)) return;
+      if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return;
       const double f = indicator(trial.state);
       const double before = critical.state.load;
       critical = trial;
       if (f == 0 || std::abs(critical.state.load - before) < 1e-13 * std::abs(before)) return;
-      if (f * f_left > 0) {
-        left = middle;
-        f_left = f;
-        f_right /= last_side_ < 0 ? 2 : 1;
-        last_side_ = -1;
-      } else {
-        right = middle;
-        f_right = f;
-        f_left /= last_side_ > 0 ? 2 : 1;
-        last_side_ = 1;
-      }
+      bracket.update(arc, f);
     }
   }
 
@@ -284,7 +300,6 @@ class PathFollower {
   Direction direction_;
   double displacement_weight_ = 1;  ///< of the displacements beside the load factor
   double arc_step_ = 0;
-  int last_side_ = 0;
   std::size_t point_count_ = 0;
   bool switched_ = false;
   VectorXd residual_step_, load_step_;

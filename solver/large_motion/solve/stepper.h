@@ -12,41 +12,6 @@ struct StepReport {
   double error = 0;       ///< estimate of the local error in position, over the scale [-]
 };
 
-/// Watches the corrections of one step's iteration: of the motion, and of the positions onto the
-/// constraints.
-class StepConvergence {
- public:
-  void record(double step_correction, double projection) {
-    previous_step_correction_ = step_correction_;
-    previous_projection_ = projection_;
-    step_correction_ = step_correction;
-    projection_ = projection;
-    ++count_;
-  }
-  /// @param acceleration  h^2 beta a, what the accelerations contribute to the step; velocity: h v;
-  ///                     position: q; all over the scale.
-  [[nodiscard]] bool converged(double acceleration, double velocity, double position) const {
-    const bool stalled = count_ > 2 && step_correction_ > 0.3 * previous_step_correction_;
-    const bool motion_met =
-        step_correction_ <= 1e-11 * acceleration || step_correction_ <= 1e-16 * velocity ||
-        (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + 1e-15 * position);
-    const bool constraints_met =
-        projection_ <= 1e-15 * position || projection_ <= 1e-13 * velocity ||
-        (count_ > 2 && projection_ > 0.3 * previous_projection_ && projection_ < 1e-12);
-    return motion_met && constraints_met;
-  }
-  [[nodiscard]] bool slow() const { return count_ > 1 && last() > 0.1 * previous(); }
-  [[nodiscard]] bool diverging() const { return count_ > 4 && last() > 2 * previous(); }
-  [[nodiscard]] double last() const { return step_correction_ + projection_; }
-
- private:
-  [[nodiscard]] double previous() const { return previous_step_correction_ + previous_projection_; }
-
-  double step_correction_ = 0, projection_ = 0, previous_step_correction_ = 0,
-         previous_projection_ = 0;
-  int count_ = 0;
-};
-
 /// A time integrator: one step from a consistent state.
 class Stepper {
  public:

@@ -5,10 +5,9 @@
 
 #include "solver/large_motion/system/constrained_system.h"
 #include "solver/large_motion/system/shape_functions.h"
+#include "solver/model/plane.h"
 
 namespace trammel::solver::large_motion {
-
-using Eigen::Vector2d;
 
 /// cos(x) - 1 without cancellation.
 inline double cosine_minus_one(double x) {
@@ -176,7 +175,7 @@ struct Beam {
         rotation += s.value(g, a) * q[3 * a + 2];
       }
       const double cosine = std::cos(rotation), sine = std::sin(rotation);
-      const Vector2d normal(-beam.axis.y(), beam.axis.x());
+      const Vector2d normal = perpendicular(beam.axis);
       e1 = cosine * beam.axis + sine * normal;
       e2 = cosine * normal - sine * beam.axis;
       stretch = e1.dot(slope) + cosine_minus_one(rotation);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "solver/large_motion/system/kkt_matrix.h"
@@ -67,6 +68,14 @@ class ConstrainedSystem {
   ConstrainedSystem(ConstrainedSystem&&) = default;
   ConstrainedSystem& operator=(ConstrainedSystem&&) = default;
 };
+
+/// Root mean square of a change of coordinates over their scale [-].
+[[nodiscard]] inline double weighted_rms_norm(const ConstrainedSystem& system,
+                                              const Eigen::Ref<const VectorXd>& change) {
+  if (change.size() == 0) return 0;
+  return change.cwiseQuotient(system.scale()).norm() /
+         std::sqrt(static_cast<double>(change.size()));
+}
 
 struct Energy {
   double kinetic = 0;  ///< [J]

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "solver/large_motion/system/constrained_system.h"
+#include "solver/large_motion/system/penalty_scales.h"
+#include "solver/model/numbers.h"
 
-/// One kind of element and what it adds to the equations of `GeometricallyExactSystem`.
+/// Elements of one type and what they add to the equations of `GeometricallyExactSystem`.
 namespace trammel::solver::large_motion {
 
 class ElementGroup {
@@ -42,6 +44,13 @@ class ElementGroup {
   /// Strain energy of what is not a compliant row [J].
   [[nodiscard]] virtual double energy(const State&) const { return 0; }
   [[nodiscard]] virtual Index size() const = 0;
+  /// Number of constraint rows.
+  [[nodiscard]] virtual Index rows() const { return 0; }
+  /// Sets c >= 0 of the group's own rows.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
+  virtual void set_compliance(Eigen::Ref<VectorXd>) const {}
+  /// Tells the rows what they join.
+  virtual void set_penalty_scales(const PenaltyScales&) {}
 };
 
 /// Values of an element's coordinates; what a support holds (beyond the vector) is zero.
@@ -49,7 +58,7 @@ template <int N>
 Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const std::array<Index, N>& where) {
   Eigen::Matrix<double, N, 1> local;
   for (int i = 0; i < N; ++i) {
-    const Index k = where[static_cast<std::size_t>(i)];
+    const Index k = where[to_size(i)];
     local[i] = k >= 0 && k < values.size() ? values[k] : 0.0;
   }
   return local;
@@ -59,34 +68,26 @@ template <int N>
 void scatter(const Eigen::Matrix<double, N, 1>& local, const std::array<Index, N>& where,
              Eigen::Ref<VectorXd> values) {
   for (int i = 0; i < N; ++i) {
-    const Index k = where[static_cast<std::size_t>(i)];
+    const Index k = where[to_size(i)];
     if (k >= 0 && k < values.size()) values[k] += local[i];
   }
 }
 
-/// Elements with constraint rows, numbered consecutively from `first_row`: beams and joints.
-template <class Element>
-class ConstraintElements final : public ElementGroup {
+/// Elements with the coordinates that each couples and R rows each, numbered from `first_row` on.
+template <class Element, int R>
+class ElementList : public ElementGroup {
  public:
-  static constexpr int N = Element::N, R = Element::R;
-  static constexpr bool kElastic = requires(const Element& e) { e.stiffness(); };
+  static constexpr int N = Element::N;
 
-  ConstraintElements(Index free, Index first_row) : free_(free), first_row_(first_row) {}
+  /// @param free  number of free coordinates; those from there on are held by supports.
+  explicit ElementList(Index free, Index first_row = 0) : free_(free), first_row_(first_row) {}
 
   void add(Element element, const std::array<Index, N>& coordinates) {
     elements_.push_back(std::move(element));
     where_.push_back(coordinates);
   }
-
-  [[nodiscard]] const Element& element(Index e) const {
-    return elements_[static_cast<std::size_t>(e)];
-  }
-  [[nodiscard]] const std::array<Index, N>& coordinates(Index e) const {
-    return where_[static_cast<std::size_t>(e)];
-  }
-  [[nodiscard]] Index first_row(Index e) const { return first_row_ + R * e; }
   [[nodiscard]] Index size() const override { return static_cast<Index>(elements_.size()); }
-  std::vector<Element>& elements() { return elements_; }
+  [[nodiscard]] Index rows() const override { return R * size(); }
 
   void append_blocks(std::vector<std::vector<Index>>& blocks) override {
     first_block_ = static_cast<Index>(blocks.size());
@@ -95,6 +96,47 @@ class ConstraintElements final : public ElementGroup {
       for (const Index i : coordinates(e)) block.push_back(i < free_ ? i : -1);
       for (Index r = 0; r < R; ++r) block.push_back(free_ + first_row(e) + r);
       blocks.push_back(std::move(block));
+    }
+  }
+
+ protected:
+  [[nodiscard]] const Element& element(Index e) const { return elements_[to_size(e)]; }
+  [[nodiscard]] Element& element(Index e) { return elements_[to_size(e)]; }
+  [[nodiscard]] const std::array<Index, N>& coordinates(Index e) const {
+    return where_[to_size(e)];
+  }
+  [[nodiscard]] Index first_row(Index e) const { return first_row_ + R * e; }
+  [[nodiscard]] Index block(Index e) const { return first_block_ + e; }
+
+ private:
+  Index free_ = 0, first_row_ = 0, first_block_ = 0;
+  std::vector<Element> elements_;
+  std::vector<std::array<Index, N>> where_;
+};
+
+/// Elements with constraint rows g(q, t) = C lambda: beams, bars and joints.
+template <class Element>
+class ConstraintElements final : public ElementList<Element, Element::R> {
+  using List = ElementList<Element, Element::R>;
+  using List::block, List::coordinates, List::element, List::first_row;
+
+ public:
+  static constexpr int N = Element::N, R = Element::R;
+  static constexpr bool kElastic = requires(const Element& e) { e.stiffness(); };
+  using List::List, List::size;
+
+  void set_compliance(Eigen::Ref<VectorXd> compliance) const override {
+    for (Index e = 0; e < size(); ++e) {
+      compliance.template segment<R>(first_row(e)) = element(e).compliance();
+    }
+  }
+
+  void set_penalty_scales(const PenaltyScales& scales) override {
+    if constexpr (requires(Element & e) { e.stiffness_scale; }) {
+      for (Index e = 0; e < size(); ++e) {
+        element(e).stiffness_scale = scales.stiffness(coordinates(e));
+        element(e).mass_scale = scales.mass(coordinates(e));
+      }
     }
   }
 
@@ -135,7 +177,7 @@ class ConstraintElements final : public ElementGroup {
     for (Index e = 0; e < size(); ++e) {
       const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
       element(e).constraint_residual(q, state.t, residual, G);
-      matrix.add(first_block_ + e, coordinate_matrix(state, e, tau, coefficients), G,
+      matrix.add(block(e), coordinate_matrix(state, e, tau, coefficients), G,
                  scaled_compliance(e, coefficients), element(e).penalty(coefficients));
     }
   }
@@ -149,7 +191,7 @@ class ConstraintElements final : public ElementGroup {
       const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
       const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
       element(e).constraint_residual(q1, to.t, residual, G);
-      matrix.add(first_block_ + e, coordinate_matrix(midpoint, e, tau, coefficients),
+      matrix.add(block(e), coordinate_matrix(midpoint, e, tau, coefficients),
                  element(e).discrete_gradient(q0, q1), G, scaled_compliance(e, coefficients),
                  element(e).penalty(coefficients));
     }
@@ -198,40 +240,17 @@ class ConstraintElements final : public ElementGroup {
       Index e, const TangentCoefficients& coefficients) const {
     return coefficients.compliance * element(e).compliance();
   }
-
-  Index free_ = 0, first_row_ = 0, first_block_ = 0;
-  std::vector<Element> elements_;
-  std::vector<std::array<Index, N>> where_;
 };
 
 /// Elements with a strain energy of their coordinates alone, as `Triangle2d`.
 template <class Element>
-class EnergyElements final : public ElementGroup {
+class EnergyElements final : public ElementList<Element, 0> {
+  using List = ElementList<Element, 0>;
+  using List::block, List::coordinates, List::element;
+
  public:
   static constexpr int N = Element::N;
-
-  explicit EnergyElements(Index free) : free_(free) {}
-
-  void add(Element element, const std::array<Index, N>& coordinates) {
-    elements_.push_back(std::move(element));
-    where_.push_back(coordinates);
-  }
-  [[nodiscard]] const Element& element(Index e) const {
-    return elements_[static_cast<std::size_t>(e)];
-  }
-  [[nodiscard]] const std::array<Index, N>& coordinates(Index e) const {
-    return where_[static_cast<std::size_t>(e)];
-  }
-  [[nodiscard]] Index size() const override { return static_cast<Index>(elements_.size()); }
-
-  void append_blocks(std::vector<std::vector<Index>>& blocks) override {
-    first_block_ = static_cast<Index>(blocks.size());
-    for (Index e = 0; e < size(); ++e) {
-      std::vector<Index> block;
-      for (const Index i : coordinates(e)) block.push_back(i < free_ ? i : -1);
-      blocks.push_back(std::move(block));
-    }
-  }
+  using List::List, List::size;
 
   void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override {
     for (Index e = 0; e < size(); ++e) {
@@ -247,7 +266,7 @@ class EnergyElements final : public ElementGroup {
       typename Element::Square S = element(e).tangent(
           gather<N>(state.q, coordinates(e)), coefficients.stiffness, tau * coefficients.damping);
       S += coefficients.mass * element(e).mass();
-      matrix.add(first_block_ + e, S);
+      matrix.add(block(e), S);
     }
   }
 
@@ -268,11 +287,6 @@ class EnergyElements final : public ElementGroup {
     }
     return sum;
   }
-
- private:
-  Index free_ = 0, first_block_ = 0;
-  std::vector<Element> elements_;
-  std::vector<std::array<Index, N>> where_;
 };
 
 }  // namespace trammel::solver::large_motion

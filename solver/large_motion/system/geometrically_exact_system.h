@@ -2,18 +2,14 @@
 
 #include <Eigen/SparseCore>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "solver/large_motion/system/constrained_system.h"
-#include "solver/large_motion/system/element_group.h"
 #include "solver/large_motion/system/layout.h"
+#include "solver/large_motion/system/system_parts.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver::large_motion {
-
-class LinearConstraints;
-class FollowerLoads;
 
 struct GeometricallyExactOptions {
   int order = 3;  ///< degree of the beam elements, 1 to 3; end nodes converge with order 2 * degree
@@ -62,7 +58,7 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] Index drive_row(Index drive) const;
   /// First row of a member element's multipliers: N, V at each Gauss point; of a bar N.
   [[nodiscard]] Index element_row(Index element) const {
-    return element_row_[static_cast<std::size_t>(element)];
+    return parts_.element_row[to_size(element)];
   }
   [[nodiscard]] int order() const { return order_; }
   /// Element tangents filled so far: of members and triangles.
@@ -70,22 +66,6 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
  private:
-  void add_members();
-  template <int P>
-  void add_beams();
-  void add_bars();
-  void add_end_inertias();
-  template <int N>
-  void add_masses_of(const Eigen::Matrix<double, N, N>& mass, const std::array<Index, N>& where);
-  void add_plates();
-  void add_springs();
-  void add_masses();
-  void add_joints();
-  void add_drives();
-  void add_linear_constraints();
-  void add_loads();
-  void finalize();
-  void set_constraint_scales();
   [[nodiscard]] TangentCoefficients with_damping(TangentCoefficients coefficients) const;
   void count_elements() const;
   void add_point_masses(const TangentCoefficients& coefficients, KktMatrix& matrix) const;
@@ -94,17 +74,11 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   LargeMotionModel large_motion_;
   int order_ = 3;
   Layout layout_;
-  std::vector<std::unique_ptr<ElementGroup>> element_groups_;
-  LinearConstraints* linear_constraints_ = nullptr;
-  FollowerLoads* follower_loads_ = nullptr;
-  std::vector<Index> element_row_;
-  Index rows_ = 0, first_drive_row_ = 0;
+  SystemParts parts_;
   std::vector<std::vector<Index>> blocks_;
   VectorXd compliance_, scale_;
-  std::vector<std::pair<Index, double>> point_mass_;  ///< on single coordinates
-  std::vector<Eigen::Triplet<double>> mass_entries_;  ///< until `finalize`
-  Eigen::SparseMatrix<double> mass_;                  ///< total x total
-  VectorXd gravity_, loads_;                          ///< total
+  Eigen::SparseMatrix<double> mass_;  ///< total x total
+  VectorXd gravity_;                  ///< M times the gravity field, total
   mutable VectorXd padded_, product_;
   mutable std::int64_t element_evaluations_ = 0;
 };

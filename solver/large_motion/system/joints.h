@@ -5,19 +5,12 @@
 
 #include "solver/large_motion/system/beam.h"
 #include "solver/large_motion/system/large_motion_model.h"
+#include "solver/model/plane.h"
 
-/// Joints as constraint rows, with the same functions as `Beam`: g and its gradient, its second
-/// derivative times the multipliers, and the discrete gradient D with D (q1 - q0) = g(q1) - g(q0).
-/// J = [0 -1; 1 0].
+/// Joints as constraint rows, with the same functions as `Beam`: g and its gradient G, its second
+/// derivative times the multipliers, and the discrete gradient D with D (q1 - q0) = g(q1) - g(q0)
+/// (O. Gonzalez, J. Nonlinear Sci. 6, 1996).
 namespace trammel::solver::large_motion {
-
-inline Vector2d perpendicular(const Vector2d& v) {
-  return {-v.y(), v.x()};
-}
-
-inline Vector2d rotated(const Vector2d& v, double angle) {
-  return std::cos(angle) * v + std::sin(angle) * perpendicular(v);
-}
 
 /// Sizes and storage that every joint shares.
 template <int Coords, int Count>
@@ -63,7 +56,7 @@ struct RigidLink : Joint<5, 2> {
   [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
 };
 
-/// Node b slides along a line that turns with node a (or stands still where a is the ground),
+/// Node b slides along a line that rotates with node a (or is fixed where a is the ground),
 /// n(theta_a) . (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
 struct SlidingJoint : Joint<5, 1> {
   Vector2d normal = Vector2d::UnitY();  ///< n of the line when unloaded
@@ -153,21 +146,6 @@ struct LineSpringElement : Joint<4, 1> {
     return D;
   }
   [[nodiscard]] Rows compliance() const { return Rows::Constant(flexibility); }
-};
-
-/// Member without bending stiffness: a line spring of 1/k = h/EA with its mass, linear between the
-/// ends.
-struct Bar : LineSpringElement {
-  double total_mass = 0;  ///< [kg]
-  bool lumped = false;
-
-  [[nodiscard]] static Square stiffness() { return Square::Zero(); }
-  [[nodiscard]] Square mass() const {
-    const double diagonal = total_mass / (lumped ? 2 : 3),
-                 off_diagonal = lumped ? 0 : total_mass / 6;
-    const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
-    return (Square() << diagonal * I, off_diagonal * I, off_diagonal * I, diagonal * I).finished();
-  }
 };
 
 }  // namespace trammel::solver::large_motion

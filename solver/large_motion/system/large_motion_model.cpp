@@ -1,6 +1,7 @@
 #include "solver/large_motion/system/large_motion_model.h"
 
 #include "solver/model/labels.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
 
@@ -18,9 +19,7 @@ void require_node(Index node, const Model& model, const std::string& part) {
   require(exists(node, model), part, "names a node that does not exist");
 }
 
-}  // namespace
-
-void validate(const LargeMotionModel& large_motion, const Model& model) {
+void validate_drives(const LargeMotionModel& large_motion, const Model& model) {
   for (std::size_t i = 0; i < large_motion.drives.size(); ++i) {
     const Drive& drive = large_motion.drives[i];
     const std::string part = part_label("drive", drive.name, i);
@@ -28,6 +27,9 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
     require(drive.direction >= 0 && drive.direction <= 2, part, "has no direction 0, 1 or 2");
     require(static_cast<bool>(drive.law), part, "has no law of motion");
   }
+}
+
+void validate_sliders(const LargeMotionModel& large_motion, const Model& model) {
   for (std::size_t i = 0; i < large_motion.sliders.size(); ++i) {
     const Slider& slider = large_motion.sliders[i];
     const std::string part = part_label("slider", slider.name, i);
@@ -36,16 +38,27 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
     require(slider.rail != slider.node, part, "slides along itself");
     require(std::isfinite(slider.direction), part, "has no direction");
   }
+}
+
+void validate_line_springs(const LargeMotionModel& large_motion, const Model& model) {
   for (std::size_t i = 0; i < large_motion.line_springs.size(); ++i) {
     const LineSpring& spring = large_motion.line_springs[i];
     const std::string part = part_label("line spring", spring.name, i);
     for (const Index node : spring.nodes) require_node(node, model, part);
     require(std::isfinite(spring.stiffness) && spring.stiffness > 0, part,
             "must have a positive stiffness");
-    const Vector2d offset = model.nodes[static_cast<std::size_t>(spring.nodes[1])].position -
-                            model.nodes[static_cast<std::size_t>(spring.nodes[0])].position;
+    const Vector2d offset = model.nodes[to_size(spring.nodes[1])].position -
+                            model.nodes[to_size(spring.nodes[0])].position;
     require(offset.norm() > 0, part, "joins nodes in one place, so it has no direction");
   }
+}
+
+}  // namespace
+
+void validate(const LargeMotionModel& large_motion, const Model& model) {
+  validate_drives(large_motion, model);
+  validate_sliders(large_motion, model);
+  validate_line_springs(large_motion, model);
   for (const FollowerLoad& load : large_motion.follower_loads) {
     require_node(load.node, model, "a follower load");
     require(load.force.allFinite(), "a follower load", "is not a finite number");

@@ -25,14 +25,14 @@ struct Drive {
   TimeFunction law;
 };
 
-/// A node slides along a line through its position in the model's pose; the line turns with the
-/// node `rail`, or stands still (-1).
+/// A node slides along a line through its position in the model's pose; the line rotates with the
+/// node `rail`, or is fixed (-1).
 struct Slider {
   std::string name;
   Index node = 0;
   Index rail = -1;
   double direction = 0;      ///< of the line in the model's pose [rad]
-  bool keeps_angle = false;  ///< true: prismatic, the node turns as the rail does
+  bool keeps_angle = false;  ///< true: prismatic, the node rotates as the rail does
 };
 
 /// Spring along the line between two nodes.
@@ -44,13 +44,13 @@ struct LineSpring {
   double rest_length = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A force and a moment on a node that turn with the node.
+/// A force and a moment on a node that rotate with the node.
 struct FollowerLoad {
   Index node = 0;
   Vector3d force = Vector3d::Zero();  ///< in the model's pose [N, N, N m]
 };
 
-/// Velocity of a node at the start; what is not given follows by least kinetic energy.
+/// Velocity of a node at the start; those that are not given minimize the kinetic energy.
 struct InitialVelocity {
   Index node = 0;
   int direction = 0;  ///< 0: x [m/s], 1: y [m/s], 2: rotation [rad/s]
@@ -69,8 +69,7 @@ struct LargeMotionModel {
 };
 
 /// @throws ModelError  where a part of the large-motion model names a node that does not exist, or
-/// its numbers
-///                     have no meaning.
+///                     its numbers have no meaning.
 void validate(const LargeMotionModel& large_motion, const Model& model);
 
 }  // namespace trammel::solver::large_motion

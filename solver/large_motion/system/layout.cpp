@@ -100,29 +100,27 @@ class Numbering {
     }
   }
 
-  void number_member(Index m) {
-    const Member& member = model_.members[to_size(m)];
-    layout_.first_element.push_back(static_cast<Index>(layout_.elements.size()));
+  /// Rotations of a member's two ends; -1 where the member does not bend.
+  std::array<Index, 2> number_end_rotations(const Member& member, bool bends) {
     std::array<Index, 2> rotation{-1, -1};
-    const bool bends = interpolate(member.section, member.end_section, 0.5).EI > 0;
     for (std::size_t end = 0; end < 2 && bends; ++end) {
       const bool welded = member.ends[end].fixity == EndFixity::welded;
       rotation[end] = welded ? layout_.node[to_size(member.nodes[end])][2] : add(true);
     }
+    return rotation;
+  }
+
+  void number_member(Index m) {
+    const Member& member = model_.members[to_size(m)];
+    layout_.first_element.push_back(static_cast<Index>(layout_.elements.size()));
+    const bool bends = interpolate(member.section, member.end_section, 0.5).EI > 0;
+    const std::array<Index, 2> rotation = number_end_rotations(member, bends);
     layout_.end_rotation.push_back(rotation);
     const auto& first = layout_.node[to_size(member.nodes[0])];
     const auto& last = layout_.node[to_size(member.nodes[1])];
-    const Vector2d& from = model_.nodes[to_size(member.nodes[0])].position;
-    const Vector2d span = model_.nodes[to_size(member.nodes[1])].position - from;
     std::array<Index, 3> left = {first[0], first[1], rotation[0]};
-    const double count = static_cast<double>(member.elements);
     for (Index e = 0; e < member.elements; ++e) {
-      MemberElement element;
-      element.member = m;
-      element.start = from + static_cast<double>(e) / count * span;
-      element.end = from + static_cast<double>(e + 1) / count * span;
-      element.section =
-          interpolate(member.section, member.end_section, (static_cast<double>(e) + 0.5) / count);
+      MemberElement element = unnumbered_element(m, e);
       if (!bends) {
         element.coordinates = {first[0], first[1], last[0], last[1]};
         layout_.elements.push_back(std::move(element));
@@ -140,6 +138,21 @@ class Numbering {
       element.coordinates.insert(element.coordinates.end(), left.begin(), left.end());
       layout_.elements.push_back(std::move(element));
     }
+  }
+
+  /// Element e of member m with its ends and the section at its middle.
+  [[nodiscard]] MemberElement unnumbered_element(Index m, Index e) const {
+    const Member& member = model_.members[to_size(m)];
+    const Vector2d& from = model_.nodes[to_size(member.nodes[0])].position;
+    const Vector2d span = model_.nodes[to_size(member.nodes[1])].position - from;
+    const double count = static_cast<double>(member.elements);
+    MemberElement element;
+    element.member = m;
+    element.start = from + static_cast<double>(e) / count * span;
+    element.end = from + static_cast<double>(e + 1) / count * span;
+    element.section =
+        interpolate(member.section, member.end_section, (static_cast<double>(e) + 0.5) / count);
+    return element;
   }
 
   void number_masses() {

@@ -15,11 +15,39 @@ double dot(const LinearConstraintRow& row, const VectorXd& values) {
   return sum;
 }
 
+/// @throws ModelError  as `add_linear_constraints`.
+LinearConstraintRow row_of(const LinearConstraint& constraint, const Layout& layout) {
+  LinearConstraintRow row;
+  row.factors.resize(static_cast<Index>(constraint.terms.size()));
+  Index rotations = 0;
+  for (const auto& [coordinate, factor] : constraint.terms) {
+    const Index k = layout.index_of(coordinate);
+    if (k < 0) {
+      throw ModelError("constraint " + constraint.name + " names a rotation that no part has");
+    }
+    if (layout.is_rotation[to_size(k)]) ++rotations;
+    row.factors[static_cast<Index>(row.coordinates.size())] = factor;
+    row.coordinates.push_back(k);
+  }
+  if (rotations != 0 && rotations != row.factors.size()) {
+    throw ModelError("constraint " + constraint.name +
+                     " mixes translations and rotations: it holds for small motion only");
+  }
+  return row;
+}
+
 }  // namespace
 
 void LinearConstraints::add(LinearConstraintRow row) {
   zero_blocks_.emplace_back(Eigen::MatrixXd::Zero(row.factors.size(), row.factors.size()));
   rows_.push_back(std::move(row));
+}
+
+void LinearConstraints::set_penalty_scales(const PenaltyScales& scales) {
+  for (LinearConstraintRow& row : rows_) {
+    row.stiffness_scale = scales.stiffness(row.coordinates);
+    row.mass_scale = scales.mass(row.coordinates);
+  }
 }
 
 void LinearConstraints::append_blocks(std::vector<std::vector<Index>>& blocks) {
@@ -72,6 +100,25 @@ void LinearConstraints::tangent(const State&, double, const TangentCoefficients&
     matrix.add(first_block_ + static_cast<Index>(e), zero_blocks_[e],
                Eigen::RowVectorXd(rows_[e].factors.transpose()), c, rho);
   }
+}
+
+void add_linear_constraints(const Model& model, const LargeMotionModel& large_motion,
+                            const Layout& layout, SystemParts& parts) {
+  auto group = std::make_unique<LinearConstraints>(layout.free, parts.rows);
+  for (const Slider& slider : large_motion.sliders) {
+    if (!slider.keeps_angle) continue;
+    const Index b = layout.node[to_size(slider.node)][2];
+    if (slider.rail < 0) {
+      group->add({{b}, VectorXd::Ones(1)});
+    } else {
+      const Index a = layout.node[to_size(slider.rail)][2];
+      group->add({{a, b}, Eigen::Vector2d(-1, 1)});
+    }
+  }
+  for (const LinearConstraint& constraint : model.constraints) {
+    if (!layout.equated_coordinates(constraint)) group->add(row_of(constraint, layout));
+  }
+  parts.add(std::move(group));
 }
 
 }  // namespace trammel::solver::large_motion

@@ -2,11 +2,12 @@
 
 #include <vector>
 
-#include "solver/large_motion/system/element_group.h"
+#include "solver/large_motion/system/system_parts.h"
 
 namespace trammel::solver::large_motion {
 
-/// One row: sum of factor * coordinate = 0.
+/// One row: sum of factor * coordinate = 0. Either all coordinates are translations or all are
+/// rotations, which is what holds in large motion.
 struct LinearConstraintRow {
   std::vector<Index> coordinates;
   VectorXd factors;
@@ -29,7 +30,8 @@ class LinearConstraints final : public ElementGroup {
   void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
                                 double tau, Eigen::Ref<VectorXd> r) const override;
   [[nodiscard]] Index size() const override { return static_cast<Index>(rows_.size()); }
-  std::vector<LinearConstraintRow>& rows() { return rows_; }
+  [[nodiscard]] Index rows() const override { return size(); }
+  void set_penalty_scales(const PenaltyScales& scales) override;
 
  private:
   void add_constraint_forces(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const;
@@ -38,5 +40,12 @@ class LinearConstraints final : public ElementGroup {
   std::vector<LinearConstraintRow> rows_;
   std::vector<Eigen::MatrixXd> zero_blocks_;  ///< a zero S of each row's size
 };
+
+/// Adds the model's linear constraints, but for those that make two coordinates equal (they are one
+/// coordinate of the layout), and the equal rotations of sliders that keep their angle.
+/// @throws ModelError  where a constraint names a rotation that no part has, or mixes translations
+///                     and rotations.
+void add_linear_constraints(const Model& model, const LargeMotionModel& large_motion,
+                            const Layout& layout, SystemParts& parts);
 
 }  // namespace trammel::solver::large_motion

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "solver/model/numbers.h"
+#include "solver/model/plane.h"
+
 namespace trammel::solver {
 
 void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& nodes) {
@@ -19,9 +22,9 @@ void add_linear_slider(Model& model, const large_motion::Slider& slider) {
       {{{Kind::x, slider.node, -1, 0}, normal.x()}, {{Kind::y, slider.node, -1, 0}, normal.y()}}};
   LinearConstraint equal_rotation{slider.name, {{{Kind::rotation, slider.node, -1, 0}, 1.0}}};
   if (slider.rail >= 0) {
-    const Vector2d offset = model.nodes[static_cast<std::size_t>(slider.node)].position -
-                            model.nodes[static_cast<std::size_t>(slider.rail)].position;
-    const double lever = normal.dot(Vector2d(-offset.y(), offset.x()));
+    const Vector2d offset =
+        model.nodes[to_size(slider.node)].position - model.nodes[to_size(slider.rail)].position;
+    const double lever = normal.dot(perpendicular(offset));
     no_normal_displacement.terms.push_back({{Kind::x, slider.rail, -1, 0}, -normal.x()});
     no_normal_displacement.terms.push_back({{Kind::y, slider.rail, -1, 0}, -normal.y()});
     if (lever != 0)

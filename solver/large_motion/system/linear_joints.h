@@ -5,7 +5,7 @@
 
 namespace trammel::solver {
 
-/// Adds what keeps two nodes in one place together, in every tier: equal translations.
+/// Adds a revolute joint between two coincident nodes, in every tier: equal translations.
 void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& nodes);
 
 /// A slider in small motion, for the linear tiers: no displacement across the line as the rail

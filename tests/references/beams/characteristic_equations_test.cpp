@@ -13,21 +13,6 @@ using namespace trammel::references;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
 
-namespace {
-
-const double EI = 172.5;  // of the beam of frames.h
-
-std::vector<double> run(const char* program, const char* arguments) {
-  return derive(program, Json::parse(arguments));
-}
-
-void check_equal(const std::vector<double>& a, const std::vector<double>& b, double relative) {
-  BOOST_TEST_REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) BOOST_TEST(a[i] == b[i], tolerance(relative));
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_SUITE(characteristic_equations)
 
 BOOST_AUTO_TEST_CASE(a_clamped_corner_is_as_singular_as_is_known) {
@@ -104,51 +89,6 @@ BOOST_AUTO_TEST_CASE(the_chain_of_four_bars_agrees_with_values_computed_elsewher
               5e-13);
 }
 
-BOOST_AUTO_TEST_CASE(turning_beams_agree_with_values_computed_elsewhere) {
-  check_equal(
-      run("rotating-beam-roots", R"({"eta": 12, "hub_ratio": 0, "plane": "flap", "count": 3})"),
-      {13.1701504875, 37.6031123312, 79.6144784895}, 1e-11);
-  check_equal(
-      run("rotating-beam-roots", R"({"eta": 50, "hub_ratio": 1, "plane": "flap", "count": 1})"),
-      {std::sqrt(std::pow(run("rotating-beam-roots",
-                              R"({"eta": 50, "hub_ratio": 1, "plane": "lag", "count": 1})")[0],
-                          2) +
-                 2500)},
-      1e-14);
-  check_equal(
-      run("rotating-beam-roots", R"({"eta": 10, "hub_ratio": 1, "plane": "lag", "count": 1})"),
-      {13.2578764078}, 1e-11);
-}
-
-BOOST_AUTO_TEST_CASE(a_speed_that_fifty_digits_cannot_hold_is_refused) {
-  BOOST_CHECK_THROW(static_cast<void>(run("rotating-beam-roots",
-                                          R"({"eta": 50, "hub_ratio": 5, "plane": "flap",
-                                              "count": 1})")),
-                    DerivationError);
-}
-
-BOOST_AUTO_TEST_CASE(a_hub_at_rest_carries_an_ordinary_cantilever) {
-  check_equal(
-      run("rotating-beam-roots", R"({"eta": 0, "hub_ratio": 1, "plane": "flap", "count": 3})"),
-      {3.51601526850015118, 22.0344915646667699, 61.697214413549102}, 4e-16);
-}
-
-BOOST_AUTO_TEST_CASE(the_coriolis_coupling_vanishes_with_axial_rigidity_and_lowers_bending) {
-  const auto lag = [](const char* axial) {
-    return run(
-        "rotating-beam-roots",
-        (std::string(R"({"eta": 5, "hub_ratio": 1, "plane": "lag", "count": 2)") + axial + "}")
-            .c_str());
-  };
-  const auto rigid = lag("");
-  check_equal(lag(R"(, "axial_ratio": 1e12)"), rigid, 1e-9);
-  const auto flexible = lag(R"(, "axial_ratio": 1e5)");
-  BOOST_TEST(flexible[0] < rigid[0]);
-  // the loss goes as one over the axial stiffness
-  const auto stiffer = lag(R"(, "axial_ratio": 1e6)");
-  BOOST_TEST((rigid[0] - flexible[0]) / (rigid[0] - stiffer[0]) == 10.0, tolerance(1e-2));
-}
-
 BOOST_AUTO_TEST_CASE(the_exponential_beam_agrees_with_values_computed_elsewhere) {
   check_equal(run("exponential-beam", R"({"length_m": 0.6, "thickness_m": 0.01,
                   "width_rate_1_m": 2, "E_Pa": 2e11, "rho_kg_m3": 7800, "count": 5})"),
@@ -195,44 +135,6 @@ BOOST_AUTO_TEST_CASE(a_thin_annulus_is_a_ring_in_extension) {
   const auto f = run("annular-membrane", R"({"inner_radius_m": 0.9995, "outer_radius_m": 1.0005,
                      "E_Pa": 2e11, "rho_kg_m3": 8000, "nu": 0.3, "modes": [[0, 1]]})");
   check_equal(f, {std::sqrt(E / rho) / (2 * std::acos(-1.0))}, 1e-6);
-}
-
-BOOST_AUTO_TEST_CASE(columns_buckle_at_their_textbook_loads) {
-  check_equal(run("column-buckling", R"({"ends": "clamped-pinned", "load": "end", "count": 1})"),
-              {4.49340945790906 * 4.49340945790906}, 1e-14);
-  check_equal(
-      run("column-buckling", R"({"ends": "clamped-free", "load": "self-weight", "count": 1})"),
-      {7.8373474389}, 1e-10);
-}
-
-BOOST_AUTO_TEST_CASE(a_frame_of_one_column_buckles_as_the_column_does) {
-  const auto factor = [](const char* supports) {
-    Json model = beam_model(R"({"loads": {"end": {"node": "B", "force_N": [-1, 0]}}})");
-    model["supports"] = Json::parse(supports);
-    return derive("frame-buckling", {{"model", model}, {"count", 2}});
-  };
-  const auto column = [](const char* ends) {
-    return derive("column-buckling",
-                  {{"ends", ends}, {"load", "end"}, {"count", 2}, {"EI_N_m2", EI}});
-  };
-  check_equal(factor(R"({"A": ["x", "y", "rotation"]})"), column("clamped-free"), 1e-15);
-  check_equal(factor(R"({"A": ["x", "y", "rotation"], "B": ["y"]})"), column("clamped-pinned"),
-              1e-15);
-  check_equal(factor(R"({"A": ["x", "y", "rotation"], "B": ["y", "rotation"]})"),
-              column("clamped-clamped"), 1e-15);
-}
-
-BOOST_AUTO_TEST_CASE(a_pinned_beam_under_axial_force_has_its_closed_form) {
-  const double pi = std::acos(-1.0);
-  for (const double N : {-1000.0, 1e-3, 5000.0}) {
-    Json model = beam_model(R"({"supports": {"A": ["x", "y"], "B": ["x", "y"]}})");
-    model["members"]["AB"]["axial_force_N"] = N;
-    std::vector<double> expected;
-    for (int n = 1; n <= 4; ++n) {
-      expected.push_back(n / 2.0 * std::sqrt((N + EI * std::pow(n * pi, 2)) / 0.81));
-    }
-    check_equal(frequencies(model, 4), expected, 1e-14);
-  }
 }
 
 BOOST_AUTO_TEST_CASE(the_deep_beam_under_load_has_its_static_closed_form_and_twice_it_undamped) {

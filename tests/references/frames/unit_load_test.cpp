@@ -20,11 +20,6 @@ std::vector<double> statics(const Json& model, const std::vector<std::string>& o
   return derive("frame-statics", {{"model", model}, {"outputs", outputs}});
 }
 
-void check_equal(const std::vector<double>& a, const std::vector<double>& b, double relative) {
-  BOOST_TEST_REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) BOOST_TEST(a[i] == b[i], tolerance(relative));
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(unit_load)

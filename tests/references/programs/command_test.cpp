@@ -95,7 +95,8 @@ BOOST_AUTO_TEST_CASE(every_program_is_listed) {
 
 BOOST_AUTO_TEST_CASE(bad_usage_and_bad_input_are_one_line_with_status_2) {
   const ScratchFile not_json("{\"id\": ");
-  const ScratchFile bad_argument(R"({"id": "x", "unit": "1", "values": [1],
+  const ScratchFile bad_argument(R"({"id": "x", "title": "x", "kind": "exact", "unit": "1",
+    "values": [1], "source": "x", "place": "x",
     "uncertainty": {"relative": 1}, "derivation": {"program": "beam-roots", "arguments": {}}})");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--program", "none"}, "there are"},

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "solver/large_motion/solve/integrate.h"
-#include "solver/large_motion/system/callable_system.h"
+#include "tests/support/solver/callable_system.h"
 
 /// The slider-crank with a flexible connecting rod of the IVP test set (B. Simeon; F. Mazzia,
 /// C. Magherini, problem "crank"): equations that are not a model of ours and try the integrator
@@ -14,6 +14,8 @@ namespace {
 
 using namespace trammel::solver;
 using namespace trammel::solver::large_motion;
+using trammel::testing::CallableEquations;
+using trammel::testing::CallableSystem;
 using Eigen::Matrix4d;
 using Eigen::MatrixXd;
 using Eigen::Vector4d;

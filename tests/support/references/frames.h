@@ -1,7 +1,9 @@
 #pragma once
 
+#include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "references/numerics/arguments.h"
 #include "references/programs/program.h"
@@ -10,6 +12,9 @@
 namespace trammel::testing {
 
 using namespace references;
+
+/// EI of the beam of `beam_model` [N m^2].
+inline constexpr double kBeamEI = 172.5;
 
 /// One aluminium beam from A(0, 0) to B(1, 0); `supports` and the rest are merged into the model.
 inline Json beam_model(const char* patch) {
@@ -40,6 +45,19 @@ inline Json manipulator(const char* patch) {
 
 inline std::vector<double> frequencies(const Json& model, int count) {
   return derive("frame-frequencies", {{"model", model}, {"count", count}});
+}
+
+/// The values of a program with arguments as JSON text.
+inline std::vector<double> run(const char* program, const char* arguments) {
+  return derive(program, Json::parse(arguments));
+}
+
+inline void check_equal(const std::vector<double>& a, const std::vector<double>& b,
+                        double relative) {
+  BOOST_TEST_REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    BOOST_TEST(a[i] == b[i], boost::test_tools::tolerance(relative));
+  }
 }
 
 }  // namespace trammel::testing

@@ -2,13 +2,14 @@
 
 #include "solver/large_motion/system/beam.h"
 #include "solver/large_motion/system/layout.h"
+#include "solver/large_motion/system/system_parts.h"
 
 namespace trammel::solver::large_motion {
 
 /// The beam element of a part of a member; zero compliance where the member's theory rules a strain
 /// out.
 template <int P>
-Beam<P> make_beam(const Member& member, const MemberElement& element) {
+[[nodiscard]] Beam<P> make_beam(const Member& member, const MemberElement& element) {
   const Section& section = element.section;
   const Vector2d span = element.end - element.start;
   Beam<P> beam;
@@ -22,5 +23,17 @@ Beam<P> make_beam(const Member& member, const MemberElement& element) {
   if (has_rotary_inertia(member.theory)) beam.inertia_per_length = section.inertia_per_length;
   return beam;
 }
+
+/// The coordinates of an element as an array of fixed size.
+template <std::size_t N>
+[[nodiscard]] std::array<Index, N> coordinates_of(const MemberElement& element) {
+  std::array<Index, N> where{};
+  std::copy(element.coordinates.begin(), element.coordinates.end(), where.begin());
+  return where;
+}
+
+/// Adds the members' beams of that degree and bars, with their masses, distributed loads and
+/// inertias at the ends.
+void add_members(const Model& model, const Layout& layout, int degree, SystemParts& parts);
 
 }  // namespace trammel::solver::large_motion

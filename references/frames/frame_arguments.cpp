@@ -1,4 +1,4 @@
-#include "references/frames/frame_programs.h"
+#include "references/frames/frame_arguments.h"
 
 #include "references/frames/frame_json.h"
 #include "references/frames/manipulator_frame.h"

@@ -1,10 +1,10 @@
-#include "solver/large_motion/system/callable_system.h"
+#include "tests/support/solver/callable_system.h"
 
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-namespace trammel::solver::large_motion {
+namespace trammel::testing {
 
 CallableSystem::CallableSystem(CallableEquations equations)
     : equations_(std::move(equations)), compliance_(VectorXd::Zero(equations_.constraints)) {}
@@ -59,4 +59,4 @@ void CallableSystem::tangent(const State& state, const TangentCoefficients& coef
   matrix.add(0, S, G, c, rho);
 }
 
-}  // namespace trammel::solver::large_motion
+}  // namespace trammel::testing

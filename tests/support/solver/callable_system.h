@@ -6,7 +6,9 @@
 
 #include "solver/large_motion/system/constrained_system.h"
 
-namespace trammel::solver::large_motion {
+namespace trammel::testing {
+
+using namespace solver::large_motion;
 
 /// A small dense system given as functions, for equations that are not a `Model` of ours:
 /// M(q) a = f(t, q, v) - G(t, q)^T lambda, g(t, q) = 0. Tangents are taken by differences.
@@ -43,4 +45,4 @@ class CallableSystem final : public ConstrainedSystem {
   VectorXd compliance_;
 };
 
-}  // namespace trammel::solver::large_motion
+}  // namespace trammel::testing
