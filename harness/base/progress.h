@@ -1,21 +1,27 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <string>
 
 namespace trammel::harness {
 
-/// A bar on standard error while things are computed; nothing where that is no terminal.
+/// How far a computation is, on standard error: a bar that is rewritten on a terminal, elsewhere
+/// (in a log) a line at most every ten seconds.
 class Progress {
  public:
-  Progress();
+  /// @param items  what is counted, in the plural: "runs"
+  explicit Progress(std::string items);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void show(std::size_t done, std::size_t all);
 
  private:
+  std::string items_;
   bool terminal_;
-  bool shown_ = false;
+  bool bar_shown_ = false;
+  std::chrono::steady_clock::time_point last_line_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace trammel::harness

@@ -42,7 +42,7 @@ void print_claim(const Claim& claim) {
 int claims_command(unsigned jobs, bool json) {
   const Document document = load_claims();
   const References references;
-  Progress progress;
+  Progress progress("runs");
   RunOptions options;
   options.jobs = jobs;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };

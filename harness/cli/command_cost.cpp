@@ -155,7 +155,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   std::vector<MeasuredStudy> measured;
   for (CostStudy& study : studies) {
     {
-      Progress progress;
+      Progress progress("measurements");
       options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
       measured.push_back(measure(std::move(study), options, references));
     }
@@ -173,7 +173,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
 }
 
 Json quick_cost(const References& references, std::vector<std::string>& error_messages) {
-  Progress progress;
+  Progress progress("cost studies");
   const CostOptions options;
   const std::vector<fs::path> files = cost_study_files();
   std::vector<MeasuredStudy> measured;

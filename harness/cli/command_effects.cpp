@@ -204,7 +204,7 @@ int labelled_effects_command(const EffectsCommand& command) {
 int random_effects_command(const EffectsCommand& command) {
   HitCounts counts;
   {
-    Progress progress;
+    Progress progress("scenes");
     for (std::uint64_t n = 0; counts.scenes < command.random && n < 2 * command.random; ++n) {
       const Document document = random_case(command, n);
       count_result(study_effects(document, {command.tolerance, false, 0}),

@@ -62,7 +62,7 @@ void require_variant(const std::vector<Case>& cases, const std::string& variant)
 
 std::vector<Run> compute(const Selection& selection, const References& references,
                          const RunOptions& asked) {
-  Progress progress;
+  Progress progress("runs");
   RunOptions options = asked;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   std::vector<Run> runs = run_cases(selection.cases, references, options);

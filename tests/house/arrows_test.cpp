@@ -1,4 +1,5 @@
-// The arrows of the house: which folder may include what. See CONTRIBUTING.md.
+// The rooms of the house and the arrows between them, as the tables in CONTRIBUTING.md give them.
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <fstream>
@@ -6,16 +7,89 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Arrows {
-  std::set<std::string> folders;    ///< own folders it may include
-  std::set<std::string> forbidden;  ///< outside libraries it must not know
+const fs::path kRoot = TRAMMEL_SOURCE_DIR;
+constexpr std::size_t kFilesInRoom = 32;
+
+using Cells = std::vector<std::string>;
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+Cells cells_of(const std::string& line) {
+  Cells cells;
+  for (std::size_t at = 1, end; (end = line.find(" |", at)) != std::string::npos; at = end + 2)
+    cells.push_back(end > at ? line.substr(at + 1, end - at - 1) : "");
+  return cells;
+}
+
+/// The rows of the first markdown table in a file whose head begins with these words.
+std::vector<Cells> table(const fs::path& file, const std::string& head) {
+  std::vector<Cells> rows;
+  bool inside = false;
+  for (const std::string& line : lines_of(file)) {
+    if (line.rfind(head, 0) == 0) {
+      inside = true;
+    } else if (inside && line.rfind("|", 0) != 0) {
+      break;
+    } else if (inside && line.rfind("|---", 0) != 0) {
+      rows.push_back(cells_of(line));
+    }
+  }
+  return rows;
+}
+
+/// What stands between backquotes.
+std::vector<std::string> names_in(const std::string& cell) {
+  static const std::regex name("`([^`]+)`");
+  std::vector<std::string> names;
+  for (std::sregex_iterator at(cell.begin(), cell.end(), name), end; at != end; ++at)
+    names.push_back((*at)[1]);
+  return names;
+}
+
+std::string first_part(const std::string& path) {
+  return path.substr(0, path.find('/'));
+}
+
+bool lies_in(const std::string& path, const std::string& folder) {
+  return path == folder || path.rfind(folder + "/", 0) == 0;
+}
+
+bool is_code(const fs::path& file) {
+  return file.extension() == ".h" || file.extension() == ".cpp";
+}
+
+/// The table of rooms. A room may include itself, the rooms that its row names, and what those may.
+/// A row may also name one file, for which it holds in place of the file's room.
+struct Rooms {
+  std::vector<std::string> order;
+  std::map<std::string, std::string> arrows;  ///< the last cell of each row, as it is written
+  std::map<std::string, std::set<std::string>> direct, all;
+
+  [[nodiscard]] std::set<std::string> tops() const {
+    std::set<std::string> found;
+    for (const std::string& room : order) found.insert(first_part(room));
+    return found;
+  }
+
+  /// The row that a file stands under; empty if there is none.
+  [[nodiscard]] std::string row_of(const std::string& file) const {
+    const std::string folder = fs::path(file).parent_path().generic_string();
+    return arrows.count(file) > 0 ? file : arrows.count(folder) > 0 ? folder : "";
+  }
 };
 
+<<<<<<< HEAD
 const std::map<std::string, Arrows>& rules() {
   static const std::map<std::string, Arrows> table = {
       {"solver",
@@ -25,55 +99,149 @@ const std::map<std::string, Arrows>& rules() {
        {{"references"}, {"Eigen", "Spectra", "CLI", "kainjow", "gnuplot-iostream.h"}}},
       {"harness", {{"harness", "solver", "references"}, {"kainjow", "gnuplot-iostream.h", "gsl"}}},
       {"reports", {{"reports"}, {"Eigen", "Spectra", "CLI", "gsl"}}},
+=======
+/// A name in a row is a room of the same top folder, a room with its whole path, or a top folder
+/// for all its rooms.
+std::vector<std::string> resolve(const std::string& name, const std::string& room,
+                                 const std::vector<std::string>& order) {
+  const auto has = [&](const std::string& key) {
+    return std::find(order.begin(), order.end(), key) != order.end();
+>>>>>>> house
   };
-  return table;
+  const std::string near = first_part(room) + "/" + name;
+  if (has(near)) return {near};
+  std::vector<std::string> found;
+  for (const std::string& other : order) {
+    if (lies_in(other, name)) found.push_back(other);
+  }
+  return found;
 }
 
-/// The one place where the stops meet: the program's entry, which hands a results file to the
-/// report.
-bool is_exception(const std::string& file, const std::string& target) {
-  return file == "harness/cli/main.cpp" && target.rfind("reports/", 0) == 0;
+const Rooms& rooms() {
+  static const Rooms read = [] {
+    Rooms rooms;
+    const auto rows = table(kRoot / "CONTRIBUTING.md", "| room |");
+    for (const Cells& cells : rows) {
+      rooms.order.push_back(names_in(cells.at(0)).at(0));
+      rooms.arrows[rooms.order.back()] = cells.at(2);
+    }
+    for (const std::string& room : rooms.order) {
+      std::set<std::string>& all = rooms.all[room];
+      all.insert(room);
+      for (const std::string& name : names_in(rooms.arrows[room])) {
+        for (const std::string& target : resolve(name, room, rooms.order)) {
+          rooms.direct[room].insert(target);
+          all.insert(rooms.all[target].begin(), rooms.all[target].end());
+        }
+      }
+    }
+    return rooms;
+  }();
+  return read;
 }
 
-/// Of references/, the harness reads the stored data and never the programs that derive it.
-bool is_derivation(const std::string& target) {
-  return target.rfind("references/", 0) == 0 && target.rfind("references/data/", 0) != 0;
+/// Outside headers that a top folder must not include, by their first part.
+std::map<std::string, std::set<std::string>> forbidden() {
+  std::map<std::string, std::set<std::string>> found;
+  for (const Cells& cells : table(kRoot / "CONTRIBUTING.md", "| folder | must not include |")) {
+    const auto names = names_in(cells.at(1));
+    found[names_in(cells.at(0)).at(0)] = {names.begin(), names.end()};
+  }
+  return found;
 }
 
-std::string first_part(const std::string& target) {
-  return target.substr(0, target.find('/'));
+/// Paths from the root of all sources and headers outside tests/ and build folders.
+std::vector<std::string> code() {
+  std::vector<std::string> files;
+  for (const auto& top : fs::directory_iterator(kRoot)) {
+    const std::string name = top.path().filename().string();
+    if (!top.is_directory() || name[0] == '.' || name == "tests" || name == "build") continue;
+    for (const auto& entry : fs::recursive_directory_iterator(top)) {
+      if (is_code(entry.path()))
+        files.push_back(fs::relative(entry.path(), kRoot).generic_string());
+    }
+  }
+  return files;
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(arrows)
 
+BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_above_it_in_the_table) {
+  BOOST_TEST(rooms().order.size() > 20U);
+  std::set<std::string> above;
+  for (const std::string& room : rooms().order) {
+    BOOST_TEST(fs::exists(kRoot / room), "there is no " << room);
+    BOOST_TEST(above.count(room) == 0U, room << " has two rows");
+    for (const std::string& name : names_in(rooms().arrows.at(room)))
+      BOOST_TEST(!resolve(name, room, rooms().order).empty(), room << " names " << name);
+    const auto direct = rooms().direct.find(room);
+    if (direct != rooms().direct.end()) {
+      for (const std::string& target : direct->second)
+        BOOST_TEST(above.count(target) == 1U, target << " stands not above " << room);
+    }
+    above.insert(room);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(no_include_goes_against_the_arrows) {
-  const fs::path root = TRAMMEL_SOURCE_DIR;
   const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
-  const std::set<std::string> own = {"solver", "references", "harness", "reports", "tests"};
-  int seen = 0;
-  for (const auto& [folder, rule] : rules()) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      const std::string extension = entry.path().extension().string();
-      if (extension != ".h" && extension != ".cpp") continue;
-      const std::string file = fs::relative(entry.path(), root).generic_string();
-      std::ifstream in(entry.path());
-      for (std::string line; std::getline(in, line);) {
-        std::smatch match;
-        if (!std::regex_search(line, match, include)) continue;
-        ++seen;
-        const std::string target = match[1];
-        const std::string part = first_part(target);
-        const bool allowed_folder = own.count(part) == 0 || rule.folders.count(part) > 0;
-        const bool harness_derives = folder == "harness" && is_derivation(target);
-        BOOST_TEST((is_exception(file, target) ||
-                    (allowed_folder && rule.forbidden.count(part) == 0 && !harness_derives)),
-                   file << " must not include " << target);
-      }
+  const std::set<std::string> tops = rooms().tops();
+  const auto outside = forbidden();
+  for (const std::string& top : tops) BOOST_TEST(outside.count(top) == 1U, top);
+  for (const std::string& file : code()) {
+    const std::string room = rooms().row_of(file);
+    BOOST_TEST(!room.empty(), file << " is in no room of CONTRIBUTING.md");
+    if (room.empty()) continue;
+    for (const std::string& line : lines_of(kRoot / file)) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include)) continue;
+      const std::string target = match[1], part = first_part(target);
+      const bool own = part != target && (tops.count(part) > 0 || part == "tests");
+      const bool allowed = own ? rooms().all.at(room).count(rooms().row_of(target)) > 0
+                               : outside.at(first_part(room)).count(part) == 0;
+      BOOST_TEST(allowed, file << " must not include " << target);
     }
   }
-  BOOST_TEST(seen > 10);
+}
+
+BOOST_AUTO_TEST_CASE(no_room_holds_too_many_files) {
+  std::map<std::string, std::size_t> files;
+  for (const std::string& file : code()) ++files[fs::path(file).parent_path().generic_string()];
+  BOOST_TEST(files.size() > 20U);
+  for (const auto& [room, count] : files)
+    BOOST_TEST(count <= kFilesInRoom, room << " holds " << count << " files");
+}
+
+BOOST_AUTO_TEST_CASE(the_readme_of_a_folder_names_its_rooms_and_their_arrows) {
+  for (const std::string& top : rooms().tops()) {
+    std::map<std::string, std::string> told;
+    for (const Cells& cells : table(kRoot / top / "README.md", "| room |"))
+      told[top + "/" + names_in(cells.at(0)).at(0)] = cells.back();
+    for (const std::string& room : rooms().order) {
+      if (first_part(room) != top) continue;
+      BOOST_TEST(told.count(room) == 1U, top << "/README.md has no row for " << room);
+      BOOST_TEST(told[room] == rooms().arrows.at(room), room << " in " << top << "/README.md");
+      told.erase(room);
+    }
+    for (const auto& [room, arrows] : told)
+      BOOST_TEST(false, top << "/README.md names " << room << ", CONTRIBUTING.md does not");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_tests_mirror_the_rooms) {
+  const std::set<std::string> tops = rooms().tops();
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {
+    if (!is_code(entry.path())) continue;
+    const fs::path folder = fs::relative(entry.path().parent_path(), kRoot / "tests");
+    const std::string name = folder.generic_string();
+    if (tops.count(first_part(name)) == 0) continue;
+    const bool mirrored = name != first_part(name) &&
+                          std::any_of(rooms().order.begin(), rooms().order.end(),
+                                      [&](const std::string& room) { return lies_in(room, name); });
+    BOOST_TEST(mirrored, "tests/" << name << " mirrors no room");
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -38,10 +38,22 @@ BOOST_AUTO_TEST_CASE(every_file_that_the_tour_names_is_there) {
   for (const char* document : {"README.md", "CONTRIBUTING.md"}) {
     const std::vector<std::string> named = found(text_of(document), path);
     BOOST_TEST(named.size() > 3U, document);
-    for (const std::string& one : named) {
-      if (one == "cases/short-arm.json") continue;  // the reader's own
-      BOOST_TEST(fs::exists(root / one), document << " names " << one);
+    for (const std::string& file : named) {
+      if (file == "cases/short-arm.json") continue;  // the reader's own
+      BOOST_TEST(fs::exists(root / file), document << " names " << file);
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_file_that_the_readme_of_a_folder_names_is_there) {
+  const std::regex path("`([\\w-]+/[\\w./-]+\\.(?:h|cpp|json))`");
+  for (const char* folder : {"solver", "harness", "references", "reports", "cases"}) {
+    const std::string readme = std::string(folder) + "/README.md";
+    const std::vector<std::string> named = found(text_of(readme), path);
+    BOOST_TEST(named.size() > 4U, readme);
+    for (const std::string& file : named)
+      BOOST_TEST((fs::exists(root / folder / file) || fs::exists(root / file)),
+                 readme << " names " << file);
   }
 }
 
