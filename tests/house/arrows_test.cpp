@@ -89,24 +89,12 @@ struct Rooms {
   }
 };
 
-<<<<<<< HEAD
-const std::map<std::string, Arrows>& rules() {
-  static const std::map<std::string, Arrows> table = {
-      {"solver",
-       {{"solver"},
-        {"nlohmann", "rapidjson", "CLI", "gsl", "kainjow", "gnuplot-iostream.h", "fstream"}}},
-      {"references",
-       {{"references"}, {"Eigen", "Spectra", "CLI", "kainjow", "gnuplot-iostream.h"}}},
-      {"harness", {{"harness", "solver", "references"}, {"kainjow", "gnuplot-iostream.h", "gsl"}}},
-      {"reports", {{"reports"}, {"Eigen", "Spectra", "CLI", "gsl"}}},
-=======
 /// A name in a row is a room of the same top folder, a room with its whole path, or a top folder
 /// for all its rooms.
 std::vector<std::string> resolve(const std::string& name, const std::string& room,
                                  const std::vector<std::string>& order) {
   const auto has = [&](const std::string& key) {
     return std::find(order.begin(), order.end(), key) != order.end();
->>>>>>> house
   };
   const std::string near = first_part(room) + "/" + name;
   if (has(near)) return {near};
