@@ -2,12 +2,12 @@
 
 #include <Spectra/SymEigsSolver.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "solver/linalg/dense_eigen.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver {
@@ -73,6 +73,9 @@ class EigenpairProvider {
     return dense_ ? take_dense(count) : lanczos(factorization, count, X);
   }
 
+  /// Whether the dense eigenvalue iteration failed.
+  [[nodiscard]] bool failed() const { return failed_; }
+
  private:
   [[nodiscard]] Index size() const { return pencil_.K->rows(); }
 
@@ -83,17 +86,18 @@ class EigenpairProvider {
   }
 
   /// All with mu > 0, the largest first.
-  [[nodiscard]] MatrixXd dense_vectors() const {
+  [[nodiscard]] MatrixXd dense_vectors() {
     const MatrixXd A = MatrixXd(*pencil_.K) - pencil_.shift * MatrixXd(*pencil_.B);
     const VectorXd scale = A.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
     const MatrixXd scaled_A = scale.asDiagonal() * A * scale.asDiagonal();
     const MatrixXd scaled_B = scale.asDiagonal() * MatrixXd(*pencil_.B) * scale.asDiagonal();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(scaled_B, scaled_A);
-    if (solver.info() != Eigen::Success) return MatrixXd(size(), 0);
-    const VectorXd& mu = solver.eigenvalues();  // ascending
+    const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(scaled_B, scaled_A);
+    failed_ = !pairs.converged;
+    if (failed_) return MatrixXd(size(), 0);
+    const VectorXd& mu = pairs.value;
     const double zero = static_cast<double>(size()) * kEps * mu.cwiseAbs().maxCoeff();
     const Index kept = (mu.array() > zero).count();
-    return scale.asDiagonal() * solver.eigenvectors().rightCols(kept).rowwise().reverse();
+    return scale.asDiagonal() * pairs.vector.rightCols(kept).rowwise().reverse();
   }
 
   MatrixXd lanczos(const Factorization& factorization, Index count, const MatrixXd& X) {
@@ -131,7 +135,7 @@ class EigenpairProvider {
   }
 
   const Pencil& pencil_;
-  bool dense_;
+  bool dense_, failed_ = false;
   Counters& counters_;
   MatrixXd all_;     // dense: every vector
   Index taken_ = 0;  // dense: how many have been handed out
@@ -157,6 +161,7 @@ class Solver {
     if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return no_eigenpairs();
     const Index guard = 3 + count_ / 4;
     add(provider_.first_block(factorization_, count_ + guard, null_));
+    if (provider_.failed()) return no_eigenpairs();
     for (int round = 0; round < kRounds; ++round) {
       iterate_to_convergence();
       if (inverse_iteration_failed_) return no_eigenpairs();
@@ -239,9 +244,10 @@ class Solver {
     const MatrixXd B = Y.transpose() * (*pencil_.B * Y);
     if (pencil_.shift != 0) A -= pencil_.shift * B;
     const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(
+    const SymmetricEigenpairs<MatrixXd> ritz = symmetric_eigenpairs(
         scale.asDiagonal() * B * scale.asDiagonal(), scale.asDiagonal() * A * scale.asDiagonal());
-    X_ = Y * (scale.asDiagonal() * ritz.eigenvectors().rowwise().reverse());
+    inverse_iteration_failed_ = inverse_iteration_failed_ || !ritz.converged;
+    X_ = Y * (scale.asDiagonal() * ritz.vector.rowwise().reverse());
     values();
   }
 

@@ -2,16 +2,17 @@
 
 #include <Spectra/SymEigsSolver.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <random>
+
+#include "solver/linalg/dense_eigen.h"
 
 namespace trammel::solver {
 namespace {
@@ -127,14 +128,15 @@ void extend(MatrixXd& basis, const MatrixXd& columns) {
   }
 }
 
-MatrixXd dense_space(const SkewOperator& op, Index pairs) {
+std::optional<MatrixXd> dense_space(const SkewOperator& op, Index pairs) {
   MatrixXd W(op.rows(), op.rows());
   for (Index j = 0; j < op.rows(); ++j) W.col(j) = op.apply(VectorXd::Unit(op.rows(), j));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(W.transpose() * W);
-  const double largest = solver.eigenvalues().tail(1)[0];
+  const SymmetricEigenpairs<MatrixXd> squared = symmetric_eigenpairs<MatrixXd>(W.transpose() * W);
+  if (!squared.converged) return std::nullopt;
+  const double largest = squared.value.tail(1)[0];
   Index kept = std::min<Index>(2 * pairs, op.rows());
-  while (kept > 0 && !(solver.eigenvalues()[op.rows() - kept] > 1e-22 * largest)) --kept;
-  return solver.eigenvectors().rightCols(kept);
+  while (kept > 0 && !(squared.value[op.rows() - kept] > 1e-22 * largest)) --kept;
+  return MatrixXd(squared.vector.rightCols(kept));
 }
 
 MatrixXd lanczos_space(const SkewOperator& op, Index pairs) {
@@ -162,27 +164,30 @@ double frequency_of(const GyroscopicPencil& pencil, const VectorXcd& x) {
   return (c + std::sqrt(c * c + 4 * m * k)) / (2 * m);
 }
 
-/// Ritz vectors of i W in a space closed under W, frequencies ascending.
-void ritz(const GyroscopicPencil& pencil, const SkewOperator& op, GyroscopicModes& modes) {
+/// Ritz vectors of i W in a space closed under W, frequencies ascending; false where they did not
+/// converge.
+bool ritz(const GyroscopicPencil& pencil, const SkewOperator& op, GyroscopicModes& modes) {
   const MatrixXd& V = op.known;
   MatrixXd WV(V.rows(), V.cols());
   for (Index j = 0; j < V.cols(); ++j) WV.col(j) = op.apply(V.col(j));
   const MatrixXd S = V.transpose() * WV;
   const MatrixXcd H = Complex(0, 0.5) * (S - S.transpose());
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(H);
-  const VectorXd& mu = solver.eigenvalues();  // ascending, in pairs +-
+  const SymmetricEigenpairs<MatrixXcd> pairs = symmetric_eigenpairs(H);
+  if (!pairs.converged) return false;
+  const VectorXd& mu = pairs.value;  // ascending, in pairs +-
   const double smallest = 1e-11 * (mu.size() > 0 ? mu.tail(1)[0] : 0.0);
   const Index kept = (mu.array() > smallest).count();
   modes.omega.resize(kept);
   modes.shape.resize(pencil.K.rows(), kept);
   for (Index j = 0; j < kept; ++j) {
-    const VectorXcd z = V * solver.eigenvectors().col(mu.size() - 1 - j);
+    const VectorXcd z = V * pairs.vector.col(mu.size() - 1 - j);
     VectorXcd x(pencil.K.rows());
     x.real() = op.displacement(z.real());
     x.imag() = op.displacement(z.imag());
     modes.shape.col(j) = x.normalized();
     modes.omega[j] = frequency_of(pencil, modes.shape.col(j));
   }
+  return true;
 }
 
 /// A shift between two clearly different frequencies at or behind the wanted ones.
@@ -198,6 +203,12 @@ SeparatingShift choose_separating_shift(const VectorXd& omega, Index count) {
     if (omega[k] - omega[k - 1] > 1e-4 * omega[k]) return {k, (omega[k] + omega[k - 1]) / 2};
   }
   return {p, omega[p - 1] * (1 + 1e-6)};
+}
+
+GyroscopicModes did_not_converge() {
+  GyroscopicModes modes;
+  modes.outcome = {Status::not_converged, "the dense eigenvalue iteration did not converge"};
+  return modes;
 }
 
 void truncate(GyroscopicModes& modes, Index count) {
@@ -229,13 +240,16 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Fa
   op.known.resize(op.rows(), 0);
   Index wanted = count + 2;
   for (int round = 0; round < kRounds; ++round) {
-    MatrixXd found = dense ? dense_space(op, wanted) : lanczos_space(op, wanted);
+    std::optional<MatrixXd> space =
+        dense ? dense_space(op, wanted) : std::optional(lanczos_space(op, wanted));
+    if (!space) return did_not_converge();
+    MatrixXd& found = *space;
     if (dense) op.known.resize(op.rows(), 0);
     const Index before = op.known.cols();
     extend(op.known, found);
     for (Index j = 0; j < found.cols(); ++j) found.col(j) = op.apply(found.col(j));
     extend(op.known, found);  // its partner, W times it
-    ritz(pencil, op, modes);
+    if (!ritz(pencil, op, modes)) return did_not_converge();
     const SeparatingShift shift = choose_separating_shift(modes.omega, count);
     modes.inertia_count = shift.found == 0 ? 0 : gyroscopic_sturm_count(pencil, shift.omega);
     ++counters.factorizations;
@@ -271,19 +285,16 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   const Eigen::PartialPivLU<MatrixXd> lu(scaled(pencil.K));
   MatrixXd companion(2 * n, 2 * n);
   companion << -lu.solve(C), -lu.solve(M), MatrixXd::Identity(n, n), MatrixXd::Zero(n, n);
-  const Eigen::EigenSolver<MatrixXd> solver(companion);
-  if (solver.info() != Eigen::Success) {
-    modes.outcome = {Status::not_converged, "the dense eigenvalue iteration did not converge"};
-    return modes;
-  }
+  const ComplexEigenpairs pairs = eigenpairs(companion);
+  if (!pairs.converged) return did_not_converge();
   struct Root {
     double omega, growth_rate;
     Index column;
   };
   std::vector<Root> roots;
-  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  const double largest = pairs.value.cwiseAbs().maxCoeff();
   for (Index j = 0; j < 2 * n; ++j) {
-    const Complex mu = solver.eigenvalues()[j];
+    const Complex mu = pairs.value[j];
     if (std::abs(mu) < 1e-9 * largest) continue;  // without mass
     Complex lambda = 1.0 / (mu * time);
     if (std::abs(lambda.real()) < 1e-7 * std::abs(lambda)) lambda.real(0);
@@ -301,7 +312,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
     const Root& root = roots[static_cast<std::size_t>(j)];
     modes.omega[j] = root.omega;
     modes.growth_rate[j] = root.growth_rate;
-    const VectorXcd x = scale.asDiagonal() * solver.eigenvectors().col(root.column).head(n);
+    const VectorXcd x = scale.asDiagonal() * pairs.vector.col(root.column).head(n);
     modes.shape.col(j) = x.normalized();
   }
   return modes;

@@ -1,10 +1,10 @@
 #include "solver/manipulator/rigid_dynamics.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "solver/linalg/dense_eigen.h"
 #include "solver/manipulator/kinematics.h"
 #include "solver/model/numbers.h"
 
@@ -393,7 +393,7 @@ PropertyResiduals property_residuals(const RigidManipulator& m, const RigidTerms
   const double scale = Mh_dot.norm() + 2 * terms.Ch.norm();
   return {(terms.Mh - terms.Mh.transpose()).norm() / terms.Mh.norm(),
           scale > 0 ? (S + S.transpose()).norm() / scale : 0,
-          Eigen::SelfAdjointEigenSolver<Matrix3d>(terms.Mh).eigenvalues()(0)};
+          symmetric_eigenpairs(terms.Mh).value(0)};
 }
 
 InverseDynamics inverse_dynamics(const RigidManipulator& m, const TrajectoryPoint& motion,

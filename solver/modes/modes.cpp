@@ -1,11 +1,11 @@
 #include "solver/modes/modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "solver/assembly/strain.h"
+#include "solver/linalg/dense_eigen.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
@@ -23,10 +23,10 @@ bool orthonormalise(const SparseMatrix& M, MatrixXd& Z) {
   const VectorXd weight = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
   const MatrixXd gram = Z.transpose() * (M * Z);
   const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(gram, size);
-  if (!(solver.eigenvalues()[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
-  const VectorXd inverse = solver.eigenvalues().cwiseSqrt().cwiseInverse();
-  Z = Z * solver.eigenvectors() * inverse.asDiagonal();
+  const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(gram, size);
+  if (!(pairs.value[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
+  const VectorXd inverse = pairs.value.cwiseSqrt().cwiseInverse();
+  Z = Z * pairs.vector * inverse.asDiagonal();
   return true;
 }
 

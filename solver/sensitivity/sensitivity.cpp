@@ -1,6 +1,5 @@
 #include "solver/sensitivity/sensitivity.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/strain.h"
+#include "solver/linalg/dense_eigen.h"
 #include "solver/model/numbers.h"
 #include "solver/sensitivity/seeded_design.h"
 
@@ -258,10 +258,15 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
         result.derivative.setConstant(kNaN);
         return result;
       }
-      const VectorXd rates =
-          Eigen::SelfAdjointEigenSolver<MatrixXd>(small, Eigen::EigenvaluesOnly).eigenvalues();
+      const SymmetricEigenpairs<MatrixXd> rates = symmetric_eigenpairs(small);
+      if (!rates.converged) {
+        result.outcome = {Status::not_converged,
+                          "the rates of repeated frequencies did not converge"};
+        result.derivative.setConstant(kNaN);
+        return result;
+      }
       result.derivative.col(p).segment(set.first, shown) =
-          rates.head(shown) / (4 * std::numbers::pi * omega);
+          rates.value.head(shown) / (4 * std::numbers::pi * omega);
     }
   }
   return result;

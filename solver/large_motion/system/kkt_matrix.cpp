@@ -2,10 +2,11 @@
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+
+#include "solver/linalg/sparse_lu.h"
 
 namespace trammel::solver::large_motion {
 
@@ -34,8 +35,8 @@ Eigen::SparseMatrix<double> coordinate_pattern(Index n, const Blocks& blocks) {
 struct KktMatrix::Factors {
   using Sparse = Eigen::SparseMatrix<double>;
   Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
-  Eigen::SparseLU<Sparse, Eigen::COLAMDOrdering<int>> lu;
-  bool ldlt_analyzed = false, lu_analyzed = false, use_lu = false;
+  SparseLu<double> lu;
+  bool ldlt_analyzed = false, use_lu = false;
 };
 
 KktMatrix::~KktMatrix() = default;
@@ -143,23 +144,13 @@ bool KktMatrix::factor(bool symmetric) {
   ++factorizations_;
   Factors& f = *factors_;
   f.use_lu = !symmetric;
-  if (f.use_lu) return factor_lu();
+  if (f.use_lu) return f.lu.factorize(matrix_);
   if (!f.ldlt_analyzed) f.ldlt.analyzePattern(matrix_);
   f.ldlt_analyzed = true;
   f.ldlt.factorize(matrix_);
   if (f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite()) return true;
   f.use_lu = true;
-  return factor_lu();
-}
-
-bool KktMatrix::factor_lu() {
-  const Eigen::Map<const VectorXd> values(matrix_.valuePtr(), matrix_.nonZeros());
-  if (!values.allFinite()) return false;
-  Factors& f = *factors_;
-  if (!f.lu_analyzed) f.lu.analyzePattern(matrix_);
-  f.lu_analyzed = true;
-  f.lu.factorize(matrix_);
-  return f.lu.info() == Eigen::Success;
+  return f.lu.factorize(matrix_);
 }
 
 void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
