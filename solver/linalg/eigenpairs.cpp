@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/start_vectors.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver {
@@ -116,10 +115,7 @@ class EigenpairProvider {
     LanczosOperator op(*pencil_.B, factorization, known, counters_);
     const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
     Spectra::SymEigsSolver<LanczosOperator> solver(op, wanted, subspace);
-    std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(X.cols()));
-    VectorXd start = VectorXd::NullaryExpr(
-        size(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
-    start = op.complement(start);
+    const VectorXd start = op.complement(start_vectors(size(), 1, X.cols()));
     solver.init(start.data());
     solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-9);
     const VectorXd mu = solver.eigenvalues();  // the converged ones, descending

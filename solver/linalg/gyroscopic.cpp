@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numeric>
 #include <optional>
-#include <random>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/start_vectors.h"
 
 namespace trammel::solver {
 namespace {
@@ -145,10 +144,7 @@ MatrixXd lanczos_space(const SkewOperator& op, Index pairs) {
   if (wanted < 1) return MatrixXd(op.rows(), 0);
   Spectra::SymEigsSolver<SkewOperator> solver(const_cast<SkewOperator&>(op), wanted,
                                               std::min(dimension, 2 * wanted + 20));
-  std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(op.known.cols()));
-  VectorXd start = VectorXd::NullaryExpr(
-      op.rows(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
-  start = op.complement(start);
+  const VectorXd start = op.complement(start_vectors(op.rows(), 1, op.known.cols()));
   solver.init(start.data());
   solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-11);
   return solver.eigenvectors();
@@ -224,9 +220,7 @@ Index gyroscopic_sturm_count(const GyroscopicPencil& pencil, double omega) {
   using ComplexMatrix = Eigen::SparseMatrix<Complex>;
   const ComplexMatrix H = (pencil.K - omega * omega * pencil.M).cast<Complex>() +
                           Complex(0, omega) * pencil.C.cast<Complex>();
-  Eigen::SimplicialLDLT<ComplexMatrix> ldlt(H);
-  if (ldlt.info() != Eigen::Success) return -1;
-  return (ldlt.vectorD().real().array() < 0).count();
+  return negative_pivots(H);
 }
 
 GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Factorization& K,

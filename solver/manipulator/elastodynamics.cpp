@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "solver/elements/triangle_element.h"
-#include "solver/linalg/sparse_factor.h"
+#include "solver/linalg/sparse_ldlt.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 #include "solver/modes/modes.h"
@@ -34,8 +34,7 @@ class PathFollower {
       : options_(options),
         stands_still_(solver::stands_still(options.path)),
         rigid_(rigid_manipulator(options.design)),
-        moving_(loaded_model(options), options.gyroscopic, options.elastic_inertia),
-        stiffness_(moving_.K()) {
+        moving_(loaded_model(options), options.gyroscopic, options.elastic_inertia) {
     rigid_.gravity = options.gravity;
     const TrajectoryPoint first = at(options.path, options.time.start);
     start_ = inverse_dynamics(rigid_, first, options.wrench).q;
@@ -138,7 +137,7 @@ class PathFollower {
   bool stands_still_;
   RigidManipulator rigid_;
   MovingSystem moving_;
-  SparseFactor stiffness_;
+  SparseLdlt stiffness_{SparseLdlt::Triangle::mean};
   bool factored_ = false, regular_ = false;
   VectorXd static_;
   Counters counters_;

@@ -1,11 +1,9 @@
 #include "solver/statics/zero_energy_modes.h"
 
-#include <cstdint>
-#include <random>
-
 #include "solver/assembly/strain.h"
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/dense_qr.h"
+#include "solver/linalg/start_vectors.h"
 
 namespace trammel::solver {
 namespace {
@@ -14,12 +12,6 @@ constexpr double kShift = 1e-12;        // of the diagonal
 constexpr double kSmallPivot = 1e-9;    // pivots below it make us look
 constexpr double kDeformation = 1e-25;  // of the rounding level: below it, nothing deforms
 constexpr Index kMaxModes = 48;
-
-Eigen::MatrixXd random_block(Index rows, Index cols) {
-  std::mt19937_64 engine(20170204);
-  return Eigen::MatrixXd::NullaryExpr(
-      rows, cols, [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
-}
 
 /// Inverse iteration with K + t D on a block, D the diagonal of K; columns stay orthonormal in D.
 class ShiftedIteration {
@@ -41,7 +33,7 @@ class ShiftedIteration {
   /// Ritz vectors by rising strain energy; NaN where they did not converge.
   Eigen::MatrixXd run(Index block) {
     const Eigen::VectorXd root = diagonal_.cwiseSqrt();
-    Eigen::MatrixXd X = random_block(diagonal_.size(), block);
+    Eigen::MatrixXd X = start_vectors(diagonal_.size(), block);
     for (int step = 0; step < 3; ++step) {
       for (Index j = 0; j < block; ++j) X.col(j) = solve(diagonal_.cwiseProduct(X.col(j)));
       X = root.cwiseInverse().asDiagonal() * thin_qr(root.asDiagonal() * X).Q;
