@@ -1,11 +1,10 @@
 #include "solver/linalg/eigenpairs.h"
 
-#include <Spectra/SymEigsSolver.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/lanczos.h"
 #include "solver/linalg/start_vectors.h"
 #include "solver/model/numbers.h"
 
@@ -25,19 +24,14 @@ constexpr double kClusterGap = 1e-3;  // between neighbours that are certainly n
 /// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
 class LanczosOperator {
  public:
-  using Scalar = double;
   LanczosOperator(const SparseMatrix& B, const Factorization& factorization, const MatrixXd& known,
                   Counters& counters)
       : B_(B), factorization_(factorization), known_(known), counters_(counters) {}
 
-  [[nodiscard]] Index rows() const { return B_.rows(); }
-  [[nodiscard]] Index cols() const { return B_.rows(); }
-  void perform_op(const double* in, double* out) const {
-    const Eigen::Map<const VectorXd> x(in, rows());
-    Eigen::Map<VectorXd> y(out, rows());
+  [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     const VectorXd p = factorization_.solve_half_transposed(complement(x));
-    y = complement(factorization_.solve_half(B_ * p));
     ++counters_.solves;
+    return complement(factorization_.solve_half(B_ * p));
   }
   [[nodiscard]] VectorXd complement(const VectorXd& x) const {
     if (known_.cols() == 0) return x;
@@ -112,14 +106,11 @@ class EigenpairProvider {
       }
       known.col(j).normalize();
     }
-    LanczosOperator op(*pencil_.B, factorization, known, counters_);
+    const LanczosOperator op(*pencil_.B, factorization, known, counters_);
     const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
-    Spectra::SymEigsSolver<LanczosOperator> solver(op, wanted, subspace);
-    const VectorXd start = op.complement(start_vectors(size(), 1, X.cols()));
-    solver.init(start.data());
-    solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-9);
-    const VectorXd mu = solver.eigenvalues();  // the converged ones, descending
-    const MatrixXd Y = solver.eigenvectors();
+    const auto [mu, Y] = largest_eigenpairs([&op](const VectorXd& x) { return op.apply(x); },
+                                            op.complement(start_vectors(size(), 1, X.cols())),
+                                            {.wanted = wanted, .subspace = subspace});
     const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
     MatrixXd found(size(), 0);
     for (Index j = 0; j < mu.size(); ++j) {

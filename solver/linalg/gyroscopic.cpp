@@ -1,9 +1,6 @@
 #include "solver/linalg/gyroscopic.h"
 
-#include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/LU>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +8,8 @@
 #include <optional>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/dense_lu.h"
+#include "solver/linalg/lanczos.h"
 #include "solver/linalg/start_vectors.h"
 
 namespace trammel::solver {
@@ -23,8 +22,8 @@ using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
 /// R with R^T R = M; rows only for the coordinates that have mass. A singular M (a point mass off
-/// its node) is helped by 1e-14 of its diagonal.
-SparseMatrix mass_square_root(const SparseMatrix& M) {
+/// its node) is helped by 1e-14 of its diagonal. Nothing where a pivot is zero even so.
+std::optional<SparseMatrix> mass_square_root(const SparseMatrix& M) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Index> number(static_cast<std::size_t>(M.rows()), -1);
   std::vector<Index> massive;
@@ -45,23 +44,15 @@ SparseMatrix mass_square_root(const SparseMatrix& M) {
   const auto r = static_cast<Index>(massive.size());
   SparseMatrix compact(r, r);
   compact.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SimplicialLDLT<SparseMatrix> ldlt(compact);
-  const VectorXd d = ldlt.vectorD().cwiseMax(0).cwiseSqrt();
-  const SparseMatrix U = d.asDiagonal() * SparseMatrix(ldlt.matrixU());
-  const auto& row_of = ldlt.permutationP().indices();  // massive -> row of the factor
+  SparseLdlt ldlt;
+  if (!ldlt.factorize(compact)) return std::nullopt;
+  const SparseMatrix root = ldlt.square_root();
   entries.clear();
-  for (Index j = 0; j < U.outerSize(); ++j) {
-    for (SparseMatrix::InnerIterator it(U, j); it; ++it) {
-      entries.emplace_back(it.row(), it.col(), it.value());
+  for (Index j = 0; j < root.outerSize(); ++j) {
+    const auto coordinate = static_cast<int>(massive[to_size(j)]);
+    for (SparseMatrix::InnerIterator it(root, j); it; ++it) {
+      entries.emplace_back(static_cast<int>(it.row()), coordinate, it.value());
     }
-  }
-  std::vector<Index> coordinate(massive.size());
-  for (std::size_t i = 0; i < massive.size(); ++i) {
-    coordinate[static_cast<std::size_t>(row_of[static_cast<Index>(i)])] = massive[i];
-  }
-  for (auto& e : entries) {
-    e = {static_cast<int>(e.row()), static_cast<int>(coordinate[static_cast<std::size_t>(e.col())]),
-         e.value()};
   }
   SparseMatrix R(r, M.cols());
   R.setFromTriplets(entries.begin(), entries.end());
@@ -71,13 +62,11 @@ SparseMatrix mass_square_root(const SparseMatrix& M) {
 /// W, and W^T W = -W^2 for Lanczos, in the complement of what is known.
 class SkewOperator {
  public:
-  using Scalar = double;
-  SkewOperator(const GyroscopicPencil& pencil, const Factorization& K, Counters& counters)
-      : C_(pencil.C), R_(mass_square_root(pencil.M)), K_(K), counters_(counters) {}
+  SkewOperator(const GyroscopicPencil& pencil, const SparseMatrix& R, const Factorization& K,
+               Counters& counters)
+      : C_(pencil.C), R_(R), K_(K), counters_(counters) {}
 
   [[nodiscard]] Index rows() const { return C_.rows() + R_.rows(); }
-  [[nodiscard]] Index cols() const { return rows(); }
-
   [[nodiscard]] VectorXd apply(const VectorXd& z) const {
     const Index n = C_.rows();
     const VectorXd x = displacement(z);
@@ -92,9 +81,9 @@ class SkewOperator {
     return K_.solve_half_transposed(z.head(C_.rows()));
   }
 
-  void perform_op(const double* in, double* out) const {
-    const VectorXd z = complement(Eigen::Map<const VectorXd>(in, rows()));
-    Eigen::Map<VectorXd>(out, rows()) = complement(-apply(apply(z)));
+  /// W^T W z in the complement.
+  [[nodiscard]] VectorXd apply_squared(const VectorXd& z) const {
+    return complement(-apply(apply(complement(z))));
   }
 
   [[nodiscard]] VectorXd complement(const VectorXd& z) const {
@@ -106,7 +95,7 @@ class SkewOperator {
 
  private:
   const SparseMatrix& C_;
-  SparseMatrix R_;
+  const SparseMatrix& R_;
   const Factorization& K_;
   Counters& counters_;
 };
@@ -142,12 +131,10 @@ MatrixXd lanczos_space(const SkewOperator& op, Index pairs) {
   const Index dimension = op.rows() - op.known.cols();
   const Index wanted = std::min(2 * pairs, dimension - 1);
   if (wanted < 1) return MatrixXd(op.rows(), 0);
-  Spectra::SymEigsSolver<SkewOperator> solver(const_cast<SkewOperator&>(op), wanted,
-                                              std::min(dimension, 2 * wanted + 20));
-  const VectorXd start = op.complement(start_vectors(op.rows(), 1, op.known.cols()));
-  solver.init(start.data());
-  solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-11);
-  return solver.eigenvectors();
+  return largest_eigenpairs([&op](const VectorXd& z) { return op.apply_squared(z); },
+                            op.complement(start_vectors(op.rows(), 1, op.known.cols())),
+                            {wanted, std::min(dimension, 2 * wanted + 20), 1e-11})
+      .vector;
 }
 
 /// Rayleigh functional of a shape: the positive root of m w^2 - c w - k = 0.
@@ -201,10 +188,14 @@ SeparatingShift choose_separating_shift(const VectorXd& omega, Index count) {
   return {p, omega[p - 1] * (1 + 1e-6)};
 }
 
-GyroscopicModes did_not_converge() {
+GyroscopicModes no_modes(const Outcome& outcome) {
   GyroscopicModes modes;
-  modes.outcome = {Status::not_converged, "the dense eigenvalue iteration did not converge"};
+  modes.outcome = outcome;
   return modes;
+}
+
+GyroscopicModes did_not_converge() {
+  return no_modes({Status::not_converged, "the dense eigenvalue iteration did not converge"});
 }
 
 void truncate(GyroscopicModes& modes, Index count) {
@@ -227,7 +218,9 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Fa
                                         Index count, EigenMethod method, Counters& counters) {
   constexpr Index kDenseSize = 150;
   constexpr int kRounds = 20;
-  SkewOperator op(pencil, K, counters);
+  const std::optional<SparseMatrix> R = mass_square_root(pencil.M);
+  if (!R) return no_modes({Status::singular, "the mass matrix has no square root"});
+  SkewOperator op(pencil, *R, K, counters);
   const bool dense = method == EigenMethod::dense || op.rows() < 12 ||
                      (method == EigenMethod::automatic && pencil.K.rows() <= kDenseSize);
   GyroscopicModes modes;
@@ -276,7 +269,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   if (!(time > 0)) return modes;
   C /= time;
   M /= time * time;
-  const Eigen::PartialPivLU<MatrixXd> lu(scaled(pencil.K));
+  const DenseLu lu(scaled(pencil.K));
   MatrixXd companion(2 * n, 2 * n);
   companion << -lu.solve(C), -lu.solve(M), MatrixXd::Identity(n, n), MatrixXd::Zero(n, n);
   const ComplexEigenpairs pairs = eigenpairs(companion);

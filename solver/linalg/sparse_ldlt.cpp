@@ -164,6 +164,12 @@ VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
   return factors_->P.transpose() * x;
 }
 
+SparseMatrix SparseLdlt::square_root() const {
+  const VectorXd root = factors_->ldlt.vectorD().cwiseMax(0).cwiseSqrt();
+  const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->ldlt.matrixU());
+  return U * factors_->P;
+}
+
 Index negative_pivots(const Eigen::SparseMatrix<std::complex<double>>& H) {
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<std::complex<double>>> ldlt(H);
   if (ldlt.info() != Eigen::Success) return -1;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <array>
 #include <vector>
 
 #include "solver/assembly/system.h"
 #include "solver/elements/frame_element.h"
+#include "solver/linalg/dense_lu.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver {
@@ -132,7 +132,7 @@ class MovingSystem {
   RowMajorMatrix T_dot_, T_ddot_;            // pattern of T
   std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
   std::vector<Index> dependent_row_of_;  // ... and of each coordinate that they eliminate, or -1
-  Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
+  DenseLu pivots_;
   std::vector<std::array<Index, 2>> span_;  // mesh node -> ends of its member ...
   std::vector<double> fraction_;            // ... and where it lies between them
   NominalMotion motion_;
