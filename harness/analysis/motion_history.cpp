@@ -202,6 +202,8 @@ class Motion {
       throw transient_["rotating_frame"].error("expected it without 'modal-superposition'");
     }
     const solver::ModalBasis basis = solver::all_modes(system_.M, system_.K);
+    history_.outcome = basis.outcome;
+    if (!basis.outcome.solved()) return;
     const solver::HarmonicDamping damping = read_damping(transient_, basis.omega.size());
     Eigen::VectorXd decay = solver::decay_rates(damping.rayleigh, basis.omega);
     for (solver::Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {

@@ -1,6 +1,5 @@
 #include "harness/studies/mode_match.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -8,6 +7,7 @@
 #include "harness/analysis/case_effects.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
+#include "solver/linalg/dense_qr.h"
 #include "solver/modes/modes.h"
 
 namespace trammel::harness {
@@ -88,8 +88,7 @@ Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>&
     const double norm = shapes.col(column).norm();
     if (norm > 0) shapes.col(column) /= norm;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(shapes);
-  return Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(shapes.rows(), qr.rank()));
+  return solver::range_basis(shapes);
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 #include "solver/assembly/constraints.h"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "solver/linalg/sparse_lu.h"
 #include "solver/model/labels.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 namespace {
@@ -295,8 +296,10 @@ Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
     }
     Eigen::SparseMatrix<double> matrix(n, n);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(matrix);
-    const Eigen::VectorXd solution = lu.solve(right);
+    SparseLu<double> lu;
+    const Eigen::VectorXd solution = lu.factorize(matrix)
+                                         ? lu.solve(right)
+                                         : Eigen::VectorXd(Eigen::VectorXd::Constant(n, kNaN));
     for (Index k = 0; k < n; ++k) {
       const auto row = static_cast<std::size_t>(independent_rows[static_cast<std::size_t>(k)]);
       lambda[static_cast<Index>(row)] = solution[k];

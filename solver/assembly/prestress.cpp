@@ -1,10 +1,10 @@
 #include "solver/assembly/prestress.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "solver/assembly/projection.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/linalg/dense_eigen.h"
 
 namespace trammel::solver {
 namespace {
@@ -38,14 +38,14 @@ PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation
                                                      double volume) {
   Eigen::Matrix2d tensor;
   tensor << stress[0], stress[2], stress[2], stress[1];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(tensor);
-  const Eigen::Matrix<double, 2, 6> along = principal.eigenvectors().transpose() * at.gradient;
+  const SymmetricEigenpairs<Eigen::Matrix2d> principal = symmetric_eigenpairs(tensor);
+  const Eigen::Matrix<double, 2, 6> along = principal.vector.transpose() * at.gradient;
   PlateGeometricStiffness<n> part;
   for (Index i = 0; i < n / 2; ++i) {
     part.B(0, 2 * i) = part.B(1, 2 * i + 1) = along(0, i);
     part.B(2, 2 * i) = part.B(3, 2 * i + 1) = along(1, i);
   }
-  const Vector2d s = volume * principal.eigenvalues();
+  const Vector2d s = volume * principal.value;
   part.H.diagonal() << s[0], s[0], s[1], s[1];
   return part;
 }

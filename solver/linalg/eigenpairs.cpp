@@ -1,13 +1,11 @@
 #include "solver/linalg/eigenpairs.h"
 
-#include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <random>
 
+#include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/lanczos.h"
+#include "solver/linalg/start_vectors.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver {
@@ -26,19 +24,14 @@ constexpr double kClusterGap = 1e-3;  // between neighbours that are certainly n
 /// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
 class LanczosOperator {
  public:
-  using Scalar = double;
   LanczosOperator(const SparseMatrix& B, const Factorization& factorization, const MatrixXd& known,
                   Counters& counters)
       : B_(B), factorization_(factorization), known_(known), counters_(counters) {}
 
-  [[nodiscard]] Index rows() const { return B_.rows(); }
-  [[nodiscard]] Index cols() const { return B_.rows(); }
-  void perform_op(const double* in, double* out) const {
-    const Eigen::Map<const VectorXd> x(in, rows());
-    Eigen::Map<VectorXd> y(out, rows());
+  [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     const VectorXd p = factorization_.solve_half_transposed(complement(x));
-    y = complement(factorization_.solve_half(B_ * p));
     ++counters_.solves;
+    return complement(factorization_.solve_half(B_ * p));
   }
   [[nodiscard]] VectorXd complement(const VectorXd& x) const {
     if (known_.cols() == 0) return x;
@@ -73,6 +66,9 @@ class EigenpairProvider {
     return dense_ ? take_dense(count) : lanczos(factorization, count, X);
   }
 
+  /// Whether the dense eigenvalue iteration failed.
+  [[nodiscard]] bool failed() const { return failed_; }
+
  private:
   [[nodiscard]] Index size() const { return pencil_.K->rows(); }
 
@@ -83,17 +79,18 @@ class EigenpairProvider {
   }
 
   /// All with mu > 0, the largest first.
-  [[nodiscard]] MatrixXd dense_vectors() const {
+  [[nodiscard]] MatrixXd dense_vectors() {
     const MatrixXd A = MatrixXd(*pencil_.K) - pencil_.shift * MatrixXd(*pencil_.B);
     const VectorXd scale = A.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
     const MatrixXd scaled_A = scale.asDiagonal() * A * scale.asDiagonal();
     const MatrixXd scaled_B = scale.asDiagonal() * MatrixXd(*pencil_.B) * scale.asDiagonal();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(scaled_B, scaled_A);
-    if (solver.info() != Eigen::Success) return MatrixXd(size(), 0);
-    const VectorXd& mu = solver.eigenvalues();  // ascending
+    const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(scaled_B, scaled_A);
+    failed_ = !pairs.converged;
+    if (failed_) return MatrixXd(size(), 0);
+    const VectorXd& mu = pairs.value;
     const double zero = static_cast<double>(size()) * kEps * mu.cwiseAbs().maxCoeff();
     const Index kept = (mu.array() > zero).count();
-    return scale.asDiagonal() * solver.eigenvectors().rightCols(kept).rowwise().reverse();
+    return scale.asDiagonal() * pairs.vector.rightCols(kept).rowwise().reverse();
   }
 
   MatrixXd lanczos(const Factorization& factorization, Index count, const MatrixXd& X) {
@@ -109,17 +106,11 @@ class EigenpairProvider {
       }
       known.col(j).normalize();
     }
-    LanczosOperator op(*pencil_.B, factorization, known, counters_);
+    const LanczosOperator op(*pencil_.B, factorization, known, counters_);
     const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
-    Spectra::SymEigsSolver<LanczosOperator> solver(op, wanted, subspace);
-    std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(X.cols()));
-    VectorXd start = VectorXd::NullaryExpr(
-        size(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
-    start = op.complement(start);
-    solver.init(start.data());
-    solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-9);
-    const VectorXd mu = solver.eigenvalues();  // the converged ones, descending
-    const MatrixXd Y = solver.eigenvectors();
+    const auto [mu, Y] = largest_eigenpairs([&op](const VectorXd& x) { return op.apply(x); },
+                                            op.complement(start_vectors(size(), 1, X.cols())),
+                                            {.wanted = wanted, .subspace = subspace});
     const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
     MatrixXd found(size(), 0);
     for (Index j = 0; j < mu.size(); ++j) {
@@ -131,7 +122,7 @@ class EigenpairProvider {
   }
 
   const Pencil& pencil_;
-  bool dense_;
+  bool dense_, failed_ = false;
   Counters& counters_;
   MatrixXd all_;     // dense: every vector
   Index taken_ = 0;  // dense: how many have been handed out
@@ -157,6 +148,7 @@ class Solver {
     if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return no_eigenpairs();
     const Index guard = 3 + count_ / 4;
     add(provider_.first_block(factorization_, count_ + guard, null_));
+    if (provider_.failed()) return no_eigenpairs();
     for (int round = 0; round < kRounds; ++round) {
       iterate_to_convergence();
       if (inverse_iteration_failed_) return no_eigenpairs();
@@ -239,9 +231,10 @@ class Solver {
     const MatrixXd B = Y.transpose() * (*pencil_.B * Y);
     if (pencil_.shift != 0) A -= pencil_.shift * B;
     const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> ritz(
+    const SymmetricEigenpairs<MatrixXd> ritz = symmetric_eigenpairs(
         scale.asDiagonal() * B * scale.asDiagonal(), scale.asDiagonal() * A * scale.asDiagonal());
-    X_ = Y * (scale.asDiagonal() * ritz.eigenvectors().rowwise().reverse());
+    inverse_iteration_failed_ = inverse_iteration_failed_ || !ritz.converged;
+    X_ = Y * (scale.asDiagonal() * ritz.vector.rowwise().reverse());
     values();
   }
 

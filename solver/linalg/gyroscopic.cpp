@@ -1,17 +1,16 @@
 #include "solver/linalg/gyroscopic.h"
 
-#include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numeric>
-#include <random>
+#include <optional>
+
+#include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/dense_lu.h"
+#include "solver/linalg/lanczos.h"
+#include "solver/linalg/start_vectors.h"
 
 namespace trammel::solver {
 namespace {
@@ -23,8 +22,8 @@ using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
 /// R with R^T R = M; rows only for the coordinates that have mass. A singular M (a point mass off
-/// its node) is helped by 1e-14 of its diagonal.
-SparseMatrix mass_square_root(const SparseMatrix& M) {
+/// its node) is helped by 1e-14 of its diagonal. Nothing where a pivot is zero even so.
+std::optional<SparseMatrix> mass_square_root(const SparseMatrix& M) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Index> number(static_cast<std::size_t>(M.rows()), -1);
   std::vector<Index> massive;
@@ -45,23 +44,15 @@ SparseMatrix mass_square_root(const SparseMatrix& M) {
   const auto r = static_cast<Index>(massive.size());
   SparseMatrix compact(r, r);
   compact.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SimplicialLDLT<SparseMatrix> ldlt(compact);
-  const VectorXd d = ldlt.vectorD().cwiseMax(0).cwiseSqrt();
-  const SparseMatrix U = d.asDiagonal() * SparseMatrix(ldlt.matrixU());
-  const auto& row_of = ldlt.permutationP().indices();  // massive -> row of the factor
+  SparseLdlt ldlt;
+  if (!ldlt.factorize(compact)) return std::nullopt;
+  const SparseMatrix root = ldlt.square_root();
   entries.clear();
-  for (Index j = 0; j < U.outerSize(); ++j) {
-    for (SparseMatrix::InnerIterator it(U, j); it; ++it) {
-      entries.emplace_back(it.row(), it.col(), it.value());
+  for (Index j = 0; j < root.outerSize(); ++j) {
+    const auto coordinate = static_cast<int>(massive[to_size(j)]);
+    for (SparseMatrix::InnerIterator it(root, j); it; ++it) {
+      entries.emplace_back(static_cast<int>(it.row()), coordinate, it.value());
     }
-  }
-  std::vector<Index> coordinate(massive.size());
-  for (std::size_t i = 0; i < massive.size(); ++i) {
-    coordinate[static_cast<std::size_t>(row_of[static_cast<Index>(i)])] = massive[i];
-  }
-  for (auto& e : entries) {
-    e = {static_cast<int>(e.row()), static_cast<int>(coordinate[static_cast<std::size_t>(e.col())]),
-         e.value()};
   }
   SparseMatrix R(r, M.cols());
   R.setFromTriplets(entries.begin(), entries.end());
@@ -71,13 +62,11 @@ SparseMatrix mass_square_root(const SparseMatrix& M) {
 /// W, and W^T W = -W^2 for Lanczos, in the complement of what is known.
 class SkewOperator {
  public:
-  using Scalar = double;
-  SkewOperator(const GyroscopicPencil& pencil, const Factorization& K, Counters& counters)
-      : C_(pencil.C), R_(mass_square_root(pencil.M)), K_(K), counters_(counters) {}
+  SkewOperator(const GyroscopicPencil& pencil, const SparseMatrix& R, const Factorization& K,
+               Counters& counters)
+      : C_(pencil.C), R_(R), K_(K), counters_(counters) {}
 
   [[nodiscard]] Index rows() const { return C_.rows() + R_.rows(); }
-  [[nodiscard]] Index cols() const { return rows(); }
-
   [[nodiscard]] VectorXd apply(const VectorXd& z) const {
     const Index n = C_.rows();
     const VectorXd x = displacement(z);
@@ -92,9 +81,9 @@ class SkewOperator {
     return K_.solve_half_transposed(z.head(C_.rows()));
   }
 
-  void perform_op(const double* in, double* out) const {
-    const VectorXd z = complement(Eigen::Map<const VectorXd>(in, rows()));
-    Eigen::Map<VectorXd>(out, rows()) = complement(-apply(apply(z)));
+  /// W^T W z in the complement.
+  [[nodiscard]] VectorXd apply_squared(const VectorXd& z) const {
+    return complement(-apply(apply(complement(z))));
   }
 
   [[nodiscard]] VectorXd complement(const VectorXd& z) const {
@@ -106,7 +95,7 @@ class SkewOperator {
 
  private:
   const SparseMatrix& C_;
-  SparseMatrix R_;
+  const SparseMatrix& R_;
   const Factorization& K_;
   Counters& counters_;
 };
@@ -127,29 +116,25 @@ void extend(MatrixXd& basis, const MatrixXd& columns) {
   }
 }
 
-MatrixXd dense_space(const SkewOperator& op, Index pairs) {
+std::optional<MatrixXd> dense_space(const SkewOperator& op, Index pairs) {
   MatrixXd W(op.rows(), op.rows());
   for (Index j = 0; j < op.rows(); ++j) W.col(j) = op.apply(VectorXd::Unit(op.rows(), j));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(W.transpose() * W);
-  const double largest = solver.eigenvalues().tail(1)[0];
+  const SymmetricEigenpairs<MatrixXd> squared = symmetric_eigenpairs<MatrixXd>(W.transpose() * W);
+  if (!squared.converged) return std::nullopt;
+  const double largest = squared.value.tail(1)[0];
   Index kept = std::min<Index>(2 * pairs, op.rows());
-  while (kept > 0 && !(solver.eigenvalues()[op.rows() - kept] > 1e-22 * largest)) --kept;
-  return solver.eigenvectors().rightCols(kept);
+  while (kept > 0 && !(squared.value[op.rows() - kept] > 1e-22 * largest)) --kept;
+  return MatrixXd(squared.vector.rightCols(kept));
 }
 
 MatrixXd lanczos_space(const SkewOperator& op, Index pairs) {
   const Index dimension = op.rows() - op.known.cols();
   const Index wanted = std::min(2 * pairs, dimension - 1);
   if (wanted < 1) return MatrixXd(op.rows(), 0);
-  Spectra::SymEigsSolver<SkewOperator> solver(const_cast<SkewOperator&>(op), wanted,
-                                              std::min(dimension, 2 * wanted + 20));
-  std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(op.known.cols()));
-  VectorXd start = VectorXd::NullaryExpr(
-      op.rows(), [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
-  start = op.complement(start);
-  solver.init(start.data());
-  solver.compute(Spectra::SortRule::LargestAlge, 300, 1e-11);
-  return solver.eigenvectors();
+  return largest_eigenpairs([&op](const VectorXd& z) { return op.apply_squared(z); },
+                            op.complement(start_vectors(op.rows(), 1, op.known.cols())),
+                            {wanted, std::min(dimension, 2 * wanted + 20), 1e-11})
+      .vector;
 }
 
 /// Rayleigh functional of a shape: the positive root of m w^2 - c w - k = 0.
@@ -162,27 +147,30 @@ double frequency_of(const GyroscopicPencil& pencil, const VectorXcd& x) {
   return (c + std::sqrt(c * c + 4 * m * k)) / (2 * m);
 }
 
-/// Ritz vectors of i W in a space closed under W, frequencies ascending.
-void ritz(const GyroscopicPencil& pencil, const SkewOperator& op, GyroscopicModes& modes) {
+/// Ritz vectors of i W in a space closed under W, frequencies ascending; false where they did not
+/// converge.
+bool ritz(const GyroscopicPencil& pencil, const SkewOperator& op, GyroscopicModes& modes) {
   const MatrixXd& V = op.known;
   MatrixXd WV(V.rows(), V.cols());
   for (Index j = 0; j < V.cols(); ++j) WV.col(j) = op.apply(V.col(j));
   const MatrixXd S = V.transpose() * WV;
   const MatrixXcd H = Complex(0, 0.5) * (S - S.transpose());
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(H);
-  const VectorXd& mu = solver.eigenvalues();  // ascending, in pairs +-
+  const SymmetricEigenpairs<MatrixXcd> pairs = symmetric_eigenpairs(H);
+  if (!pairs.converged) return false;
+  const VectorXd& mu = pairs.value;  // ascending, in pairs +-
   const double smallest = 1e-11 * (mu.size() > 0 ? mu.tail(1)[0] : 0.0);
   const Index kept = (mu.array() > smallest).count();
   modes.omega.resize(kept);
   modes.shape.resize(pencil.K.rows(), kept);
   for (Index j = 0; j < kept; ++j) {
-    const VectorXcd z = V * solver.eigenvectors().col(mu.size() - 1 - j);
+    const VectorXcd z = V * pairs.vector.col(mu.size() - 1 - j);
     VectorXcd x(pencil.K.rows());
     x.real() = op.displacement(z.real());
     x.imag() = op.displacement(z.imag());
     modes.shape.col(j) = x.normalized();
     modes.omega[j] = frequency_of(pencil, modes.shape.col(j));
   }
+  return true;
 }
 
 /// A shift between two clearly different frequencies at or behind the wanted ones.
@@ -200,6 +188,16 @@ SeparatingShift choose_separating_shift(const VectorXd& omega, Index count) {
   return {p, omega[p - 1] * (1 + 1e-6)};
 }
 
+GyroscopicModes no_modes(const Outcome& outcome) {
+  GyroscopicModes modes;
+  modes.outcome = outcome;
+  return modes;
+}
+
+GyroscopicModes did_not_converge() {
+  return no_modes({Status::not_converged, "the dense eigenvalue iteration did not converge"});
+}
+
 void truncate(GyroscopicModes& modes, Index count) {
   const Index kept = std::min(count, modes.omega.size());
   modes.omega.conservativeResize(kept);
@@ -213,29 +211,32 @@ Index gyroscopic_sturm_count(const GyroscopicPencil& pencil, double omega) {
   using ComplexMatrix = Eigen::SparseMatrix<Complex>;
   const ComplexMatrix H = (pencil.K - omega * omega * pencil.M).cast<Complex>() +
                           Complex(0, omega) * pencil.C.cast<Complex>();
-  Eigen::SimplicialLDLT<ComplexMatrix> ldlt(H);
-  if (ldlt.info() != Eigen::Success) return -1;
-  return (ldlt.vectorD().real().array() < 0).count();
+  return negative_pivots(H);
 }
 
 GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Factorization& K,
                                         Index count, EigenMethod method, Counters& counters) {
   constexpr Index kDenseSize = 150;
   constexpr int kRounds = 20;
-  SkewOperator op(pencil, K, counters);
+  const std::optional<SparseMatrix> R = mass_square_root(pencil.M);
+  if (!R) return no_modes({Status::singular, "the mass matrix has no square root"});
+  SkewOperator op(pencil, *R, K, counters);
   const bool dense = method == EigenMethod::dense || op.rows() < 12 ||
                      (method == EigenMethod::automatic && pencil.K.rows() <= kDenseSize);
   GyroscopicModes modes;
   op.known.resize(op.rows(), 0);
   Index wanted = count + 2;
   for (int round = 0; round < kRounds; ++round) {
-    MatrixXd found = dense ? dense_space(op, wanted) : lanczos_space(op, wanted);
+    std::optional<MatrixXd> space =
+        dense ? dense_space(op, wanted) : std::optional(lanczos_space(op, wanted));
+    if (!space) return did_not_converge();
+    MatrixXd& found = *space;
     if (dense) op.known.resize(op.rows(), 0);
     const Index before = op.known.cols();
     extend(op.known, found);
     for (Index j = 0; j < found.cols(); ++j) found.col(j) = op.apply(found.col(j));
     extend(op.known, found);  // its partner, W times it
-    ritz(pencil, op, modes);
+    if (!ritz(pencil, op, modes)) return did_not_converge();
     const SeparatingShift shift = choose_separating_shift(modes.omega, count);
     modes.inertia_count = shift.found == 0 ? 0 : gyroscopic_sturm_count(pencil, shift.omega);
     ++counters.factorizations;
@@ -268,22 +269,19 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   if (!(time > 0)) return modes;
   C /= time;
   M /= time * time;
-  const Eigen::PartialPivLU<MatrixXd> lu(scaled(pencil.K));
+  const DenseLu lu(scaled(pencil.K));
   MatrixXd companion(2 * n, 2 * n);
   companion << -lu.solve(C), -lu.solve(M), MatrixXd::Identity(n, n), MatrixXd::Zero(n, n);
-  const Eigen::EigenSolver<MatrixXd> solver(companion);
-  if (solver.info() != Eigen::Success) {
-    modes.outcome = {Status::not_converged, "the dense eigenvalue iteration did not converge"};
-    return modes;
-  }
+  const ComplexEigenpairs pairs = eigenpairs(companion);
+  if (!pairs.converged) return did_not_converge();
   struct Root {
     double omega, growth_rate;
     Index column;
   };
   std::vector<Root> roots;
-  const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  const double largest = pairs.value.cwiseAbs().maxCoeff();
   for (Index j = 0; j < 2 * n; ++j) {
-    const Complex mu = solver.eigenvalues()[j];
+    const Complex mu = pairs.value[j];
     if (std::abs(mu) < 1e-9 * largest) continue;  // without mass
     Complex lambda = 1.0 / (mu * time);
     if (std::abs(lambda.real()) < 1e-7 * std::abs(lambda)) lambda.real(0);
@@ -301,7 +299,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
     const Root& root = roots[static_cast<std::size_t>(j)];
     modes.omega[j] = root.omega;
     modes.growth_rate[j] = root.growth_rate;
-    const VectorXcd x = scale.asDiagonal() * solver.eigenvectors().col(root.column).head(n);
+    const VectorXcd x = scale.asDiagonal() * pairs.vector.col(root.column).head(n);
     modes.shape.col(j) = x.normalized();
   }
   return modes;

@@ -66,6 +66,8 @@ void superpose_modes(const ElastodynamicsOptions& options, PathFollower& followe
   std::vector<double> from_start = {options.time.start};
   from_start.insert(from_start.end(), times.begin(), times.end());
   const ModalBasis basis = all_modes(M, K);
+  solution.outcome = basis.outcome;
+  if (!basis.outcome.solved()) return;
   const ModalResponse response =
       superpose(basis, decay_rates(options.damping, basis.omega), M,
                 step_load(f, options.time.start), from_start, q0, VectorXd::Zero(f.size()));

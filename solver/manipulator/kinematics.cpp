@@ -1,13 +1,12 @@
 #include "solver/manipulator/kinematics.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <sstream>
 
+#include "solver/linalg/dense_qr.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 
@@ -198,14 +197,13 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
       result.closure_error = std::max(result.closure_error, std::abs(gap));
     }
     if (!residual.allFinite()) break;
-    const Eigen::ColPivHouseholderQR<Matrix3d> qr(J);
-    const double pivot_ratio = std::abs(qr.matrixR()(2, 2)) / std::abs(qr.matrixR()(0, 0));
-    if (!(pivot_ratio > kSingularRatio)) {
+    const PivotedSolution correction = pivoted_solve(J, residual);
+    if (!(correction.pivot_ratio > kSingularRatio)) {
       result.outcome = {Status::singular,
                         "a parallel singularity: the actuators do not determine the platform"};
       return result;
     }
-    const Vector3d step = -qr.solve(residual);
+    const Vector3d step = -correction.x;
     const double norm = step.norm();
     // Quadratic convergence ends where the steps stop shrinking at the level of round-off.
     if (norm <= 4 * kEps * size || (norm <= 1e-12 * size && norm >= last / 2)) return result;
@@ -233,7 +231,7 @@ Jacobians jacobians(const ManipulatorGeometry& g, const Pose& pose, const Postur
     j.serial(k) = g.proximal[i] * g.distal[i] * posture.elbow_sine[i];
     j.serial_distance = std::min(j.serial_distance, std::abs(posture.elbow_sine[i]));
   }
-  const Vector3d sigma = Eigen::JacobiSVD<Matrix3d>(scaled(j)).singularValues();
+  const Vector3d sigma = singular_values(scaled(j));
   j.parallel_distance = sigma(2) / sigma(0);
   return j;
 }

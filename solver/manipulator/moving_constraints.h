@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <vector>
 
 #include "solver/assembly/system.h"
+#include "solver/linalg/dense_lu.h"
 #include "solver/manipulator/nominal_motion.h"
 #include "solver/model/outcome.h"
 
@@ -50,7 +50,7 @@ class MovingConstraints {
   RowMajorMatrix T_dot_, T_ddot_;
   std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
   std::vector<Index> dependent_row_of_;      // ... of each coordinate that they eliminate, or -1
-  Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
+  DenseLu pivots_;
 };
 
 }  // namespace trammel::solver

@@ -26,8 +26,7 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
     : options_(options),
       stands_still_(solver::stands_still(options.path)),
       rigid_(rigid_manipulator(options.design)),
-      moving_(loaded_model(options, built_at), options.gyroscopic, options.elastic_inertia),
-      stiffness_(moving_.K()) {
+      moving_(loaded_model(options, built_at), options.gyroscopic, options.elastic_inertia) {
   rigid_.gravity = options.gravity;
   start_ = inverse_dynamics(rigid_, at(options.path, built_at), options.wrench).q;
 }

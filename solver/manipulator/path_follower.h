@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "solver/linalg/sparse_factor.h"
+#include "solver/linalg/sparse_ldlt.h"
 #include "solver/manipulator/elastodynamics_options.h"
 #include "solver/manipulator/moving_system.h"
 
@@ -52,7 +52,7 @@ class PathFollower {
   bool stands_still_;
   RigidManipulator rigid_;
   MovingSystem moving_;
-  SparseFactor stiffness_;
+  SparseLdlt stiffness_{SparseLdlt::Triangle::mean};
   bool factored_ = false, regular_ = false;
   Counters counters_;
   Vector9d start_;

@@ -1,8 +1,8 @@
 #include "solver/manipulator/rigid_terms.h"
 
-#include <Eigen/Eigenvalues>
 #include <complex>
 
+#include "solver/linalg/dense_eigen.h"
 #include "solver/manipulator/motion_map.h"
 #include "solver/model/numbers.h"
 
@@ -140,7 +140,7 @@ PropertyResiduals property_residuals(const RigidManipulator& m, const RigidTerms
   const double scale = Mh_dot.norm() + 2 * terms.Ch.norm();
   return {(terms.Mh - terms.Mh.transpose()).norm() / terms.Mh.norm(),
           scale > 0 ? (S + S.transpose()).norm() / scale : 0,
-          Eigen::SelfAdjointEigenSolver<Matrix3d>(terms.Mh).eigenvalues()(0)};
+          symmetric_eigenpairs(terms.Mh).value(0)};
 }
 
 }  // namespace trammel::solver

@@ -1,10 +1,11 @@
 #include "solver/manipulator/trajectory.h"
 
 #include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "solver/linalg/sparse_lu.h"
 
 namespace trammel::solver {
 
@@ -155,8 +156,9 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
   }
   Eigen::SparseMatrix<double> A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(A);
-  for (Index c = 0; c < 3; ++c) spline.acceleration.col(c) = lu.solve(rhs.col(c)).eval();
+  SparseLu<double> lu;
+  require(lu.factorize(A), "no spline goes through the table of poses");
+  for (Index c = 0; c < 3; ++c) spline.acceleration.col(c) = lu.solve(rhs.col(c));
   return spline;
 }
 

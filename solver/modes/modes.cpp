@@ -1,11 +1,11 @@
 #include "solver/modes/modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "solver/assembly/strain.h"
+#include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/start_vectors.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
@@ -23,22 +23,16 @@ bool orthonormalise(const SparseMatrix& M, MatrixXd& Z) {
   const VectorXd weight = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
   const MatrixXd gram = Z.transpose() * (M * Z);
   const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(gram, size);
-  if (!(solver.eigenvalues()[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
-  const VectorXd inverse = solver.eigenvalues().cwiseSqrt().cwiseInverse();
-  Z = Z * solver.eigenvectors() * inverse.asDiagonal();
+  const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(gram, size);
+  if (!(pairs.value[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
+  const VectorXd inverse = pairs.value.cwiseSqrt().cwiseInverse();
+  Z = Z * pairs.vector * inverse.asDiagonal();
   return true;
-}
-
-VectorXd random_vector(Index size) {
-  std::mt19937_64 engine(20170204);
-  return VectorXd::NullaryExpr(
-      size, [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
 }
 
 /// Whether a motion beyond the free ones moves mass: otherwise there is nothing that swings.
 bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
-  VectorXd x = random_vector(M.rows());
+  VectorXd x = start_vectors(M.rows(), 1);
   const double total = x.dot(M * x);
   for (int pass = 0; pass < 2; ++pass) x -= Z * (Z.transpose() * (M * x));
   return x.dot(M * x) > 1e-24 * total;  // rounding of a motion squared: 1e-32
@@ -57,7 +51,7 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
   Factorization factorization;
   factorization.compute(shifted);
   ++counters.factorizations;
-  VectorXd x = random_vector(system.K.rows());
+  VectorXd x = start_vectors(system.K.rows(), 1);
   double quotient = 0;
   for (int step = 0; step < 8; ++step) {
     x -= Z * (Z.transpose() * (system.M * x));

@@ -1,6 +1,6 @@
 #include "solver/sensitivity/frequency_complex_step.h"
 
-#include <Eigen/SparseLU>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +10,8 @@
 #include "solver/assembly/projection.h"
 #include "solver/assembly/strain.h"
 #include "solver/elements/triangle_element.h"
+#include "solver/linalg/sparse_lu.h"
+#include "solver/model/numbers.h"
 #include "solver/sensitivity/seeded_design.h"
 
 namespace trammel::solver {
@@ -96,14 +98,14 @@ double eigenvalue_derivative(const SteppedSystem& at, const VectorXd& shape, dou
   Complex root = lambda;
   // Scaled so that the border weighs what the matrix does.
   const VectorXcd Mx = at.M * x;
-  Eigen::SparseLU<ComplexMatrix> factor(bordered(at, root, Mx));
+  SparseLu<Complex> lu;
   ++counters.factorizations;
-  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();
+  if (!lu.factorize(bordered(at, root, Mx))) return kNaN;
   VectorXcd residual(x.size() + 1);
   for (int i = 0; i < kIterations; ++i) {
     residual.head(x.size()) = at.K * x - root * (at.M * x);
     residual[x.size()] = 0;
-    const VectorXcd change = factor.solve(residual);
+    const VectorXcd change = lu.solve(residual);
     ++counters.solves;
     x -= change.head(x.size());
     root -= change[x.size()];

@@ -1,10 +1,10 @@
 #include "solver/sensitivity/frequency_sensitivity.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <numbers>
 
+#include "solver/linalg/dense_eigen.h"
 #include "solver/sensitivity/set_derivative.h"
 
 namespace trammel::solver {
@@ -83,10 +83,15 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
         result.derivative.setConstant(kNaN);
         return result;
       }
-      const VectorXd rates =
-          Eigen::SelfAdjointEigenSolver<MatrixXd>(small, Eigen::EigenvaluesOnly).eigenvalues();
+      const SymmetricEigenpairs<MatrixXd> rates = symmetric_eigenpairs(small);
+      if (!rates.converged) {
+        result.outcome = {Status::not_converged,
+                          "the rates of repeated frequencies did not converge"};
+        result.derivative.setConstant(kNaN);
+        return result;
+      }
       result.derivative.col(p).segment(set.first, shown) =
-          rates.head(shown) / (4 * std::numbers::pi * omega);
+          rates.value.head(shown) / (4 * std::numbers::pi * omega);
     }
   }
   return result;

@@ -1,10 +1,9 @@
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
+#include "solver/linalg/dense_qr.h"
 #include "solver/model/labels.h"
 #include "solver/model/plane.h"
 #include "solver/statics/zero_energy_modes.h"
@@ -103,17 +102,15 @@ class MechanismDescription {
         R.row(u) << 0, 1, arm.x();
       }
     }
-    const Eigen::HouseholderQR<MatrixXd> qr(R);
-    const MatrixXd QR = qr.householderQ() * MatrixXd::Identity(U.rows(), 3);
-    const Eigen::HouseholderQR<MatrixXd> qu(U);
-    const MatrixXd QU = qu.householderQ() * MatrixXd::Identity(U.rows(), U.cols());
-    const MatrixXd overlap = QU.transpose() * QR;
-    const Eigen::JacobiSVD<MatrixXd> outside(QR - QU * overlap, Eigen::ComputeThinV);
+    const ThinQr rigid = thin_qr(R);
+    const MatrixXd QU = thin_qr(U).Q;
+    const MatrixXd overlap = QU.transpose() * rigid.Q;
+    const RightSingularVectors outside = right_singular_vectors(rigid.Q - QU * overlap);
     std::vector<Vector3d> found;
     for (Index i = 0; i < 3; ++i) {
-      if (outside.singularValues()[i] > 1e-6) continue;
+      if (!(outside.value[i] <= 1e-6)) continue;
       const Vector3d in_R =
-          qr.matrixQR().topRows<3>().triangularView<Eigen::Upper>().solve(outside.matrixV().col(i));
+          rigid.R.topRows<3>().triangularView<Eigen::Upper>().solve(outside.vector.col(i));
       found.push_back(in_R.normalized());
     }
     describe_whole_model(found, phrases);

@@ -1,11 +1,9 @@
 #include "solver/statics/zero_energy_modes.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <cstdint>
-#include <random>
-
 #include "solver/assembly/strain.h"
+#include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/dense_qr.h"
+#include "solver/linalg/start_vectors.h"
 
 namespace trammel::solver {
 namespace {
@@ -14,12 +12,6 @@ constexpr double kShift = 1e-12;        // of the diagonal
 constexpr double kSmallPivot = 1e-9;    // pivots below it make us look
 constexpr double kDeformation = 1e-25;  // of the rounding level: below it, nothing deforms
 constexpr Index kMaxModes = 48;
-
-Eigen::MatrixXd random_block(Index rows, Index cols) {
-  std::mt19937_64 engine(20170204);
-  return Eigen::MatrixXd::NullaryExpr(
-      rows, cols, [&engine] { return static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0; });
-}
 
 /// Inverse iteration with K + t D on a block, D the diagonal of K; columns stay orthonormal in D.
 class ShiftedIteration {
@@ -38,20 +30,16 @@ class ShiftedIteration {
     ++counters_.factorizations;
   }
 
-  /// Ritz vectors by rising strain energy.
+  /// Ritz vectors by rising strain energy; NaN where they did not converge.
   Eigen::MatrixXd run(Index block) {
     const Eigen::VectorXd root = diagonal_.cwiseSqrt();
-    Eigen::MatrixXd X = random_block(diagonal_.size(), block);
+    Eigen::MatrixXd X = start_vectors(diagonal_.size(), block);
     for (int step = 0; step < 3; ++step) {
       for (Index j = 0; j < block; ++j) X.col(j) = solve(diagonal_.cwiseProduct(X.col(j)));
-      const Eigen::MatrixXd scaled = root.asDiagonal() * X;
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
-      X = qr.householderQ() * Eigen::MatrixXd::Identity(X.rows(), block);
-      X = root.cwiseInverse().asDiagonal() * X;
+      X = root.cwiseInverse().asDiagonal() * thin_qr(root.asDiagonal() * X).Q;
     }
     const Eigen::MatrixXd energy = strain_products(system_, system_.T * X);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(energy);
-    return X * ritz.eigenvectors();
+    return X * symmetric_eigenpairs(energy).vector;
   }
 
  private:
@@ -83,6 +71,10 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
   ShiftedIteration iteration(system, counters);
   for (Index block = std::min<Index>(4, n);; block = std::min({3 * block, n, kMaxModes})) {
     const Eigen::MatrixXd X = iteration.run(block);
+    if (!X.allFinite()) {
+      modes.all_found = false;
+      return modes;
+    }
     Index count = 0;
     while (count < block) {
       const Eigen::VectorXd u = system.T * X.col(count);

@@ -1,6 +1,6 @@
 #include "solver/time/harmonic.h"
 
-#include <Eigen/SparseLU>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "solver/linalg/factorization.h"
+#include "solver/linalg/sparse_lu.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/statics/zero_energy_modes.h"
 
@@ -40,8 +41,8 @@ VectorXcd solve_direct(const System& system, const RayleighDamping& damping, dou
   const Complex m(-omega * omega, omega * damping.mass);
   const Eigen::SparseMatrix<Complex> Z =
       k * system.K.cast<Complex>() + m * system.M.cast<Complex>();
-  const Eigen::SparseLU<Eigen::SparseMatrix<Complex>> lu(Z);
-  if (lu.info() != Eigen::Success) return {};
+  SparseLu<Complex> lu;
+  if (!lu.factorize(Z)) return {};
   return lu.solve(f.cast<Complex>());
 }
 

@@ -1,9 +1,9 @@
 #include "solver/time/modal_superposition.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "solver/linalg/dense_eigen.h"
 #include "solver/time/oscillator.h"
 
 namespace trammel::solver {
@@ -88,17 +88,21 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   // M x = mu (K + s M) x with a shift far below the bulk of the spectrum: mu = 1 / (w^2 + s).
   const double shift = 1e-4 * stiffness.trace() / trace;
   const double positive = shift > 0 ? shift : 1;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      mass, stiffness + positive * mass);
-  const VectorXd mu = solver.eigenvalues();
+  const SymmetricEigenpairs<Eigen::MatrixXd> pairs =
+      symmetric_eigenpairs(mass, stiffness + positive * mass);
+  ModalBasis basis;
+  if (!pairs.converged) {
+    basis.outcome = {Status::not_converged, "the dense eigenvalue iteration did not converge"};
+    return basis;
+  }
+  const VectorXd& mu = pairs.value;
   const double floor = 1e-13 * mu.maxCoeff();
   const Index count = (mu.array() > floor).count();
-  ModalBasis basis;
   basis.omega.resize(count);
   basis.shape.resize(M.rows(), count);
   for (Index i = 0; i < count; ++i) {
     const Index column = mu.size() - 1 - i;
-    const VectorXd x = solver.eigenvectors().col(column);
+    const VectorXd x = pairs.vector.col(column);
     const double modal_mass = x.dot(mass * x);
     basis.shape.col(i) = x / std::sqrt(modal_mass);
     basis.omega[i] = x.dot(stiffness * x) / modal_mass;

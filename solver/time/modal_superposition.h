@@ -28,6 +28,7 @@ struct PiecewiseLinearLoad {
 
 /// Modes to superpose, with x^T M x = 1 (paper Eq. 33).
 struct ModalBasis {
+  Outcome outcome;        ///< not_converged: no modes at all
   Eigen::VectorXd omega;  ///< ascending [rad/s]; 0 for rigid motions
   Eigen::MatrixXd shape;  ///< coordinate x mode
 };

@@ -1,9 +1,10 @@
 #include "solver/time/time_scheme.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "solver/linalg/dense_eigen.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver {
@@ -64,8 +65,7 @@ double spectral_radius(const TimeScheme& s, double phase_step, double damping_ra
   right << 1, 1, 0.5 - s.beta,  //
       0, 1, 1 - s.gamma,        //
       -s.alpha_f * k, -s.alpha_f * c, -s.alpha_m;
-  const Eigen::Matrix3d step = left.partialPivLu().solve(right);
-  return step.eigenvalues().cwiseAbs().maxCoeff();
+  return spectral_radius(left.partialPivLu().solve(right));
 }
 
 double stability_limit(const TimeScheme& scheme) {

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "solver/linalg/sparse_factor.h"
+#include "solver/linalg/sparse_ldlt.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver {
@@ -206,7 +206,7 @@ class Integrator {
   bool start_quasi_static() {
     constexpr std::array<double, 5> kSlope = {-25.0 / 12, 4, -3, 4.0 / 3, -0.25};
     const double gap = std::min(options_.step, options_.end - options_.start) / 4;
-    SparseFactor factor(S_);
+    SparseLdlt factor(SparseLdlt::Triangle::mean);
     now_.v.setZero();
     for (int i = 4; i >= 0; --i) {
       const double time = options_.start + i * gap;
@@ -228,7 +228,7 @@ class Integrator {
   }
 
   /// K q = f; the skew part of K, if any, by refinement.
-  void solve_statically(SparseFactor& factor, const VectorXd& f, VectorXd& q) {
+  void solve_statically(SparseLdlt& factor, const VectorXd& f, VectorXd& q) {
     q.setZero();
     for (int pass = 0; pass < 4; ++pass) {
       residual_ = f;
@@ -244,7 +244,7 @@ class Integrator {
   bool check_stability() {
     const double limit = stability_limit(scheme_);
     if (!std::isfinite(limit) || M_.rows() == 0) return true;
-    SparseFactor factor(S_);
+    SparseLdlt factor(SparseLdlt::Triangle::mean);
     ++summary_.counters.factorizations;
     if (!factor.factorize(M_) || factor.pivot_ratio() < kSingularMass) {
       return fail(Status::singular,
@@ -280,7 +280,7 @@ class Integrator {
     now_.Cv.noalias() = C_ * now_.v;
     residual_ = now_.f - now_.Cv;
     residual_.noalias() -= K_ * now_.q;
-    if (!mass_factor_) mass_factor_ = std::make_unique<SparseFactor>(S_);
+    if (!mass_factor_) mass_factor_ = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
     if (equation_.update || !mass_is_factored_) {
       ++summary_.counters.factorizations;
       mass_is_singular_ =
@@ -369,11 +369,12 @@ class Integrator {
   }
 
   /// M + gamma' h C + beta' h^2 K, factored; null where singular.
-  SparseFactor* step_factor(double h, int level) {
+  SparseLdlt* step_factor(double h, int level) {
     const double c = gamma_prime() * h;
     const double k = beta_prime() * h * h;
     if (equation_.update) {
-      if (factors_.empty()) factors_.push_back(std::make_unique<SparseFactor>(S_));
+      if (factors_.empty())
+        factors_.push_back(std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean));
       level = 0;
     } else {
       if (factors_.size() <= static_cast<std::size_t>(level)) {
@@ -381,11 +382,11 @@ class Integrator {
       }
       auto& cached = factors_[static_cast<std::size_t>(level)];
       if (cached) return cached.get();
-      cached = std::make_unique<SparseFactor>(S_);
+      cached = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
     }
     S_.coeffs() = M_.coeffs() + c * C_.coeffs() + k * K_.coeffs();
     ++summary_.counters.factorizations;
-    SparseFactor* factor = factors_[static_cast<std::size_t>(level)].get();
+    SparseLdlt* factor = factors_[static_cast<std::size_t>(level)].get();
     return factor->factorize(S_) ? factor : nullptr;
   }
 
@@ -403,7 +404,7 @@ class Integrator {
     }
     update_matrices(time);
     load(load_time, next_.f);
-    SparseFactor* factor = step_factor(h, level);
+    SparseLdlt* factor = step_factor(h, level);
     if (!factor)
       return fail(Status::singular, "M + C h + K h^2 is singular at " + describe_step(h));
     next_.acceleration.setZero();
@@ -545,10 +546,10 @@ class Integrator {
   State now_, next_;
   VectorXd MA_, Mv_, Kq_, residual_, correction_;  // work
   VectorXd q_, v_, a_;                             // the sample
-  std::unique_ptr<SparseFactor> mass_factor_;
-  SparseFactor* start_factor_ = nullptr;  // of M, or of the first step where M is singular
+  std::unique_ptr<SparseLdlt> mass_factor_;
+  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step where M is singular
   bool mass_is_factored_ = false, mass_is_singular_ = false;
-  std::vector<std::unique_ptr<SparseFactor>> factors_;  // of steps factors_step_ / 2^index
+  std::vector<std::unique_ptr<SparseLdlt>> factors_;  // of steps factors_step_ / 2^index
   double factors_step_ = 0;
   int level_ = 0;
   double error_ = 0, largest_ = 0;

@@ -1,11 +1,12 @@
 #include "solver/large_motion/system/kkt_matrix.h"
 
 #include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+
+#include "solver/linalg/sparse_ldlt.h"
+#include "solver/linalg/sparse_lu.h"
 
 namespace trammel::solver::large_motion {
 
@@ -32,10 +33,9 @@ Eigen::SparseMatrix<double> coordinate_pattern(Index n, const Blocks& blocks) {
 }  // namespace
 
 struct KktMatrix::Factors {
-  using Sparse = Eigen::SparseMatrix<double>;
-  Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
-  Eigen::SparseLU<Sparse, Eigen::COLAMDOrdering<int>> lu;
-  bool ldlt_analyzed = false, lu_analyzed = false, use_lu = false;
+  SparseLdlt ldlt{SparseLdlt::Triangle::upper, SparseLdlt::Ordering::natural};
+  SparseLu<double> lu;
+  bool factored = false, use_lu = false;
 };
 
 KktMatrix::~KktMatrix() = default;
@@ -143,23 +143,11 @@ bool KktMatrix::factor(bool symmetric) {
   ++factorizations_;
   Factors& f = *factors_;
   f.use_lu = !symmetric;
-  if (f.use_lu) return factor_lu();
-  if (!f.ldlt_analyzed) f.ldlt.analyzePattern(matrix_);
-  f.ldlt_analyzed = true;
-  f.ldlt.factorize(matrix_);
-  if (f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite()) return true;
+  if (f.use_lu) return f.lu.factorize(matrix_);
+  f.factored = true;
+  if (f.ldlt.factorize(matrix_)) return true;
   f.use_lu = true;
-  return factor_lu();
-}
-
-bool KktMatrix::factor_lu() {
-  const Eigen::Map<const VectorXd> values(matrix_.valuePtr(), matrix_.nonZeros());
-  if (!values.allFinite()) return false;
-  Factors& f = *factors_;
-  if (!f.lu_analyzed) f.lu.analyzePattern(matrix_);
-  f.lu_analyzed = true;
-  f.lu.factorize(matrix_);
-  return f.lu.info() == Eigen::Success;
+  return f.lu.factorize(matrix_);
 }
 
 void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
@@ -170,7 +158,7 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
   if (factors_->use_lu) {
     solution_ = factors_->lu.solve(work_);
   } else {
-    solution_ = factors_->ldlt.solve(work_);
+    factors_->ldlt.solve(work_, solution_);
   }
   for (Index i = 0; i < coordinates_; ++i) {
     right_hand_side[i] = solution_[permutation_[static_cast<std::size_t>(i)]];
@@ -183,8 +171,8 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
 }
 
 Index KktMatrix::negative_pivots() const {
-  if (factors_->use_lu || !factors_->ldlt_analyzed) return -1;
-  return (factors_->ldlt.vectorD().array() < 0).count() - constraints_;
+  if (factors_->use_lu || !factors_->factored) return -1;
+  return factors_->ldlt.negative_pivots() - constraints_;
 }
 
 }  // namespace trammel::solver::large_motion

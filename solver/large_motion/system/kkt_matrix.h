@@ -93,7 +93,6 @@ class KktMatrix {
   void order(const std::vector<std::vector<Index>>& blocks);
   void allocate(const std::vector<std::vector<Index>>& blocks);
   [[nodiscard]] int value_index(Index row, Index column) const;
-  [[nodiscard]] bool factor_lu();
 
   /// Adds the n x n matrix into the leading part of a block of n + rows unknowns.
   template <class Matrix>

@@ -31,17 +31,15 @@ Eigen::SparseMatrix<double> square(Index n) {
 BOOST_AUTO_TEST_SUITE(factorization)
 
 BOOST_AUTO_TEST_CASE(orderings_made_side_by_side_are_those_made_one_by_one) {
-  using Permutation = FillReducingOrdering::PermutationType;
   constexpr std::size_t kThreads = 4;
   const Eigen::SparseMatrix<double> A = square(80);  // large enough for nested dissection
-  Permutation alone;
-  FillReducingOrdering()(A, alone);
+  const Permutation alone = fill_reducing_order(A);
   for (int round = 0; round < 3; ++round) {
     std::vector<Permutation> found(kThreads);
     std::vector<std::thread> threads;
     threads.reserve(kThreads);
     for (Permutation& mine : found)
-      threads.emplace_back([&A, &mine] { FillReducingOrdering()(A, mine); });
+      threads.emplace_back([&A, &mine] { mine = fill_reducing_order(A); });
     for (std::thread& thread : threads) thread.join();
     for (const Permutation& mine : found) BOOST_TEST(mine.indices() == alone.indices());
   }

@@ -1,0 +1,33 @@
+#include "solver/linalg/lanczos.h"
+
+#include <Spectra/SymEigsSolver.h>
+
+namespace trammel::solver {
+namespace {
+
+/// What Spectra asks of an operator.
+struct SpectraOperator {
+  using Scalar = double;
+  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply;
+  Index size;
+
+  [[nodiscard]] Index rows() const { return size; }
+  [[nodiscard]] Index cols() const { return size; }
+  void perform_op(const double* in, double* out) const {
+    Eigen::Map<Eigen::VectorXd>(out, size) = apply(Eigen::Map<const Eigen::VectorXd>(in, size));
+  }
+};
+
+}  // namespace
+
+LanczosPairs largest_eigenpairs(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
+                                const Eigen::VectorXd& start, const LanczosOptions& options) {
+  constexpr Index kMaxRestarts = 300;
+  SpectraOperator op{apply, start.size()};
+  Spectra::SymEigsSolver<SpectraOperator> solver(op, options.wanted, options.subspace);
+  solver.init(start.data());
+  solver.compute(Spectra::SortRule::LargestAlge, kMaxRestarts, options.tolerance);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,179 @@
+#include "solver/linalg/sparse_ldlt.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <iostream>  // MetisSupport needs it
+#include <mutex>
+#include <numeric>
+#include <vector>
+
+// after <iostream>
+#include <Eigen/MetisSupport>
+
+namespace trammel::solver {
+namespace {
+
+using Eigen::VectorXd;
+
+/// The upper triangle of P A P^T, whose values are the places of its entries among those of one
+/// triangle of A.
+template <unsigned Triangle>
+SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
+  SparseMatrix places = A;
+  std::iota(places.valuePtr(), places.valuePtr() + places.nonZeros(), 0.0);
+  SparseMatrix upper(A.rows(), A.cols());
+  upper.selfadjointView<Eigen::Upper>() = places.selfadjointView<Triangle>().twistedBy(P);
+  return upper;
+}
+
+/// The same matrix, each column by rising rows.
+SparseMatrix sorted(const SparseMatrix& A) {
+  const SparseMatrix rows = A.transpose();
+  return rows.transpose();
+}
+
+std::vector<Index> values_of(const SparseMatrix& places) {
+  return {places.valuePtr(), places.valuePtr() + places.nonZeros()};
+}
+
+}  // namespace
+
+Permutation fill_reducing_order(const SparseMatrix& A) {
+  constexpr Index kSmall = 5000;
+  Permutation elimination;  // its entry k is the coordinate eliminated k-th
+  if (A.rows() == 0) return elimination;
+  if (A.rows() < kSmall) {
+    Eigen::AMDOrdering<int>()(A, elimination);
+  } else {
+    // METIS seeds and draws from the one random sequence of the process.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    Eigen::MetisOrdering<int>()(A, elimination);
+  }
+  return elimination.inverse();
+}
+
+struct SparseLdlt::Factors {
+  Ordering ordering;
+  Triangle triangle;
+  std::vector<int> columns, rows;   // pattern that the order is of
+  Permutation P;                    // coordinate -> its place in the order of elimination
+  SparseMatrix upper;               // upper triangle in that order
+  std::vector<Index> from, mirror;  // entry of upper -> that of A, and the one across its diagonal
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
+  mutable VectorXd ordered, solved;
+
+  [[nodiscard]] bool has_pattern_of(const SparseMatrix& A) const {
+    return columns.size() == to_size(A.cols()) + 1 &&
+           std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
+           std::equal(rows.begin(), rows.end(), A.innerIndexPtr());
+  }
+
+  void analyze(const SparseMatrix& A) {
+    columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
+    rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    if (ordering == Ordering::fill_reducing) {
+      P = fill_reducing_order(A);
+    } else {
+      P.setIdentity(A.rows());
+    }
+    if (triangle == Triangle::mean) {  // sorted, so that the two agree entry by entry
+      upper = sorted(permuted_places<Eigen::Lower>(A, P));
+      mirror = values_of(sorted(permuted_places<Eigen::Upper>(A, P)));
+    } else {
+      upper = triangle == Triangle::lower ? permuted_places<Eigen::Lower>(A, P)
+                                          : permuted_places<Eigen::Upper>(A, P);
+    }
+    from = values_of(upper);
+    ldlt.analyzePattern(upper);
+    ordered.resize(A.rows());
+    solved.resize(A.rows());
+  }
+};
+
+SparseLdlt::SparseLdlt(Triangle triangle, Ordering ordering)
+    : factors_(std::make_unique<Factors>()) {
+  factors_->ordering = ordering;
+  factors_->triangle = triangle;
+}
+SparseLdlt::~SparseLdlt() = default;
+SparseLdlt::SparseLdlt(SparseLdlt&&) noexcept = default;
+SparseLdlt& SparseLdlt::operator=(SparseLdlt&&) noexcept = default;
+
+bool SparseLdlt::factorize(const SparseMatrix& A) {
+  Factors& f = *factors_;
+  if (!f.has_pattern_of(A)) f.analyze(A);
+  double* const values = f.upper.valuePtr();
+  for (std::size_t k = 0; k < f.from.size(); ++k) values[k] = A.valuePtr()[f.from[k]];
+  for (std::size_t k = 0; k < f.mirror.size(); ++k) {
+    values[k] = (values[k] + A.valuePtr()[f.mirror[k]]) / 2;
+  }
+  f.ldlt.factorize(f.upper);
+  return f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite();
+}
+
+VectorXd SparseLdlt::pivots() const {
+  return factors_->ldlt.vectorD();
+}
+
+Index SparseLdlt::negative_pivots() const {
+  return (factors_->ldlt.vectorD().array() < 0).count();
+}
+
+double SparseLdlt::pivot_ratio() const {
+  const VectorXd D = pivots();
+  double smallest = 1;
+  for (Index j = 0; j < D.size(); ++j) {
+    for (SparseMatrix::InnerIterator it(factors_->upper, j); it; ++it) {
+      if (it.row() != j) continue;
+      smallest = std::min(smallest, it.value() == 0 ? 0 : std::abs(D[j] / it.value()));
+    }
+  }
+  return smallest;
+}
+
+double SparseLdlt::element_growth() const {
+  const auto& L = factors_->ldlt.matrixL().nestedExpression();
+  double largest = 0;
+  for (Index j = 0; j < L.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
+      largest = std::max(largest, std::abs(it.value()));
+    }
+  }
+  return largest;
+}
+
+void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {
+  const Eigen::VectorXi& place = factors_->P.indices();
+  for (Index i = 0; i < b.size(); ++i) factors_->ordered[place[i]] = b[i];
+  factors_->solved = factors_->ldlt.solve(factors_->ordered);
+  x.resize(b.size());
+  for (Index i = 0; i < b.size(); ++i) x[i] = factors_->solved[place[i]];
+}
+
+VectorXd SparseLdlt::solve_half(const VectorXd& b) const {
+  VectorXd y = factors_->P * b;
+  factors_->ldlt.matrixL().solveInPlace(y);
+  return y.cwiseQuotient(factors_->ldlt.vectorD().cwiseSqrt());
+}
+
+VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
+  VectorXd x = y.cwiseQuotient(factors_->ldlt.vectorD().cwiseSqrt());
+  factors_->ldlt.matrixU().solveInPlace(x);
+  return factors_->P.transpose() * x;
+}
+
+SparseMatrix SparseLdlt::square_root() const {
+  const VectorXd root = factors_->ldlt.vectorD().cwiseMax(0).cwiseSqrt();
+  const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->ldlt.matrixU());
+  return U * factors_->P;
+}
+
+Index negative_pivots(const Eigen::SparseMatrix<std::complex<double>>& H) {
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<std::complex<double>>> ldlt(H);
+  if (ldlt.info() != Eigen::Success) return -1;
+  return (ldlt.vectorD().real().array() < 0).count();
+}
+
+}  // namespace trammel::solver
