@@ -45,7 +45,7 @@ bool number_obeys(const Json& value, const std::string& name, const SchemaRule& 
 
 /// The one pattern of the schemas, ^[A-Za-z0-9][A-Za-z0-9._-]*$, by hand: to compile it as a
 /// std::regex takes seven million instructions.
-bool is_name(const std::string& text) {
+bool matches_name_pattern(const std::string& text) {
   const auto plain = [](unsigned char c) { return c < 128 && std::isalnum(c) != 0; };
   return !text.empty() && plain(text.front()) && std::all_of(text.begin(), text.end(), [&](char c) {
     return plain(c) || c == '.' || c == '_' || c == '-';
@@ -55,7 +55,7 @@ bool is_name(const std::string& text) {
 bool string_obeys(const Json& value, const std::string& name, const SchemaRule& limit) {
   const auto& text = value.get_ref<const std::string&>();
   if (name == "minLength") return text.size() >= limit.GetUint64();
-  return name != "pattern" || is_name(text);
+  return name != "pattern" || matches_name_pattern(text);
 }
 
 bool array_obeys(const Json& value, const std::string& name, const SchemaRule& limit) {

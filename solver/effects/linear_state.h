@@ -31,7 +31,7 @@ struct StateResults {
 
 /// A change of the state: displacements and the forces on the elements' ends, in their axes.
 struct Change {
-  VectorXd u;
+  Eigen::VectorXd u;
   std::vector<Vector6d> force;
   double undirected_displacement = 0;  ///< a further displacement, of unknown direction [m]
   double indeterminate_force = 0;      ///< a force that is lost [N]
