@@ -1,5 +1,8 @@
 #include "solver/manipulator/kinematics.h"
 
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
