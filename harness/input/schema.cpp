@@ -16,7 +16,7 @@ bool equals(const Json& value, const SchemaRule& choice) {
 
 /// The one pattern of the schemas, ^[A-Za-z0-9][A-Za-z0-9._-]*$, by hand: to compile it as a
 /// std::regex takes seven million instructions.
-bool is_name(const std::string& text) {
+bool is_identifier(const std::string& text) {
   const auto plain = [](unsigned char c) { return c < 128 && std::isalnum(c) != 0; };
   return !text.empty() && plain(text.front()) && std::all_of(text.begin(), text.end(), [&](char c) {
     return plain(c) || c == '.' || c == '_' || c == '-';
@@ -50,7 +50,7 @@ bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
   if (value.is_string()) {
     const auto& text = value.get_ref<const std::string&>();
     if (name == "minLength") return text.size() >= limit.GetUint64();
-    return name != "pattern" || is_name(text);
+    return name != "pattern" || is_identifier(text);
   }
   if (name == (value.is_array() ? "minItems" : "minProperties")) {
     return value.size() >= limit.GetUint64();
