@@ -120,21 +120,20 @@ std::string got_keys(const Json& object) {
   return " (got " + (keys.empty() ? "none" : all_quoted(keys, "and")) + ")";
 }
 
-std::vector<std::string> steps_of(JsonPointer pointer) {
-  std::vector<std::string> steps;
-  for (; !pointer.empty(); pointer.pop_back()) steps.push_back(pointer.back());
-  std::reverse(steps.begin(), steps.end());
-  return steps;
+std::string pointer_to(const std::vector<std::string>& path) {
+  JsonPointer pointer;
+  for (const std::string& step : path) pointer /= step;
+  return pointer.to_string();
 }
 
-SchemaError explain_object(const Json& object, const JsonPointer& pointer, const Rules& rules) {
+SchemaError explain_object(const Json& object, std::vector<std::string> path, const Rules& rules) {
   const std::vector<std::string> allowed = allowed_keys(rules);
   for (const auto& item : object.items()) {
     const bool known = std::find(allowed.begin(), allowed.end(), item.key()) != allowed.end();
     if (allowed.empty() || known) continue;
-    const JsonPointer place = pointer / item.key();
-    const std::string guess = did_you_mean(current_key(steps_of(place)), allowed);
-    return {place.to_string(),
+    path.push_back(item.key());
+    const std::string guess = did_you_mean(current_key(path), allowed);
+    return {pointer_to(path),
             "expected no key of that name" +
                 (guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess)};
   }
@@ -144,7 +143,7 @@ SchemaError explain_object(const Json& object, const JsonPointer& pointer, const
     for (rapidjson::SizeType i = 0; required != nullptr && i < required->Size(); ++i) {
       const std::string key = text_of((*required)[i]);
       if (!object.contains(key)) {
-        return {pointer.to_string(), "expected the key " + quoted(key) + got_keys(object)};
+        return {pointer_to(path), "expected the key " + quoted(key) + got_keys(object)};
       }
     }
     const std::size_t max_count = count_of(*rule, "maxProperties", object.size());
@@ -154,7 +153,7 @@ SchemaError explain_object(const Json& object, const JsonPointer& pointer, const
                got_keys(object);
     }
   }
-  return {pointer.to_string(), "expected " + wanted};
+  return {pointer_to(path), "expected " + wanted};
 }
 
 SchemaError explain_value(const SchemaRule& root, const BrokenRules& broken) {
@@ -173,8 +172,8 @@ SchemaError explain_value(const SchemaRule& root, const BrokenRules& broken) {
     }
   }
   if (broken.value->is_string()) suffix = did_you_mean(broken.value->get<std::string>(), choices);
-  return {broken.pointer.to_string(), "expected " + join(wanted, "or") + " (got " +
-                                          describe_value(*broken.value) + ")" + suffix};
+  return {pointer_to(broken.path), "expected " + join(wanted, "or") + " (got " +
+                                       describe_value(*broken.value) + ")" + suffix};
 }
 
 }  // namespace
@@ -184,7 +183,7 @@ SchemaError explain(const SchemaRule& schema, const BrokenRules& broken) {
   std::copy_if(broken.rules.begin(), broken.rules.end(), std::back_inserter(of_objects),
                [](const SchemaRule* rule) { return wants(*rule, "object"); });
   if (!broken.value->is_object() || of_objects.empty()) return explain_value(schema, broken);
-  return explain_object(*broken.value, broken.pointer, of_objects);
+  return explain_object(*broken.value, broken.path, of_objects);
 }
 
 }  // namespace trammel::harness

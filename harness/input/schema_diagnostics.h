@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "harness/base/json.h"
@@ -11,7 +12,7 @@ namespace trammel::harness {
 /// A value and the rules, all those of an anyOf, that it breaks.
 struct BrokenRules {
   const Json* value = nullptr;
-  JsonPointer pointer;
+  std::vector<std::string> path;  ///< of keys and indices, from the root
   std::vector<const SchemaRule*> rules;
 };
 

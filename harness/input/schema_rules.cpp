@@ -34,7 +34,8 @@ const SchemaRule& load_schema(const std::string& name) {
 const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule) {
   const SchemaRule* reference = keyword(rule, "$ref");
   if (reference == nullptr) return rule;
-  return resolved(root, *rapidjson::Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
+  return resolved(
+      root, *rapidjson::Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
 }
 
 bool wants(const SchemaRule& rule, const char* type) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rapidjson/document.h>
+
 #include <string>
 
 /// Schemas as rapidjson reads them: five times faster than nlohmann's reader, whose time on the
