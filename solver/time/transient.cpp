@@ -24,6 +24,7 @@ constexpr double kResidual = 1e-10;
 constexpr double kUnderflow =
     std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 constexpr int kMaxRefinements = 40;
+
 double infinity_norm(const VectorXd& x) {
   return x.size() ? x.lpNorm<Eigen::Infinity>() : 0;
 }
@@ -174,14 +175,24 @@ class TransientIntegrator {
     }
   }
 
+  void set_largest_step(double h) {
+    if (factors_step_ != 0 && std::abs(h - factors_step_) <= 1e-12 * factors_step_) return;
+    factors_.clear();
+    factors_step_ = h;
+  }
+
+  bool fail_at_smallest_step(double h, double ratio) {
+    std::ostringstream message;
+    message << describe_step(h) << ": the estimated error is " << ratio
+            << " times what is allowed, and the step is the smallest";
+    return fail(Status::not_converged, message.str());
+  }
+
   bool integrate_segment(double begin, double end) {
     const double span = end - begin;
     const double step_count = std::max(1.0, std::ceil(span / options_.step * (1 - 1e-9)));
     if (step_count > 1e12) return fail(Status::not_converged, "more than 1e12 steps");
-    if (factors_step_ == 0 || std::abs(span / step_count - factors_step_) > 1e-12 * factors_step_) {
-      factors_.clear();
-      factors_step_ = span / step_count;
-    }
+    set_largest_step(span / step_count);
     auto count = static_cast<std::int64_t>(step_count);  // of steps of the present level
     std::int64_t done = 0;
     int level = options_.adaptive ? std::min(level_, options_.adaptive->finest_level) : 0;
@@ -199,12 +210,7 @@ class TransientIntegrator {
       const double ratio = error_ratio(h);
       if (ratio > 1) {
         ++summary_.rejected;
-        if (++level > options_.adaptive->finest_level) {
-          std::ostringstream message;
-          message << describe_step(h) << ": the estimated error is " << ratio
-                  << " times what is allowed, and the step is the smallest";
-          return fail(Status::not_converged, message.str());
-        }
+        if (++level > options_.adaptive->finest_level) return fail_at_smallest_step(h, ratio);
         count *= 2;
         done *= 2;
         continue;
