@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/linalg/sparse_factor.h"
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
 #include "solver/time/sample_output.h"
 #include "solver/time/transient_start.h"

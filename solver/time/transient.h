@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/model/numbers.h"
 #include "solver/model/outcome.h"
 #include "solver/time/equation_of_motion.h"
 #include "solver/time/time_scheme.h"
