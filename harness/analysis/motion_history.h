@@ -4,7 +4,7 @@
 
 #include "harness/input/json_view.h"
 #include "solver/statics/postprocessing.h"
-#include "solver/time/transient.h"
+#include "solver/time/transient_history.h"
 
 namespace trammel::harness {
 

@@ -135,11 +135,7 @@ class MotionEstimates {
     const VectorXd inertia = system.M() * a;
     const VectorXd damping =
         options_.damping.mass * (system.M() * v) + options_.damping.stiffness * (K * v);
-    // What drags is held by the same loads: only displacements change.
-    const VectorXd damping_response = solve(damping), inertia_response = solve(inertia);
-    record_change(Effect::damping, {translation_of(system, damping_response), 0});
-    record_change(Effect::inertia, {translation_of(system, damping_response + inertia_response),
-                                    size_of(system, inertia_response).energy});
+    record_drag(system, solve(damping), solve(inertia));
     record_change(Effect::gyroscopic,
                   size_of(system, solve(system.gyroscopic_matrix() * v +
                                         system.centrifugal_and_euler_matrix() * q)));
@@ -157,9 +153,20 @@ class MotionEstimates {
     if (!applicable_.has(Effect::gravity) || !estimates_.outcome.solved()) return;
     estimates_.outcome = pose.move_to(time, Vector2d::Zero());
     if (!estimates_.outcome.solved()) return;
-    const ResponseSize weight = size_of(system, solve(load - pose.load()));
+    record_weight(pose, solve(load - pose.load()), total.energy);
+  }
+
+  /// What drags is held by the same loads: only displacements change.
+  void record_drag(const MovingSystem& system, const VectorXd& damping, const VectorXd& inertia) {
+    record_change(Effect::damping, {translation_of(system, damping), 0});
+    record_change(Effect::inertia,
+                  {translation_of(system, damping + inertia), size_of(system, inertia).energy});
+  }
+
+  void record_weight(const PathFollower& pose, const VectorXd& response, double total_energy) {
+    const ResponseSize weight = size_of(pose.system(), response);
     double& of_all = sizes_.share[Effect::gravity];
-    if (total.energy > 0) of_all = std::max(of_all, weight.energy / total.energy);
+    if (total_energy > 0) of_all = std::max(of_all, weight.energy / total_energy);
     record_change(Effect::gravity, weight);
   }
 
@@ -264,8 +271,7 @@ class MotionEstimates {
     const double r = rate_ / frequency_;
     const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
     const double time = options_.time.end - options_.time.start;
-    // What starts on q_s swings about the response beside it: half a period later it is twice as
-    // far.
+    // Half a period later what started on q_s is twice as far from the response beside it.
     const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
     const double duration_in_phase = vibration_duration(frequency_, damping_) * frequency_;
     const double vibration_share =

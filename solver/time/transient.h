@@ -5,26 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "solver/assembly/system.h"
+#include "solver/model/numbers.h"
 #include "solver/model/outcome.h"
+#include "solver/time/equation_of_motion.h"
 #include "solver/time/time_scheme.h"
 
-/// Integration in time of the equation of motion (paper Eq. 13, 18)
-///   M(t) q'' + C(t) q' + K(t) q = f(t).
+/// Integration in time of the equation of motion (equation_of_motion.h).
 namespace trammel::solver {
-
-/// The equation as the integrator sees it. The matrices are square, stored whole, in compressed
-/// form; K and C may have a skew part that is small beside M / h^2 (gyroscopic terms).
-struct EquationOfMotion {
-  SparseMatrix M, C, K;  ///< at the start [SI]; an empty C means no damping
-  /// Writes f(t) [SI]; empty: no load. At a time of jump it gives the value after the jump.
-  std::function<void(double time, Eigen::VectorXd& f)> load;
-  /// Writes the values of M, C and K at `time`; empty: constant. The three then share one pattern,
-  /// which stays.
-  std::function<void(double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K)> update;
-  /// Times at which the load or its slope jumps [s]; a step ends at each.
-  std::vector<double> breakpoints;
-};
 
 /// Error control: the estimated errors of all steps together stay below
 /// relative * size + absolute [m sqrt(kg)], shared out evenly in time, so that the global error
@@ -91,24 +78,5 @@ struct TransientSummary {
 [[nodiscard]] TransientSummary solve_transient(const EquationOfMotion& equation,
                                                const TransientOptions& options,
                                                const MotionObserver& observe);
-
-/// Every sample kept: coordinate x sample.
-struct TransientHistory {
-  TransientSummary summary;
-  std::vector<double> time;  ///< [s]; ends at the failure if there is one
-  Eigen::MatrixXd q, v, a;
-  std::vector<MotionEnergy> energy;
-};
-
-[[nodiscard]] TransientHistory solve_transient(const EquationOfMotion& equation,
-                                               const TransientOptions& options);
-
-/// Where a sampled quantity is largest in magnitude, refined by the parabola through the sample and
-/// its two neighbours.
-struct Peak {
-  double time = 0;
-  double value = 0;
-};
-[[nodiscard]] Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value);
 
 }  // namespace trammel::solver

@@ -1,4 +1,4 @@
-#include "solver/time/transient.h"
+#include "solver/time/transient_history.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,0 +1,53 @@
+#include "solver/time/transient_history.h"
+
+#include <algorithm>
+
+namespace trammel::solver {
+
+TransientHistory solve_transient(const EquationOfMotion& equation,
+                                 const TransientOptions& options) {
+  TransientHistory history;
+  const Index n = equation.M.rows();
+  Index capacity = static_cast<Index>(options.sample_times.size());
+  const auto resize = [&history, n](Index columns) {
+    for (Eigen::MatrixXd* X : {&history.q, &history.v, &history.a}) {
+      X->conservativeResize(n, columns);
+    }
+  };
+  resize(capacity);
+  history.summary = solve_transient(equation, options, [&](const MotionSample& sample) {
+    if (sample.index >= capacity) {
+      capacity = std::max<Index>(64, 2 * capacity);
+      resize(capacity);
+    }
+    history.q.col(sample.index) = sample.q;
+    history.v.col(sample.index) = sample.v;
+    history.a.col(sample.index) = sample.a;
+    history.time.push_back(sample.time);
+    history.energy.push_back(sample.energy);
+  });
+  resize(static_cast<Index>(history.time.size()));
+  return history;
+}
+
+Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value) {
+  if (value.size() == 0) return {};
+  Index k = 0;
+  value.cwiseAbs().maxCoeff(&k);
+  const auto at = [&time](Index i) { return time[static_cast<std::size_t>(i)]; };
+  Peak result{at(k), value[k]};
+  if (k == 0 || k + 1 == value.size()) return result;
+  const double left = at(k) - at(k - 1);
+  const double right = at(k + 1) - at(k);
+  const double slope_left = (value[k] - value[k - 1]) / left;
+  const double slope_right = (value[k + 1] - value[k]) / right;
+  const double curvature = 2 * (slope_right - slope_left) / (left + right);
+  const double slope = (slope_left * right + slope_right * left) / (left + right);
+  if (curvature == 0) return result;
+  const double shift = std::clamp(-slope / curvature, -left, right);
+  result.time += shift;
+  result.value += shift * (slope + 0.5 * curvature * shift);
+  return result;
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/time/transient.h"
+
+namespace trammel::solver {
+
+/// Below this ratio of pivot to diagonal a mass or stiffness matrix counts as singular.
+inline constexpr double kSingularMass = 1e-13;
+
+/// K q = f now and at four times after it: the velocity by the one-sided difference of order 4.
+/// Then K q = f - C v: otherwise the drag of that velocity would set in at once, and shake what
+/// is stiff.
+/// @param q, v  at options.start
+/// @returns singular where K is.
+[[nodiscard]] Outcome start_quasi_statically(EquationMatrices& matrices,
+                                             const TransientOptions& options, Eigen::VectorXd& q,
+                                             Eigen::VectorXd& v, Counters& counters);
+
+/// Refuses a step at which the fastest motion grows. The power iteration comes from below, so
+/// that it refuses no stable step.
+[[nodiscard]] Outcome check_stability(const EquationMatrices& matrices,
+                                      const TransientOptions& options, Counters& counters);
+
+}  // namespace trammel::solver
