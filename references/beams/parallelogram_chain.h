@@ -5,7 +5,7 @@
 #include "references/numerics/arguments.h"
 
 /// The chain of N four-bar loops of the IFToMM benchmark A02: 2 N + 1 equal uniform rods of length
-/// l, of which N + 1 turn about fixed pivots and N link them, all parallelograms. Its one
+/// l, of which N + 1 rotate about fixed pivots and N link them, all parallelograms. Its one
 /// coordinate theta from the upper vertical obeys
 ///   theta'' = a sin theta,  a = (g/l) ((N + 1)/2 + N) / ((N + 1)/3 + N),
 /// solved by Jacobi's functions: from theta = 0 with theta' = W, k^2 = 4 a/(W^2 + 4 a) and

@@ -6,7 +6,7 @@
 #include "references/numerics/arguments.h"
 #include "references/numerics/real.h"
 
-/// Bending vibration of a uniform Euler-Bernoulli cantilever on a hub that turns steadily
+/// Bending vibration of a uniform Euler-Bernoulli cantilever on a hub that rotates steadily
 /// (A. D. Wright et al., J. Appl. Mech. 49, 1982, 197-202). With x over L, eta = Omega
 /// sqrt(rho A L^4/EI), hub ratio r = R/L, mu = w sqrt(rho A L^4/EI) and the tension of the
 /// undeformed beam, t = eta^2 ((1 - x^2)/2 + r (1 - x)):

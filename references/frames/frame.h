@@ -25,7 +25,7 @@ enum class Fixity { welded, hinged, sprung };
 struct FrameEnd {
   Fixity fixity = Fixity::welded;
   Real stiffness = 0;  ///< of the spring between end and node [N m/rad]; sprung only
-  Real inertia = 0;    ///< turns with the member's end [kg m^2]
+  Real inertia = 0;    ///< rotates with the member's end [kg m^2]
 };
 
 struct FrameMember {

@@ -7,10 +7,10 @@
 #include "references/frames/frame.h"
 #include "references/numerics/dense.h"
 
-/// The coordinates of a frame: x, y and (where something turns with it) the rotation of each node,
-/// and a rotation of its own for each hinged or sprung member end. A hinge keeps its own rotation.
-/// Supports, rigid bodies, inextensible members and sums of rotations are equations C u = 0, solved
-/// by elimination with full pivoting: u = N q.
+/// The coordinates of a frame: x, y and (where something rotates with it) the rotation of each
+/// node, and a rotation of its own for each hinged or sprung member end. A hinge keeps its own
+/// rotation. Supports, rigid bodies, inextensible members and sums of rotations are equations C u =
+/// 0, solved by elimination with full pivoting: u = N q.
 namespace trammel::references {
 
 using RealMatrix = Dense<Real>;

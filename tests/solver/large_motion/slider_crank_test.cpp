@@ -14,11 +14,11 @@ namespace {
 
 using namespace trammel::solver;
 using namespace trammel::solver::large_motion;
-using trammel::testing::CallableEquations;
-using trammel::testing::CallableSystem;
 using Eigen::Matrix4d;
 using Eigen::MatrixXd;
 using Eigen::Vector4d;
+using trammel::testing::CallableEquations;
+using trammel::testing::CallableSystem;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kM1 = 0.36, kM2 = 0.151104, kM3 = 0.075552, kL1 = 0.15, kL2 = 0.30;
