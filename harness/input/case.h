@@ -29,7 +29,8 @@ inline constexpr const char* kBaseVariant = "base";
 /// @throws InputError  where the file, or one that it extends, cannot be read or breaks the schema.
 [[nodiscard]] Case load_case(const std::filesystem::path& file);
 
-/// The case with the variant's patch laid over it; "variants" itself is gone.
+/// The case with the variant's patch laid over it; "variants" itself is gone, and
+/// "description" is the variant's.
 /// @throws InputError  for an unknown name, or where the patched case breaks the schema.
 [[nodiscard]] Document patched(const Case& given, const std::string& variant);
 
