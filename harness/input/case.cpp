@@ -160,6 +160,7 @@ Case load_case(const fs::path& file, const Catalogue& catalogue) {
 Document patched(const Case& given, const std::string& variant) {
   Document document = given.document;
   const std::string file = given.file.string();
+  document.apply_patch(file, "", Json{{"description", nullptr}, {"variants", nullptr}});
   if (variant != kBaseVariant) {
     const std::vector<std::string> names = given.variants();
     if (std::find(names.begin(), names.end(), variant) == names.end()) {
@@ -169,11 +170,9 @@ Document patched(const Case& given, const std::string& variant) {
     }
     Json patch = given.document.value().at("variants").at(variant);
     patch.erase("title");
-    patch.erase("description");
     const Origin written = given.document.origin((JsonPointer("/variants") / variant).to_string());
     document.apply_patch(written.file, written.pointer, patch);
   }
-  document.apply_patch(file, "", Json{{"variants", nullptr}});
   document.validate("case");
   return document;
 }

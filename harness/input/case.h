@@ -33,7 +33,8 @@ inline constexpr const char* kBaseVariant = "base";
 /// @param catalogue  where names of cases to extend are looked up
 [[nodiscard]] Case load_case(const std::filesystem::path& file, const Catalogue& catalogue);
 
-/// The case with the variant's patch laid over it; "variants" itself is gone.
+/// The case with the variant's patch laid over it; "variants" itself is gone, and
+/// "description" is the variant's.
 /// @throws InputError  for an unknown name, or where the patched case breaks the schema.
 [[nodiscard]] Document patched(const Case& given, const std::string& variant);
 

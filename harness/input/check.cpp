@@ -131,23 +131,50 @@ void require_discrepancy(const JsonView& place, const Check& check) {
   }
 }
 
+Measure read_measure(const std::string& word) {
+  if (word == "relative") return Measure::relative;
+  if (word == "absolute") return Measure::absolute;
+  return word == "ratio" ? Measure::ratio : Measure::value;
+}
+
+/// Stated values with one half width for all: v - w, v + w.
+std::vector<Window> windows_around(const JsonView& values, double half_width) {
+  std::vector<Window> windows;
+  const auto add = [&](double value) {
+    windows.push_back({value - half_width, value + half_width});
+  };
+  if (values.json().is_array()) {
+    for (const auto& entry : values.entries()) add(entry.second.get<double>());
+  } else {
+    add(values.get<double>());
+  }
+  return windows;
+}
+
+std::vector<Window> read_windows(const JsonView& place) {
+  if (!place[0].json().is_array()) return {read_window(place)};
+  std::vector<Window> windows;
+  for (const auto& entry : place.entries()) windows.push_back(read_window(entry.second));
+  return windows;
+}
+
 void read_expectation(const JsonView& place, Check& check) {
   const std::string kind = exactly_one(place, {"agrees", "known_discrepancy"});
   check.expectation = kind == "agrees" ? Expectation::agrees : Expectation::known_discrepancy;
   check.why = place.text(kind);
-  const std::string key = exactly_one(
-      place, {"relative_between", "absolute_between", "ratio_between", "value_between"});
-  check.measure = key == "relative_between"   ? Measure::relative
-                  : key == "absolute_between" ? Measure::absolute
-                  : key == "ratio_between"    ? Measure::ratio
-                                              : Measure::value;
-  const JsonView windows = place[key];
-  if (windows[0].json().is_array()) {
-    for (const auto& entry : windows.entries()) check.windows.push_back(read_window(entry.second));
-  } else {
-    check.windows = {read_window(windows)};
+  const std::string key =
+      exactly_one(place, {"relative", "absolute", "ratio", "value", "relative_between",
+                          "absolute_between", "ratio_between", "value_between"});
+  const std::string measure = key.substr(0, key.find('_'));
+  const bool is_value = measure == key;
+  if (is_value != place.has("within")) {
+    throw place.error(is_value ? "expected 'within' beside '" + key + "'"
+                               : "expected '" + measure + "' beside 'within' (got '" + key + "')");
   }
-  require_discrepancy(windows, check);
+  check.measure = read_measure(measure);
+  check.windows =
+      is_value ? windows_around(place[key], place.number("within")) : read_windows(place[key]);
+  require_discrepancy(place[key], check);
 }
 
 void require_target(const JsonView& place, const Check& check) {
@@ -219,6 +246,11 @@ Check read_check(const std::string& name, const JsonView& place, const Document&
   check.role = read_role(place.text("role"));
   read_criterion(place, document, check);
   require_target(place, check);
+  // What is particular to a variant is stated once, for all its checks.
+  const auto variant_text = JsonView(document).get<std::string>("description", "");
+  if (check.expectation == Expectation::known_discrepancy && !variant_text.empty()) {
+    check.why = variant_text + " " + check.why;
+  }
   return check;
 }
 

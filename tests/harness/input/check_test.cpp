@@ -1,0 +1,86 @@
+#include "harness/input/check.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "harness/input/case.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+Json expecting(const Json& expect) {
+  Json json = testing::cantilever();
+  json["variants"]["soft"]["description"] = "Softer.";
+  json["variants"]["soft"]["checks"]["c"]["expect"] = Json::object();
+  json["checks"]["c"] = {{"quantity", "frequency_Hz"},
+                         {"reference", "row"},
+                         {"role", "validation"},
+                         {"expect", expect}};
+  return json;
+}
+
+Check check_of(const Json& json, const std::string& variant = "base") {
+  const Folder folder;
+  const Case given = testing::read(folder, json);
+  return read_checks(patched(given, variant), variant, given.variants()).at(0);
+}
+
+std::string fault(const Json& expect) {
+  return complaint([&] { (void)check_of(expecting(expect)); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(check)
+
+BOOST_AUTO_TEST_CASE(stated_values_share_one_half_width) {
+  const Check each =
+      check_of(expecting({{"agrees", "r"}, {"relative", {0.25, -0.5}}, {"within", 0.125}}));
+  BOOST_TEST((each.measure == Measure::relative));
+  BOOST_REQUIRE(each.windows.size() == 2);
+  BOOST_TEST(each.windows[0].low == 0.125);
+  BOOST_TEST(each.windows[0].high == 0.375);
+  BOOST_TEST(each.windows[1].low == -0.625);
+  BOOST_TEST(each.windows[1].high == -0.375);
+  const Check one = check_of(expecting({{"agrees", "r"}, {"ratio", 2}, {"within", 0.5}}));
+  BOOST_TEST((one.measure == Measure::ratio));
+  BOOST_REQUIRE(one.windows.size() == 1);
+  BOOST_TEST(one.windows[0].low == 1.5);
+  BOOST_TEST(one.windows[0].high == 2.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_variant_states_its_own_values_and_what_is_particular_to_it) {
+  Json json = expecting({{"known_discrepancy", "Reason."}, {"absolute", 2}, {"within", 0.5}});
+  json["variants"]["soft"]["checks"]["c"]["expect"]["absolute"] = 1;
+  const Check base = check_of(json);
+  const Check soft = check_of(json, "soft");
+  BOOST_TEST(base.why == "Reason.");
+  BOOST_TEST(base.windows.at(0).low == 1.5);
+  BOOST_TEST(soft.why == "Softer. Reason.");
+  BOOST_TEST(soft.windows.at(0).low == 0.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_half_width_stands_beside_values_only) {
+  const Json agrees = {{"agrees", "r"}, {"within", 0.1}};
+  const auto with = [](Json expect, const char* key, const Json& value) {
+    expect[key] = value;
+    return expect;
+  };
+  BOOST_TEST(contains(fault(with(agrees, "relative_between", {-1, 1})),
+                      "/checks/c/expect: expected 'relative' beside 'within' (got "
+                      "'relative_between')"));
+  BOOST_TEST(contains(fault({{"agrees", "r"}, {"ratio", {1, 2}}}),
+                      "/checks/c/expect: expected 'within' beside 'ratio'"));
+  BOOST_TEST(contains(fault(agrees), "/checks/c/expect: expected exactly one of 'relative'"));
+  BOOST_TEST(contains(fault(with(with(agrees, "relative", 1), "relative_between", {-1, 1})),
+                      "/checks/c/expect: expected exactly one of 'relative'"));
+  BOOST_TEST(contains(fault({{"known_discrepancy", "r"}, {"relative", 0.1}, {"within", 0.2}}),
+                      "/checks/c/expect/relative: expected a window without 0"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
