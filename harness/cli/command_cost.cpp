@@ -11,6 +11,7 @@
 #include "harness/input/catalogue.h"
 #include "harness/run/cost_results.h"
 #include "harness/run/results.h"
+#include "harness/studies/cost_study_of_sweeps.h"
 
 namespace trammel::harness {
 namespace {

@@ -11,7 +11,7 @@
 #include "harness/input/check.h"
 #include "harness/input/json_view.h"
 #include "harness/input/reference_library.h"
-#include "harness/judge/validation_uncertainty.h"
+#include "harness/studies/validation_uncertainty.h"
 #include "harness/scene/case_model.h"
 
 namespace trammel::harness {

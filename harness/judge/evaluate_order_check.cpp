@@ -1,10 +1,10 @@
+#include "harness/judge/evaluate_order_check.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "harness/base/numbers.h"
 #include "harness/base/text.h"
-#include "harness/judge/evaluate_check.h"
 
 namespace trammel::harness {
 namespace {

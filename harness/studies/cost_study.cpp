@@ -9,6 +9,7 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
+#include "harness/judge/tracked_quantity.h"
 
 namespace trammel::harness {
 namespace {
@@ -294,13 +295,6 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
 }
 
 }  // namespace
-
-std::vector<std::size_t> indices(const JsonView& place, const char* key) {
-  const auto stated = place.find(key);
-  if (!stated) return {};
-  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
-  return {stated->get<std::size_t>()};
-}
 
 Observations observe(const Quantities& quantities, const std::vector<ObservedQuantity>& observed) {
   Observations all;

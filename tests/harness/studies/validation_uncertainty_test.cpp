@@ -1,4 +1,4 @@
-#include "harness/judge/validation_uncertainty.h"
+#include "harness/studies/validation_uncertainty.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
