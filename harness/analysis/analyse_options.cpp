@@ -1,9 +1,12 @@
+#include "harness/analysis/analyse_options.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "harness/analysis/analysis_kinds.h"
+#include "harness/analysis/analyse_study.h"
+#include "harness/analysis/analysis.h"
 #include "harness/input/case.h"
 #include "harness/input/catalogue.h"
 
@@ -176,7 +179,8 @@ void add(const OptionCounts& added, OptionCounts& all) {
 
 }  // namespace
 
-void analyse_options(const Document& document, const References& references, Recorder& record) {
+StepResult analyse_options(const Document& document, const References& references, bool,
+                           Recorder& record) {
   const JsonView place = JsonView(document)["analysis"]["options"];
   const std::string here = document.origin(place.pointer()).file;
   const Catalogue catalogue;
@@ -195,6 +199,7 @@ void analyse_options(const Document& document, const References& references, Rec
     add(own, all);
   }
   record_counts("", all, record);
+  return {};
 }
 
 }  // namespace trammel::harness

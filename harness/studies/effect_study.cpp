@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "harness/analysis/registry.h"
 #include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
 #include "harness/input/reference_library.h"
@@ -211,8 +212,8 @@ bool EffectStudy::is_minimal() const {
 
 EffectStudy study_effects(const Document& document, const EffectStudyOptions& options) {
   if (!knows_effects(document)) {
-    throw JsonView(document)["analysis"].error(
-        std::string("expected an analysis that knows effects: ") + kAnalysesWithEffects);
+    throw JsonView(document)["analysis"].error("expected an analysis that knows effects: " +
+                                               analyses_with_effects());
   }
   return Study(document, options).run();
 }
