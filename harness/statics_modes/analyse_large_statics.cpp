@@ -5,6 +5,7 @@
 #include "harness/base/text.h"
 #include "harness/readers/joint_reader.h"
 #include "harness/scene/draw_large.h"
+#include "harness/statics_modes/analyse_statics.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
