@@ -1,3 +1,5 @@
+#include "harness/cli/command_effects.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -7,7 +9,6 @@
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/cli/print_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/studies/effect_study.h"

@@ -1,3 +1,5 @@
+#include "harness/cli/command_list.h"
+
 #include <iostream>
 
 #include "harness/analysis/analysis.h"
@@ -5,7 +7,6 @@
 #include "harness/base/json_file.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/cli/print_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/check.h"

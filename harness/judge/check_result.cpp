@@ -1,6 +1,8 @@
 #include "harness/judge/check_result.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace trammel::harness {
 
@@ -56,6 +58,18 @@ const char* to_string(Verdict verdict) {
 
 bool fails_gate(Verdict verdict) {
   return verdict != Verdict::pass && verdict != Verdict::recorded;
+}
+
+double severity(const CheckResult& entry) {
+  if (entry.verdict == Verdict::error) return std::numeric_limits<double>::infinity();
+  const double value = entry.difference.value_or(entry.computed.value_or(0));
+  if (!entry.window) return std::abs(value);
+  const Window& window = *entry.window;
+  if (std::isinf(window.low) || std::isinf(window.high)) {
+    return std::isinf(window.low) ? value - window.high : window.low - value;
+  }
+  const double half = (window.high - window.low) / 2;
+  return (std::abs(value - (window.low + half)) - half) / (half > 0 ? half : 1);
 }
 
 }  // namespace trammel::harness

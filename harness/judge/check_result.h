@@ -54,4 +54,7 @@ struct CheckContext {
 /// A gate that does not hold: everything but a pass and what is only recorded.
 [[nodiscard]] bool fails_gate(Verdict verdict);
 
+/// How far out an entry lies: errors first, then by the share of the window that is used.
+[[nodiscard]] double severity(const CheckResult& entry);
+
 }  // namespace trammel::harness

@@ -1,5 +1,7 @@
 #include "harness/judge/evaluate_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,8 +60,8 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
   std::vector<double> picked;
   for (const std::size_t i : index) {
     if (i >= values.size()) {
-      throw NotComparable{"index " + std::to_string(i) + " is outside of " + source +
-                          ", which has " + std::to_string(values.size()) + " entries"};
+      throw NotComparable{
+          fmt::format("index {} is outside of {}, which has {} entries", i, source, values.size())};
     }
     picked.push_back(values[i]);
   }
@@ -76,8 +78,8 @@ struct ComparedValues {
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {
   const std::string unit_found = unit_of(quantity);
   if (unit_found != unit) {
-    throw NotComparable{"the unit of " + quantity + " is " + unit_found + ", that of " + whose +
-                        " is " + unit};
+    throw NotComparable{
+        fmt::format("the unit of {} is {}, that of {} is {}", quantity, unit_found, whose, unit)};
   }
 }
 
@@ -116,12 +118,12 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
     pair_with_run(check, context, pairs);
   }
   if (check.has_target() && pairs.expected.size() != pairs.computed.size()) {
-    throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
-                        " computed, " + std::to_string(pairs.expected.size()) + " expected"};
+    throw NotComparable{fmt::format("the lengths differ: {} computed, {} expected",
+                                    pairs.computed.size(), pairs.expected.size())};
   }
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size()) {
-    throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
-                        " computed, " + std::to_string(check.windows.size()) + " windows"};
+    throw NotComparable{fmt::format("the lengths differ: {} computed, {} windows",
+                                    pairs.computed.size(), check.windows.size())};
   }
   return pairs;
 }
@@ -141,8 +143,8 @@ double measured(Measure measure, double computed, double expected) {
 }
 
 std::string outside(const Check& check, double value, const Window& window) {
-  std::string where = shortest(value) + " is outside of [" + shortest(window.low) + ", " +
-                      shortest(window.high) + "]";
+  const std::string where = fmt::format("{} is outside of [{}, {}]", shortest(value),
+                                        shortest(window.low), shortest(window.high));
   if (check.expectation == Expectation::known_discrepancy) {
     return "the known discrepancy is no longer what was recorded: " + where;
   }
@@ -188,19 +190,6 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   const bool holds = window->contains(value);
   entry.verdict = holds ? Verdict::pass : Verdict::fail;
   if (!holds) entry.message = outside(check, value, *window);
-}
-
-/// How far out an entry lies: errors first, then by the share of the window that is used.
-double severity(const CheckResult& entry) {
-  if (entry.verdict == Verdict::error) return std::numeric_limits<double>::infinity();
-  const double value = entry.difference ? *entry.difference : *entry.computed;
-  if (!entry.window) return std::abs(value);
-  const Window& window = *entry.window;
-  if (std::isinf(window.low) || std::isinf(window.high)) {
-    return std::isinf(window.low) ? value - window.high : window.low - value;
-  }
-  const double half = (window.high - window.low) / 2;
-  return (std::abs(value - (window.low + half)) - half) / (half > 0 ? half : 1);
 }
 
 std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {

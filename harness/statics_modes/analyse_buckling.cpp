@@ -8,15 +8,6 @@
 namespace trammel::harness {
 namespace {
 
-constexpr solver::Index kMaxDrawnShapes = 12;
-
-std::string label(solver::Index mode, double factor) {
-  char text[64];
-  std::snprintf(text, sizeof text, "mode %d, %.4g times the loads", static_cast<int>(mode) + 1,
-                factor);
-  return text;
-}
-
 solver::BucklingOptions read_buckling_options(const JsonView& analysis) {
   return {analysis.get<solver::Index>("count", 3), read_eigen_method(analysis)};
 }
@@ -51,7 +42,8 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
     record.add("load_factor", mode, factor, buckling.roundoff[i]);
     record_forces(analysis, mode.empty() ? "" : "." + mode, factor, buckling.roundoff[i], record);
     if (result.drawing && i < kMaxDrawnShapes) {
-      result.drawing->shapes.push_back(draw_shape(system, buckling.shape.col(i), label(i, factor)));
+      result.drawing->shapes.push_back(
+          draw_shape(system, buckling.shape.col(i), mode_label(i, factor, "times the loads")));
     }
   }
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));

@@ -11,16 +11,8 @@
 namespace trammel::harness {
 namespace {
 
-constexpr solver::Index kMaxDrawnShapes = 12;
-
 solver::ModesOptions read_modes_options(const JsonView& analysis) {
   return {analysis["count"].get<solver::Index>(), read_eigen_method(analysis)};
-}
-
-std::string label(solver::Index mode, double frequency) {
-  char text[64];
-  std::snprintf(text, sizeof text, "mode %d, %.4g Hz", static_cast<int>(mode) + 1, frequency);
-  return text;
 }
 
 /// What cannot stand beside the modes of a state that loads or rotation make.
@@ -79,7 +71,7 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
     }
     if (result.drawing && i < kMaxDrawnShapes) {
       result.drawing->shapes.push_back(
-          draw_shape(system, modes.shape.col(i), label(i, modes.frequency[i])));
+          draw_shape(system, modes.shape.col(i), mode_label(i, modes.frequency[i], "Hz")));
     }
   }
   if (analysis.has("count_below_Hz")) {

@@ -9,18 +9,10 @@
 namespace trammel::harness {
 namespace {
 
-constexpr solver::Index kMaxDrawnShapes = 12;
-
 solver::RotationAxis read_axis(const JsonView& rotating) {
   const std::string axis = rotating.get<std::string>("axis", "normal");
   if (axis == "x") return solver::RotationAxis::x;
   return axis == "y" ? solver::RotationAxis::y : solver::RotationAxis::normal;
-}
-
-std::string label(solver::Index mode, double frequency) {
-  char text[64];
-  std::snprintf(text, sizeof text, "mode %d, %.4g Hz", static_cast<int>(mode) + 1, frequency);
-  return text;
 }
 
 /// A moment of the motion at which its largest part is at its largest.
@@ -95,8 +87,8 @@ StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
     record_state(system, found, record);
     if (!result.drawing || several) continue;
     for (solver::Index i = 0; i < std::min(found.frequency.size(), kMaxDrawnShapes); ++i) {
-      result.drawing->shapes.push_back(
-          draw_shape(system, snapshot(found.shape.col(i)), label(i, found.frequency[i])));
+      result.drawing->shapes.push_back(draw_shape(system, snapshot(found.shape.col(i)),
+                                                  mode_label(i, found.frequency[i], "Hz")));
     }
   }
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));

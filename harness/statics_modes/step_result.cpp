@@ -1,6 +1,12 @@
 #include "harness/statics_modes/step_result.h"
 
+#include <fmt/format.h>
+
 namespace trammel::harness {
+
+std::string mode_label(solver::Index mode, double number, const char* unit) {
+  return fmt::format("mode {}, {:.4g} {}", mode + 1, number, unit);
+}
 
 void record_path(const CaseModel& case_model, std::size_t step, Recorder& record) {
   if (!case_model.path) return;

@@ -21,6 +21,12 @@ struct StepResult {
   std::vector<EvaluationTime> timings = {};
 };
 
+inline constexpr solver::Index kMaxDrawnShapes = 12;
+
+/// "mode 3, 12.5 Hz"
+/// @param number  what the mode belongs to, as its unit says
+[[nodiscard]] std::string mode_label(solver::Index mode, double number, const char* unit);
+
 /// Time and pose of a step of the path; nothing where there is none.
 void record_path(const CaseModel& case_model, std::size_t step, Recorder& record);
 
