@@ -37,10 +37,6 @@ solver::Effects stated_effects(const Document& document, const solver::EffectSco
   return stated;
 }
 
-std::string percent(double share) {
-  return rounded(100 * share, 3) + " %";
-}
-
 std::vector<EffectReason> reasons_without_estimates(const solver::EffectScope& scope,
                                                     solver::Effects chosen,
                                                     const EffectRules& rules,

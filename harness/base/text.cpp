@@ -73,6 +73,10 @@ std::string rounded(double value, int digits) {
   return fmt::format("{:.{}g}", value, digits);
 }
 
+std::string percent(double share) {
+  return rounded(100 * share, 3) + " %";
+}
+
 std::string printable(std::string text, std::size_t length) {
   if (text.size() > length) text = text.substr(0, length - 3) + "...";
   std::replace_if(

@@ -1,6 +1,7 @@
 #include "harness/studies/cost_study.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "harness/base/data_root.h"
@@ -366,15 +367,8 @@ std::vector<fs::path> cost_study_files() {
 }
 
 const char* to_string(Norm norm) {
-  switch (norm) {
-    case Norm::max:
-      return "max";
-    case Norm::rms:
-      return "rms";
-    case Norm::mean:
-      return "mean";
-  }
-  return "";
+  constexpr std::array names = {"max", "rms", "mean"};
+  return names[static_cast<std::size_t>(norm)];
 }
 
 }  // namespace trammel::harness
