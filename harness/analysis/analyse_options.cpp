@@ -1,9 +1,13 @@
+#include "harness/analysis/analyse_options.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "harness/analysis/analysis_kinds.h"
+#include "harness/analysis/analyse_study.h"
+#include "harness/analysis/analysis.h"
+#include "harness/base/statistic.h"
 #include "harness/input/case.h"
 #include "harness/input/catalogue.h"
 
@@ -60,16 +64,13 @@ double max_relative_difference(const Quantities& a, const Quantities& b) {
   for (const auto& [name, added] : a) {
     const auto other = b.find(name);
     if (other == b.end() || added.roundoff.size() != added.values.size()) continue;
-    if (other->second.values.size() != added.values.size()) {
-      return std::numeric_limits<double>::infinity();
-    }
-    for (std::size_t i = 0; i < added.values.size(); ++i) {
-      const double x = added.values[i], y = other->second.values[i];
-      const double allowed = std::abs(x) * (added.roundoff[i] + (i < other->second.roundoff.size()
-                                                                     ? other->second.roundoff[i]
-                                                                     : added.roundoff[i]));
-      if (x != y) largest = std::max(largest, std::abs(x - y) / allowed);
-    }
+    const std::vector<double>& roundoff = other->second.roundoff;
+    const auto allowed = [&](std::size_t i) {
+      return std::abs(added.values[i]) *
+             (added.roundoff[i] + (i < roundoff.size() ? roundoff[i] : added.roundoff[i]));
+    };
+    largest =
+        std::max(largest, largest_difference(added.values, other->second.values, allowed).value);
   }
   return largest;
 }
@@ -176,7 +177,8 @@ void add(const OptionCounts& added, OptionCounts& all) {
 
 }  // namespace
 
-void analyse_options(const Document& document, const References& references, Recorder& record) {
+StepResult analyse_options(const Document& document, const References& references, bool,
+                           Recorder& record) {
   const JsonView place = JsonView(document)["analysis"]["options"];
   const std::string here = document.origin(place.pointer()).file;
   const Catalogue catalogue;
@@ -195,6 +197,7 @@ void analyse_options(const Document& document, const References& references, Rec
     add(own, all);
   }
   record_counts("", all, record);
+  return {};
 }
 
 }  // namespace trammel::harness

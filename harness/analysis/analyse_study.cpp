@@ -1,7 +1,9 @@
+#include "harness/analysis/analyse_study.h"
+
 #include <cmath>
 #include <limits>
 
-#include "harness/analysis/analysis_kinds.h"
+#include "harness/analysis/analysis.h"
 #include "harness/base/numbers.h"
 #include "harness/base/statistic.h"
 #include "harness/input/case.h"

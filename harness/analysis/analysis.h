@@ -5,6 +5,7 @@
 
 #include "harness/analysis/case_effects.h"
 #include "harness/base/quantity.h"
+#include "harness/base/timing.h"
 #include "harness/input/document.h"
 #include "harness/input/reference_library.h"
 #include "harness/scene/drawing.h"
@@ -16,13 +17,6 @@ namespace trammel::harness {
 /// What to keep beside the numbers.
 struct AnalysisOptions {
   bool drawing = true;  ///< nodes, members and shapes, for the report
-};
-
-/// What one evaluation of something takes, measured; never judged.
-struct EvaluationTime {
-  std::string name;             ///< with words joined by '_'
-  double wall_s = 0;            ///< of one evaluation
-  std::size_t evaluations = 0;  ///< over which it was averaged
 };
 
 struct AnalysisResult {

@@ -28,8 +28,6 @@ struct EffectChoice {
   solver::Counters counters;          ///< what the choice has cost
 };
 
-inline constexpr const char* kAnalysesWithEffects = "statics, modes or elastodynamics";
-
 /// Whether the case's analysis knows effects.
 [[nodiscard]] bool knows_effects(const Document& document);
 

@@ -39,4 +39,18 @@ double max_abs(const std::vector<double>& values) {
   return largest;
 }
 
+LargestDifference largest_difference(const std::vector<double>& a, const std::vector<double>& b,
+                                     const std::function<double(std::size_t)>& scale) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (a.size() != b.size()) return {kInfinite, 0};
+  LargestDifference largest;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    const double difference = std::abs(a[i] - b[i]) / scale(i);
+    const double size = std::isnan(difference) ? kInfinite : difference;
+    if (size > largest.value) largest = {size, i};
+  }
+  return largest;
+}
+
 }  // namespace trammel::harness

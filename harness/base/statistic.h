@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,5 +13,16 @@ namespace trammel::harness {
 
 /// Largest absolute value; 0 where there is none.
 [[nodiscard]] double max_abs(const std::vector<double>& values);
+
+struct LargestDifference {
+  double value = 0;
+  std::size_t index = 0;
+};
+
+/// Largest |a - b| of all entries, each over its own scale. Equal entries differ by 0 whatever the
+/// scale; infinite where the lengths differ, a number is none, or a scale is 0.
+[[nodiscard]] LargestDifference largest_difference(const std::vector<double>& a,
+                                                   const std::vector<double>& b,
+                                                   const std::function<double(std::size_t)>& scale);
 
 }  // namespace trammel::harness

@@ -1,9 +1,10 @@
 #include "harness/base/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace trammel::harness {
@@ -69,9 +70,11 @@ std::string shortest(double value) {
 
 std::string rounded(double value, int digits) {
   if (!std::isfinite(value)) return "-";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
+  return fmt::format("{:.{}g}", value, digits);
+}
+
+std::string percent(double share) {
+  return rounded(100 * share, 3) + " %";
 }
 
 std::string printable(std::string text, std::size_t length) {

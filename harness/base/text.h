@@ -31,6 +31,9 @@ namespace trammel::harness {
 /// "%.*g" of a number; "-" where it is not finite.
 [[nodiscard]] std::string rounded(double value, int digits = 6);
 
+/// "12.3 %" of 0.123
+[[nodiscard]] std::string percent(double share);
+
 /// Bytes that a terminal or a line cannot hold become '?', long text is cut.
 [[nodiscard]] std::string printable(std::string text, std::size_t length = 60);
 

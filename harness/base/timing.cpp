@@ -52,6 +52,19 @@ std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t& state) {
   return order;
 }
 
+EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
+                               const std::function<void()>& round) {
+  constexpr double enough_s = 0.02;
+  const Stopwatch watch;
+  std::size_t rounds = 0;
+  do {
+    round();
+    ++rounds;
+  } while (watch.wall_s() < enough_s);
+  const std::size_t all = rounds * evaluations;
+  return {name, watch.wall_s() / static_cast<double>(all), all};
+}
+
 std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
                                      const TimingOptions& options,
                                      const std::function<void()>& done) {

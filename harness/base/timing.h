@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 /// Measuring how long computations take, so that what is compared is measured alike.
@@ -36,6 +37,18 @@ inline constexpr double kMaxSpread = 0.25;
 [[nodiscard]] std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
                                                    const TimingOptions& options,
                                                    const std::function<void()>& done);
+
+/// What one evaluation of something takes, measured; never judged.
+struct EvaluationTime {
+  std::string name;             ///< with words joined by '_'
+  double wall_s = 0;            ///< of one evaluation
+  std::size_t evaluations = 0;  ///< over which it was averaged
+};
+
+/// Averaged over as many rounds as fill a few hundredths of a second.
+/// @param round  does so many `evaluations`
+[[nodiscard]] EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
+                                             const std::function<void()>& round);
 
 /// By linear interpolation between the sorted values; share 0.5 is the median.
 [[nodiscard]] double quantile(std::vector<double> values, double share);

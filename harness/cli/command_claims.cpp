@@ -1,3 +1,5 @@
+#include "harness/cli/command_claims.h"
+
 #include <algorithm>
 #include <iostream>
 
@@ -5,7 +7,6 @@
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/claims.h"
 

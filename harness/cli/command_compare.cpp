@@ -1,12 +1,14 @@
+#include "harness/cli/command_compare.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
+#include "harness/base/statistic.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
 #include "harness/run/cost_results.h"
@@ -63,10 +65,7 @@ void add_row(const std::string& name, const std::vector<double>& a, const std::v
                std::to_string(b.size()) + " entries", "", ""});
     return;
   }
-  std::size_t worst = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (std::abs(a[i] - b[i]) > std::abs(a[worst] - b[worst]) || std::isnan(a[i] - b[i])) worst = i;
-  }
+  const std::size_t worst = largest_difference(a, b, [](std::size_t) { return 1.0; }).index;
   const std::size_t first = a.size() <= 6 ? 0 : worst;
   const std::size_t last = a.size() <= 6 ? a.size() : std::min(a.size(), worst + 1);
   for (std::size_t i = first; i < last; ++i) {

@@ -1,10 +1,11 @@
+#include "harness/cli/command_converge.h"
+
 #include <cmath>
 #include <iostream>
 
 #include "harness/base/errors.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/cli/print_uncertainty.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/run.h"

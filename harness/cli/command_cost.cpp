@@ -1,3 +1,7 @@
+#include "harness/cli/command_cost.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iostream>
 #include <set>
@@ -7,10 +11,10 @@
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/cost_results.h"
 #include "harness/run/results.h"
+#include "harness/studies/cost_study_of_sweeps.h"
 
 namespace trammel::harness {
 namespace {
@@ -118,21 +122,21 @@ void print_cheapest(const MeasuredStudy& measured) {
 void print(const MeasuredStudy& measured) {
   const CostStudy& study = measured.study;
   std::cout << study.family << ": " << study.title << '\n'
-            << wrapped("Error (" + std::string(to_string(study.norm)) + ") against " +
-                           study.reference_description + ", " + study.scale_description +
-                           "; time relative to '" + study.settings[study.baseline].title +
-                           "'; * on the efficient front.",
+            << wrapped(fmt::format("Error ({}) against {}, {}; time relative to '{}'; * on the "
+                                   "efficient front.",
+                                   to_string(study.norm), study.reference_description,
+                                   study.scale_description, study.settings[study.baseline].title),
                        "  ");
   print_settings(measured);
   print_cheapest(measured);
   std::cout << wrapped(measured.conclusion, "  ");
   const ParetoFrontAgreement& both = measured.repeatability;
-  std::cout << wrapped("Odd and even repeats by themselves: " + std::to_string(both.shared) +
-                           " of " + std::to_string(both.either) + " settings on both fronts, " +
-                           std::to_string(both.same_cheapest) + " of " +
-                           std::to_string(both.targets) + " cheapest settings the same, times " +
-                           rounded(100 * both.median_difference, 2) + " % apart (median), " +
-                           rounded(100 * both.largest_difference, 2) + " % at most.",
+  std::cout << wrapped(fmt::format("Odd and even repeats by themselves: {} of {} settings on both "
+                                   "fronts, {} of {} cheapest settings the same, times {} % apart "
+                                   "(median), {} % at most.",
+                                   both.shared, both.either, both.same_cheapest, both.targets,
+                                   rounded(100 * both.median_difference, 2),
+                                   rounded(100 * both.largest_difference, 2)),
                        "  ")
             << '\n';
 }

@@ -1,3 +1,5 @@
+#include "harness/cli/command_effects.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -7,7 +9,6 @@
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/cli/print_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/studies/effect_study.h"
@@ -16,13 +17,13 @@
 namespace trammel::harness {
 namespace {
 
-std::string percent(double share) {
+std::string in_percent(double share) {
   return std::isfinite(share) ? rounded(100 * share, 3) : "all";
 }
 
 std::string kinds_of(const Changes& changes) {
   std::vector<std::string> texts;
-  for (const auto& [kind, change] : changes) texts.push_back(kind + " " + percent(change));
+  for (const auto& [kind, change] : changes) texts.push_back(kind + " " + in_percent(change));
   std::string text;
   for (const std::string& word : texts) text += (text.empty() ? "" : ", ") + word;
   return text;
@@ -44,7 +45,7 @@ void add_row(Table& table, const std::string& what, const EffectRun& run, const 
     return;
   }
   const bool noisy = run.cpu_spread > 0.1;
-  table.add({what, percent(max_change(run.changes)), kinds_of(run.changes),
+  table.add({what, in_percent(max_change(run.changes)), kinds_of(run.changes),
              ratio(run.cpu_s, full.cpu_s) + (noisy ? " ~" : ""),
              std::to_string(run.counters.element_evaluations),
              std::to_string(run.counters.factorizations), std::to_string(run.counters.solves)});
@@ -80,7 +81,7 @@ void print_pairs(const EffectStudy& study) {
     const bool interact = std::isfinite(together) && std::isfinite(a) && std::isfinite(b) &&
                           (together > a + b + slack || together < std::max(a, b) - slack);
     if (!interact) continue;
-    table.add({names_of(pair.effects), percent(together), percent(a), percent(b)});
+    table.add({names_of(pair.effects), in_percent(together), in_percent(a), in_percent(b)});
   }
   if (table.empty()) {
     std::cout << "\nNo pair interacts: two left out together change no more than the sum, and no "
@@ -94,13 +95,14 @@ void print_pairs(const EffectStudy& study) {
 void print_verdict(const EffectStudy& study) {
   std::cout << "\nChosen    " << effect_names(study.choice.chosen) << '\n';
   const double off = max_change(study.chosen.changes);
-  std::cout << "Within    " << (study.within_tolerance() ? "yes" : "no") << ": " << percent(off)
-            << " % from the whole scene, where " << percent(study.tolerance) << " % are allowed\n";
+  std::cout << "Within    " << (study.within_tolerance() ? "yes" : "no") << ": " << in_percent(off)
+            << " % from the whole scene, where " << in_percent(study.tolerance)
+            << " % are allowed\n";
   std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no");
   for (const Ablation& ablation : study.from_chosen) {
     const double change = max_change(ablation.run.changes);
     if (change <= study.tolerance) {
-      std::cout << "; " << percent(change) << " % without " << names_of(ablation.effects)
+      std::cout << "; " << in_percent(change) << " % without " << names_of(ablation.effects)
                 << (change > 0.9 * study.tolerance ? ", kept by the tenth in hand"
                                                    : ", which the estimate took for more");
     }
@@ -132,7 +134,7 @@ void count_result(const EffectStudy& study, const std::string& name, HitCounts& 
   if (study.within_tolerance()) ++counts.within;
   if (study.is_minimal()) ++counts.minimal;
   if (!study.within_tolerance()) {
-    counts.misses.push_back(name + ": off by " + percent(max_change(study.chosen.changes)) +
+    counts.misses.push_back(name + ": off by " + in_percent(max_change(study.chosen.changes)) +
                             " % (" + kinds_of(study.chosen.changes) + ") with " +
                             effect_names(study.choice.chosen));
   }
@@ -142,8 +144,8 @@ void count_result(const EffectStudy& study, const std::string& name, HitCounts& 
     if (change > study.tolerance) continue;
     const auto& reason = study.choice.reasons[static_cast<std::size_t>(ablation.effects.front())];
     counts.misses.push_back(name + ": could do without " + names_of(ablation.effects) + ", " +
-                            percent(change) + " %; estimated " +
-                            percent(reason.change.value_or(0)) + " %");
+                            in_percent(change) + " %; estimated " +
+                            in_percent(reason.change.value_or(0)) + " %");
   }
 }
 
@@ -187,7 +189,7 @@ int labelled_effects_command(const EffectsCommand& command) {
     within = within && study.within_tolerance();
     const solver::Counters &chosen = study.chosen.counters, &full = study.full.counters;
     table.add({given.id(), effect_names(study.choice.chosen),
-               percent(max_change(study.chosen.changes)), percent(study.tolerance),
+               in_percent(max_change(study.chosen.changes)), in_percent(study.tolerance),
                study.is_minimal() ? "yes" : "no", ratio(study.chosen.cpu_s, study.full.cpu_s),
                ratio(study.choice_cpu_s, study.full.cpu_s),
                ratio(static_cast<double>(chosen.element_evaluations),
@@ -221,7 +223,7 @@ int random_effects_command(const EffectsCommand& command) {
            rounded(100 * share(hits), 3) + " %";
   };
   std::cout << "Random scenes, seed " << command.seed << ", tolerance "
-            << percent(command.tolerance) << " %\n"
+            << in_percent(command.tolerance) << " %\n"
             << "  within the tolerance of the whole scene  " << rate(counts.within) << '\n'
             << "  minimal                                  " << rate(counts.minimal) << '\n'
             << "  without a solution to compare with       " << counts.unsolved << '\n';

@@ -9,7 +9,13 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
+#include "harness/cli/command_claims.h"
+#include "harness/cli/command_compare.h"
+#include "harness/cli/command_converge.h"
+#include "harness/cli/command_cost.h"
+#include "harness/cli/command_effects.h"
+#include "harness/cli/command_list.h"
+#include "harness/cli/command_run.h"
 #include "harness/input/former_names.h"
 #include "trammel_build.h"
 

@@ -1,18 +1,19 @@
+#include "harness/cli/command_list.h"
+
 #include <iostream>
 
 #include "harness/analysis/analysis.h"
-#include "harness/analysis/case_effects.h"
+#include "harness/analysis/registry.h"
 #include "harness/base/json_file.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
 #include "harness/cli/print_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/check.h"
 #include "harness/input/json_view.h"
 #include "harness/input/reference_library.h"
-#include "harness/judge/validation_uncertainty.h"
 #include "harness/scene/case_model.h"
+#include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
 namespace {
@@ -40,12 +41,8 @@ std::string count_of(std::size_t count, const char* what) {
 }
 
 std::string describe_model(const Document& document) {
-  const std::string kind = analysis_kind(document);
-  if (kind == "comparison") return "no model: references against each other";
-  if (kind == "options") return "those of other cases";
-  if (kind == "study" && !document.value().contains("model")) return "made by the analysis";
-  if (kind == "manufactured") return "made by the analysis: a mesh, and the loads of a closed form";
-  if (kind == "grnn" && !document.value().contains("model")) return "none: samples of its own";
+  const char* without_model = find_analysis(analysis_kind(document)).without_model;
+  if (!document.value().contains("model") && *without_model != 0) return without_model;
   const CaseModel case_model = read_case_model(document);
   const solver::Model model = build_bare_model(case_model, 0);
   std::string text;

@@ -1,3 +1,5 @@
+#include "harness/cli/command_run.h"
+
 #include <algorithm>
 #include <iostream>
 #include <map>
@@ -8,7 +10,7 @@
 #include "harness/base/statistic.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/commands.h"
+#include "harness/cli/command_cost.h"
 #include "harness/cli/print_uncertainty.h"
 #include "harness/input/catalogue.h"
 #include "harness/judge/evaluate_check.h"
@@ -87,7 +89,7 @@ std::vector<CheckSummary> summarise_checks(const Run& run) {
     CheckSummary& check = *same;
     ++check.entries;
     const auto rank = [](const CheckResult& judged) {
-      return std::pair(fails_gate(judged.verdict) ? 1 : 0, std::abs(judged.difference.value_or(0)));
+      return std::pair(fails_gate(judged.verdict), severity(judged));
     };
     if (rank(check_result) > rank(*check.worst)) check.worst = &check_result;
   }

@@ -7,14 +7,6 @@
 #include "harness/base/text.h"
 
 namespace trammel::harness {
-namespace {
-
-std::string percent(double share) {
-  return rounded(100 * share, 3) + " %";
-}
-
-}  // namespace
-
 void print_validation(const Run& run, std::ostream& out) {
   const ValidationUncertainty& found = run.uncertainty;
   if (found.empty()) return;

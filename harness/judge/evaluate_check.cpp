@@ -1,5 +1,7 @@
 #include "harness/judge/evaluate_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,7 @@
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
 #include "harness/input/former_names.h"
+#include "harness/judge/evaluate_order_check.h"
 
 namespace trammel::harness {
 namespace {
@@ -57,8 +60,8 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
   std::vector<double> picked;
   for (const std::size_t i : index) {
     if (i >= values.size()) {
-      throw NotComparable{"index " + std::to_string(i) + " is outside of " + source +
-                          ", which has " + std::to_string(values.size()) + " entries"};
+      throw NotComparable{
+          fmt::format("index {} is outside of {}, which has {} entries", i, source, values.size())};
     }
     picked.push_back(values[i]);
   }
@@ -75,8 +78,8 @@ struct ComparedValues {
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {
   const std::string unit_found = unit_of(quantity);
   if (unit_found != unit) {
-    throw NotComparable{"the unit of " + quantity + " is " + unit_found + ", that of " + whose +
-                        " is " + unit};
+    throw NotComparable{
+        fmt::format("the unit of {} is {}, that of {} is {}", quantity, unit_found, whose, unit)};
   }
 }
 
@@ -115,12 +118,12 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
     pair_with_run(check, context, pairs);
   }
   if (check.has_target() && pairs.expected.size() != pairs.computed.size()) {
-    throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
-                        " computed, " + std::to_string(pairs.expected.size()) + " expected"};
+    throw NotComparable{fmt::format("the lengths differ: {} computed, {} expected",
+                                    pairs.computed.size(), pairs.expected.size())};
   }
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size()) {
-    throw NotComparable{"the lengths differ: " + std::to_string(pairs.computed.size()) +
-                        " computed, " + std::to_string(check.windows.size()) + " windows"};
+    throw NotComparable{fmt::format("the lengths differ: {} computed, {} windows",
+                                    pairs.computed.size(), check.windows.size())};
   }
   return pairs;
 }
@@ -140,8 +143,8 @@ double measured(Measure measure, double computed, double expected) {
 }
 
 std::string outside(const Check& check, double value, const Window& window) {
-  std::string where = shortest(value) + " is outside of [" + shortest(window.low) + ", " +
-                      shortest(window.high) + "]";
+  const std::string where = fmt::format("{} is outside of [{}, {}]", shortest(value),
+                                        shortest(window.low), shortest(window.high));
   if (check.expectation == Expectation::known_discrepancy) {
     return "the known discrepancy is no longer what was recorded: " + where;
   }
@@ -189,19 +192,6 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   if (!holds) entry.message = outside(check, value, *window);
 }
 
-/// How far out an entry lies: errors first, then by the share of the window that is used.
-double severity(const CheckResult& entry) {
-  if (entry.verdict == Verdict::error) return std::numeric_limits<double>::infinity();
-  const double value = entry.difference ? *entry.difference : *entry.computed;
-  if (!entry.window) return std::abs(value);
-  const Window& window = *entry.window;
-  if (std::isinf(window.low) || std::isinf(window.high)) {
-    return std::isinf(window.low) ? value - window.high : window.low - value;
-  }
-  const double half = (window.high - window.low) / 2;
-  return (std::abs(value - (window.low + half)) - half) / (half > 0 ? half : 1);
-}
-
 std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
   const auto worst = std::max_element(
       entries.begin(), entries.end(),
@@ -229,40 +219,6 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
 
 }  // namespace
 
-CheckResult start_check_result(const Check& check) {
-  CheckResult entry;
-  entry.name = check.name;
-  entry.title = check.title;
-  entry.quantity = check.quantity;
-  entry.unit = unit_of(check.quantity);
-  entry.statistic = check.statistic;
-  entry.reference = check.reference;
-  entry.against_variant = check.against_variant;
-  entry.against_quantity = check.against_quantity;
-  entry.role = check.role;
-  entry.measure = to_string(check.measure);
-  entry.symmetric = check.symmetric;
-  entry.expectation = check.expectation;
-  entry.why = check.why;
-  return entry;
-}
-
-CheckResult failed_check_result(const Check& check, const std::string& message) {
-  CheckResult entry = start_check_result(check);
-  entry.message = message;
-  return entry;
-}
-
-const references::Reference& find_reference(const CheckContext& context,
-                                            const std::string& pointer) {
-  std::vector<std::string> tokens;
-  for (JsonPointer left(pointer); !left.empty(); left.pop_back()) tokens.push_back(left.back());
-  JsonView place(context.document);
-  std::for_each(tokens.rbegin(), tokens.rend(),
-                [&](const std::string& token) { place = place[token]; });
-  return context.references.get(place);
-}
-
 std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
   try {
     if (check.order) return evaluate_order_check(check, context);
@@ -270,26 +226,6 @@ std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& 
   } catch (const NotComparable& reason) {
     return {failed_check_result(check, reason.message)};
   }
-}
-
-const char* to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass:
-      return "pass";
-    case Verdict::fail:
-      return "fail";
-    case Verdict::error:
-      return "error";
-    case Verdict::not_run:
-      return "not-run";
-    case Verdict::recorded:
-      return "recorded";
-  }
-  return "";
-}
-
-bool fails_gate(Verdict verdict) {
-  return verdict != Verdict::pass && verdict != Verdict::recorded;
 }
 
 }  // namespace trammel::harness

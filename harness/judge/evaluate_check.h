@@ -1,64 +1,12 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "harness/analysis/analysis.h"
-#include "harness/input/check.h"
-#include "harness/judge/convergence.h"
+#include "harness/judge/check_result.h"
 
 /// From numbers to verdicts. Fails closed: what cannot be compared is an error, never a pass.
 namespace trammel::harness {
 
-/// recorded: a validation without an expectation, which does not gate.
-enum class Verdict { pass, fail, error, not_run, recorded };
-
-/// The judgement of one entry of a check, or of the check as a whole where it has no single one.
-struct CheckResult {
-  std::string name, title, quantity, unit, statistic, reference, against_variant, against_quantity;
-  std::optional<std::size_t> index;
-  std::optional<double> computed, expected, difference;
-  Role role = Role::verification;
-  std::string measure;  ///< relative, absolute, ratio, bound, order, two-term,
-                        ///< leading-term, status
-  std::optional<Window> window;
-  bool symmetric = false;
-  Expectation expectation = Expectation::none;
-  Verdict verdict = Verdict::error;
-  std::string why, message;
-};
-
-/// What a run's checks are judged with.
-struct CheckContext {
-  const Document& document;
-  const Quantities& quantities;
-  const std::vector<Convergence>& convergence;
-  const References& references;
-  /// Quantities of another variant of the case; null where it has none.
-  std::function<const Quantities*(const std::string& variant)> variant;
-};
-
 /// One judgement an entry; of a long array the worst alone, which says so.
 [[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check,
                                                       const CheckContext& context);
-
-/// The judgements of an "order" check; `evaluate_check` calls it.
-[[nodiscard]] std::vector<CheckResult> evaluate_order_check(const Check& check,
-                                                            const CheckContext& context);
-
-/// A judgement that carries the check's name, role and reasons; an error until it is filled in.
-[[nodiscard]] CheckResult start_check_result(const Check& check);
-[[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
-
-/// A place in the document that holds the name of a reference: the check's own, or one inside it.
-[[nodiscard]] const references::Reference& find_reference(const CheckContext& context,
-                                                          const std::string& pointer);
-
-[[nodiscard]] const char* to_string(Verdict verdict);
-
-/// A gate that does not hold: everything but a pass and what is only recorded.
-[[nodiscard]] bool fails_gate(Verdict verdict);
 
 }  // namespace trammel::harness

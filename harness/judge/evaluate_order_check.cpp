@@ -1,10 +1,12 @@
+#include "harness/judge/evaluate_order_check.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "harness/base/numbers.h"
 #include "harness/base/text.h"
-#include "harness/judge/evaluate_check.h"
 
 namespace trammel::harness {
 namespace {
@@ -52,8 +54,8 @@ class OrderCheckEvaluator {
     } else if (!found_.series.exact) {
       check_result.message = "there is no exact value to measure errors by";
     } else if (meshes_ < criterion_.meshes) {
-      check_result.message = "only " + std::to_string(meshes_) + " meshes qualify, " +
-                             std::to_string(criterion_.meshes) + " are needed";
+      check_result.message =
+          fmt::format("only {} meshes qualify, {} are needed", meshes_, criterion_.meshes);
     } else {
       return false;
     }
@@ -66,7 +68,7 @@ class OrderCheckEvaluator {
     check_result.symmetric = true;
     check_result.verdict = std::abs(value) <= limit ? Verdict::pass : Verdict::fail;
     if (check_result.message.empty())
-      check_result.message = std::to_string(meshes_) + " meshes qualify";
+      check_result.message = fmt::format("{} meshes qualify", meshes_);
   }
 
   [[nodiscard]] CheckResult start(const std::string& suffix, std::string measure,
@@ -88,8 +90,8 @@ class OrderCheckEvaluator {
       if (std::isnan(here)) continue;
       if (std::isnan(farthest) || std::abs(here - target) > std::abs(farthest - target)) {
         farthest = here;
-        check_result.message = std::to_string(meshes_) + " meshes qualify, the worst is " +
-                               shortest(found_.series.parameter[k]);
+        check_result.message = fmt::format("{} meshes qualify, the worst is {}", meshes_,
+                                           shortest(found_.series.parameter[k]));
       }
     }
     return farthest;
@@ -109,8 +111,8 @@ class OrderCheckEvaluator {
     const double farthest = worst(
         theory, [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? found_.order[k] : kNaN; },
         check_result);
-    check_result.message = std::to_string(meshes_) +
-                           " meshes qualify; between two of them at worst " + shortest(farthest);
+    check_result.message = fmt::format("{} meshes qualify; between two of them at worst {}",
+                                       meshes_, shortest(farthest));
     conclude(check_result, *check_result.computed - theory, criterion_.within);
     return check_result;
   }
@@ -126,10 +128,9 @@ class OrderCheckEvaluator {
     }
     const auto& [a, b] = found_.two_term->coefficient;
     check_result.computed = found_.two_term->worst;
-    check_result.message = std::to_string(meshes_) +
-                           " meshes qualify; relative error = " + shortest(a) + " h^" +
-                           shortest(*found_.series.theory) + " + " + shortest(b) + " h^" +
-                           shortest(*found_.series.lower);
+    check_result.message =
+        fmt::format("{} meshes qualify; relative error = {} h^{} + {} h^{}", meshes_, shortest(a),
+                    shortest(*found_.series.theory), shortest(b), shortest(*found_.series.lower));
     conclude(check_result, *check_result.computed, *criterion_.two_term_within);
     return check_result;
   }
@@ -205,10 +206,9 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   }
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
   if (position < wanted) {
-    all.push_back(failed_check_result(check, "the sweep '" + criterion.sweep + "' follows " +
-                                                 std::to_string(position) + " entries of " +
-                                                 check.quantity + ", " + std::to_string(wanted) +
-                                                 " are judged"));
+    all.push_back(failed_check_result(
+        check, fmt::format("the sweep '{}' follows {} entries of {}, {} are judged",
+                           criterion.sweep, position, check.quantity, wanted)));
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });

@@ -7,8 +7,7 @@
 #include "harness/base/diagnostic.h"
 #include "harness/base/numbers.h"
 #include "harness/base/statistic.h"
-#include "harness/input/case.h"
-#include "harness/judge/evaluate_check.h"
+#include "harness/judge/tracked_quantity.h"
 
 namespace trammel::harness {
 namespace {
@@ -16,89 +15,22 @@ namespace {
 /// Entries of an array that are followed when nobody says which.
 constexpr std::size_t kMaxTrackedEntries = 16;
 
-/// A quantity to follow, and where its exact values stand.
-struct TrackedQuantity {
-  std::string quantity, statistic;
-  std::vector<std::size_t> index, reference_index;
-  const references::Reference* reference = nullptr;
-  bool is_error = false;
-  std::optional<double> theory = std::nullopt;
-};
-
-std::vector<std::size_t> indices(const JsonView& place, const char* key) {
-  const auto stated = place.find(key);
-  if (!stated) return {};
-  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
-  return {stated->get<std::size_t>()};
-}
-
-bool is_exact(const references::Reference& reference) {
-  return reference.kind == references::ReferenceKind::exact ||
-         reference.kind == references::ReferenceKind::computed;
-}
-
-std::vector<TrackedQuantity> named_by_sweep(const JsonView& place, const References& references) {
-  std::vector<TrackedQuantity> tracked_quantities;
-  for (const auto& [name, entry] : place.entries()) {
-    TrackedQuantity tracked_quantity{name, entry.get<std::string>("statistic", ""),
-                                     indices(entry, "index"), indices(entry, "reference_index"),
-                                     nullptr};
-    tracked_quantity.is_error = entry.get("is_error", false);
-    if (entry.has("theory_order")) tracked_quantity.theory = entry.number("theory_order");
-    if (entry.has("reference")) tracked_quantity.reference = &references.get(entry["reference"]);
-    tracked_quantities.push_back(std::move(tracked_quantity));
-  }
-  return tracked_quantities;
-}
-
-/// What the checks look at, each once; a check with true values before one without.
-std::vector<TrackedQuantity> named_by_checks(const Document& document,
-                                             const std::vector<Check>& checks,
-                                             const References& references) {
-  std::vector<TrackedQuantity> tracked_quantities;
-  const JsonView places = JsonView(document)["checks"];
-  for (const Check& check : checks) {
-    TrackedQuantity tracked_quantity{check.quantity, check.statistic, check.index,
-                                     check.reference_index, nullptr};
-    if (!check.reference.empty()) {
-      const references::Reference& reference = references.get(places[check.name]["reference"]);
-      if (is_exact(reference)) tracked_quantity.reference = &reference;
-    }
-    const auto same = std::find_if(tracked_quantities.begin(), tracked_quantities.end(),
-                                   [&](const TrackedQuantity& other) {
-                                     return other.quantity == tracked_quantity.quantity &&
-                                            other.statistic == tracked_quantity.statistic;
-                                   });
-    if (same == tracked_quantities.end()) {
-      tracked_quantities.push_back(std::move(tracked_quantity));
-    } else if (same->reference == nullptr && tracked_quantity.reference != nullptr) {
-      *same = std::move(tracked_quantity);
-    }
-  }
-  return tracked_quantities;
-}
-
 void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
-  for (const auto& item : sweep.levels.back().result.quantities) {
+  for (const auto& item : sweep.levels.back().quantities) {
     if (is_diagnostic(item.first)) continue;
     const bool known = std::any_of(tracked_quantities.begin(), tracked_quantities.end(),
                                    [&](const TrackedQuantity& tracked_quantity) {
                                      return tracked_quantity.quantity == item.first;
                                    });
-    if (!known) tracked_quantities.push_back({item.first, "", {}, {}, nullptr});
+    if (!known) tracked_quantities.push_back({item.first, "", {}, {}});
   }
 }
 
-double size_of(const std::string& measures, double parameter) {
-  if (measures == "halvings") return std::exp2(-parameter);
-  return measures == "size" ? parameter : 1 / parameter;
-}
-
 /// The value (and its round-off) that a level has for one entry.
-std::pair<double, double> entry_of(const AnalysisResult& result,
+std::pair<double, double> entry_of(const Quantities& quantities,
                                    const TrackedQuantity& tracked_quantity, std::size_t index) {
-  const auto found = result.quantities.find(tracked_quantity.quantity);
-  if (found == result.quantities.end()) return {kNaN, 0};
+  const auto found = quantities.find(tracked_quantity.quantity);
+  if (found == quantities.end()) return {kNaN, 0};
   const Quantity& quantity = found->second;
   if (!tracked_quantity.statistic.empty()) {
     std::vector<double> chosen = quantity.values;
@@ -120,8 +52,8 @@ std::vector<std::size_t> entries(const Sweep& sweep, const TrackedQuantity& trac
   if (!tracked_quantity.index.empty()) return tracked_quantity.index;
   std::size_t most = 0;
   for (const SweepLevel& level : sweep.levels) {
-    const auto found = level.result.quantities.find(tracked_quantity.quantity);
-    if (found != level.result.quantities.end()) most = std::max(most, found->second.values.size());
+    const auto found = level.quantities.find(tracked_quantity.quantity);
+    if (found != level.quantities.end()) most = std::max(most, found->second.values.size());
   }
   std::vector<std::size_t> all(std::min(most, kMaxTrackedEntries));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -153,9 +85,9 @@ Series track_entry(const Sweep& sweep, const JsonView& place,
   if (place.has("lower_order")) series.lower = place.number("lower_order");
   const std::string measures = place.get<std::string>("refinement_by", "elements");
   for (const SweepLevel& level : sweep.levels) {
-    const auto [value, roundoff] = entry_of(level.result, tracked_quantity, index);
+    const auto [value, roundoff] = entry_of(level.quantities, tracked_quantity, index);
     series.parameter.push_back(level.parameter);
-    series.size.push_back(size_of(measures, level.parameter));
+    series.size.push_back(element_size(measures, level.parameter));
     series.values.push_back(value);
     series.roundoff.push_back(roundoff);
   }
@@ -171,36 +103,11 @@ bool changes(const Series& series) {
          }) != series.values.end();
 }
 
-/// From coarse to fine; a size of zero or less has no meaning.
-void check_levels(const JsonView& place, const std::vector<Level>& levels) {
-  const std::string measures = place.get<std::string>("refinement_by", "elements");
-  double before = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double size = size_of(measures, levels[i].parameter);
-    if (!(size > 0) || !(size < before) || !std::isfinite(size)) {
-      throw place["values"][i].error("expected values from coarse to fine (got " +
-                                     std::to_string(levels[i].parameter) + ")");
-    }
-    before = size;
-  }
-}
-
 }  // namespace
 
-std::vector<Sweep> run_sweeps(const Document& document, const References& references) {
-  std::vector<Sweep> sweeps;
-  const auto places = JsonView(document).find("sweeps");
-  if (!places) return sweeps;
-  for (const auto& [name, place] : places->entries()) {
-    Sweep sweep{name, {}};
-    const std::vector<Level> found = levels(document, name);
-    check_levels(place, found);
-    for (const Level& level : found) {
-      sweep.levels.push_back({level.parameter, analyse(level.document, references, {false})});
-    }
-    sweeps.push_back(std::move(sweep));
-  }
-  return sweeps;
+double element_size(const std::string& measures, double parameter) {
+  if (measures == "halvings") return std::exp2(-parameter);
+  return measures == "size" ? parameter : 1 / parameter;
 }
 
 std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
@@ -208,9 +115,8 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
                                      TrackedQuantities tracked) {
   const JsonView place = JsonView(document)["sweeps"][sweep.name];
   std::vector<TrackedQuantity> tracked_quantities =
-      place.has("quantities")               ? named_by_sweep(place["quantities"], references)
-      : document.value().contains("checks") ? named_by_checks(document, checks, references)
-                                            : std::vector<TrackedQuantity>{};
+      place.has("quantities") ? named_by_sweep(place["quantities"], references)
+                              : named_by_checks(document, checks, references);
   if (tracked == TrackedQuantities::all) add_everything_else(sweep, tracked_quantities);
   std::vector<Convergence> found;
   for (const TrackedQuantity& tracked_quantity : tracked_quantities) {

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "harness/analysis/analysis.h"
+#include "harness/base/quantity.h"
 #include "harness/input/check.h"
+#include "harness/input/reference_library.h"
 #include "harness/judge/convergence.h"
 
 /// Refinement sweeps: the same computation level by level.
@@ -12,16 +13,17 @@ namespace trammel::harness {
 
 struct SweepLevel {
   double parameter = 0;
-  AnalysisResult result;
+  Quantities quantities;  ///< empty where there is no solution
 };
 
 struct Sweep {
   std::string name;
-  std::vector<SweepLevel> levels;
+  std::vector<SweepLevel> levels;  ///< coarse to fine
 };
 
-/// Runs all sweeps of a case or variant. @throws InputError
-[[nodiscard]] std::vector<Sweep> run_sweeps(const Document& document, const References& references);
+/// Element size h of a swept number, to a common factor.
+/// @param measures  what the number is: "elements" a length, "halvings" or "size"
+[[nodiscard]] double element_size(const std::string& measures, double parameter);
 
 /// Which quantities of a sweep are followed.
 enum class TrackedQuantities {

@@ -1,19 +1,16 @@
 #include "harness/judge/validation_verdict.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "harness/base/text.h"
 
 namespace trammel::harness {
 namespace {
 
 constexpr double kRepeated = 1e-6;
-
-std::string digits(double value, int significant = 3) {
-  char text[64];
-  (void)std::snprintf(text, sizeof text, "%.*g", significant, value);
-  return text;
-}
 
 Validation compare(const Comparison& c) {
   Validation v;
@@ -64,20 +61,21 @@ std::string describe_validation(const Validation& v, const std::string& unit) {
     return "undecided: the value or one of its uncertainties could not be computed";
   }
   if (v.verdict == ValidationVerdict::within_validation_uncertainty) {
-    return "the difference of " + digits(v.difference) + " " + unit + " is within the noise of ±" +
-           digits(noise) + " " + unit;
+    return fmt::format("the difference of {} {} is within the noise of ±{} {}",
+                       rounded(v.difference, 3), unit, rounded(noise, 3), unit);
   }
   const double a = std::min(std::abs(v.low), std::abs(v.high));
   const double b = std::max(std::abs(v.low), std::abs(v.high));
-  return "the model is off by between " + digits(a) + " and " + digits(b) + " " + unit +
-         (v.difference > 0 ? ", too high" : ", too low");
+  return fmt::format("the model is off by between {} and {} {}, too {}", rounded(a, 3),
+                     rounded(b, 3), unit, v.difference > 0 ? "high" : "low");
 }
 
 std::string contradiction(const Spread& spread, std::size_t first, std::size_t end,
                           const std::string& unit) {
-  return "the reference contradicts itself: values " + std::to_string(first + 1) + " to " +
-         std::to_string(end) + " are one repeated value by symmetry, and it has " +
-         digits(spread.low, 6) + " to " + digits(spread.high, 6) + " " + unit;
+  return fmt::format(
+      "the reference contradicts itself: values {} to {} are one repeated value by "
+      "symmetry, and it has {} to {} {}",
+      first + 1, end, rounded(spread.low, 6), rounded(spread.high, 6), unit);
 }
 
 }  // namespace

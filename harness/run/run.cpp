@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "harness/base/stopwatch.h"
+#include "harness/studies/run_sweeps.h"
 
 namespace trammel::harness {
 namespace {

@@ -8,7 +8,7 @@
 #include "harness/judge/evaluate_check.h"
 #include "harness/judge/sweep.h"
 #include "harness/judge/uncertainty_summary.h"
-#include "harness/judge/validation_uncertainty.h"
+#include "harness/studies/validation_uncertainty.h"
 
 /// Runs cases: every (case, variant) is one independent computation.
 namespace trammel::harness {

@@ -1,6 +1,7 @@
 #include "harness/studies/cost.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -227,21 +228,8 @@ void derive_results(MeasuredStudy& measured) {
 }
 
 const char* to_string(MeasurementStatus status) {
-  switch (status) {
-    case MeasurementStatus::measured:
-      return "measured";
-    case MeasurementStatus::excessive_spread:
-      return "wide";
-    case MeasurementStatus::reference_solution:
-      return "truth";
-    case MeasurementStatus::diverged:
-      return "diverged";
-    case MeasurementStatus::timed_out:
-      return "timed-out";
-    case MeasurementStatus::failed:
-      return "failed";
-  }
-  return "";
+  constexpr std::array names = {"measured", "wide", "truth", "diverged", "timed-out", "failed"};
+  return names[static_cast<std::size_t>(status)];
 }
 
 }  // namespace trammel::harness

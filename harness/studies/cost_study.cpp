@@ -1,6 +1,7 @@
 #include "harness/studies/cost_study.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "harness/base/data_root.h"
@@ -9,6 +10,7 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
+#include "harness/judge/tracked_quantity.h"
 
 namespace trammel::harness {
 namespace {
@@ -295,13 +297,6 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
 
 }  // namespace
 
-std::vector<std::size_t> indices(const JsonView& place, const char* key) {
-  const auto stated = place.find(key);
-  if (!stated) return {};
-  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
-  return {stated->get<std::size_t>()};
-}
-
 Observations observe(const Quantities& quantities, const std::vector<ObservedQuantity>& observed) {
   Observations all;
   for (const ObservedQuantity& entry : observed) {
@@ -372,15 +367,8 @@ std::vector<fs::path> cost_study_files() {
 }
 
 const char* to_string(Norm norm) {
-  switch (norm) {
-    case Norm::max:
-      return "max";
-    case Norm::rms:
-      return "rms";
-    case Norm::mean:
-      return "mean";
-  }
-  return "";
+  constexpr std::array names = {"max", "rms", "mean"};
+  return names[static_cast<std::size_t>(norm)];
 }
 
 }  // namespace trammel::harness

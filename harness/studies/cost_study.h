@@ -29,12 +29,8 @@ struct ObservedQuantity {
 /// The values of what is observed, one list a quantity.
 using Observations = std::vector<std::vector<double>>;
 
-/// The entries that a place names under a key, one or a list; empty where it has none.
-[[nodiscard]] std::vector<std::size_t> indices(const JsonView& place, const char* key);
-
 /// @throws std::runtime_error  naming a quantity that is not there or has other than as many
-/// entries
-///                             as its index or exact values ask for.
+///                             entries as its index or exact values ask for.
 [[nodiscard]] Observations observe(const Quantities& quantities,
                                    const std::vector<ObservedQuantity>& observed);
 
@@ -75,14 +71,6 @@ enum class SweepExtent { full, quick };
 ///                     setting breaks the schema of cases.
 [[nodiscard]] CostStudy load_cost_study(const std::filesystem::path& file, SweepExtent extent,
                                         const References& references);
-
-/// The refinements of a case as a study: a curve for each of the sweeps named (all when none is),
-/// measured of what they name or else the checks do, against references of kind exact or computed,
-/// or else against the finest level of the first one. The coarsest level of all is the baseline.
-/// @throws InputError  where the case has no such sweep, or nothing can be measured.
-[[nodiscard]] CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
-                                             const std::vector<std::string>& sweeps,
-                                             const References& references);
 
 /// Whether a file holds a study, not a case.
 [[nodiscard]] bool is_cost_study(const std::filesystem::path& file);

@@ -1,76 +1,43 @@
+#include "harness/studies/cost_study_of_sweeps.h"
+
 #include <algorithm>
 
 #include "harness/base/text.h"
-#include "harness/input/check.h"
-#include "harness/studies/cost_study.h"
+#include "harness/judge/tracked_quantity.h"
 
 namespace trammel::harness {
 namespace {
 
-bool is_exact(const references::Reference& reference) {
-  return reference.kind == references::ReferenceKind::exact ||
-         reference.kind == references::ReferenceKind::computed;
-}
-
-/// Exact values of an observed quantity: as many as its entries.
-std::vector<double> exact_values(const references::Reference& reference,
-                                 const ObservedQuantity& observed,
-                                 const std::vector<std::size_t>& chosen) {
-  if (!is_exact(reference) || reference.unit != unit_of(observed.quantity)) return {};
-  if (chosen.empty()) return reference.values;
+/// Exact values of a quantity: as many as its entries.
+std::vector<double> exact_values(const TrackedQuantity& tracked) {
+  if (tracked.reference == nullptr || !is_exact(*tracked.reference)) return {};
+  const references::Reference& reference = *tracked.reference;
+  if (reference.unit != unit_of(tracked.quantity)) return {};
+  if (tracked.reference_index.empty()) return reference.values;
   std::vector<double> values;
-  for (const std::size_t i : chosen) {
+  for (const std::size_t i : tracked.reference_index) {
     if (i < reference.values.size()) values.push_back(reference.values[i]);
   }
   return values;
 }
 
-std::vector<ObservedQuantity> named_by_sweep(const JsonView& quantities,
-                                             const References& references) {
-  std::vector<ObservedQuantity> observed;
-  for (const auto& [name, place] : quantities.entries()) {
-    ObservedQuantity entry;
-    entry.quantity = name;
-    entry.statistic = place.get<std::string>("statistic", "");
-    entry.index = indices(place, "index");
-    entry.is_error = place.get("is_error", false);
-    if (place.has("reference")) {
-      entry.exact = exact_values(references.get(place["reference"]), entry,
-                                 indices(place, "reference_index"));
-    }
-    observed.push_back(std::move(entry));
-  }
-  return observed;
-}
-
-/// What the checks look at, each once; counts and what is only bounded left out. A check with true
-/// values counts before one without.
-std::vector<ObservedQuantity> named_by_checks(const Document& document, const std::string& variant,
-                                              const std::vector<std::string>& variants,
-                                              const References& references) {
-  std::vector<ObservedQuantity> observed;
-  if (!document.value().contains("checks")) return observed;
-  const JsonView places = JsonView(document)["checks"];
+/// What the checks compare along the refinement: counts and what is only bounded left out.
+std::vector<Check> comparisons(const Document& document, const std::string& variant,
+                               const std::vector<std::string>& variants) {
+  std::vector<Check> checks;
+  if (!document.value().contains("checks")) return checks;
   for (const Check& check : read_checks(document, variant, variants)) {
     const bool compared = !check.reference.empty() || !check.against_variant.empty();
-    if (is_count(check.quantity) || !(compared || check.order)) continue;
-    ObservedQuantity entry;
-    entry.quantity = check.quantity;
-    entry.statistic = check.statistic;
-    entry.index = check.index;
-    if (!check.reference.empty()) {
-      entry.exact = exact_values(references.get(places[check.name]["reference"]), entry,
-                                 check.reference_index);
-    }
-    const auto same =
-        std::find_if(observed.begin(), observed.end(), [&](const ObservedQuantity& other) {
-          return other.quantity == entry.quantity && other.statistic == entry.statistic;
-        });
-    if (same == observed.end()) {
-      observed.push_back(std::move(entry));
-    } else if (same->exact.empty() && !entry.exact.empty()) {
-      *same = std::move(entry);
-    }
+    if (!is_count(check.quantity) && (compared || check.order)) checks.push_back(check);
+  }
+  return checks;
+}
+
+std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuantity>& named) {
+  std::vector<ObservedQuantity> observed;
+  for (const TrackedQuantity& tracked : named) {
+    observed.push_back({tracked.quantity, "", tracked.statistic, tracked.index, tracked.is_error,
+                        exact_values(tracked)});
   }
   return observed;
 }
@@ -89,6 +56,30 @@ std::string quantities_of(const std::vector<ObservedQuantity>& observed) {
   return join(names, "and");
 }
 
+std::vector<std::string> sweeps_wanted(const JsonView& sweeps,
+                                       const std::vector<std::string>& asked) {
+  std::vector<std::string> there;
+  for (const auto& entry : sweeps.entries()) there.push_back(entry.first);
+  for (const std::string& name : asked) {
+    if (std::find(there.begin(), there.end(), name) != there.end()) continue;
+    throw sweeps.error("expected the name of a sweep (got '" + printable(name) + "')" +
+                       did_you_mean(name, there));
+  }
+  return asked.empty() ? there : asked;
+}
+
+std::vector<Setting> settings_of(const Document& document, const std::string& sweep,
+                                 const std::vector<ObservedQuantity>& observed) {
+  const JsonView place = JsonView(document)["sweeps"][sweep];
+  std::vector<Setting> settings;
+  for (Level& level : levels(document, sweep)) {
+    settings.push_back({sweep, place.get<std::string>("title", sweep),
+                        sweep + " " + shortest(level.parameter), level.parameter,
+                        std::move(level.document), observed});
+  }
+  return settings;
+}
+
 }  // namespace
 
 CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
@@ -97,47 +88,30 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   const Document document = patched(given, variant);
   const JsonView root(document);
   if (!root.has("sweeps")) throw root.error("expected 'sweeps', which say what to refine");
-  std::vector<std::string> there;
-  for (const auto& entry : root["sweeps"].entries()) there.push_back(entry.first);
-  for (const std::string& name : sweeps) {
-    if (std::find(there.begin(), there.end(), name) != there.end()) continue;
-    throw root["sweeps"].error("expected the name of a sweep (got '" + printable(name) + "')" +
-                               did_you_mean(name, there));
-  }
+  const std::vector<std::string> wanted = sweeps_wanted(root["sweeps"], sweeps);
   CostStudy study;
   study.id = given.id() + (variant == kBaseVariant ? "" : "-" + variant);
   study.family = given.document.value().value("family", given.id());
   study.title = given.title();
   if (variant != kBaseVariant) study.title += ": " + given.variant_title(variant);
-  const std::vector<std::string>& wanted = sweeps.empty() ? there : sweeps;
   const JsonView first = root["sweeps"][wanted.front()];
-  std::vector<ObservedQuantity> observed =
-      first.has("quantities") ? named_by_sweep(first["quantities"], references)
-                              : named_by_checks(document, variant, given.variants(), references);
+  std::vector<ObservedQuantity> observed = observed_quantities(
+      first.has("quantities")
+          ? named_by_sweep(first["quantities"], references)
+          : named_by_checks(document, comparisons(document, variant, given.variants()),
+                            references));
   if (observed.empty()) {
     throw first.error("expected 'quantities', or checks, which say what to measure");
   }
   const bool exact = keep_exact(observed);
+  study.reference_description = "the exact values of " + quantities_of(observed);
   for (const std::string& name : wanted) {
-    const JsonView place = root["sweeps"][name];
-    for (Level& level : levels(document, name)) {
-      Setting setting;
-      setting.curve = name;
-      setting.curve_title = place.get<std::string>("title", name);
-      setting.title = name + " " + shortest(level.parameter);
-      setting.value = level.parameter;
-      setting.document = std::move(level.document);
-      setting.observed = observed;
+    for (Setting& setting : settings_of(document, name, observed)) {
       study.settings.push_back(std::move(setting));
     }
-  }
-  study.reference_description = "the exact values of " + quantities_of(observed);
-  if (!exact) {
-    const auto finest =
-        std::find_if(study.settings.rbegin(), study.settings.rend(),
-                     [&](const Setting& setting) { return setting.curve == wanted.front(); });
-    study.reference_solution = *finest;
-    study.reference_description = "the finest level, " + finest->title;
+    if (exact || study.reference_solution) continue;
+    study.reference_solution = study.settings.back();
+    study.reference_description = "the finest level, " + study.settings.back().title;
   }
   study.scale_description = "relative to each true value";
   return study;

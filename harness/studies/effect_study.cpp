@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <random>
 
+#include "harness/analysis/registry.h"
 #include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
+#include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
-#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -50,19 +51,6 @@ std::map<std::string, double> scales_of(const Quantities& full, double size) {
   floor("force", "moment", 1 / size);
   floor("moment", "force", size);
   return scale;
-}
-
-double change(const std::vector<double>& full, const std::vector<double>& other, double scale,
-              bool each) {
-  if (full.size() != other.size()) return kInfinite;
-  double largest_change = 0;
-  for (std::size_t i = 0; i < full.size(); ++i) {
-    const double by = each ? std::abs(full[i]) : scale;
-    const double difference = std::abs(other[i] - full[i]);
-    if (difference == 0) continue;
-    largest_change = solver::nan_max(largest_change, by > 0 ? difference / by : kInfinite);
-  }
-  return std::isnan(largest_change) ? kInfinite : largest_change;
 }
 
 double size_of(const CaseModel& case_model) {
@@ -144,24 +132,17 @@ class Study {
   void measure_time() {
     std::vector<EffectRun*> runs = {&study_.full, &study_.chosen};
     for (Ablation& ablation : study_.singles) runs.push_back(&ablation.run);
-    std::vector<std::vector<double>> times(runs.size());
-    std::vector<std::size_t> order(runs.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::mt19937_64 engine(1);
-    for (int repeat = 0; repeat < options_.repeats; ++repeat) {
-      std::shuffle(order.begin(), order.end(), engine);
-      for (const std::size_t i : order) {
-        const Document document = with_effects(document_, runs[i]->effects);
-        const Stopwatch watch;
+    std::vector<std::function<void()>> works;
+    for (const EffectRun* run : runs) {
+      works.emplace_back([this, document = with_effects(document_, run->effects)] {
         (void)analyse(document, references_, {false});
-        times[i].push_back(watch.cpu_s());
-      }
+      });
     }
+    const std::vector<Timing> timings =
+        time_interleaved(works, {.repeats = options_.repeats}, nullptr);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      std::sort(times[i].begin(), times[i].end());
-      const std::size_t n = times[i].size();
-      runs[i]->cpu_s = times[i][n / 2];
-      runs[i]->cpu_spread = (times[i][3 * n / 4] - times[i][n / 4]) / 2 / times[i][n / 2];
+      runs[i]->cpu_s = timings[i].median_s;
+      runs[i]->cpu_spread = timings[i].spread() / 2;
     }
   }
 
@@ -187,8 +168,11 @@ Changes changes_between(const Quantities& full, const Quantities& other, double 
       if (kind == "frequency") largest_change = kInfinite;
       continue;
     }
-    largest_change = std::max(largest_change, change(quantity.values, found->second.values,
-                                                     scale.at(kind), kind == "frequency"));
+    const auto by = [&, scale = scale.at(kind)](std::size_t i) {
+      return kind == "frequency" ? std::abs(quantity.values[i]) : scale;
+    };
+    largest_change = std::max(largest_change,
+                              largest_difference(quantity.values, found->second.values, by).value);
   }
   return changes;
 }
@@ -211,8 +195,8 @@ bool EffectStudy::is_minimal() const {
 
 EffectStudy study_effects(const Document& document, const EffectStudyOptions& options) {
   if (!knows_effects(document)) {
-    throw JsonView(document)["analysis"].error(
-        std::string("expected an analysis that knows effects: ") + kAnalysesWithEffects);
+    throw JsonView(document)["analysis"].error("expected an analysis that knows effects: " +
+                                               analyses_with_effects());
   }
   return Study(document, options).run();
 }

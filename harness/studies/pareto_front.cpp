@@ -11,7 +11,7 @@ namespace trammel::harness {
 namespace {
 
 /// "1 %", "1e-6".
-std::string percent(double error) {
+std::string error_text(double error) {
   return error < 1e-4 ? rounded(error, 2) : rounded(100 * error, 2) + " %";
 }
 
@@ -101,7 +101,7 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   const auto first = cheapest(points, 0.01);
   if (!first) {
     return "No setting comes within 1 %: the best, " + title(front.back()) + ", is off by " +
-           percent(front.back().error) + ".";
+           error_text(front.back().error) + ".";
   }
   std::string text = "Within 1 %, " + title(*first) + " is cheapest";
   if (std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance)) {
@@ -119,10 +119,10 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   }
   const CostPoint& best = front.back();
   if (best.setting == first->setting) {
-    return text + "; nothing more accurate is to be had than its " + percent(best.error) + ".";
+    return text + "; nothing more accurate is to be had than its " + error_text(best.error) + ".";
   }
   return text + "; no setting reaches 1e-6, the best is " + title(best) + ", off by " +
-         percent(best.error) + ", " + times(best.time / first->time) + " times as long.";
+         error_text(best.error) + ", " + times(best.time / first->time) + " times as long.";
 }
 
 }  // namespace trammel::harness

@@ -33,7 +33,7 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
                                VectorXd& q, VectorXd& v, Counters& counters) {
   constexpr std::array<double, 5> kSlope = {-25.0 / 12, 4, -3, 4.0 / 3, -0.25};
   const double gap = std::min(options.step, options.end - options.start) / 4;
-  SparseLdlt factor(matrices.K());
+  SparseLdlt factor(SparseLdlt::Triangle::mean);
   VectorXd f(q.size()), q_then(q.size());
   v.setZero();
   for (int i = 4; i >= 0; --i) {
@@ -58,7 +58,7 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
                         Counters& counters) {
   const double limit = stability_limit(options.scheme);
   if (!std::isfinite(limit) || matrices.M().rows() == 0) return {};
-  SparseLdlt factor(matrices.M());
+  SparseLdlt factor(SparseLdlt::Triangle::mean);
   ++counters.factorizations;
   if (!factor.factorize(matrices.M()) || factor.pivot_ratio() < kSingularMass) {
     return {Status::singular,

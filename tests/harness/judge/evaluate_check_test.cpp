@@ -10,7 +10,6 @@
 
 using namespace trammel;
 using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;

@@ -1,4 +1,4 @@
-#include "harness/studies/cost_study.h"
+#include "harness/studies/cost_study_of_sweeps.h"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "harness/input/reference_library.h"
+#include "harness/statics_modes/step_result.h"
+
+namespace trammel::harness {
+
+/// relative_difference and difference_percent of references from each other, by name.
+[[nodiscard]] StepResult analyse_comparison(const Document& document, const References& references,
+                                            bool draw, Recorder& record);
+
+}  // namespace trammel::harness

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "harness/input/document.h"
+#include "harness/scene/case_model.h"
+#include "solver/effects/effect_estimates.h"
+
+/// What the analyses that know effects can do with, how they decide, and what they say of it.
+namespace trammel::harness {
+
+/// A word of the analysis itself that says whether there is an effect.
+struct EffectKey {
+  solver::Effect effect;
+  std::vector<const char*> place;  ///< below the analysis
+  bool otherwise;                  ///< where nothing is said
+};
+
+/// `analysis` is the place below "analysis" that holds the analysis's own words.
+struct EffectRules {
+  std::vector<EffectKey> (*keys)(const JsonView& analysis);
+  solver::EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
+  solver::EffectEstimates (*estimate)(const JsonView& analysis, const CaseModel& case_model,
+                                      const solver::EffectScope& scope);
+  std::size_t column;  ///< in the table of words
+
+  /// Why a scene does not have an effect.
+  [[nodiscard]] const char* describe_missing(solver::Effect effect) const;
+  /// What its dimensionless number is.
+  [[nodiscard]] const char* describe_number(solver::Effect effect) const;
+  /// Why it stays, whatever it is worth.
+  [[nodiscard]] const char* describe_required(solver::Effect effect) const;
+};
+
+[[nodiscard]] const EffectRules& statics_effects();
+[[nodiscard]] const EffectRules& modes_effects();
+[[nodiscard]] const EffectRules& elastodynamics_effects();
+
+/// The effects that an effect carries: without it they are nothing.
+[[nodiscard]] solver::Effects& dependents_of(solver::EffectScope& scope, solver::Effect effect);
+
+}  // namespace trammel::harness

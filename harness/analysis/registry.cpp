@@ -1,0 +1,83 @@
+#include "harness/analysis/registry.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "harness/analysis/analyse_comparison.h"
+#include "harness/analysis/analyse_options.h"
+#include "harness/analysis/analyse_study.h"
+#include "harness/base/text.h"
+#include "harness/motion/analyse_elastodynamics.h"
+#include "harness/motion/analyse_forward_dynamics.h"
+#include "harness/motion/analyse_grnn.h"
+#include "harness/motion/analyse_harmonic.h"
+#include "harness/motion/analyse_inverse_dynamics.h"
+#include "harness/motion/analyse_kinematics.h"
+#include "harness/motion/analyse_large_motion.h"
+#include "harness/motion/analyse_transient.h"
+#include "harness/statics_modes/analyse_buckling.h"
+#include "harness/statics_modes/analyse_large_statics.h"
+#include "harness/statics_modes/analyse_manufactured.h"
+#include "harness/statics_modes/analyse_modes.h"
+#include "harness/statics_modes/analyse_properties.h"
+#include "harness/statics_modes/analyse_sensitivity.h"
+#include "harness/statics_modes/analyse_sensitivity_map.h"
+#include "harness/statics_modes/analyse_statics.h"
+
+namespace trammel::harness {
+
+bool AnalysisKind::has_scene(const Document& document) const {
+  return of_case == nullptr || (of_scene.index() != 0 && document.value().contains("model"));
+}
+
+const std::vector<AnalysisKind>& analysis_kinds() {
+  static const std::vector<AnalysisKind> kinds = {
+      {"properties", analyse_properties},
+      {"kinematics", analyse_kinematics, true},
+      {"statics", analyse_statics, false, &statics_effects()},
+      {"buckling", analyse_buckling},
+      {"modes", analyse_modes, false, &modes_effects()},
+      {"large-statics", analyse_large_statics},
+      {"large-motion", analyse_large_motion},
+      {"harmonic", analyse_harmonic},
+      {"transient", analyse_transient},
+      {"inverse-dynamics", analyse_inverse_dynamics, true},
+      {"forward-dynamics", analyse_forward_dynamics, true},
+      {"elastodynamics", analyse_elastodynamics, true, &elastodynamics_effects()},
+      {"sensitivity", analyse_sensitivity, true},
+      {"sensitivity-map", analyse_sensitivity_map, true},
+      {"grnn", analyse_grnn, true, nullptr, analyse_grnn_samples, "none: samples of its own"},
+      {"manufactured",
+       {},
+       false,
+       nullptr,
+       analyse_manufactured,
+       "made by the analysis: a mesh, and the loads of a closed form"},
+      {"comparison",
+       {},
+       false,
+       nullptr,
+       analyse_comparison,
+       "no model: references against each other"},
+      {"study", {}, false, nullptr, analyse_study, "made by the analysis"},
+      {"options", {}, false, nullptr, analyse_options, "those of other cases"}};
+  return kinds;
+}
+
+const AnalysisKind& find_analysis(const std::string& name) {
+  const auto& kinds = analysis_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                  [&](const AnalysisKind& kind) { return kind.name == name; });
+  if (found == kinds.end()) throw std::out_of_range("no analysis '" + name + "'");
+  return *found;
+}
+
+std::string analyses_with_effects() {
+  std::vector<std::string> names;
+  for (const AnalysisKind& kind : analysis_kinds()) {
+    if (kind.effects != nullptr) names.emplace_back(kind.name);
+  }
+  return join(names, "or");
+}
+
+}  // namespace trammel::harness

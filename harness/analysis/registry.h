@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "harness/analysis/effect_rules.h"
+#include "harness/input/reference_library.h"
+#include "harness/statics_modes/step_result.h"
+
+/// All analyses in one table: what each is called, computes and knows.
+namespace trammel::harness {
+
+/// At one step of the scene's path.
+using StepAnalysis = StepResult (*)(const JsonView& analysis, const CaseModel& case_model,
+                                    std::size_t step, bool draw, Recorder& record);
+/// Along the whole of it.
+using PathAnalysis = StepResult (*)(const JsonView& analysis, const CaseModel& case_model,
+                                    bool draw, Recorder& record);
+/// Of a case without a scene of its own.
+using CaseAnalysis = StepResult (*)(const Document& document, const References& references,
+                                    bool draw, Recorder& record);
+
+struct AnalysisKind {
+  const char* name;  ///< the key below "analysis"
+  std::variant<std::monostate, StepAnalysis, PathAnalysis> of_scene;
+  bool needs_manipulator = false;
+  const EffectRules* effects = nullptr;  ///< null: knows none
+  /// In the place of `of_scene`, where that is empty or the case has no "model".
+  CaseAnalysis of_case = nullptr;
+  const char* without_model = "";  ///< what stands for the model then, in words
+
+  [[nodiscard]] bool has_scene(const Document& document) const;
+};
+
+[[nodiscard]] const std::vector<AnalysisKind>& analysis_kinds();
+
+/// @throws std::out_of_range  for a name that the schema does not have.
+[[nodiscard]] const AnalysisKind& find_analysis(const std::string& name);
+
+/// "statics, modes or elastodynamics"
+[[nodiscard]] std::string analyses_with_effects();
+
+}  // namespace trammel::harness

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace trammel::harness {
+
+/// What a case's refinements show. @returns the exit status
+int converge_command(const std::string& name, const std::string& variant, unsigned jobs);
+
+}  // namespace trammel::harness

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "harness/base/json.h"
+#include "harness/cli/command_line.h"
+#include "harness/input/reference_library.h"
+
+namespace trammel::harness {
+
+struct CostCommand {
+  std::vector<std::string> what;    ///< families, studies, cases or files; empty: every study
+  std::vector<std::string> sweeps;  ///< of the cases; empty: all
+  std::string variant;              ///< of the cases
+  bool quick = false;
+  int repeats = 7;
+  std::uint64_t seed = 1;
+  std::string out;
+};
+
+/// What accuracy costs in time. @returns the exit status
+int cost_command(const CostCommand& command, const Renderers& renderers);
+
+/// The quick sweep of every study of the catalogue, as results.json has it.
+/// @param error_messages  gets a line for each study that could not be measured
+[[nodiscard]] Json quick_cost(const References& references,
+                              std::vector<std::string>& error_messages);
+
+}  // namespace trammel::harness

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trammel::harness {
+
+struct EffectsCommand {
+  std::string name, variant;        ///< of a case; or
+  std::uint64_t seed = 1;           ///< of random scenes:
+  std::uint64_t random = 0;         ///< so many of them,
+  std::uint64_t scene = 0;          ///< or this one
+  bool motion = false;              ///< of those in motion
+  std::vector<std::string> labels;  ///< or every case of the catalogue with one of these
+  double tolerance = 0.01;          ///< where the case does not give one
+  int repeats = 7;                  ///< of each measurement of time
+};
+
+/// What each effect is worth in one scene. @returns the exit status
+int effects_command(const EffectsCommand& command);
+/// Hit rate of automatic effects: 1 below 99 % within tolerance or 90 % minimal.
+int random_effects_command(const EffectsCommand& command);
+/// A table of what the labelled cases call for: 1 where one is beyond its tolerance.
+int labelled_effects_command(const EffectsCommand& command);
+
+}  // namespace trammel::harness

@@ -1,0 +1,75 @@
+#include "harness/judge/check_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trammel::harness {
+
+CheckResult start_check_result(const Check& check) {
+  CheckResult entry;
+  entry.name = check.name;
+  entry.title = check.title;
+  entry.quantity = check.quantity;
+  entry.unit = unit_of(check.quantity);
+  entry.statistic = check.statistic;
+  entry.reference = check.reference;
+  entry.against_variant = check.against_variant;
+  entry.against_quantity = check.against_quantity;
+  entry.role = check.role;
+  entry.measure = to_string(check.measure);
+  entry.symmetric = check.symmetric;
+  entry.expectation = check.expectation;
+  entry.why = check.why;
+  return entry;
+}
+
+CheckResult failed_check_result(const Check& check, const std::string& message) {
+  CheckResult entry = start_check_result(check);
+  entry.message = message;
+  return entry;
+}
+
+const references::Reference& find_reference(const CheckContext& context,
+                                            const std::string& pointer) {
+  std::vector<std::string> tokens;
+  for (JsonPointer left(pointer); !left.empty(); left.pop_back()) tokens.push_back(left.back());
+  JsonView place(context.document);
+  std::for_each(tokens.rbegin(), tokens.rend(),
+                [&](const std::string& token) { place = place[token]; });
+  return context.references.get(place);
+}
+
+const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return "pass";
+    case Verdict::fail:
+      return "fail";
+    case Verdict::error:
+      return "error";
+    case Verdict::not_run:
+      return "not-run";
+    case Verdict::recorded:
+      return "recorded";
+  }
+  return "";
+}
+
+bool fails_gate(Verdict verdict) {
+  return verdict != Verdict::pass && verdict != Verdict::recorded;
+}
+
+double severity(const CheckResult& entry) {
+  if (entry.verdict == Verdict::error) return std::numeric_limits<double>::infinity();
+  const double value = entry.difference.value_or(entry.computed.value_or(0));
+  if (!entry.window) return std::abs(value);
+  const Window& window = *entry.window;
+  if (std::isinf(window.low) || std::isinf(window.high)) {
+    return std::isinf(window.low) ? value - window.high : window.low - value;
+  }
+  const double half = (window.high - window.low) / 2;
+  return (std::abs(value - (window.low + half)) - half) / (half > 0 ? half : 1);
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,196 @@
+#include "harness/motion/analyse_elastodynamics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "harness/readers/time_reader.h"
+#include "harness/scene/rigid_case_model.h"
+#include "harness/statics_modes/analyse_statics.h"
+#include "solver/manipulator/elastodynamics.h"
+#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/modes/modes.h"
+
+namespace trammel::harness {
+namespace {
+
+/// Deflection of P from the nominal path, and along and across it where the path has a direction
+/// all the time.
+void record_deflection(const solver::ElastodynamicsSolution& solution, Recorder& record) {
+  const bool moves = solution.tangential_error.allFinite();
+  for (solver::Index i = 0; i < solution.deflection.rows(); ++i) {
+    record.add("deflection_m", "P", solution.deflection.row(i).norm());
+    record.add("platform_rotation_rad", "", solution.platform_rotation[i]);
+    if (!moves) continue;
+    record.add("tangential_error_m", "P", solution.tangential_error[i]);
+    record.add("normal_error_m", "P", solution.normal_error[i]);
+  }
+}
+
+void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& record) {
+  for (solver::Index joint = 0; joint < 3; ++joint) {
+    const std::string name = "A" + std::to_string(joint + 1);
+    for (solver::Index i = 0; i < solution.torque.rows(); ++i) {
+      record.add("torque_N_m", name, solution.torque(i, joint));
+      record.add("rigid_torque_N_m", name, solution.rigid_torque(i, joint));
+      record.add("elastic_torque_N_m", name,
+                 solution.torque(i, joint) - solution.rigid_torque(i, joint));
+    }
+  }
+}
+
+/// Energies, and how far their sum moves from where it started, over the largest of them.
+void record_energy(const solver::ElastodynamicsSolution& solution, Recorder& record) {
+  double size = 0;
+  for (const solver::MotionEnergy& energy : solution.energy) {
+    record.add("kinetic_energy_J", "", energy.kinetic);
+    record.add("strain_energy_J", "", energy.strain);
+    record.add("load_work_J", "", energy.work);
+    record.add("dissipated_energy_J", "", energy.dissipated);
+    size = std::max({size, energy.kinetic, energy.strain, std::abs(energy.work)});
+  }
+  if (!(size > 0)) return;
+  for (const solver::MotionEnergy& energy : solution.energy) {
+    record.add("energy_drift", "", (energy.total() - solution.energy.front().total()) / size);
+  }
+}
+
+/// How far P is from where it would be without elastic inertia and damping, over the largest
+/// deflection that it would have there.
+void record_excess(const solver::ElastodynamicsSolution& solution, Recorder& record) {
+  const Eigen::MatrixX2d& slow = solution.quasi_static_deflection;
+  if (!slow.allFinite()) return;  // a mechanism has no quasi-static position
+  const double size = slow.rowwise().norm().maxCoeff();
+  if (!(size > 0)) return;
+  for (solver::Index i = 0; i < slow.rows(); ++i) {
+    record.add("dynamic_to_quasi_static_difference", "P",
+               (solution.deflection.row(i) - slow.row(i)).norm() / size);
+  }
+}
+
+/// Largest distance of P between two solutions at each sample, over the largest deflection.
+void record_distance(const char* name, const solver::ElastodynamicsSolution& a,
+                     const solver::ElastodynamicsSolution& b, Recorder& record) {
+  const double size = a.deflection.rowwise().norm().maxCoeff();
+  if (a.deflection.rows() != b.deflection.rows() || !(size > 0)) return;
+  for (solver::Index i = 0; i < a.deflection.rows(); ++i) {
+    record.add(name, "P", (a.deflection.row(i) - b.deflection.row(i)).norm() / size);
+  }
+}
+
+/// What half the step changes, and where the platform stands still the error itself, by modal
+/// superposition.
+void record_step_errors(solver::ElastodynamicsOptions options,
+                        const solver::ElastodynamicsSolution& solution, Recorder& record) {
+  if (!options.elastic_inertia || options.modal_superposition) return;
+  if (solver::stands_still(options.path) && !options.gyroscopic) {
+    options.modal_superposition = true;
+    record_distance("integration_error", solver::solve_elastodynamics(options), solution, record);
+    options.modal_superposition = false;
+  }
+  options.time.step /= 2;
+  record_distance("step_change", solver::solve_elastodynamics(options), solution, record);
+}
+
+/// What the damping means: modes from some frequency on do not vibrate at all.
+void record_damping(const solver::RayleighDamping& damping, const solver::System& start,
+                    Recorder& record) {
+  const double above = solver::overdamped_range(damping).above / (2 * std::numbers::pi);
+  if (!std::isfinite(above)) return;
+  record.add("overdamped_above_Hz", "", above);
+  const std::optional<solver::Index> below = solver::sturm_count(start, above);
+  record.add("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
+}
+
+/// What says beforehand whether an effect matters, and what the integration took.
+void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
+  const solver::ElastodynamicsEffects& effects = solution.effects;
+  if (effects.first_frequency == 0) return;  // quasi-static
+  record.add("first_frequency_Hz", "", effects.first_frequency);
+  record.add("damping_ratio", "", effects.damping_ratio);
+  if (std::isfinite(effects.nominal_inertia)) {
+    record.add("nominal_inertia_number", "", effects.nominal_inertia);
+  }
+  record.add("elastic_inertia_number", "", effects.elastic_inertia);
+  record.add("transformation_rate_number", "", effects.gyroscopic);
+  const solver::TransientSummary& summary = solution.summary;
+  if (summary.accepted == 0) return;  // quasi-static, or modes superposed
+  record.add("steps", "", static_cast<double>(summary.accepted));
+  record.add("rejected_steps", "", static_cast<double>(summary.rejected));
+  record.add("smallest_step_s", "", summary.smallest_step);
+  record.add("largest_step_s", "", summary.largest_step);
+  record.add("step_residual", "", summary.largest_residual);
+}
+
+}  // namespace
+
+solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
+                                                  const CaseModel& case_model) {
+  // The same things have no place here as in the dynamics of rigid links.
+  static_cast<void>(read_rigid_manipulator(analysis, case_model));
+  if (!case_model.path) throw analysis.error("expected a trajectory: a pose alone has no time");
+  if (!loads_at_P_only(case_model)) {
+    throw analysis.error("expected loads at P only: those elsewhere would turn with the platform");
+  }
+  solver::ElastodynamicsOptions options;
+  const solver::Effects effects = case_model.effects;
+  options.design = solver::restrict_effects(*case_model.manipulator, effects);
+  options.path = *case_model.path;
+  for (const solver::NodalLoad& load : case_model.structure.loads) options.wrench += load.force;
+  if (effects.has(solver::Effect::gravity)) options.gravity = case_model.structure.gravity;
+  options.damping = {.mass = 0, .stiffness = 0};
+  if (effects.has(solver::Effect::damping))
+    options.damping = read_rayleigh(analysis.find("damping"));
+  options.elastic_inertia = effects.has(solver::Effect::inertia);
+  options.gyroscopic = effects.has(solver::Effect::gyroscopic);
+  if (const auto approximations = analysis.find("effects")) {
+    options.nominal_inertia = approximations->get("nominal_inertia", true);
+    const bool rates = approximations->get("transformation_rate_terms", false);
+    if (rates && !approximations->get("elastic_inertia", true)) {
+      throw(*approximations)["transformation_rate_terms"].error(
+          "expected elastic inertia with it: these terms are a part of it");
+    }
+  }
+  options.time = read_time_options(analysis);
+  options.time.quasi_static_start = analysis.text("initial_state") == "quasi-static";
+  options.modal_superposition = analysis.get("modal_superposition", false);
+  if (options.modal_superposition && !solver::stands_still(options.path)) {
+    throw analysis["modal_superposition"].error(
+        "expected a platform that stands still: modes are superposed where M and K are constant");
+  }
+  for (const solver::TrajectoryPoint& point : case_model.motion) {
+    options.time.sample_times.push_back(point.time);
+  }
+  options.time.start = options.time.sample_times.front();
+  options.time.end = options.time.sample_times.back();
+  if (!(options.time.end > options.time.start)) {
+    throw analysis.error("expected a trajectory of at least two points");
+  }
+  return options;
+}
+
+StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
+                                  Recorder& record) {
+  const solver::ElastodynamicsOptions options = read_elastodynamics(analysis, case_model);
+  const solver::ElastodynamicsSolution solution = solver::solve_elastodynamics(options);
+  StepResult result{solution.outcome, solution.summary.counters, std::nullopt};
+  const solver::System start = solver::assemble(build_model(case_model, 0));
+  if (draw) result.drawing = draw_model(start, true);
+  if (!solution.outcome.solved()) return result;
+  for (std::size_t i = 0; i < solution.state.size(); ++i) {
+    record_path(case_model, i, record);
+    record_solution(start.model, solution.state[i], -1, record);
+    record.add("equilibrium_residual_N", "", solution.state[i].equilibrium_residual);
+    record.add("moment_residual_N_m", "", solution.state[i].moment_residual);
+  }
+  record_deflection(solution, record);
+  record_torques(solution, record);
+  record_energy(solution, record);
+  if (options.elastic_inertia) record_excess(solution, record);
+  if (analysis.get("step_errors", false)) record_step_errors(options, solution, record);
+  if (options.elastic_inertia) record_damping(options.damping, start, record);
+  record_summary(solution, record);
+  return result;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,116 @@
+#include "harness/motion/analyse_forward_dynamics.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "harness/scene/rigid_case_model.h"
+#include "solver/manipulator/forward_dynamics.h"
+
+namespace trammel::harness {
+namespace {
+
+double turned(double from, double to) {
+  return std::remainder(to - from, 2 * std::numbers::pi);
+}
+
+/// What gravity has taken up: -sum m g . x [J].
+double potential(const solver::RigidManipulator& m, const solver::InverseDynamics& at) {
+  double energy = -m.platform.mass * m.gravity.dot(at.bodies[6].position);
+  for (std::size_t k = 0; k < 3; ++k) {
+    energy -= m.gravity.dot(m.proximal[k].mass * at.bodies[k].position +
+                            m.distal[k].mass * at.bodies[3 + k].position);
+  }
+  return energy;
+}
+
+void record_motion(const solver::TrajectoryPoint& moved, Recorder& record) {
+  record.add("motion_x_m", "", moved.pose.x);
+  record.add("motion_y_m", "", moved.pose.y);
+  record.add("motion_phi_rad", "", moved.pose.phi);
+  record.add("motion_velocity_x_m_per_s", "", moved.velocity.x());
+  record.add("motion_velocity_y_m_per_s", "", moved.velocity.y());
+  record.add("motion_velocity_phi_rad_per_s", "", moved.velocity.z());
+}
+
+/// How far the motion is from the path that its torques were computed for.
+void record_errors(const solver::TrajectoryPoint& nominal, const solver::TrajectoryPoint& moved,
+                   Recorder& record) {
+  record.add("position_error_m", "",
+             std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));
+  record.add("orientation_error_rad", "", std::abs(turned(nominal.pose.phi, moved.pose.phi)));
+  record.add("velocity_error_m_per_s", "", (moved.velocity - nominal.velocity).head<2>().norm());
+}
+
+/// Constant torques and a constant load have potentials: kinetic and potential energy less the
+/// work done since the start stay what they were, relative to the most that was ever kinetic.
+void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynamics& found,
+                   const Eigen::Vector3d& torque, const Eigen::Vector3d& wrench, Recorder& record) {
+  std::vector<double> kinetic, change;
+  double work = 0, start = 0, max_kinetic = 0;
+  solver::InverseDynamics before;
+  for (std::size_t k = 0; k < found.motion.size(); ++k) {
+    const solver::TrajectoryPoint& point = found.motion[k];
+    const solver::InverseDynamics now = solver::inverse_dynamics(m, point);
+    if (k > 0) {
+      for (solver::Index i = 0; i < 3; ++i) work += torque(i) * turned(before.q(i), now.q(i));
+      work += wrench.head<2>().dot(now.q.segment<2>(6) - before.q.segment<2>(6)) +
+              wrench(2) * (now.q(8) - before.q(8));
+    }
+    const double energy = now.kinetic_energy + potential(m, now) - work;
+    if (k == 0) start = energy;
+    kinetic.push_back(now.kinetic_energy);
+    change.push_back(energy - start);
+    max_kinetic = std::max(max_kinetic, now.kinetic_energy);
+    before = now;
+  }
+  for (std::size_t k = 0; k < kinetic.size(); ++k) {
+    record.add("kinetic_energy_J", "", kinetic[k]);
+    record.add("energy_residual", "", max_kinetic > 0 ? change[k] / max_kinetic : change[k]);
+  }
+}
+
+}  // namespace
+
+StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& case_model,
+                                    bool draw, Recorder& record) {
+  const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
+  if (!case_model.path) throw analysis.error("expected a model with a trajectory");
+  if (!loads_at_P_only(case_model)) {
+    throw analysis.error("expected loads at P alone: at a corner their moment changes as it turns");
+  }
+  const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
+  const bool given = analysis.has("torque_N_m");
+  Eigen::Vector3d constant = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; given && i < 3; ++i) {
+    constant(static_cast<solver::Index>(i)) = analysis["torque_N_m"][i].get<double>();
+  }
+  // A step of the integrator may look a little past the path's end, where a spline has none.
+  const double last = case_model.motion.back().time;
+  const auto torque = [&](double time) -> Eigen::Vector3d {
+    if (given) return constant;
+    return solver::inverse_dynamics(manipulator, solver::at(*case_model.path, std::min(time, last)),
+                                    wrench)
+        .torque;
+  };
+  std::vector<double> times;
+  for (const solver::TrajectoryPoint& point : case_model.motion) times.push_back(point.time);
+  solver::ForwardOptions options;
+  options.tolerance = analysis.get("tolerance", options.tolerance);
+  const solver::ForwardDynamics found = solver::forward_dynamics(
+      manipulator, case_model.motion.front(), torque, times, wrench, options);
+  StepResult result;
+  result.outcome = found.outcome;
+  if (draw) result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
+  for (std::size_t step = 0; step < found.motion.size(); ++step) {
+    record_path(case_model, step, record);
+    record_motion(found.motion[step], record);
+    if (!given) record_errors(case_model.motion[step], found.motion[step], record);
+  }
+  if (given) record_energy(manipulator, found, constant, wrench, record);
+  record.add("steps", "", static_cast<double>(found.steps));
+  record.add("rejected_steps", "", static_cast<double>(found.rejected));
+  record.add("evaluations", "", static_cast<double>(found.evaluations));
+  return result;
+}
+
+}  // namespace trammel::harness

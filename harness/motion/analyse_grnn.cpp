@@ -1,0 +1,282 @@
+#include "harness/motion/analyse_grnn.h"
+
+#include <cmath>
+#include <limits>
+
+#include "harness/motion/grnn_samples.h"
+#include "harness/scene/rigid_case_model.h"
+#include "solver/grnn/grnn_validation.h"
+#include "solver/manipulator/forward_dynamics.h"
+
+namespace trammel::harness {
+namespace {
+
+solver::InputScaling read_scaling(const JsonView& analysis) {
+  const auto word = analysis.get<std::string>("scaling", "none");
+  if (word == "deviation") return solver::InputScaling::deviation;
+  return word == "range" ? solver::InputScaling::range : solver::InputScaling::none;
+}
+
+solver::CrossValidation read_validation(const JsonView& search) {
+  solver::CrossValidation validation;
+  validation.folds = search.get<solver::Index>("folds", 0);
+  const auto order = search.get<std::string>("order", "interleaved");
+  validation.order = order == "blocks"     ? solver::FoldOrder::blocks
+                     : order == "shuffled" ? solver::FoldOrder::shuffled
+                                           : solver::FoldOrder::interleaved;
+  validation.seed = search.get<std::uint64_t>("seed", 1);
+  return validation;
+}
+
+solver::Split read_split(const JsonView& analysis) {
+  const auto word = analysis.get<std::string>("split", "first");
+  if (word == "interleaved") return solver::Split::interleaved;
+  return word == "shuffled" ? solver::Split::shuffled : solver::Split::first;
+}
+
+/// The smoothing: as given, or the one with the least error of cross-validation.
+void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
+  if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma")) {
+    throw analysis.error("expected either 'sigma' or 'spread' (got both)");
+  }
+  if (analysis.has("sigma")) {
+    network.sigma = analysis.number("sigma");
+  } else if (analysis.has("spread")) {
+    network.sigma = solver::sigma_of_spread(analysis.number("spread"));
+  } else {
+    const JsonView search = analysis.has("search") ? analysis["search"] : analysis;
+    const solver::Index count = search.get<solver::Index>("count", 41);
+    const bool given = search.has("from");
+    const solver::SigmaSearch found = solver::search_sigma(
+        network,
+        given ? solver::logarithmic_grid(search.number("from"), search.number("to"), count)
+              : solver::default_grid(network, count),
+        read_validation(search));
+    network.sigma = found.sigma;
+    record.add("cross_validation_error", "", found.error);
+    record.add("sigma_bracketed", "", found.bracketed ? 1 : 0);
+    record.add("sigmas_tried", "", static_cast<double>(found.evaluations));
+    for (solver::Index k = 0; k < found.grid.size(); ++k) {
+      record.add("grid_sigma", "", found.grid(k));
+      record.add("grid_error", "", found.grid_error(k));
+    }
+  }
+  record.add("sigma", "", network.sigma);
+}
+
+struct Parts {
+  std::vector<solver::Index> training, held_out;
+};
+
+Parts parts_of(const std::vector<bool>& trains) {
+  Parts parts;
+  for (std::size_t i = 0; i < trains.size(); ++i) {
+    (trains[i] ? parts.training : parts.held_out).push_back(static_cast<solver::Index>(i));
+  }
+  return parts;
+}
+
+/// Scales of the outputs over all samples: what errors of unlike outputs are divided by.
+struct OutputScales {
+  Eigen::RowVectorXd deviation, range;
+  explicit OutputScales(const Eigen::MatrixXd& outputs)
+      : deviation(outputs.cols()),
+        range(outputs.colwise().maxCoeff() - outputs.colwise().minCoeff()) {
+    for (solver::Index j = 0; j < outputs.cols(); ++j) {
+      const Eigen::ArrayXd centred = outputs.col(j).array() - outputs.col(j).mean();
+      deviation(j) = std::sqrt(centred.square().mean());
+      if (range(j) == 0) range(j) = deviation(j) = 1;  // a constant output
+    }
+  }
+};
+
+/// Root mean square over rows and outputs, each output divided by its standard deviation.
+double rms(const Eigen::MatrixXd& error, const OutputScales& scales) {
+  const Eigen::MatrixXd relative = error * scales.deviation.cwiseInverse().asDiagonal();
+  return std::sqrt(relative.squaredNorm() / static_cast<double>(relative.size()));
+}
+
+Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<solver::Index>& which) {
+  return all(which, Eigen::all);
+}
+
+void record_part(const std::string& part, const std::vector<solver::Index>& which,
+                 const GrnnSamples& samples, const Eigen::MatrixXd& error,
+                 const OutputScales& scales, Recorder& record) {
+  if (which.empty()) return;
+  const Eigen::MatrixXd own = rows(error, which);
+  for (solver::Index j = 0; j < own.cols(); ++j) {
+    const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
+    for (solver::Index i = 0; i < own.rows(); ++i) {
+      record.add(part + "_" + column.quantity + "_error" + column.unit, column.item, own(i, j));
+    }
+  }
+  record.add(part + "_rms_error", "", rms(own, scales));
+  const Eigen::MatrixXd of_range = own * scales.range.cwiseInverse().asDiagonal();
+  record.add(part + "_largest_error_of_range", "", of_range.cwiseAbs().maxCoeff());
+}
+
+/// Against the two predictors that know nothing of smoothing: the mean of the training samples, and
+/// the nearest of them. Skill is 1 - (rms error / theirs)^2: 1 is perfect, 0 no better.
+void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
+                  const std::vector<solver::Index>& which, double error, const OutputScales& scales,
+                  Recorder& record) {
+  const Eigen::MatrixXd queries = rows(samples.inputs, which);
+  const Eigen::MatrixXd expected = rows(samples.outputs, which);
+  const auto against = [&](const char* name, double sigma) {
+    solver::Grnn trivial = network;
+    trivial.sigma = sigma;
+    const double baseline_error = rms(solver::predict(trivial, queries) - expected, scales);
+    record.add("held_out_rms_error", name, baseline_error);
+    record.add("skill_score_against", name,
+               1 - (error / baseline_error) * (error / baseline_error));
+  };
+  against("mean", 1e150);
+  against("nearest", 1e-300);
+}
+
+/// A prediction at every point of the path, at once and one by one, beside what it stands in for:
+/// from the torques at a point to the motion at the next, and from the motion to the torques.
+std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
+                                                 const solver::RigidManipulator& manipulator,
+                                                 const CaseModel& case_model,
+                                                 const GrnnSamples& samples) {
+  const std::size_t count = case_model.motion.size();
+  double sink = 0;  // what is computed is used, so that it cannot be left out
+  std::vector<EvaluationTime> timings;
+  timings.push_back(time_evaluation("prediction_in_a_batch", count, [&] {
+    sink += solver::predict(network, samples.inputs).sum();
+  }));
+  timings.push_back(time_evaluation("prediction_one_by_one", count, [&] {
+    for (solver::Index k = 0; k < samples.inputs.rows(); ++k) {
+      sink += solver::predict(network, samples.inputs.row(k))(0, 0);
+    }
+  }));
+  timings.push_back(time_evaluation("inverse_dynamics", count, [&] {
+    for (const solver::TrajectoryPoint& point : case_model.motion) {
+      sink +=
+          solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose))
+              .torque(0);
+    }
+  }));
+  if (count < 2 || !loads_at_P_only(case_model)) return timings;
+  const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
+  timings.push_back(time_evaluation("forward_dynamics_to_the_next_point", count - 1, [&] {
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      const double from = case_model.motion[k].time, to = case_model.motion[k + 1].time;
+      const auto row = static_cast<solver::Index>(k);
+      const auto torque = [&](double time) -> Eigen::Vector3d {
+        const double s = (time - from) / (to - from);
+        return ((1 - s) * samples.inputs.row(row) + s * samples.inputs.row(row + 1)).transpose();
+      };
+      const solver::ForwardDynamics next =
+          solver::forward_dynamics(manipulator, case_model.motion[k], torque, {to}, wrench);
+      if (next.outcome.solved()) sink += next.motion.back().pose.x;
+    }
+  }));
+  if (!std::isfinite(sink)) timings.clear();
+  return timings;
+}
+
+void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predicted,
+                        const std::vector<bool>& trains, Recorder& record) {
+  for (solver::Index j = 0; j < predicted.cols(); ++j) {
+    const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
+    for (solver::Index k = 0; k < predicted.rows(); ++k) {
+      record.add("active_" + column.quantity + column.unit, column.item, samples.outputs(k, j));
+      record.add("predicted_" + column.quantity + column.unit, column.item, predicted(k, j));
+    }
+  }
+  for (const bool trains_here : trains) record.add("in_training_set", "", trains_here ? 1 : 0);
+}
+
+/// Where the platform would be with the predicted angles of the active joints, by forward
+/// kinematics from its true pose; NaN where it cannot be assembled.
+void record_positions(const solver::ManipulatorGeometry& geometry, const CaseModel& case_model,
+                      const Eigen::MatrixXd& predicted, Recorder& record) {
+  for (std::size_t k = 0; k < case_model.motion.size(); ++k) {
+    const auto row = static_cast<solver::Index>(k);
+    const std::array<double, 3> active = {predicted(row, 0), predicted(row, 1), predicted(row, 2)};
+    const solver::ForwardKinematics found =
+        solver::forward_kinematics(geometry, active, case_model.motion[k].pose);
+    const bool solved = found.outcome.solved();
+    record.add("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
+    record.add("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
+  }
+}
+
+}  // namespace
+
+StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, bool draw,
+                        Recorder& record) {
+  const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
+  if (!case_model.path) throw analysis.error("expected a model with a trajectory, or samples");
+  StepResult result;
+  const PathSamples path = samples_of_path(manipulator, case_model);
+  result.outcome = path.outcome;
+  if (!result.outcome.solved()) return result;
+  const GrnnSamples& samples = path.samples;
+  const solver::Index count = samples.inputs.rows();
+  const solver::Index train = analysis.get<solver::Index>("train", count);
+  if (train > count) {
+    throw analysis["train"].error("expected no more samples than the path has points, " +
+                                  std::to_string(count));
+  }
+  const std::vector<bool> trains = solver::training_mask(count, train, read_split(analysis),
+                                                         analysis.get<std::uint64_t>("seed", 1));
+  const Parts parts = parts_of(trains);
+  solver::Grnn network =
+      solver::make_grnn(rows(samples.inputs, parts.training), rows(samples.outputs, parts.training),
+                        1, read_scaling(analysis));
+  choose_sigma(analysis, network, record);
+  const Eigen::MatrixXd predicted = solver::predict(network, samples.inputs);
+  const Eigen::MatrixXd error = predicted - samples.outputs;
+  const OutputScales scales(samples.outputs);
+  for (std::size_t step = 0; step < case_model.motion.size(); ++step) {
+    record_path(case_model, step, record);
+  }
+  record_predictions(samples, predicted, trains, record);
+  record_positions(manipulator.geometry, case_model, predicted, record);
+  record_part("training", parts.training, samples, error, scales, record);
+  record_part("held_out", parts.held_out, samples, error, scales, record);
+  if (!parts.held_out.empty()) {
+    record_skill(network, samples, parts.held_out, rms(rows(error, parts.held_out), scales), scales,
+                 record);
+  }
+  record.add("kernel_evaluations", "", static_cast<double>(train));
+  if (draw) {
+    result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
+    result.timings = time_against_solving(network, manipulator, case_model, samples);
+  }
+  return result;
+}
+
+StepResult analyse_grnn_samples(const Document& document, const References&, bool,
+                                Recorder& record) {
+  const JsonView analysis = JsonView(document)["analysis"]["grnn"];
+  if (!analysis.has("samples"))
+    throw analysis.error("expected a model with a trajectory, or samples");
+  const GrnnSamples samples = read_samples(analysis["samples"]);
+  const Eigen::MatrixXd queries = read_rows(analysis["queries"]);
+  if (queries.cols() != samples.inputs.cols()) {
+    throw analysis["queries"].error("expected rows as long as the inputs', " +
+                                    std::to_string(samples.inputs.cols()));
+  }
+  try {
+    solver::Grnn network =
+        solver::make_grnn(samples.inputs, samples.outputs, 1, read_scaling(analysis));
+    choose_sigma(analysis, network, record);
+    const Eigen::MatrixXd predicted = solver::predict(network, queries);
+    for (solver::Index k = 0; k < predicted.rows(); ++k) {
+      for (solver::Index j = 0; j < predicted.cols(); ++j) {
+        record.add("prediction", samples.columns[static_cast<std::size_t>(j)].item,
+                   predicted(k, j));
+      }
+    }
+  } catch (const solver::ModelError& error) {
+    throw analysis.error(std::string("expected a network that has a meaning: ") + error.what());
+  }
+  return {};
+}
+
+}  // namespace trammel::harness

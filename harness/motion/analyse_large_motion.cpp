@@ -1,0 +1,265 @@
+#include "harness/motion/analyse_large_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/base/text.h"
+#include "harness/readers/joint_reader.h"
+#include "harness/scene/draw_large.h"
+#include "harness/scene/tracking.h"
+#include "solver/large_motion/solve/integrate.h"
+#include "solver/large_motion/solve/state_results.h"
+
+namespace trammel::harness {
+namespace {
+
+using solver::large_motion::GeometricallyExactSystem;
+using solver::large_motion::State;
+
+constexpr int kMaxPoses = 8;
+
+/// Rotation of a node, less that of another (-1: of the ground).
+struct Angle {
+  std::string name;
+  solver::Index node = 0, from = -1;
+  double start = 0;
+};
+
+/// What is kept at each output time.
+struct OutputSelection {
+  std::vector<solver::Index> nodes;
+  solver::Index seen_from = -1;
+  std::vector<Angle> angles;
+};
+
+OutputSelection read_kept(const JsonView& analysis, const solver::Model& model) {
+  OutputSelection selection;
+  if (const auto names = analysis.find("nodes")) {
+    for (const auto& entry : names->entries()) {
+      selection.nodes.push_back(find_node(entry.second, model));
+    }
+  } else {
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+      if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<solver::Index>(i));
+    }
+  }
+  if (analysis.has("relative_to")) selection.seen_from = find_node(analysis["relative_to"], model);
+  if (const auto angles = analysis.find("angles")) {
+    for (const auto& [name, place] : angles->entries()) {
+      Angle angle{name, find_node(place["node"], model), -1, place.get("initial_rad", 0.0)};
+      if (place.has("from")) angle.from = find_node(place["from"], model);
+      selection.angles.push_back(angle);
+    }
+  }
+  return selection;
+}
+
+solver::large_motion::IntegrationOptions read_large_motion_options(const JsonView& analysis) {
+  solver::large_motion::IntegrationOptions options;
+  if (analysis.get<std::string>("integrator", "generalized-alpha") == "energy-momentum") {
+    options.integrator = solver::large_motion::Integrator::energy_momentum;
+  }
+  options.end_time = analysis.number("end_time_s");
+  options.step = analysis.number("step_s");
+  options.output_step = analysis.get("output_step_s", 0.0);
+  options.adaptive = analysis.has("tolerance");
+  options.tolerance = analysis.get("tolerance", options.tolerance);
+  options.spectral_radius = analysis.get("spectral_radius", options.spectral_radius);
+  options.max_steps = analysis.get("steps", options.max_steps);
+  return options;
+}
+
+/// Writes down each state that the integrator shows.
+class MotionRecorder {
+ public:
+  MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection,
+                 Recorder& record)
+      : system_(system), selection_(std::move(selection)), record_(record) {}
+
+  void look(const State& state) {
+    record_.add("time_s", "", state.t);
+    const Eigen::MatrixX3d motion = node_motion(system_, state.q);
+    const Eigen::MatrixX3d velocity = node_motion(system_, state.v);
+    for (const solver::Index node : selection_.nodes) look_at(node, motion, velocity);
+    for (const Angle& angle : selection_.angles) look_at(angle, motion, velocity);
+    look_at_forces(state);
+    look_at_energy(state);
+  }
+
+  [[nodiscard]] double energy_drift() const {
+    return max_kinetic_ > 0 ? drift_ / max_kinetic_ : 0.0;
+  }
+
+ private:
+  void look_at(solver::Index node, const Eigen::MatrixX3d& motion,
+               const Eigen::MatrixX3d& velocity) {
+    const solver::Node& named = system_.model().nodes[static_cast<std::size_t>(node)];
+    const Eigen::RowVector3d u = motion.row(node), v = velocity.row(node);
+    record_.add("position_x_m", named.name, named.position.x() + u[0]);
+    record_.add("position_y_m", named.name, named.position.y() + u[1]);
+    record_.add("velocity_x_m_per_s", named.name, v[0]);
+    record_.add("velocity_y_m_per_s", named.name, v[1]);
+    if (!std::isnan(u[2])) {
+      record_.add("rotation_rad", named.name, u[2]);
+      record_.add("angular_velocity_rad_per_s", named.name, v[2]);
+    }
+    if (selection_.seen_from >= 0 && node != selection_.seen_from) look_from(node, motion);
+  }
+
+  void look_from(solver::Index node, const Eigen::MatrixX3d& motion) {
+    const std::vector<solver::Node>& nodes = system_.model().nodes;
+    const solver::Node& named = nodes[static_cast<std::size_t>(node)];
+    const solver::Index eye = selection_.seen_from;
+    const Eigen::Vector2d arm = named.position - nodes[static_cast<std::size_t>(eye)].position;
+    const Eigen::Vector2d moved = (motion.row(node) - motion.row(eye)).head<2>().transpose();
+    const double turn = motion(eye, 2);
+    const double c = std::cos(turn), s = std::sin(turn);
+    // R^T (arm + moved) - arm, with R^T - 1 by the half angle.
+    const double less = -2 * std::sin(turn / 2) * std::sin(turn / 2);
+    record_.add("relative_x_m", named.name,
+                c * moved.x() + s * moved.y() + less * arm.x() + s * arm.y());
+    record_.add("relative_y_m", named.name,
+                c * moved.y() - s * moved.x() + less * arm.y() - s * arm.x());
+    if (!std::isnan(motion(node, 2))) {
+      record_.add("relative_rotation_rad", named.name, motion(node, 2) - turn);
+    }
+  }
+
+  void look_at(const Angle& angle, const Eigen::MatrixX3d& motion,
+               const Eigen::MatrixX3d& velocity) {
+    const auto component_of = [&](const Eigen::MatrixX3d& values) {
+      return values(angle.node, 2) - (angle.from >= 0 ? values(angle.from, 2) : 0.0);
+    };
+    record_.add("angle_rad", angle.name, angle.start + component_of(motion));
+    record_.add("angle_rate_rad_per_s", angle.name, component_of(velocity));
+  }
+
+  void look_at_forces(const State& state) {
+    const Eigen::MatrixX3d reaction = reactions(system_, state);
+    for (std::size_t i = 0; i < system_.model().supports.size(); ++i) {
+      const solver::Support& support = system_.model().supports[i];
+      if (std::find(selection_.nodes.begin(), selection_.nodes.end(), support.node) ==
+          selection_.nodes.end()) {
+        continue;
+      }
+      const auto row = static_cast<solver::Index>(i);
+      if (support.fixed[0]) record_.add("reaction_x_N", support.name, reaction(row, 0));
+      if (support.fixed[1]) record_.add("reaction_y_N", support.name, reaction(row, 1));
+      if (support.fixed[0] && support.fixed[1]) {
+        record_.add("reaction_N", support.name, std::hypot(reaction(row, 0), reaction(row, 1)));
+      }
+      if (support.fixed[2]) record_.add("reaction_moment_N_m", support.name, reaction(row, 2));
+    }
+    for (std::size_t i = 0; i < system_.large_motion().drives.size(); ++i) {
+      const solver::large_motion::Drive& drive = system_.large_motion().drives[i];
+      record_.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
+                  drive_force(system_, state, static_cast<solver::Index>(i)));
+    }
+  }
+
+  void look_at_energy(const State& state) {
+    const solver::large_motion::Energy energy = system_.energy(state);
+    record_.add("kinetic_energy_J", "", energy.kinetic);
+    record_.add("strain_energy_J", "", energy.strain);
+    record_.add("total_energy_J", "", energy.total());
+    if (first_) start_energy_ = energy.total();
+    first_ = false;
+    drift_ = std::max(drift_, std::abs(energy.total() - start_energy_));
+    max_kinetic_ = std::max(max_kinetic_, energy.kinetic);
+  }
+
+  const GeometricallyExactSystem& system_;
+  OutputSelection selection_;
+  Recorder& record_;
+  bool first_ = true;
+  double start_energy_ = 0, drift_ = 0, max_kinetic_ = 0;
+};
+
+/// How far P is from where the rigid twin would have it.
+void record_deflection(const GeometricallyExactSystem& system, const State& state,
+                       const solver::Path& path, Recorder& record) {
+  const solver::Index p = system.model().find_node("P");
+  const Eigen::MatrixX3d motion = node_motion(system, state.q);
+  const Eigen::Vector2d now = system.model().nodes[static_cast<std::size_t>(p)].position +
+                              motion.row(p).head<2>().transpose();
+  const solver::Pose pose = solver::at(path, state.t).pose;
+  record.add("pose_x_m", "", pose.x);
+  record.add("pose_y_m", "", pose.y);
+  record.add("deflection_x_m", "P", now.x() - pose.x);
+  record.add("deflection_y_m", "P", now.y() - pose.y);
+  record.add("deflection_m", "P", std::hypot(now.x() - pose.x, now.y() - pose.y));
+}
+
+/// From where the model stands, or with the velocities of the rigid twin that it follows.
+solver::large_motion::IntegrationSummary integrate_motion(
+    const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
+    const solver::large_motion::IntegrationOptions& options, bool extrapolated,
+    const solver::large_motion::Observer& look) {
+  State state;
+  if (!tracking) {
+    return extrapolated ? integrate_extrapolated(system, state, options, look)
+                        : integrate(system, state, options, look);
+  }
+  state = system.reference_state();
+  solver::large_motion::IntegrationSummary summary;
+  summary.outcome =
+      make_consistent(system, state, tracking_start(case_model, system), options.step);
+  if (!summary.outcome.solved()) return summary;
+  const solver::large_motion::ConstrainedSystem& equations = system;
+  return integrate(equations, state, options, look);
+}
+
+void record_summary(const solver::large_motion::IntegrationSummary& summary,
+                    const MotionRecorder& log, Recorder& record) {
+  record.add("steps", "", static_cast<double>(summary.steps));
+  record.add("rejected_steps", "", static_cast<double>(summary.rejected));
+  record.add("newton_iterations", "", static_cast<double>(summary.iterations));
+  record.add("smallest_step_s", "", summary.min_step);
+  record.add("constraint_residual", "", summary.max_constraint_residual);
+  record.add("constraint_rate_residual", "", summary.max_constraint_rate);
+  record.add("energy_drift", "", log.energy_drift());
+}
+
+}  // namespace
+
+StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_model, bool draw,
+                                Recorder& record) {
+  solver::Model model = build_bare_model(case_model, 0);
+  solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
+  read_drives(analysis, model, large_motion);
+  read_history(analysis, model, large_motion);
+  const bool extrapolated = analysis.get("extrapolated", false);
+  const bool tracking = analysis.get("track", false);
+  if (tracking) {
+    add_tracking_drives(analysis["track"], case_model, model, large_motion);
+    for (const char* key : {"extrapolated", "initial_velocities"}) {
+      if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
+    }
+    if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha") {
+      throw analysis["integrator"].error("expected generalized-alpha beside 'track'");
+    }
+  }
+  const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
+  const solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
+  StepResult result;
+  if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
+  MotionRecorder log(system, read_kept(analysis, model), record);
+  int poses = 0;
+  const auto look = [&](const State& state) {
+    log.look(state);
+    if (tracking) record_deflection(system, state, *case_model.path, record);
+    if (!result.drawing || state.t < options.end_time * poses / kMaxPoses) return;
+    ++poses;
+    result.drawing->poses.push_back(draw_large_pose(system, state.q, rounded(state.t, 3) + " s"));
+  };
+  const solver::large_motion::IntegrationSummary summary =
+      integrate_motion(system, case_model, tracking, options, extrapolated, look);
+  result.outcome = summary.outcome;
+  result.counters = summary.counters;
+  result.counters.element_evaluations = system.element_evaluations();
+  result.counters.steps = summary.steps + summary.rejected;
+  record_summary(summary, log, record);
+  return result;
+}
+
+}  // namespace trammel::harness

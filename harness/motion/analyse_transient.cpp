@@ -1,0 +1,99 @@
+#include "harness/motion/analyse_transient.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "harness/motion/motion_history.h"
+#include "harness/scene/outputs.h"
+
+namespace trammel::harness {
+namespace {
+
+/// Displacements, velocities and, where an output asks for them, section forces of a sample.
+MovingState state_of(const solver::System& system, const MotionHistory& motion,
+                     solver::Index sample, bool with_forces) {
+  MovingState state;
+  state.displacement = solver::node_motion(system, motion.q.col(sample));
+  state.velocity = solver::node_motion(system, motion.v.col(sample));
+  state.acceleration = solver::node_motion(system, motion.a.col(sample));
+  if (!with_forces) return state;
+  solver::ElasticState elastic;
+  elastic.u = system.T * motion.q.col(sample);
+  elastic.acceleration = system.T * motion.a.col(sample);
+  elastic.load_factor = motion.load_factor[static_cast<std::size_t>(sample)];
+  postprocess(system, elastic, state.forces);
+  return state;
+}
+
+/// Of free vibration: how far the energy goes from where it started, over the largest kinetic one.
+class EnergyDrift {
+ public:
+  void look(double kinetic, double strain) {
+    const double total = kinetic + strain;
+    if (start_ < 0) start_ = total;
+    drift_ = std::max(drift_, std::abs(total - start_));
+    max_kinetic_ = std::max(max_kinetic_, kinetic);
+  }
+  void record(Recorder& record) const {
+    if (max_kinetic_ > 0) record.add("energy_drift", "", drift_ / max_kinetic_);
+  }
+
+ private:
+  double start_ = -1, drift_ = 0, max_kinetic_ = 0;
+};
+
+void record_energy(const solver::System& system, const MotionHistory& motion, solver::Index sample,
+                   EnergyDrift& drift, Recorder& record) {
+  const Eigen::VectorXd q = motion.q.col(sample);
+  const Eigen::VectorXd v = motion.v.col(sample);
+  const double kinetic = 0.5 * v.dot(system.M * v), strain = 0.5 * q.dot(system.K * q);
+  record.add("kinetic_energy_J", "", kinetic);
+  record.add("strain_energy_J", "", strain);
+  record.add("total_energy_J", "", kinetic + strain);
+  drift.look(kinetic, strain);
+}
+
+void record_peaks(const MotionHistory& motion, const std::vector<Output>& outputs,
+                  const Eigen::MatrixXd& values, Recorder& record) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const solver::Peak found =
+        solver::peak(motion.time, values.row(static_cast<solver::Index>(i)).transpose());
+    record.add(outputs[i].prefixed("peak_"), "", found.value);
+    record.add("peak_time_s", outputs[i].name, found.time);
+  }
+}
+
+}  // namespace
+
+StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model,
+                             std::size_t step, bool draw, Recorder& record) {
+  if (case_model.path) throw analysis.error("expected a model at one place");
+  const solver::System system = solver::assemble(build_model(case_model, step));
+  const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
+  const MotionHistory motion = compute_motion(analysis, system);
+  StepResult result{motion.outcome, motion.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
+  if (!result.outcome.solved()) return result;
+  const bool with_forces = std::any_of(outputs.begin(), outputs.end(),
+                                       [](const Output& one) { return one.needs_forces(); });
+  Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
+  EnergyDrift drift;
+  for (solver::Index sample = 0; sample < values.cols(); ++sample) {
+    const MovingState state = state_of(system, motion, sample, with_forces);
+    record.add("time_s", "", motion.time[static_cast<std::size_t>(sample)]);
+    for (solver::Index i = 0; i < values.rows(); ++i) {
+      const Output& output = outputs[static_cast<std::size_t>(i)];
+      values(i, sample) = value_of(output, system.model, state);
+      record.add(output.name, "", values(i, sample));
+    }
+    record_energy(system, motion, sample, drift, record);
+  }
+  record_peaks(motion, outputs, values, record);
+  if (system.load.isZero(0) && !analysis.has("rotating_frame")) drift.record(record);
+  record.add("steps", "", static_cast<double>(motion.steps));
+  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  return result;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,252 @@
+#include "harness/motion/motion_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "harness/readers/damping_reader.h"
+#include "harness/readers/joint_reader.h"
+#include "harness/readers/material_reader.h"
+#include "solver/assembly/damping.h"
+#include "solver/modes/modes.h"
+#include "solver/time/modal_superposition.h"
+#include "solver/time/rotating_frame_transient.h"
+
+namespace trammel::harness {
+namespace {
+
+using Eigen::VectorXd;
+
+solver::PiecewiseLinearLoad read_load(const JsonView& transient, const Eigen::VectorXd& pattern) {
+  const auto history = transient.find("load_history");
+  if (!history) return {pattern, {0.0}, Eigen::MatrixXd::Ones(1, 1)};
+  const auto time = (*history)["time_s"].get<std::vector<double>>();
+  const auto factor = (*history)["factor"].get<std::vector<double>>();
+  if (factor.size() != time.size()) {
+    throw(*history)["factor"].error("expected " + std::to_string(time.size()) +
+                                    " numbers, one for each time (got " +
+                                    std::to_string(factor.size()) + ")");
+  }
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (time[i] < time[i - 1]) {
+      throw(*history)["time_s"][i].error("expected times that ascend");
+    }
+  }
+  return {pattern, time,
+          Eigen::Map<const Eigen::RowVectorXd>(factor.data(), std::ssize(factor)).eval()};
+}
+
+double factor_at(const solver::PiecewiseLinearLoad& load, double time) {
+  Eigen::VectorXd factor;
+  const solver::PiecewiseLinearLoad one{Eigen::MatrixXd::Ones(1, 1), load.time, load.factor};
+  one.at(time, factor);
+  return factor[0];
+}
+
+solver::TimeScheme read_scheme(const JsonView& transient) {
+  const auto method = transient.find("method");
+  if (!method) return solver::average_acceleration();
+  if (const auto stated = method->find("newmark")) {
+    return solver::newmark(stated->number("beta"), stated->number("gamma"));
+  }
+  if (method->has("hht_alpha")) return solver::hht_alpha(method->number("hht_alpha"));
+  if (method->has("spectral_radius"))
+    return solver::generalized_alpha(method->number("spectral_radius"));
+  const auto word = method->get<std::string>();
+  if (word == "linear-acceleration") return solver::linear_acceleration();
+  return word == "central-difference" ? solver::central_difference()
+                                      : solver::average_acceleration();
+}
+
+bool superposes(const JsonView& transient) {
+  return transient.has("method") && transient["method"].json() == "modal-superposition";
+}
+
+struct InitialState {
+  Eigen::VectorXd q0, v0;
+};
+
+/// The motion of the free coordinates that comes nearest to a velocity of every node, exact where
+/// constraints allow it.
+Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector2d& velocity) {
+  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(system.coordinates.size);
+  for (const auto& node : system.coordinates.node) {
+    wanted[node[0]] = velocity.x();
+    wanted[node[1]] = velocity.y();
+  }
+  const solver::SparseMatrix normal = solver::SparseMatrix(system.T.transpose()) * system.T;
+  solver::Factorization factorization;
+  factorization.compute(normal);
+  return factorization.solve(system.T.transpose() * wanted);
+}
+
+InitialState read_initial(const JsonView& transient, const solver::System& system,
+                          solver::Outcome& outcome) {
+  const auto initial = transient.find("initial_state");
+  if (!initial || initial->json() == "at-rest") return {};
+  if (initial->json() == "static-equilibrium") {
+    const solver::StaticSolution statics = solver::solve_statics(system);
+    outcome = statics.outcome;
+    return {statics.q, {}};
+  }
+  return {{}, uniform_motion(system, read_point((*initial)["velocity_m_per_s"]))};
+}
+
+std::vector<double> sample_times(const JsonView& transient) {
+  const double duration = transient.number("duration_s");
+  const double steps = std::ceil(duration / transient.number("step_s") * (1 - 1e-12));
+  constexpr double most = 1e7;
+  if (!(steps <= most)) {
+    throw transient["step_s"].error("expected at most ten million steps (got " +
+                                    std::to_string(steps) + ")");
+  }
+  constexpr double most_samples = 10000;
+  const auto count = transient.get<std::size_t>(
+      "samples", static_cast<std::size_t>(std::clamp(steps, 1.0, most_samples)));
+  std::vector<double> times;
+  for (std::size_t i = 0; i <= count; ++i) {
+    times.push_back(duration * static_cast<double>(i) / static_cast<double>(count));
+  }
+  return times;
+}
+
+/// The axes that the motion is seen from.
+solver::PrescribedRotation read_axes(const JsonView& transient) {
+  for (const char* key : {"load_history", "initial_state"}) {
+    if (transient.has(key)) throw transient[key].error("expected it without 'rotating_frame'");
+  }
+  const JsonView place = transient["rotating_frame"];
+  solver::PrescribedRotation axes;
+  axes.speed = [law = read_law(place["law"])](double time) {
+    const std::array<double, 3> motion = law(time);
+    return std::array<double, 2>{motion[1], motion[2]};
+  };
+  if (place.has("center_m")) axes.centre = read_point(place["center_m"]);
+  axes.stiffening = place.get("geometric_stiffening", true);
+  return axes;
+}
+
+class Motion {
+ public:
+  Motion(const JsonView& transient, const solver::System& system)
+      : transient_(transient), system_(system), load_(read_load(transient, system.f)) {}
+
+  MotionHistory run() {
+    history_.counters = system_.counters;
+    history_.time = sample_times(transient_);
+    initial_ = read_initial(transient_, system_, history_.outcome);
+    if (!history_.outcome.solved()) return history_;
+    for (const double t : history_.time) history_.load_factor.push_back(factor_at(load_, t));
+    if (superposes(transient_)) {
+      superpose_modes();
+    } else {
+      integrate();
+    }
+    return history_;
+  }
+
+ private:
+  void integrate() {
+    solver::EquationOfMotion equation;
+    equation.M = system_.M;
+    equation.K = system_.K;
+    if (!damp(equation)) return;
+    if (transient_.has("rotating_frame")) {
+      history_.outcome = solver::add_rotating_frame_terms(system_, read_axes(transient_), equation);
+      if (!history_.outcome.solved()) return;
+    } else {
+      load_.apply_to(equation);
+    }
+    solver::TransientOptions options;
+    options.end = transient_.number("duration_s");
+    options.step = transient_.number("step_s");
+    options.scheme = read_scheme(transient_);
+    options.sample_times = history_.time;
+    options.q0 = initial_.q0;
+    options.v0 = initial_.v0;
+    if (const auto control = transient_.find("error_control")) {
+      options.adaptive = solver::ErrorControl{control->number("relative")};
+    }
+    solver::TransientHistory found = solver::solve_transient(equation, options);
+    history_.outcome = found.summary.outcome;
+    history_.steps = found.summary.accepted;
+    history_.counters += found.summary.counters;
+    history_.q = std::move(found.q);
+    history_.v = std::move(found.v);
+    history_.a = std::move(found.a);
+  }
+
+  /// False where the damped modes are not found.
+  bool damp(solver::EquationOfMotion& equation) {
+    solver::HarmonicDamping damping = read_damping(transient_);
+    equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
+    if (damping.modal_ratio.empty()) return true;
+    const solver::ModalSolution modes = solver::solve_modes(
+        system_, {std::ssize(damping.modal_ratio), solver::EigenMethod::automatic});
+    history_.outcome = modes.outcome;
+    if (!modes.outcome.solved()) return false;
+    damping = read_damping(transient_, modes.frequency.size());
+    const Eigen::Map<const Eigen::VectorXd> ratio(damping.modal_ratio.data(),
+                                                  modes.frequency.size());
+    equation.C += solver::modal_damping_matrix(system_.M, 2 * std::numbers::pi * modes.frequency,
+                                               modes.shape, ratio);
+    return true;
+  }
+
+  void superpose_modes() {
+    if (transient_.has("error_control")) {
+      throw transient_["error_control"].error("expected it without 'modal-superposition'");
+    }
+    if (transient_.has("rotating_frame")) {
+      throw transient_["rotating_frame"].error("expected it without 'modal-superposition'");
+    }
+    const solver::ModalBasis basis = solver::all_modes(system_.M, system_.K);
+    history_.outcome = basis.outcome;
+    if (!basis.outcome.solved()) return;
+    const solver::HarmonicDamping damping = read_damping(transient_, basis.omega.size());
+    Eigen::VectorXd decay = solver::decay_rates(damping.rayleigh, basis.omega);
+    for (solver::Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {
+      decay[i] += damping.modal_ratio[static_cast<std::size_t>(i)] * basis.omega[i];
+    }
+    solver::ModalResponse response =
+        solver::superpose(basis, decay, system_.M, load_, history_.time, initial_.q0, initial_.v0);
+    history_.q = std::move(response.q);
+    history_.v = std::move(response.v);
+    history_.a = std::move(response.a);
+    add_massless(basis);
+  }
+
+  /// What acts on coordinates without mass moves no mode: they follow it at once.
+  void add_massless(const solver::ModalBasis& basis) {
+    const Eigen::VectorXd rest =
+        system_.f - system_.M * (basis.shape * (basis.shape.transpose() * system_.f));
+    if (!(rest.norm() > 1e-9 * system_.f.norm())) return;
+    solver::Factorization K;
+    K.compute(system_.K);
+    ++history_.counters.factorizations;
+    if (!K.exists()) return;
+    const Eigen::VectorXd shape = K.solve(rest);
+    for (solver::Index i = 0; i < history_.q.cols(); ++i) {
+      history_.q.col(i) += history_.load_factor[static_cast<std::size_t>(i)] * shape;
+    }
+  }
+
+  const JsonView& transient_;
+  const solver::System& system_;
+  solver::PiecewiseLinearLoad load_;
+  InitialState initial_;
+  MotionHistory history_;
+};
+
+}  // namespace
+
+MotionHistory compute_motion(const JsonView& transient, const solver::System& system) {
+  try {
+    return Motion(transient, system).run();
+  } catch (const solver::ModelError& error) {
+    throw transient.error(error.what());
+  }
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,53 @@
+#include "harness/statics_modes/analyse_buckling.h"
+
+#include <cmath>
+
+#include "harness/readers/eigen_method.h"
+#include "solver/statics/buckling.h"
+
+namespace trammel::harness {
+namespace {
+
+solver::BucklingOptions read_buckling_options(const JsonView& analysis) {
+  return {analysis.get<solver::Index>("count", 3), read_eigen_method(analysis)};
+}
+
+/// The forces on nodes at a load factor: critical_force_N:NAME.
+void record_forces(const JsonView& analysis, const std::string& mode, double factor,
+                   double roundoff, Recorder& record) {
+  const JsonView model = JsonView(analysis.document())["model"];
+  const auto loads = model.find("loads");
+  if (!loads) return;
+  for (const auto& [name, place] : loads->entries()) {
+    const auto force = place.find("force_N");
+    if (!force) continue;
+    const double size = std::hypot((*force)[0].get<double>(), (*force)[1].get<double>());
+    if (size > 0) record.add("critical_force_N", name + mode, factor * size, roundoff);
+  }
+}
+
+}  // namespace
+
+StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
+                            bool draw, Recorder& record) {
+  const solver::System system = solver::assemble(build_model(case_model, step));
+  const solver::BucklingSolution buckling =
+      solver::solve_buckling(system, read_buckling_options(analysis));
+  StepResult result{buckling.outcome, buckling.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
+  if (!buckling.outcome.solved()) return result;
+  for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {
+    const double factor = buckling.load_factor[i];
+    const std::string mode = case_model.path ? std::to_string(i + 1) : "";
+    record.add("load_factor", mode, factor, buckling.roundoff[i]);
+    record_forces(analysis, mode.empty() ? "" : "." + mode, factor, buckling.roundoff[i], record);
+    if (result.drawing && i < kMaxDrawnShapes) {
+      result.drawing->shapes.push_back(
+          draw_shape(system, buckling.shape.col(i), mode_label(i, factor, "times the loads")));
+    }
+  }
+  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  return result;
+}
+
+}  // namespace trammel::harness

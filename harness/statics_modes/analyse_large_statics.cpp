@@ -1,0 +1,116 @@
+#include "harness/statics_modes/analyse_large_statics.h"
+
+#include <algorithm>
+
+#include "harness/base/text.h"
+#include "harness/readers/joint_reader.h"
+#include "harness/scene/draw_large.h"
+#include "harness/statics_modes/analyse_statics.h"
+#include "solver/large_motion/solve/large_statics.h"
+#include "solver/large_motion/solve/state_results.h"
+#include "solver/large_motion/solve/static_path.h"
+
+namespace trammel::harness {
+namespace {
+
+using solver::large_motion::GeometricallyExactSystem;
+using solver::large_motion::PathEvent;
+using solver::large_motion::PathPoint;
+using solver::large_motion::StaticPath;
+
+constexpr std::size_t kMaxPoses = 6;
+
+solver::large_motion::StaticPathOptions read_large_statics_options(const JsonView& analysis) {
+  solver::large_motion::StaticPathOptions options;
+  options.first_step = analysis.get("first_step", options.first_step);
+  options.max_points = analysis.get("points", options.max_points);
+  options.switch_branch = analysis.get("switch_branch", false);
+  options.keep_points = analysis.get("whole_path", false);
+  return options;
+}
+
+void record_point(const GeometricallyExactSystem& system, const PathPoint& point,
+                  Recorder& record) {
+  record.add("load_factor", "", point.state.load);
+  record_solution(system.model(), solver::static_solution(system, point.state), -1, record);
+  for (std::size_t i = 0; i < system.large_motion().drives.size(); ++i) {
+    const solver::large_motion::Drive& drive = system.large_motion().drives[i];
+    record.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
+               drive_force(system, point.state, static_cast<solver::Index>(i)));
+  }
+  record.add("newton_iterations", "", static_cast<double>(point.newton.correction.size()));
+  if (point.unstable_directions >= 0) {
+    record.add("unstable_directions", "", static_cast<double>(point.unstable_directions));
+  }
+}
+
+void record_events(const StaticPath& path, Recorder& record) {
+  for (const PathEvent& event : path.events) {
+    const bool limit = event.kind == PathEvent::Kind::limit_point;
+    record.add(limit ? "limit_load_factor" : "bifurcation_load_factor", "", event.load);
+  }
+}
+
+/// How the last solution was found, iteration by iteration.
+void record_newton(const solver::large_motion::NewtonResult& newton, Recorder& record) {
+  for (std::size_t i = 0; i < newton.correction.size(); ++i) {
+    record.add("newton_iteration", "", static_cast<double>(i + 1));
+    record.add("newton_correction", "", newton.correction[i]);
+    if (i < newton.force_residual.size())
+      record.add("newton_residual_N_m", "", newton.force_residual[i]);
+  }
+}
+
+void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPoint>& points,
+                Drawing& drawing) {
+  const std::size_t stride = (points.size() + kMaxPoses - 1) / kMaxPoses;
+  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(stride, 1)) {
+    const std::size_t last_first = points.size() - 1 - i;
+    const solver::large_motion::State& state = points[last_first].state;
+    drawing.poses.push_back(
+        draw_large_pose(system, state.q, "load factor " + rounded(state.load, 3)));
+  }
+  std::reverse(drawing.poses.begin(), drawing.poses.end());
+}
+
+}  // namespace
+
+StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case_model,
+                                 std::size_t step, bool draw, Recorder& record) {
+  const auto factors = analysis.get("load_factors", std::vector<double>{1.0});
+  if (case_model.path && factors.size() > 1) {
+    throw analysis["load_factors"].error("expected one load factor along a trajectory");
+  }
+  solver::large_motion::StaticPathOptions options = read_large_statics_options(analysis);
+  if (options.keep_points && (case_model.path || factors.size() > 1)) {
+    throw analysis["whole_path"].error("expected one pose and one load factor beside it");
+  }
+  const solver::Model model = build_bare_model(case_model, step);
+  solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
+  read_drives(analysis, model, large_motion);
+  const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
+  StepResult result;
+  if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
+  std::vector<PathPoint> recorded_points;
+  StaticPath path;
+  for (const double factor : factors) {
+    options.target = factor;
+    path = follow_static_path(system, options);
+    result.counters.element_evaluations = system.element_evaluations();
+    result.counters.factorizations += path.counters.factorizations;
+    result.counters.solves += path.counters.solves;
+    result.counters.steps += path.counters.steps;
+    result.outcome = path.outcome;
+    if (!path.outcome.solved()) return result;
+    recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
+  }
+  for (const PathPoint& point : recorded_points) record_point(system, point, record);
+  if (!case_model.path) {
+    record_events(path, record);
+    record_newton(recorded_points.back().newton, record);
+  }
+  if (result.drawing) draw_poses(system, recorded_points, *result.drawing);
+  return result;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,146 @@
+#include "harness/statics_modes/analyse_sensitivity.h"
+
+#include <cmath>
+
+#include "harness/readers/design_parameter.h"
+#include "harness/scene/rigid_case_model.h"
+#include "solver/sensitivity/frequency_complex_step.h"
+#include "solver/sensitivity/frequency_differences.h"
+
+namespace trammel::harness {
+namespace {
+
+struct Named {
+  std::string name;
+  solver::DesignParameter parameter;
+};
+
+std::vector<Named> read_parameters(const JsonView& parameters) {
+  std::vector<Named> read;
+  for (const auto& [name, place] : parameters.entries()) {
+    read.push_back({name, read_design_parameter(place)});
+  }
+  return read;
+}
+
+/// What the route says of the frequencies and their derivatives.
+struct Derivatives {
+  solver::Outcome outcome;
+  Eigen::VectorXd frequency;
+  Eigen::MatrixXd derivative;  ///< mode x parameter
+  solver::Counters counters;
+};
+
+/// Differences, parameter by parameter.
+template <class Difference>
+Derivatives one_by_one(const std::vector<solver::DesignParameter>& parameters,
+                       const Difference& difference) {
+  Derivatives all;
+  for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
+    const solver::FrequencyDifferences one = difference(parameters[p]);
+    all.counters += one.counters;
+    all.outcome = one.outcome;
+    all.frequency = one.frequency;
+    all.derivative.conservativeResize(one.derivative.size(), static_cast<solver::Index>(p) + 1);
+    all.derivative.col(static_cast<solver::Index>(p)) = one.derivative;
+  }
+  return all;
+}
+
+/// By another route than Eq. 35.
+Derivatives derive_by(const JsonView& method, const CaseModel& case_model,
+                      const std::vector<solver::DesignParameter>& parameters, solver::Index count) {
+  const solver::ManipulatorDesign& design = *case_model.manipulator;
+  const solver::Pose& pose = case_model.motion.front().pose;
+  if (method.json() == "complex-step") {
+    const solver::FrequencyComplexStep found =
+        solver::differentiate_by_complex_step(design, pose, parameters, count);
+    return {found.outcome, found.frequency, found.derivative, found.counters};
+  }
+  if (method.json() == "extrapolated-differences") {
+    return one_by_one(parameters, [&](const solver::DesignParameter& parameter) {
+      return solver::differentiate_frequencies(design, pose, parameter, count);
+    });
+  }
+  const auto [name, numbers] = method.entries().front();
+  const double step = numbers.number("relative_step");
+  return one_by_one(parameters, [&, central = name == "central-difference"](
+                                    const solver::DesignParameter& parameter) {
+    return solver::difference_quotient(design, pose, parameter, count, step, central);
+  });
+}
+
+/// Error of the derivative against extrapolated differences, as a share of frequency over
+/// parameter, which is what a derivative of a frequency is like.
+void record_differences(const CaseModel& case_model, const Named& named,
+                        const solver::FrequencySensitivity& found, solver::Index column,
+                        Recorder& record, StepResult& result) {
+  const solver::Index count = found.frequency.size();
+  const solver::FrequencyDifferences differences = solver::differentiate_frequencies(
+      *case_model.manipulator, case_model.motion.front().pose, named.parameter, count);
+  if (!differences.outcome.solved()) {
+    result.outcome = differences.outcome;
+    return;
+  }
+  const double value = solver::parameter_value(*case_model.manipulator, named.parameter);
+  for (solver::Index i = 0; i < count; ++i) {
+    if (found.frequency[i] == 0) continue;  // rigid motions
+    const double error = std::abs(found.derivative(i, column) - differences.derivative[i]);
+    record.add("finite_difference_error", named.name, error * value / found.frequency[i]);
+  }
+}
+
+}  // namespace
+
+StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_model, bool draw,
+                               Recorder& record) {
+  if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
+  static_cast<void>(
+      read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
+  const std::vector<Named> named = read_parameters(analysis["parameters"]);
+  std::vector<solver::DesignParameter> parameters;
+  parameters.reserve(named.size());
+  for (const Named& one : named) parameters.push_back(one.parameter);
+  const auto count = analysis["count"].get<solver::Index>();
+  const auto method = analysis.find("method");
+  const bool exactly = !method || method->json() == "energies";
+  solver::FrequencySensitivity found;
+  if (exactly) {
+    found = solver::frequency_sensitivity(*case_model.manipulator, case_model.motion.front().pose,
+                                          parameters, count);
+  } else {
+    const Derivatives other = derive_by(*method, case_model, parameters, count);
+    found.outcome = other.outcome;
+    found.frequency = other.frequency;
+    found.derivative = other.derivative;
+    found.counters = other.counters;
+  }
+  StepResult result{found.outcome, found.counters, std::nullopt};
+  if (draw) result.drawing = draw_model(solver::assemble(build_model(case_model, 0)), true);
+  if (!found.outcome.solved()) return result;
+  for (solver::Index i = 0; i < found.frequency.size(); ++i) {
+    record.add("frequency_Hz", "", found.frequency[i]);
+    if (exactly && std::isfinite(found.gap[i])) record.add("frequency_gap", "", found.gap[i]);
+  }
+  for (const solver::FrequencySet& set : found.sets) {
+    for (solver::Index i = 0; i < set.count; ++i) {
+      record.add("multiplicity", "", static_cast<double>(set.count));
+    }
+  }
+  for (std::size_t p = 0; p < named.size(); ++p) {
+    const auto column = static_cast<solver::Index>(p);
+    const double value = solver::parameter_value(*case_model.manipulator, named[p].parameter);
+    for (solver::Index i = 0; i < found.frequency.size(); ++i) {
+      const double derivative = found.derivative(i, column);
+      record.add(sensitivity_name(named[p].parameter.quantity), named[p].name, derivative);
+      if (found.frequency[i] == 0) continue;  // rigid motions
+      record.add("relative_sensitivity", named[p].name, derivative * value / found.frequency[i]);
+    }
+    if (analysis.get("differences", false)) {
+      record_differences(case_model, named[p], found, column, record, result);
+    }
+  }
+  return result;
+}
+
+}  // namespace trammel::harness

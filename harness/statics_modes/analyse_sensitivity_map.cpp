@@ -1,0 +1,143 @@
+#include "harness/statics_modes/analyse_sensitivity_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "harness/base/text.h"
+#include "harness/readers/design_parameter.h"
+#include "harness/scene/rigid_case_model.h"
+#include "solver/sensitivity/workspace_curves.h"
+
+namespace trammel::harness {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kCurveGap = std::numeric_limits<double>::quiet_NaN();  // between two curves
+
+/// What one orientation comes to, by each reading of "the sensitivity".
+struct Reading {
+  double center_frequency = kCurveGap,
+         center = kCurveGap;  ///< at the position that counts as the centre
+  double mean_frequency = kCurveGap, mean = kCurveGap;  ///< over all positions of the map
+  double largest = kCurveGap;                           ///< in magnitude, clear of the boundary
+};
+
+void record_curves(const std::string& name, const std::string& item,
+                   const std::vector<solver::Polyline>& curves, Recorder& record) {
+  for (const solver::Polyline& curve : curves) {
+    for (const Eigen::Vector2d& point : curve) {
+      record.add(name + "_x_m", item, point.x());
+      record.add(name + "_y_m", item, point.y());
+    }
+    record.add(name + "_x_m", item, kCurveGap);
+    record.add(name + "_y_m", item, kCurveGap);
+  }
+}
+
+/// Seven digits: as much as a map shows, in half the space.
+double for_map(double value) {
+  if (value == 0) return value;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 6);
+  return std::round(value / unit) * unit;
+}
+
+void record_position(const solver::SensitivityMap& map, solver::Index j, solver::Index i,
+                     const std::string& quantity, const std::string& item, Recorder& record) {
+  const double x = map.grid.x0 + static_cast<double>(i) * map.grid.dx;
+  const double y = map.grid.y0 + static_cast<double>(j) * map.grid.dy;
+  record.add("position_x_m", item, for_map(x));
+  record.add("position_y_m", item, for_map(y));
+  record.add("frequency_Hz", item, for_map(map.frequency(j, i)));
+  record.add(quantity, item, for_map(map.derivative(j, i)));
+}
+
+/// @param positions  record each of them, too
+Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
+                 const std::string& item, double margin, bool positions, Recorder& record) {
+  Reading reading{.mean_frequency = 0, .mean = 0, .largest = 0};
+  double count = 0;
+  for (solver::Index j = 0; j < map.grid.rows; ++j) {
+    for (solver::Index i = 0; i < map.grid.columns; ++i) {
+      const double rate = map.derivative(j, i);
+      if (!std::isfinite(rate)) continue;  // out of reach, or on its boundary
+      if (positions) record_position(map, j, i, quantity, item, record);
+      reading.mean_frequency += map.frequency(j, i);
+      reading.mean += rate;
+      ++count;
+      if (map.serial_distance(j, i) < margin) continue;
+      reading.largest = std::max(reading.largest, std::abs(rate));
+    }
+  }
+  reading.mean_frequency /= count;
+  reading.mean /= count;
+  return reading;
+}
+
+/// Rises from the first orientation to each of the others, in magnitude.
+void record_rises(const std::vector<Reading>& readings, Recorder& record) {
+  const auto rise = [&](const char* name, const char* item, double Reading::*number) {
+    const double first = std::abs(readings.front().*number);
+    for (std::size_t k = 1; k < readings.size(); ++k) {
+      record.add(name, item, 100 * (std::abs(readings[k].*number) / first - 1));
+    }
+  };
+  rise("sensitivity_rise_percent", "center", &Reading::center);
+  rise("sensitivity_rise_percent", "mean", &Reading::mean);
+  rise("sensitivity_rise_percent", "largest", &Reading::largest);
+  rise("frequency_rise_percent", "center", &Reading::center_frequency);
+  rise("frequency_rise_percent", "mean", &Reading::mean_frequency);
+}
+
+}  // namespace
+
+StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& case_model, bool,
+                                   Recorder& record) {
+  if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
+  static_cast<void>(
+      read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
+  const solver::ManipulatorDesign& design = *case_model.manipulator;
+  solver::DesignParameter parameter;
+  if (const auto given = analysis.find("parameter")) parameter = read_design_parameter(*given);
+  const std::string quantity = sensitivity_name(parameter.quantity);
+  const double margin = analysis.get("serial_margin", 0.1);
+  const bool positions = analysis.get("positions", true);
+  StepResult result;
+  std::vector<Reading> readings;
+  for (const auto& entry : analysis["orientations_deg"].entries()) {
+    const auto degrees = entry.second.get<double>();
+    const std::string item = "phi-" + shortest(degrees);
+    solver::Pose center = case_model.motion.front().pose;
+    center.phi = degrees * kDegree;
+    const solver::PoseGrid grid = solver::reachable_grid(design.geometry, center.phi,
+                                                         analysis["columns"].get<solver::Index>());
+    const solver::SensitivityMap map = solver::map_first_frequency(design, parameter, grid);
+    result.counters += map.counters;
+    Reading reading = read_map(map, quantity, item, margin, positions, record);
+    const solver::FirstFrequency at_center = solver::first_frequency(design, parameter, center);
+    result.outcome = at_center.outcome;
+    if (!result.outcome.solved()) {
+      result.outcome.reason.insert(0, "at the centre, " + item + ": ");
+      return result;
+    }
+    reading.center_frequency = at_center.frequency;
+    reading.center = at_center.derivative;
+    readings.push_back(reading);
+    if (positions) {
+      record_curves("boundary", item, solver::workspace_boundary(design.geometry, center.phi, 360),
+                    record);
+      record_curves("singular", item, solver::parallel_singularities(design.geometry, grid),
+                    record);
+    }
+    record.add("center_frequency_Hz", "", reading.center_frequency);
+    record.add("center_" + quantity, "", reading.center);
+    record.add("mean_frequency_Hz", "", reading.mean_frequency);
+    record.add("mean_" + quantity, "", reading.mean);
+    record.add("largest_" + quantity, "", reading.largest);
+  }
+  record_rises(readings, record);
+  return result;
+}
+
+}  // namespace trammel::harness

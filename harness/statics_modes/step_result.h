@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/base/recorder.h"
+#include "harness/base/timing.h"
+#include "harness/scene/case_model.h"
+#include "harness/scene/drawing.h"
+#include "solver/assembly/system.h"
+
+namespace trammel::harness {
+
+/// What an analysis leaves behind beside the quantities that it records: at one step of the path,
+/// along the whole of it, or of a case.
+struct StepResult {
+  solver::Outcome outcome;
+  solver::Counters counters;
+  std::optional<Drawing> drawing;  ///< on the first step, when asked for
+  std::vector<EvaluationTime> timings = {};
+};
+
+inline constexpr solver::Index kMaxDrawnShapes = 12;
+
+/// "mode 3, 12.5 Hz"
+/// @param number  what the mode belongs to, as its unit says
+[[nodiscard]] std::string mode_label(solver::Index mode, double number, const char* unit);
+
+/// Time and pose of a step of the path; nothing where there is none.
+void record_path(const CaseModel& case_model, std::size_t step, Recorder& record);
+
+/// The outcome of a step, its reason naming the point of the path.
+[[nodiscard]] solver::Outcome at_point(const CaseModel& case_model, std::size_t step,
+                                       solver::Outcome outcome);
+
+}  // namespace trammel::harness

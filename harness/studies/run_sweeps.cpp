@@ -1,0 +1,45 @@
+#include "harness/studies/run_sweeps.h"
+
+#include <cmath>
+#include <limits>
+
+#include "harness/analysis/analysis.h"
+#include "harness/input/case.h"
+
+namespace trammel::harness {
+namespace {
+
+/// From coarse to fine; a size of zero or less has no meaning.
+void check_levels(const JsonView& place, const std::vector<Level>& levels) {
+  const std::string measures = place.get<std::string>("refinement_by", "elements");
+  double before = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double size = element_size(measures, levels[i].parameter);
+    if (!(size > 0) || !(size < before) || !std::isfinite(size)) {
+      throw place["values"][i].error("expected values from coarse to fine (got " +
+                                     std::to_string(levels[i].parameter) + ")");
+    }
+    before = size;
+  }
+}
+
+}  // namespace
+
+std::vector<Sweep> run_sweeps(const Document& document, const References& references) {
+  std::vector<Sweep> sweeps;
+  const auto places = JsonView(document).find("sweeps");
+  if (!places) return sweeps;
+  for (const auto& [name, place] : places->entries()) {
+    Sweep sweep{name, {}};
+    const std::vector<Level> found = levels(document, name);
+    check_levels(place, found);
+    for (const Level& level : found) {
+      sweep.levels.push_back(
+          {level.parameter, analyse(level.document, references, {false}).quantities});
+    }
+    sweeps.push_back(std::move(sweep));
+  }
+  return sweeps;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,338 @@
+#include "harness/studies/validation_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "harness/base/numbers.h"
+#include "harness/base/text.h"
+#include "harness/input/case.h"
+#include "harness/judge/convergence.h"
+
+namespace trammel::harness {
+namespace {
+
+/// From a band of about 95 % to a standard uncertainty: the error lies on one side of the computed
+/// value, near the edge of the band. Source: ASME V&V 20-2009, section 2 (k = 1.1 to 1.15).
+constexpr double kGciToStandard = 1.15;
+
+/// One value of the run that is compared with one of a reference.
+struct Place {
+  const Check* check = nullptr;
+  std::size_t index = 0, reference_index = 0;
+  const references::Reference* reference = nullptr;
+};
+
+std::vector<Place> compared_places(const std::vector<Check>& checks, const JsonView& root,
+                                   const Quantities& quantities, const References& references) {
+  std::vector<Place> places;
+  for (const Check& check : checks) {
+    const bool compared =
+        check.role == Role::validation && !check.reference.empty() && check.statistic.empty();
+    const auto found = quantities.find(check.quantity);
+    if (!compared || found == quantities.end()) continue;
+    const references::Reference& reference =
+        references.get(root["checks"][check.name]["reference"]);
+    const std::size_t count = check.index.empty() ? reference.values.size() : check.index.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t index = check.index.empty() ? k : check.index[k];
+      const std::size_t entry = check.reference_index.empty() ? k : check.reference_index.at(k);
+      if (index >= found->second.values.size() || entry >= reference.values.size()) continue;
+      places.push_back({&check, index, entry, &reference});
+    }
+  }
+  return places;
+}
+
+double value_at(const Quantities& quantities, const Place& place) {
+  const auto found = quantities.find(place.check->quantity);
+  if (found == quantities.end() || place.index >= found->second.values.size()) return kNaN;
+  return found->second.values[place.index];
+}
+
+/// The document with each number at the pointers moved.
+Document moved(const Document& document, const std::vector<std::string>& pointers,
+               const std::function<double(double)>& move) {
+  Document copy = document;
+  for (const std::string& pointer : pointers) {
+    const double value = document.value().at(JsonPointer(pointer)).get<double>();
+    const Origin written = document.origin(pointer);
+    copy.apply_value_patch(written.file, written.pointer,
+                           patch_at(copy.value(), pointer, move(value)));
+  }
+  return copy;
+}
+
+bool is_number(const Document& document, const std::string& pointer) {
+  const JsonPointer at(pointer);
+  return document.value().contains(at) && document.value().at(at).is_number();
+}
+
+std::vector<StatedInput> read_inputs(const JsonView& place, const References& references) {
+  std::vector<StatedInput> inputs;
+  const Document& document = place.document();
+  for (const auto& [name, entry] : place.entries()) {
+    StatedInput input;
+    input.name = name;
+    input.nominal = entry.get("nominal", false);
+    if (entry.has("half_width") == entry.has("reference")) {
+      throw entry.error("expected either 'half_width' or 'reference'");
+    }
+    if (entry.has("reference")) {
+      const references::Reference& reference = references.get(entry["reference"]);
+      input.half_width = reference.uncertainty.at(0);
+      if (!reference.printed.empty()) {
+        input.why = "half a unit in the last place of '" + reference.printed[0] + "'";
+      }
+    } else {
+      input.half_width = entry.number("half_width");
+    }
+    const auto why = entry.get<std::string>("why", "");
+    if (!why.empty()) input.why += (input.why.empty() ? "" : "; ") + why;
+    for (const auto& [number, at] : entry["pointers"].entries()) {
+      require_pointer(document, at);
+      const auto pointer = at.get<std::string>();
+      if (is_number(document, pointer)) input.pointers.push_back(pointer);
+    }
+    if (!input.pointers.empty()) inputs.push_back(std::move(input));
+  }
+  return inputs;
+}
+
+class ValidationStudy {
+ public:
+  ValidationStudy(const Document& document, const AnalysisResult& result,
+                  const std::vector<Check>& checks, const References& references)
+      : document_(document),
+        stated_(JsonView(document)["uncertainty"]),
+        references_(references),
+        result_(result),
+        places_(compared_places(checks, JsonView(document), result.quantities, references)) {}
+
+  ValidationUncertainty run() {
+    if (places_.empty()) return {};
+    study_.inputs = stated_inputs(document_, references_);
+    for (const Place& place : places_) study_.entries.push_back(start(place));
+    refine();
+    derive();
+    sample();
+    evaluate_check();
+    return std::move(study_);
+  }
+
+ private:
+  [[nodiscard]] ComparedEntry start(const Place& place) const {
+    ComparedEntry entry;
+    entry.check = place.check->name;
+    entry.quantity = place.check->quantity;
+    entry.unit = place.reference->unit;
+    entry.reference = place.reference->id;
+    entry.index = place.index;
+    entry.comparison.simulation = value_at(result_.quantities, place);
+    entry.comparison.reference = place.reference->values[place.reference_index];
+    entry.comparison.u_reference =
+        place.reference->uncertainty[place.reference_index] / std::sqrt(3.0);
+    for (const Place& other : places_) {
+      const bool same = other.check->quantity == entry.quantity && other.index == entry.index &&
+                        other.reference_index == place.reference_index;
+      if (!same || other.reference == place.reference) continue;
+      entry.spread.push_back(other.reference->values[other.reference_index] -
+                             entry.comparison.reference);
+    }
+    return entry;
+  }
+
+  /// The values of all places with some inputs moved; empty where there is no solution.
+  [[nodiscard]] std::optional<std::vector<double>> values_of(const Document& document) const {
+    try {
+      const AnalysisResult result = analyse(document, references_, {false});
+      if (!result.outcome.solved()) return std::nullopt;
+      std::vector<double> values;
+      for (const Place& place : places_) {
+        values.push_back(value_at(result.quantities, place));
+        if (!std::isfinite(values.back())) return std::nullopt;
+      }
+      return values;
+    } catch (const InputError&) {
+      return std::nullopt;  // out of reach, or no longer a mechanism that can be built
+    }
+  }
+
+  void refine() {
+    std::vector<double> squares(places_.size(), 0.0);
+    for (const auto& [name, place] : stated_["refinements"].entries()) {
+      const auto pointer = place.text("pointer");
+      require_pointer(document_, place["pointer"]);
+      if (!is_number(document_, pointer)) continue;
+      std::vector<std::vector<double>> levels;
+      std::vector<double> parameter;
+      const bool halvings = place.text("refinement_by") == "halvings";
+      for (int step = 0; step < 3; ++step) {
+        double number = 0;
+        const Document finer = moved(document_, {pointer}, [&](double value) {
+          return number = halvings ? value + step : value * std::exp2(step);
+        });
+        parameter.push_back(number);
+        levels.push_back(values_of(finer).value_or(std::vector<double>(places_.size(), kNaN)));
+      }
+      estimate(name, place, parameter, levels, squares);
+    }
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      study_.entries[i].comparison.u_num = std::sqrt(squares[i]);
+    }
+  }
+
+  void estimate(const std::string& name, const JsonView& place,
+                const std::vector<double>& parameter,
+                const std::vector<std::vector<double>>& levels, std::vector<double>& squares) {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      Series series;
+      series.parameter = parameter;
+      series.size = {4, 2, 1};
+      series.values = {levels[0][i], levels[1][i], levels[2][i]};
+      series.roundoff = {0, 0, 0};
+      if (place.has("theory_order")) series.theory = place.number("theory_order");
+      const Convergence found = harness::analyse_convergence(series);
+      NumericalEstimate one;
+      one.refinement = name;
+      one.quantity = places_[i].check->quantity;
+      one.index = places_[i].index;
+      one.parameter = parameter;
+      one.values = series.values;
+      one.order = found.order[2];
+      one.factor = found.factor[2];
+      one.half_width = one.factor * std::abs(series.values[0] - found.richardson.value_or(kNaN));
+      if (found.broken) one.half_width = kNaN;
+      squares[i] += std::pow(one.half_width / kGciToStandard, 2);
+      const bool told = std::any_of(
+          study_.numerical.begin(), study_.numerical.end(), [&](const NumericalEstimate& other) {
+            return other.refinement == one.refinement && other.quantity == one.quantity &&
+                   other.index == one.index;
+          });
+      if (!told) study_.numerical.push_back(std::move(one));
+    }
+  }
+
+  [[nodiscard]] std::vector<std::size_t> chosen(bool literal) const {
+    std::vector<std::size_t> which;
+    for (std::size_t k = 0; k < study_.inputs.size(); ++k) {
+      if (literal || !study_.inputs[k].nominal) which.push_back(k);
+    }
+    return which;
+  }
+
+  [[nodiscard]] std::vector<double> half_widths(const std::vector<std::size_t>& which) const {
+    std::vector<double> widths;
+    widths.reserve(which.size());
+    for (const std::size_t k : which) widths.push_back(study_.inputs[k].half_width);
+    return widths;
+  }
+
+  [[nodiscard]] Response response(const std::vector<std::size_t>& which) const {
+    return [this, which](const std::vector<double>& offsets) {
+      Document document = document_;
+      for (std::size_t i = 0; i < which.size(); ++i) {
+        document = moved(document, study_.inputs[which[i]].pointers,
+                         [&](double value) { return value + offsets[i]; });
+      }
+      return values_of(document);
+    };
+  }
+
+  void derive() {
+    const std::vector<std::size_t> all = chosen(true);
+    const auto found = uncertainty_by_derivatives(response(all), half_widths(all));
+    if (!found)
+      throw stated_["inputs"].error("expected inputs about which the model can be solved");
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      ComparedEntry& entry = study_.entries[i];
+      double square = 0;
+      double literal = 0;
+      double largest = 0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        const double part = found ? found->contribution[k][i] : kNaN;
+        const bool counts = !study_.inputs[k].nominal;
+        literal += part * part;
+        if (counts) square += part * part;
+        entry.contribution.push_back(part);
+        if (counts && std::abs(part) > largest) {
+          largest = std::abs(part);
+          entry.dominant = study_.inputs[k].name;
+        }
+      }
+      entry.comparison.u_input = std::sqrt(square);
+      entry.dominant_share = square > 0 ? largest * largest / square : 0;
+      entry.literal_comparison.u_input = std::sqrt(literal);
+    }
+  }
+
+  void sample() {
+    const auto seed = stated_["seed"].get<std::uint64_t>();
+    const auto draw = [&](bool literal, const char* count) {
+      const std::vector<std::size_t> which = chosen(literal);
+      return uncertainty_by_sampling(response(which), half_widths(which), stated_[count].get<int>(),
+                                     seed);
+    };
+    const SampledUncertainty design = draw(false, "samples");
+    const SampledUncertainty literal = draw(true, "samples_all_inputs");
+    study_.samples = design.samples;
+    study_.failed = design.failed;
+    study_.literal_samples = literal.samples;
+    study_.literal_failed = literal.failed;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      study_.entries[i].u_input_sampled = i < design.standard.size() ? design.standard[i] : kNaN;
+      study_.entries[i].u_input_literal_sampled =
+          i < literal.standard.size() ? literal.standard[i] : kNaN;
+    }
+  }
+
+  /// Each check's entries are one row of the reference.
+  void evaluate_check() {
+    for (std::size_t first = 0; first < study_.entries.size();) {
+      std::size_t end = first;
+      std::vector<Comparison> row;
+      std::vector<Comparison> literal;
+      for (;
+           end < study_.entries.size() && study_.entries[end].check == study_.entries[first].check;
+           ++end) {
+        ComparedEntry& entry = study_.entries[end];
+        row.push_back(entry.comparison);
+        const double u_literal = entry.literal_comparison.u_input;
+        entry.literal_comparison = entry.comparison;
+        entry.literal_comparison.u_input = u_literal;
+        literal.push_back(entry.literal_comparison);
+      }
+      const auto verdicts = evaluate_validation_row(row, study_.entries[first].unit);
+      const auto literal_verdicts = evaluate_validation_row(literal, study_.entries[first].unit);
+      for (std::size_t i = first; i < end; ++i) {
+        study_.entries[i].validation = verdicts[i - first];
+        study_.entries[i].literal = literal_verdicts[i - first];
+      }
+      first = end;
+    }
+  }
+
+  const Document& document_;
+  JsonView stated_;
+  const References& references_;
+  const AnalysisResult& result_;
+  std::vector<Place> places_;
+  ValidationUncertainty study_;
+};
+
+}  // namespace
+
+std::vector<StatedInput> stated_inputs(const Document& document, const References& references) {
+  return read_inputs(JsonView(document)["uncertainty"]["inputs"], references);
+}
+
+ValidationUncertainty evaluate_validation_uncertainty(const Document& document,
+                                                      const AnalysisResult& result,
+                                                      const std::vector<Check>& checks,
+                                                      const References& references) {
+  return ValidationStudy(document, result, checks, references).run();
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,173 @@
+#include "harness/studies/validation_uncertainty.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "harness/input/schema.h"
+#include "harness/run/results.h"
+#include "harness/run/run.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::references;
+using namespace trammel::solver;
+using namespace trammel::harness;
+using testing::Folder;
+
+namespace {
+
+/// First frequency of a steel cantilever, exact. It goes with depth, sqrt(E) and 1 / length^2.
+const double kExact = 3.5160152685 * std::sqrt(2e11 / 7800 / 12) * 0.1 / 4 / (2 * std::acos(-1.0));
+
+void write_reference(const Folder& folder, const std::string& id, const char* unit, double value,
+                     double uncertainty) {
+  (void)folder.write({{"id", id},
+                      {"title", id},
+                      {"kind", "code"},
+                      {"unit", unit},
+                      {"values", {value}},
+                      {"uncertainty", {{"absolute", uncertainty}}},
+                      {"source", "me"},
+                      {"place", "here"}});
+}
+
+/// Depth 0.1 m within 1 mm, E within 1 %, a nominal length of 2 m within 0.5 m; the printed
+/// frequency is off by `off`.
+Json beam(const Folder& folder, double off) {
+  write_reference(folder, "printed", "Hz", kExact * (1 - off), 0.05);
+  write_reference(folder, "other", "Hz", kExact * (1 - off) + 3, 0.05);
+  write_reference(folder, "depth", "m", 0.1, 1e-3);
+  Json json = testing::cantilever();
+  json["analysis"] = {{"modes", {{"count", 1}}}};
+  json["checks"]["printed"] = {
+      {"quantity", "frequency_Hz"}, {"reference", "printed"}, {"role", "validation"}};
+  json["checks"]["other"] = {
+      {"quantity", "frequency_Hz"}, {"reference", "other"}, {"role", "validation"}};
+  json["uncertainty"] = Json::parse(R"({
+    "inputs": {
+      "depth": {"pointers": ["/model/sections/bar/rectangle/thickness_m"], "reference": "depth"},
+      "modulus": {"pointers": ["/model/materials/steel/E_Pa"], "half_width": 2e9, "why": "1 %"},
+      "length": {"pointers": ["/model/nodes/B/0"], "half_width": 0.5, "nominal": true, "why": "round"},
+      "words": {"pointers": ["/model/members/AB/section"], "half_width": 1, "why": "no number here"}
+    },
+    "refinements": {"beam": {"pointer": "/model/elements", "refinement_by": "elements", "theory_order": 4}},
+    "samples": 300, "samples_all_inputs": 50, "seed": 1
+  })");
+  return json;
+}
+
+Run run(const Case& given) {
+  const References references;
+  return run_cases({given}, references, {}).at(0);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(validation_uncertainty)
+
+BOOST_AUTO_TEST_CASE(derivatives_and_samples_agree_with_the_scaling_laws_of_a_beam) {
+  const Folder folder;
+  const Run found = run(testing::read(folder, beam(folder, 0)));
+  BOOST_REQUIRE(found.uncertainty.entries.size() == 2U);
+  const ComparedEntry& entry = found.uncertainty.entries[0];
+  const double f = entry.comparison.simulation;
+  const double depth = 0.01 * f / std::sqrt(3.0);
+  const double modulus = 0.5 * 0.01 * f / std::sqrt(3.0);
+  BOOST_TEST(f == kExact, boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(entry.contribution[0] == depth, boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(entry.contribution[1] == modulus, boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(entry.comparison.u_input == std::hypot(depth, modulus),
+             boost::test_tools::tolerance(1e-4));
+  BOOST_TEST(entry.u_input_sampled == entry.comparison.u_input, boost::test_tools::tolerance(0.05));
+  BOOST_TEST(entry.dominant == "depth");
+  BOOST_TEST(entry.dominant_share == 0.8, boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(entry.comparison.u_reference == 0.05 / std::sqrt(3.0),
+             boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(nominal_lengths_count_in_the_literal_reading_alone) {
+  const Folder folder;
+  const Run found = run(testing::read(folder, beam(folder, 0)));
+  const ComparedEntry& entry = found.uncertainty.entries[0];
+  const double length = 2 * 0.25 * entry.comparison.simulation / std::sqrt(3.0);  // f ~ 1 / L^2
+  BOOST_TEST(std::abs(entry.contribution[2]) == length, boost::test_tools::tolerance(0.01));
+  BOOST_TEST(entry.literal_comparison.u_input ==
+                 std::hypot(entry.comparison.u_input, entry.contribution[2]),
+             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(entry.literal.u_val > 10 * entry.validation.u_val);
+}
+
+BOOST_AUTO_TEST_CASE(u_num_holds_the_error_of_the_mesh_and_is_not_huge) {
+  const Folder folder;
+  const Run found = run(testing::read(folder, beam(folder, 0)));
+  const double u = found.uncertainty.entries[0].comparison.u_num;
+  const double error = std::abs(found.uncertainty.entries[0].comparison.simulation - kExact);
+  BOOST_TEST(1.15 * u > error);
+  BOOST_TEST(u < 2 * error);
+  BOOST_REQUIRE(found.uncertainty.numerical.size() == 1U);  // once, for both checks
+  BOOST_TEST(found.uncertainty.numerical[0].parameter[2] == 16);
+  BOOST_TEST(found.uncertainty.numerical[0].factor == 1.25);
+}
+
+BOOST_AUTO_TEST_CASE(an_agreement_is_within_the_noise_and_a_difference_is_not) {
+  const Folder folder;
+  const auto verdict = [&](double off) {
+    return run(testing::read(folder, beam(folder, off))).uncertainty.entries[0].validation.verdict;
+  };
+  BOOST_TEST((verdict(0.01) == ValidationVerdict::within_validation_uncertainty));
+  BOOST_TEST((verdict(0.05) == ValidationVerdict::beyond_validation_uncertainty));
+}
+
+BOOST_AUTO_TEST_CASE(the_spread_of_two_references_is_told_and_takes_no_part) {
+  const Folder folder;
+  const Run found = run(testing::read(folder, beam(folder, 0)));
+  const ComparedEntry& entry = found.uncertainty.entries[0];
+  BOOST_REQUIRE(entry.spread.size() == 1U);
+  BOOST_TEST(entry.spread[0] == 3, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(entry.validation.u_val < 0.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_word_in_the_place_of_a_number_is_no_input) {
+  const Folder folder;
+  const Run found = run(testing::read(folder, beam(folder, 0)));
+  BOOST_TEST(found.uncertainty.inputs.size() == 3U);
+  for (const StatedInput& input : found.uncertainty.inputs) BOOST_TEST(input.name != "words");
+}
+
+BOOST_AUTO_TEST_CASE(results_with_uncertainty_obey_the_schema_and_do_not_depend_on_jobs) {
+  const Folder folder;
+  Json json = beam(folder, 0);
+  json["variants"]["deep"]["model"]["sections"]["bar"]["rectangle"]["thickness_m"] = 0.11;
+  const Case given = testing::read(folder, json);
+  const auto results = [&](unsigned jobs) {
+    const References references;
+    RunOptions options;
+    options.jobs = jobs;
+    return results_of(run_cases({given}, references, options), {given}, references);
+  };
+  const Json one = results(1);
+  const Json two = results(2);
+  const auto fault = find_schema_error(one, "results");
+  BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
+  BOOST_TEST((one["runs"][1]["uncertainty"] == two["runs"][1]["uncertainty"]));
+  BOOST_TEST(one["runs"][1]["uncertainty"]["comparisons"].size() == 2U);
+}
+
+BOOST_AUTO_TEST_CASE(a_pointer_to_nothing_is_bad_input) {
+  const Folder folder;
+  Json json = beam(folder, 0);
+  json["uncertainty"]["inputs"]["depth"]["pointers"][0] = "/model/sections/beam";
+  const Run found = run(testing::read(folder, json));
+  BOOST_TEST(found.status == "error");
+  BOOST_TEST(testing::contains(found.reason, "/uncertainty/inputs/depth/pointers/0"));
+}
+
+BOOST_AUTO_TEST_CASE(an_input_needs_one_half_width) {
+  const Folder folder;
+  Json json = beam(folder, 0);
+  json["uncertainty"]["inputs"]["depth"]["half_width"] = 1e-3;
+  BOOST_TEST(testing::contains(run(testing::read(folder, json)).reason,
+                               "expected either 'half_width' or 'reference'"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
