@@ -16,7 +16,7 @@ bool equals(const Json& value, const SchemaRule& choice) {
 
 /// The one pattern of the schemas, ^[A-Za-z0-9][A-Za-z0-9._-]*$, by hand: to compile it as a
 /// std::regex takes seven million instructions.
-bool is_identifier(const std::string& text) {
+bool matches_name_pattern(const std::string& text) {
   const auto plain = [](unsigned char c) { return c < 128 && std::isalnum(c) != 0; };
   return !text.empty() && plain(text.front()) && std::all_of(text.begin(), text.end(), [&](char c) {
     return plain(c) || c == '.' || c == '_' || c == '-';
@@ -28,6 +28,11 @@ bool is_unique(const Json& array) {
     if (std::find(array.begin(), item, *item) != item) return false;
   }
   return true;
+}
+
+bool has_all(const Json& object, const SchemaRule& keys) {
+  return std::all_of(keys.Begin(), keys.End(),
+                     [&](const SchemaRule& key) { return object.contains(key.GetString()); });
 }
 
 /// Whether a value has one of the types of a rule.
@@ -50,18 +55,21 @@ bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
   if (value.is_string()) {
     const auto& text = value.get_ref<const std::string&>();
     if (name == "minLength") return text.size() >= limit.GetUint64();
-    return name != "pattern" || is_identifier(text);
+    return name != "pattern" || matches_name_pattern(text);
   }
+  if (!value.is_structured()) return true;
   if (name == (value.is_array() ? "minItems" : "minProperties")) {
     return value.size() >= limit.GetUint64();
   }
   if (name == (value.is_array() ? "maxItems" : "maxProperties")) {
     return value.size() <= limit.GetUint64();
   }
-  if (name == "uniqueItems" && value.is_array()) return is_unique(value);
-  return name != "required" || !value.is_object() ||
-         std::all_of(limit.Begin(), limit.End(),
-                     [&](const SchemaRule& key) { return value.contains(key.GetString()); });
+  if (value.is_array()) return name != "uniqueItems" || is_unique(value);
+  if (name == "required") return has_all(value, limit);
+  return name != "dependencies" ||
+         std::all_of(limit.MemberBegin(), limit.MemberEnd(), [&](const auto& item) {
+           return !value.contains(item.name.GetString()) || has_all(value, item.value);
+         });
 }
 
 /// Walks through a document and its schema side by side, and keeps the deepest value that breaks

@@ -105,6 +105,7 @@ std::vector<std::string> allowed_keys(const Rules& rules) {
       for (const auto& item : properties->GetObject()) keys.push_back(text_of(item.name));
     }
   }
+  std::sort(keys.begin(), keys.end());
   return keys;
 }
 
@@ -117,6 +118,7 @@ std::string all_quoted(std::vector<std::string> names, const char* last) {
 std::string got_keys(const Json& object) {
   std::vector<std::string> keys;
   for (const auto& item : object.items()) keys.push_back(item.key());
+  std::sort(keys.begin(), keys.end());
   return " (got " + (keys.empty() ? "none" : all_quoted(keys, "and")) + ")";
 }
 
@@ -124,6 +126,21 @@ std::string pointer_to(const std::vector<std::string>& path) {
   JsonPointer pointer;
   for (const std::string& step : path) pointer /= step;
   return pointer.to_string();
+}
+
+/// Keys that an object must have, for itself or beside others that it has.
+std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule) {
+  std::vector<std::string> keys;
+  const auto add = [&](const SchemaRule& names) {
+    for (const SchemaRule& name : names.GetArray()) keys.push_back(text_of(name));
+  };
+  if (const SchemaRule* required = keyword(rule, "required")) add(*required);
+  if (const SchemaRule* dependencies = keyword(rule, "dependencies")) {
+    for (const auto& item : dependencies->GetObject()) {
+      if (object.contains(text_of(item.name))) add(item.value);
+    }
+  }
+  return keys;
 }
 
 SchemaError explain_object(const Json& object, std::vector<std::string> path, const Rules& rules) {
@@ -139,12 +156,9 @@ SchemaError explain_object(const Json& object, std::vector<std::string> path, co
   }
   std::string wanted = "another object";
   for (const SchemaRule* rule : rules) {
-    const SchemaRule* required = keyword(*rule, "required");
-    for (rapidjson::SizeType i = 0; required != nullptr && i < required->Size(); ++i) {
-      const std::string key = text_of((*required)[i]);
-      if (!object.contains(key)) {
-        return {pointer_to(path), "expected the key " + quoted(key) + got_keys(object)};
-      }
+    for (const std::string& key : needed_keys(object, *rule)) {
+      if (object.contains(key)) continue;
+      return {pointer_to(path), "expected the key " + quoted(key) + got_keys(object)};
     }
     const std::size_t max_count = count_of(*rule, "maxProperties", object.size());
     if (object.size() < count_of(*rule, "minProperties", 0) || object.size() > max_count) {

@@ -98,6 +98,11 @@ BOOST_AUTO_TEST_CASE(a_missing_key_is_named_where_it_is_missing) {
   BOOST_TEST(found->message == "expected the key 'E_Pa' (got 'nu' and 'rho_kg_m3')");
 }
 
+BOOST_AUTO_TEST_CASE(a_key_that_needs_another_beside_it_is_answered_with_that) {
+  BOOST_TEST(robot_fault("/analysis", {{"grnn", {{"search", {{"from", 1}}}}}}) ==
+             "/analysis/grnn/search: expected the key 'to' (got 'from')");
+}
+
 BOOST_AUTO_TEST_CASE(an_analysis_is_exactly_one) {
   BOOST_TEST(contains(robot_fault("/analysis", Json::object()), "expected exactly one of"));
   BOOST_TEST(
@@ -137,7 +142,8 @@ BOOST_AUTO_TEST_CASE(the_schemas_use_only_what_is_checked) {
                                          "minProperties",
                                          "maxProperties",
                                          "$ref",
-                                         "additionalProperties"};
+                                         "additionalProperties",
+                                         "dependencies"};
   const std::set<std::string> at_the_root = {"$schema", "title", "definitions"};
   const std::function<void(const Json&, bool)> visit = [&](const Json& rule, bool is_root) {
     if (!rule.is_object()) return;
