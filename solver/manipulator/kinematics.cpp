@@ -1,8 +1,5 @@
 #include "solver/manipulator/kinematics.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -250,7 +247,7 @@ HoldingTorques holding_torques(const Jacobians& j, const Vector3d& wrench) {
   }
   const Vector3d scaled_wrench(wrench(0), wrench(1), wrench(2) / j.platform_radius);
   const Matrix3d directions = scaled(j).transpose();
-  result.tension = directions.colPivHouseholderQr().solve(scaled_wrench);
+  result.tension = pivoted_solve(directions, scaled_wrench).x;
   for (Index i = 0; i < 3; ++i) {
     result.torque(i) = -result.tension(i) * j.serial(i) / j.parallel.row(i).head<2>().norm();
   }
