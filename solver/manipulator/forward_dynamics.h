@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/manipulator/rigid_terms.h"
+#include "solver/manipulator/trajectory.h"
 
 /// From actuator torques back to the motion of the rigid manipulator.
 namespace trammel::solver {
