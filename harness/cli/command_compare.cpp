@@ -11,6 +11,7 @@
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
+#include "harness/results/results.h"
 #include "harness/run/cost_results.h"
 #include "harness/run/run.h"
 #include "harness/studies/mode_match.h"
@@ -183,10 +184,11 @@ std::pair<Named, Named> differing(const Named& a, const Named& b) {
 }
 
 /// The points of a study by the titles of its settings.
-std::vector<CostPoint> named_points(const Json& study, std::vector<std::string>& titles) {
+std::vector<CostPoint> named_points(const results::CostStudy& study,
+                                    std::vector<std::string>& titles) {
   std::vector<CostPoint> points = cost_points(study);
   for (CostPoint& point : points) {
-    const auto title = study.at("settings").at(point.setting).at("title").get<std::string>();
+    const std::string& title = study.settings[point.setting].title;
     const auto known = std::find(titles.begin(), titles.end(), title);
     point.setting = static_cast<std::size_t>(known - titles.begin());
     if (known == titles.end()) titles.push_back(title);
@@ -198,24 +200,24 @@ std::vector<CostPoint> named_points(const Json& study, std::vector<std::string>&
 void compare_costs(const Json& a, const Json& b) {
   if (!a.contains("cost") || !b.contains("cost")) return;
   Table table({"study", ">on both fronts", ">of", ">same cheapest", ">of", ">median", ">largest"});
-  for (const Json& study : a.at("cost").at("studies")) {
-    const Json& others = b.at("cost").at("studies");
-    const auto other = std::find_if(others.begin(), others.end(), [&](const Json& candidate) {
-      return candidate.at("id") == study.at("id");
-    });
-    if (other == others.end()) continue;
+  const results::CostStudies others = results::read_cost_studies(b.at("cost"));
+  for (const results::CostStudy& study : results::read_cost_studies(a.at("cost")).studies) {
+    const auto other =
+        std::find_if(others.studies.begin(), others.studies.end(),
+                     [&](const results::CostStudy& candidate) { return candidate.id == study.id; });
+    if (other == others.studies.end()) continue;
     std::vector<std::string> titles;
     const std::vector<CostPoint> points_a = named_points(study, titles);
     const ParetoFrontAgreement both = compare_pareto_fronts(points_a, named_points(*other, titles));
-    table.add({study.at("id").get<std::string>(), std::to_string(both.shared),
-               std::to_string(both.either), std::to_string(both.same_cheapest),
-               std::to_string(both.targets), rounded(100 * both.median_difference, 2) + " % apart",
+    table.add({study.id, std::to_string(both.shared), std::to_string(both.either),
+               std::to_string(both.same_cheapest), std::to_string(both.targets),
+               rounded(100 * both.median_difference, 2) + " % apart",
                rounded(100 * both.largest_difference, 2) + " %"});
   }
   if (table.empty()) return;
-  std::cout
-      << "what accuracy costs: settings on the efficient fronts, the cheapest setting for each\n"
-         "error asked for, and how far what an accuracy costs is apart\n";
+  std::cout << "accuracy and computing time: settings on the Pareto fronts, the cheapest setting "
+               "for each\n"
+               "target error, and the difference of the time that an accuracy takes\n";
   table.print(std::cout, "  ");
 }
 

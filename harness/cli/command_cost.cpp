@@ -165,8 +165,8 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
     }
     print(measured.back());
   }
-  Json results = results_of({}, {}, references);
-  results["cost"] = cost_json(measured, extent, options.timing);
+  results::Results results = results_of({}, {}, references);
+  results.cost = cost_results(measured, extent, options.timing);
   const fs::path file = write_results(results, command.out);
   const fs::path page = renderers.report ? renderers.report(file, command.out) : file;
   std::cout << "results in " << file.string() << "\npage in " << page.string() << std::endl;
@@ -176,7 +176,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   return any_lost ? 1 : 0;
 }
 
-Json quick_cost(const References& references, std::vector<std::string>& error_messages) {
+results::CostStudies quick_cost(const References& references, std::vector<std::string>& error_messages) {
   Progress progress("cost studies");
   const CostOptions options;
   const std::vector<fs::path> files = cost_study_files();
@@ -190,7 +190,7 @@ Json quick_cost(const References& references, std::vector<std::string>& error_me
     }
     progress.show(measured.size() + error_messages.size(), files.size());
   }
-  return cost_json(measured, SweepExtent::quick, options.timing);
+  return cost_results(measured, SweepExtent::quick, options.timing);
 }
 
 }  // namespace trammel::harness

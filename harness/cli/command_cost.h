@@ -7,6 +7,7 @@
 #include "harness/base/json.h"
 #include "harness/cli/command_line.h"
 #include "harness/input/reference_library.h"
+#include "harness/results/cost_results.h"
 
 namespace trammel::harness {
 
@@ -25,7 +26,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.
 /// @param error_messages  gets a line for each study that could not be measured
-[[nodiscard]] Json quick_cost(const References& references,
+[[nodiscard]] results::CostStudies quick_cost(const References& references,
                               std::vector<std::string>& error_messages);
 
 }  // namespace trammel::harness

@@ -216,11 +216,11 @@ void print_run_errors(const std::vector<Run>& runs) {
   }
 }
 
-std::filesystem::path write_all(const Json& json, const std::string& out,
+std::filesystem::path write_all(const results::Results& found, const std::string& out,
                                 const Renderers& renderers) {
-  auto results = write_results(json, out);
-  if (renderers.junit) renderers.junit(results, std::filesystem::path(out) / "junit.xml");
-  return results;
+  auto file = write_results(found, out);
+  if (renderers.junit) renderers.junit(file, std::filesystem::path(out) / "junit.xml");
+  return file;
 }
 
 /// The cases that are named, and those with the labels.
@@ -252,8 +252,8 @@ void print_failed_runs(const std::vector<Run>& runs) {
 }
 
 /// The page of these results, and where it is.
-void write_page(const Json& results, const std::vector<Run>& runs, const std::string& out,
-                const Renderers& renderers) {
+void write_page(const results::Results& results, const std::vector<Run>& runs,
+                const std::string& out, const Renderers& renderers) {
   const auto file = write_all(results, out, renderers);
   const auto page = renderers.report ? renderers.report(file, out) : file;
   print_summary(runs);
@@ -304,12 +304,12 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
       compute(selection, references, {"", command.jobs, TrackedQuantities::named, {}});
   print_failed_runs(runs);
   std::vector<std::string> error_messages;
-  const Json cost = quick_cost(references, error_messages);
-  Json json = results_of(runs, selection.cases, references);
-  json["cost"] = cost;
+  results::CostStudies cost = quick_cost(references, error_messages);
+  results::Results results = results_of(runs, selection.cases, references);
+  results.cost = std::move(cost);
   const ClaimSet claim_set = evaluate_claims(load_claims(), runs);
-  json["ledger"] = to_json(claim_set);
-  write_page(json, runs, command.out, renderers);
+  results.claims = claim_results(claim_set);
+  write_page(results, runs, command.out, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {
     if (claim.as_expected()) continue;

@@ -108,11 +108,11 @@ std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& r
 std::string to_string(ValidationVerdict verdict) {
   switch (verdict) {
     case ValidationVerdict::within_validation_uncertainty:
-      return "within-noise";
+      return "within-uncertainty";
     case ValidationVerdict::beyond_validation_uncertainty:
-      return "model-off";
+      return "model-error";
     case ValidationVerdict::reference_inconsistent:
-      return "reference-contradicts-itself";
+      return "reference-inconsistent";
     case ValidationVerdict::undecided:
       break;
   }

@@ -45,7 +45,7 @@ inline constexpr double kCoverageFactor = 2;
 [[nodiscard]] std::vector<Validation> evaluate_validation_row(const std::vector<Comparison>& row,
                                                               const std::string& unit);
 
-/// "within-noise", "model-off", "reference-contradicts-itself", "undecided"
+/// "within-uncertainty", "model-error", "reference-inconsistent", "undecided"
 [[nodiscard]] std::string to_string(ValidationVerdict verdict);
 
 }  // namespace trammel::harness

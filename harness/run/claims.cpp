@@ -332,42 +332,33 @@ std::string to_text(InterpretationVerdict verdict) {
     case InterpretationVerdict::in_part:
       return "confirms in part";
     case InterpretationVerdict::undecided:
-      return "decides nothing";
+      return "inconclusive";
     case InterpretationVerdict::not_measured:
       return "not measured";
   }
   return "";
 }
 
-Json to_json(const ClaimSet& claim_set) {
-  Json json = {
-      {"title", claim_set.title}, {"follows", claim_set.as_expected()}, {"claims", Json::array()}};
+results::Claims claim_results(const ClaimSet& claim_set) {
+  results::Claims out{claim_set.title, claim_set.as_expected(), {}};
   for (const Claim& claim : claim_set.claims) {
-    Json one = {{"id", claim.id},
-                {"claim", claim.claim},
-                {"place", claim.place},
-                {"verdict", to_text(claim.verdict)},
-                {"expected", to_text(claim.expected)},
-                {"conclusion", claim.conclusion},
-                {"undecidable", claim.undecidable},
-                {"readings", Json::array()}};
-    for (const Interpretation& interpretation : claim.interpretations) {
-      Json interpretation_json = {{"what", interpretation.what},
-                                  {"take", interpretation.metric},
-                                  {"unit", interpretation.unit},
-                                  {"verdict", to_text(interpretation.verdict)},
-                                  {"entries", Json::array()}};
-      for (const InterpretationEntry& entry : interpretation.entries) {
-        interpretation_json["entries"].push_back({{"case", entry.case_id},
-                                                  {"variant", entry.variant},
-                                                  {"name", entry.name},
-                                                  {"value", entry.value}});
-      }
-      one["readings"].push_back(std::move(interpretation_json));
+    out.claims.push_back({claim.id,
+                          claim.claim,
+                          claim.place,
+                          to_text(claim.verdict),
+                          to_text(claim.expected),
+                          claim.conclusion,
+                          claim.undecidable,
+                          {}});
+    for (const Interpretation& found : claim.interpretations) {
+      results::ClaimInterpretation interpretation{
+          found.what, found.metric, found.unit, to_text(found.verdict), {}};
+      for (const InterpretationEntry& entry : found.entries)
+        interpretation.entries.push_back({entry.case_id, entry.variant, entry.name, entry.value});
+      out.claims.back().interpretations.push_back(std::move(interpretation));
     }
-    json["claims"].push_back(std::move(one));
   }
-  return json;
+  return out;
 }
 
 }  // namespace trammel::harness

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/results/results.h"
 #include "harness/run/run.h"
 
 /// The ledger of a publication's claims: from results, by the rules of cases/paper/claims/, to a
@@ -69,6 +70,6 @@ struct ClaimSet {
 [[nodiscard]] std::string to_text(InterpretationVerdict verdict);
 
 /// What results.json says of it.
-[[nodiscard]] Json to_json(const ClaimSet& claim_set);
+[[nodiscard]] results::Claims claim_results(const ClaimSet& claim_set);
 
 }  // namespace trammel::harness

@@ -2,16 +2,16 @@
 
 #include <vector>
 
-#include "harness/base/json.h"
+#include "harness/results/cost_results.h"
 #include "harness/studies/cost.h"
 
 namespace trammel::harness {
 
-/// The "cost" of results.json, by its schema.
-[[nodiscard]] Json cost_json(const std::vector<MeasuredStudy>& studies, SweepExtent extent,
-                             const TimingOptions& timing);
+/// What results.json says of accuracy and computing time.
+[[nodiscard]] results::CostStudies cost_results(const std::vector<MeasuredStudy>& studies,
+                                                SweepExtent extent, const TimingOptions& timing);
 
-/// The points of a study of results.json that are used for its front.
-[[nodiscard]] std::vector<CostPoint> cost_points(const Json& study);
+/// The points of a study of results.json that are used for its Pareto front.
+[[nodiscard]] std::vector<CostPoint> cost_points(const results::CostStudy& study);
 
 }  // namespace trammel::harness

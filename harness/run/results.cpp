@@ -1,5 +1,6 @@
 #include "harness/run/results.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -10,292 +11,317 @@ namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
+using results::Number;
+using results::Numbers;
 
-Json numbers(const std::vector<double>& values) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(number_or_null(value));
-  return array;
+Number number(double value) {
+  return std::isfinite(value) ? Number(value) : std::nullopt;
+}
+Number number(const std::optional<double>& value) {
+  return value ? number(*value) : std::nullopt;
 }
 
-Json points(const std::vector<Eigen::Vector2d>& all) {
-  Json array = Json::array();
-  for (const Eigen::Vector2d& point : all)
-    array.push_back({number_or_null(point.x()), number_or_null(point.y())});
-  return array;
+Numbers numbers(const std::vector<double>& values) {
+  Numbers out;
+  for (const double value : values) out.push_back(number(value));
+  return out;
 }
 
-Json tolerance(const CheckResult& check_result) {
-  if (!check_result.window) return nullptr;
-  if (check_result.symmetric) return number_or_null(check_result.window->high);
-  return {number_or_null(check_result.window->low), number_or_null(check_result.window->high)};
+Numbers interval(const Validation& validation) {
+  return {number(validation.low), number(validation.high)};
 }
 
-Json check_result_json(const CheckResult& check_result) {
-  Json json = {{"name", check_result.name}};
-  if (!check_result.title.empty()) json["title"] = check_result.title;
-  json["quantity"] = check_result.quantity;
-  json["index"] = check_result.index ? Json(*check_result.index) : Json(nullptr);
-  if (!check_result.statistic.empty()) json["statistic"] = check_result.statistic;
-  json["computed"] = number_or_null(check_result.computed);
-  json["expected"] = number_or_null(check_result.expected);
-  json["unit"] = check_result.unit;
-  if (!check_result.reference.empty()) json["reference"] = check_result.reference;
-  if (!check_result.against_variant.empty()) json["against_variant"] = check_result.against_variant;
-  if (!check_result.against_quantity.empty())
-    json["against_quantity"] = check_result.against_quantity;
-  json["role"] = to_string(check_result.role);
-  json["measure"] = check_result.measure;
-  json["difference"] = number_or_null(check_result.difference);
-  json["tolerance"] = tolerance(check_result);
-  json["why"] = check_result.why;
-  json["expectation"] = to_string(check_result.expectation);
-  json["verdict"] = to_string(check_result.verdict);
-  json["message"] = check_result.message;
-  return json;
+std::vector<results::Point> points(const std::vector<Eigen::Vector2d>& all) {
+  std::vector<results::Point> out;
+  for (const Eigen::Vector2d& point : all) out.emplace_back(point.x(), point.y());
+  return out;
 }
 
-Json convergence(const Convergence& found) {
+std::optional<results::Tolerance> tolerance(const CheckResult& check_result) {
+  if (!check_result.window) return std::nullopt;
+  return results::Tolerance{number(check_result.window->low), number(check_result.window->high),
+                            check_result.symmetric};
+}
+
+results::Expectation expectation(Expectation expectation) {
+  switch (expectation) {
+    case Expectation::agrees:
+      return results::Expectation::agrees;
+    case Expectation::known_discrepancy:
+      return results::Expectation::known_discrepancy;
+    case Expectation::none:
+      break;
+  }
+  return results::Expectation::none;
+}
+
+results::Verdict verdict(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return results::Verdict::pass;
+    case Verdict::fail:
+      return results::Verdict::fail;
+    case Verdict::not_run:
+      return results::Verdict::not_run;
+    case Verdict::recorded:
+      return results::Verdict::recorded;
+    case Verdict::error:
+      break;
+  }
+  return results::Verdict::error;
+}
+
+results::Check check(const CheckResult& found) {
+  results::Check check;
+  check.name = found.name;
+  check.title = found.title;
+  check.quantity = found.quantity;
+  if (found.index) check.index = static_cast<int>(*found.index);
+  check.statistic = found.statistic;
+  check.computed = number(found.computed);
+  check.expected = number(found.expected);
+  check.unit = found.unit;
+  check.reference = found.reference;
+  check.against_variant = found.against_variant;
+  check.against_quantity = found.against_quantity;
+  check.role = to_string(found.role);
+  check.measure = found.measure;
+  check.difference = number(found.difference);
+  check.tolerance = tolerance(found);
+  check.why = found.why;
+  check.expectation = expectation(found.expectation);
+  check.verdict = verdict(found.verdict);
+  check.message = found.message;
+  return check;
+}
+
+results::Convergence convergence(const Convergence& found) {
   const Series& series = found.series;
-  Json json = {{"sweep", series.sweep},
-               {"parameter", numbers(series.parameter)},
-               {"quantity", series.quantity},
-               {"index", series.index}};
-  if (!series.statistic.empty()) json["statistic"] = series.statistic;
-  json["values"] = numbers(series.values);
-  if (!series.reference.empty()) json["reference"] = series.reference;
-  json["exact"] = number_or_null(series.exact);
-  json["error"] = numbers(found.error);
-  json["roundoff"] = numbers(series.roundoff);
-  json["order"] = numbers(found.order);
-  json["in_asymptotic_range"] = found.in_asymptotic_range;
-  json["at_roundoff_floor"] = found.at_roundoff_floor;
-  json["theory_order"] = number_or_null(series.theory);
-  if (series.lower) json["lower_order"] = number_or_null(series.lower);
-  if (found.two_term) {
-    json["two_term"] = {{"coefficients",
-                         {number_or_null(found.two_term->coefficient[0]),
-                          number_or_null(found.two_term->coefficient[1])}},
-                        {"worst", number_or_null(found.two_term->worst)},
-                        {"used", found.two_term->used}};
+  results::Convergence study;
+  study.sweep = series.sweep;
+  study.parameter = numbers(series.parameter);
+  study.quantity = series.quantity;
+  study.index = static_cast<int>(series.index);
+  study.statistic = series.statistic;
+  study.values = numbers(series.values);
+  study.reference = series.reference;
+  study.exact = number(series.exact);
+  study.error = numbers(found.error);
+  study.roundoff = numbers(series.roundoff);
+  study.order = numbers(found.order);
+  study.in_asymptotic_range = found.in_asymptotic_range;
+  study.at_roundoff_floor = found.at_roundoff_floor;
+  study.theory_order = number(series.theory);
+  study.lower_order = number(series.lower);
+  if (const auto& law = found.two_term) {
+    study.two_term = {
+        {number(law->coefficient[0]), number(law->coefficient[1])}, number(law->worst), law->used};
   }
-  json["fitted_order"] = number_or_null(found.fitted_order);
-  json["richardson"] = number_or_null(found.richardson);
-  json["band"] = numbers(found.gci);
-  json["factor"] = numbers(found.factor);
-  return json;
+  study.fitted_order = number(found.fitted_order);
+  study.richardson = number(found.richardson);
+  study.gci = numbers(found.gci);
+  study.safety_factor = numbers(found.factor);
+  return study;
 }
 
-Json interval(const Validation& validation) {
-  return {number_or_null(validation.low), number_or_null(validation.high)};
+results::Comparison comparison(const ComparedEntry& entry, const std::vector<StatedInput>& inputs) {
+  results::Comparison out;
+  out.check = entry.check;
+  out.quantity = entry.quantity;
+  out.index = static_cast<int>(entry.index);
+  out.unit = entry.unit;
+  out.reference = entry.reference;
+  out.simulation = number(entry.comparison.simulation);
+  out.expected = number(entry.comparison.reference);
+  out.u_num = number(entry.comparison.u_num);
+  out.u_input = number(entry.comparison.u_input);
+  out.u_input_sampled = number(entry.u_input_sampled);
+  out.u_reference = number(entry.comparison.u_reference);
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    out.contributions.emplace_back(inputs[k].name, number(entry.contribution[k]));
+  out.dominant_input = entry.dominant;
+  out.dominant_share = number(entry.dominant_share);
+  out.spread = numbers(entry.spread);
+  out.difference = number(entry.validation.difference);
+  out.u_val = number(entry.validation.u_val);
+  out.interval = interval(entry.validation);
+  out.verdict = to_string(entry.validation.verdict);
+  out.conclusion = entry.validation.text;
+  out.all_inputs = {number(entry.literal_comparison.u_input),
+                    number(entry.u_input_literal_sampled),
+                    number(entry.literal.u_val),
+                    interval(entry.literal),
+                    to_string(entry.literal.verdict),
+                    entry.literal.text};
+  return out;
 }
 
-Json comparison(const ComparedEntry& entry, const std::vector<StatedInput>& inputs) {
-  Json json = {{"check", entry.check},
-               {"quantity", entry.quantity},
-               {"index", entry.index},
-               {"unit", entry.unit},
-               {"reference", entry.reference},
-               {"simulation", number_or_null(entry.comparison.simulation)},
-               {"expected", number_or_null(entry.comparison.reference)},
-               {"u_num", number_or_null(entry.comparison.u_num)},
-               {"u_input", number_or_null(entry.comparison.u_input)},
-               {"u_input_sampled", number_or_null(entry.u_input_sampled)},
-               {"u_reference", number_or_null(entry.comparison.u_reference)},
-               {"contributions", Json::object()}};
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
-    json["contributions"][inputs[k].name] = number_or_null(entry.contribution[k]);
-  }
-  json["dominant_input"] = entry.dominant;
-  json["dominant_share"] = number_or_null(entry.dominant_share);
-  json["spread"] = numbers(entry.spread);
-  json["difference"] = number_or_null(entry.validation.difference);
-  json["u_val"] = number_or_null(entry.validation.u_val);
-  json["interval"] = interval(entry.validation);
-  json["verdict"] = to_string(entry.validation.verdict);
-  json["words"] = entry.validation.text;
-  json["literal"] = {{"u_input", number_or_null(entry.literal_comparison.u_input)},
-                     {"u_input_sampled", number_or_null(entry.u_input_literal_sampled)},
-                     {"u_val", number_or_null(entry.literal.u_val)},
-                     {"interval", interval(entry.literal)},
-                     {"verdict", to_string(entry.literal.verdict)},
-                     {"words", entry.literal.text}};
-  return json;
+results::Uncertainty uncertainty(const ValidationUncertainty& found) {
+  results::Uncertainty out;
+  out.samples = found.samples;
+  out.failed = found.failed;
+  out.samples_all_inputs = found.literal_samples;
+  out.failed_all_inputs = found.literal_failed;
+  for (const StatedInput& input : found.inputs)
+    out.inputs.push_back(
+        {input.name, input.why, input.pointers, number(input.half_width), input.nominal});
+  for (const NumericalEstimate& estimate : found.numerical)
+    out.numerical.push_back({estimate.refinement, estimate.quantity,
+                             static_cast<int>(estimate.index), numbers(estimate.parameter),
+                             numbers(estimate.values), number(estimate.order),
+                             number(estimate.factor), number(estimate.half_width)});
+  for (const ComparedEntry& entry : found.entries)
+    out.comparisons.push_back(comparison(entry, found.inputs));
+  return out;
 }
 
-Json uncertainty(const ValidationUncertainty& found) {
-  Json json = {{"inputs", Json::array()},
-               {"samples", found.samples},
-               {"failed", found.failed},
-               {"literal_samples", found.literal_samples},
-               {"literal_failed", found.literal_failed},
-               {"numerical", Json::array()},
-               {"comparisons", Json::array()}};
-  for (const StatedInput& input : found.inputs) {
-    json["inputs"].push_back({{"name", input.name},
-                              {"pointers", input.pointers},
-                              {"half_width", number_or_null(input.half_width)},
-                              {"nominal", input.nominal},
-                              {"why", input.why}});
-  }
-  for (const NumericalEstimate& estimate : found.numerical) {
-    json["numerical"].push_back({{"refinement", estimate.refinement},
-                                 {"quantity", estimate.quantity},
-                                 {"index", estimate.index},
-                                 {"parameter", numbers(estimate.parameter)},
-                                 {"values", numbers(estimate.values)},
-                                 {"order", number_or_null(estimate.order)},
-                                 {"factor", number_or_null(estimate.factor)},
-                                 {"half_width", number_or_null(estimate.half_width)}});
-  }
-  for (const ComparedEntry& entry : found.entries) {
-    json["comparisons"].push_back(comparison(entry, found.inputs));
-  }
-  return json;
+results::Drawing drawing(const Drawing& drawn) {
+  results::Drawing out;
+  out.nodes = points(drawn.nodes);
+  for (const auto& member : drawn.members) out.members.emplace_back(member.begin(), member.end());
+  for (const auto& triangle : drawn.triangles)
+    out.triangles.emplace_back(triangle.begin(), triangle.end());
+  for (const Drawing::Joint& joint : drawn.joints)
+    out.joints.push_back({static_cast<int>(joint.node), joint.kind, joint.name});
+  for (const Drawing::Shape& shape : drawn.shapes)
+    out.shapes.push_back({shape.label, points(shape.displacement)});
+  for (const Drawing::Pose& pose : drawn.poses)
+    out.poses.push_back({pose.label, points(pose.nodes)});
+  return out;
 }
 
-Json drawing_json(const Drawing& drawn) {
-  Json json = {{"nodes_m", points(drawn.nodes)},
-               {"members", drawn.members},
-               {"triangles", drawn.triangles},
-               {"joints", Json::array()},
-               {"shapes", Json::array()}};
-  for (const Drawing::Joint& joint : drawn.joints) {
-    json["joints"].push_back({{"node", joint.node}, {"kind", joint.kind}, {"name", joint.name}});
-  }
-  for (const Drawing::Shape& shape : drawn.shapes) {
-    json["shapes"].push_back(
-        {{"label", shape.label}, {"displacement_m", points(shape.displacement)}});
-  }
-  if (drawn.poses.empty()) return json;
-  json["poses"] = Json::array();
-  for (const Drawing::Pose& pose : drawn.poses) {
-    json["poses"].push_back({{"label", pose.label}, {"nodes_m", points(pose.nodes)}});
-  }
-  return json;
-}
-
-Json cost(const Run& run) {
-  const solver::Counters& counters = run.result.counters;
-  Json json = {{"wall_s", run.wall_s},
-               {"cpu_s", run.cpu_s},
-               {"counters",
-                {{"element_evaluations", counters.element_evaluations},
-                 {"factorizations", counters.factorizations},
-                 {"solves", counters.solves},
-                 {"steps", counters.steps}}}};
-  if (!run.uncertainty.empty()) json["uncertainty_wall_s"] = run.uncertainty_wall_s;
-  for (const EvaluationTime& timing : run.result.timings) {
-    json["timings"][timing.name] = {{"each_s", timing.wall_s}, {"evaluations", timing.evaluations}};
-  }
-  return json;
+results::Cost cost(const Run& run) {
+  results::Cost out;
+  out.wall_s = run.wall_s;
+  out.cpu_s = run.cpu_s;
+  out.counters = counters(run.result.counters);
+  if (!run.uncertainty.empty()) out.uncertainty_wall_s = run.uncertainty_wall_s;
+  for (const EvaluationTime& timing : run.result.timings)
+    out.timings.push_back({timing.name, timing.wall_s, timing.evaluations});
+  return out;
 }
 
 /// What the computation had, why, and how often it was evaluated.
-Json effects(const Run& run) {
-  Json list = Json::array();
+std::vector<results::EffectRow> effects(const Run& run) {
+  std::vector<results::EffectRow> rows;
   for (const EffectReason& reason : run.result.effects) {
-    Json json = {{"effect", std::string(solver::name_of(reason.effect))},
-                 {"admitted", reason.applicable},
-                 {"on", reason.active},
-                 {"why", reason.why},
-                 {"evaluations", run.result.counters.evaluations(reason.effect)}};
-    if (reason.number) {
-      json["number"] = number_or_null(reason.number);
-      json["number_of"] = describe_effect_number(reason.effect, run.result.analysis);
-    }
-    if (reason.change) json["change"] = number_or_null(reason.change);
-    list.push_back(std::move(json));
+    const std::string definition =
+        reason.number ? describe_effect_number(reason.effect, run.result.analysis) : "";
+    rows.push_back({std::string(solver::name_of(reason.effect)), definition, reason.why,
+                    reason.applicable, reason.active,
+                    run.result.counters.evaluations(reason.effect), number(reason.number),
+                    number(reason.change)});
   }
-  return list;
+  return rows;
 }
 
-Json run_json(const Run& run) {
-  Json json = {{"case", run.case_id},  {"variant", run.variant},       {"status", run.status},
-               {"reason", run.reason}, {"quantities", Json::object()}, {"checks", Json::array()}};
-  for (const auto& [name, quantity] : run.result.quantities) {
-    json["quantities"][name] = numbers(quantity.values);
-  }
-  for (const CheckResult& check_result : run.check_results)
-    json["checks"].push_back(check_result_json(check_result));
-  json["convergence"] = Json::array();
-  for (const Convergence& found : run.convergence) {
-    json["convergence"].push_back(convergence(found));
-  }
-  if (!run.uncertainty.empty()) json["uncertainty"] = uncertainty(run.uncertainty);
-  if (!run.result.effects.empty()) json["effects"] = effects(run);
-  if (run.result.drawing) json["drawing"] = drawing_json(*run.result.drawing);
-  json["cost"] = cost(run);
-  return json;
+results::Status status(const std::string& status) {
+  for (const auto known : {results::Status::solved, results::Status::singular,
+                           results::Status::not_converged, results::Status::not_run})
+    if (status == to_string(known)) return known;
+  return results::Status::error;
 }
 
-Json case_json(const Case& given) {
-  const Json& document = given.document.value();
-  Json json = {{"title", given.title()}};
-  for (const char* key : {"description", "family", "labels", "stress_suite", "figures", "tables"}) {
-    if (document.contains(key)) json[key] = document.at(key);
-  }
-  json["analysis"] = analysis_kind(given.document);
-  json["variants"] = Json::object();
-  for (const std::string& variant : given.variants()) {
-    json["variants"][variant] = {{"title", given.variant_title(variant)}};
-  }
-  return json;
+results::Run run_results(const Run& run) {
+  results::Run out;
+  out.case_id = run.case_id;
+  out.variant = run.variant;
+  out.status = status(run.status);
+  out.reason = run.reason;
+  for (const auto& [name, quantity] : run.result.quantities)
+    out.quantities.emplace_back(name, numbers(quantity.values));
+  for (const CheckResult& found : run.check_results) out.checks.push_back(check(found));
+  for (const Convergence& found : run.convergence) out.convergence.push_back(convergence(found));
+  if (!run.uncertainty.empty()) out.uncertainty = uncertainty(run.uncertainty);
+  out.effects = effects(run);
+  if (run.result.drawing) out.drawing = drawing(*run.result.drawing);
+  out.cost = cost(run);
+  return out;
 }
 
-Json reference_json(const CitedReference& cited) {
-  const references::Reference& reference = cited.reference;
-  Json json = {{"title", reference.title},
-               {"kind", to_string(reference.kind)},
-               {"unit", reference.unit},
-               {"values", numbers(reference.values)},
-               {"uncertainty", numbers(reference.uncertainty)},
-               {"citation", cited.source.text},
-               {"place", reference.place}};
-  if (!cited.source.doi.empty()) json["doi"] = cited.source.doi;
-  if (!reference.printed.empty()) json["printed"] = reference.printed;
-  if (!reference.derivation.empty()) json["derivation"] = reference.derivation;
-  if (!reference.errata.empty()) json["errata"] = reference.errata;
-  if (!reference.notes.empty()) json["notes"] = reference.notes;
-  return json;
+results::CaseInfo case_info(const Case& given) {
+  results::CaseInfo info;
+  Json json = given.document.value();
+  info.id = given.id();
+  info.title = given.title();
+  info.description = json.value("description", "");
+  info.family = json.value("family", "");
+  info.labels = json.value("labels", std::vector<std::string>{});
+  for (const char* key : {"stress_suite"})
+    if (json.contains(key)) info.stress_suite = results::read_stress_suite(json[key]);
+  if (json.contains("figures")) info.figures = results::read_figures(json["figures"]);
+  if (json.contains("tables")) info.tables = results::read_tables(json["tables"]);
+  info.analysis = analysis_kind(given.document);
+  for (const std::string& variant : given.variants())
+    info.variants.push_back({variant, given.variant_title(variant)});
+  return info;
+}
+
+results::Reference reference(const std::string& id, const CitedReference& cited) {
+  const references::Reference& source = cited.reference;
+  results::Reference out;
+  out.id = id;
+  out.title = source.title;
+  out.kind = to_string(source.kind);
+  out.unit = source.unit;
+  out.values = numbers(source.values);
+  out.uncertainty = numbers(source.uncertainty);
+  out.citation = cited.source.text;
+  out.place = source.place;
+  out.doi = cited.source.doi;
+  out.printed = source.printed;
+  out.derivation = source.derivation;
+  out.errata = source.errata;
+  out.notes = source.notes;
+  return out;
+}
+
+results::UncertaintyCoverage coverage(const NumericalUncertaintySummary& summary) {
+  return {static_cast<int>(summary.levels),
+          static_cast<int>(summary.hits),
+          static_cast<int>(kMinLevels),
+          number(summary.hit_rate()),
+          kMinHitRate,
+          number(summary.median_ratio),
+          kMaxMedianRatio,
+          !summary.fails()};
 }
 
 }  // namespace
 
-Json results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
-                const References& references) {
-  Json results = {{"format", 1},
-                  {"environment", environment()},
-                  {"cases", Json::object()},
-                  {"references", Json::object()},
-                  {"runs", Json::array()}};
-  for (const Case& test_case : cases) results["cases"][test_case.id()] = case_json(test_case);
-  for (const auto& [id, cited] : references.used()) {
-    results["references"][id] = reference_json(cited);
-  }
-  if (const NumericalUncertaintySummary summary = numerical_uncertainty_of(runs);
-      summary.levels > 0) {
-    results["bands"] = {{"levels", summary.levels},
-                        {"hits", summary.hits},
-                        {"hit_rate", number_or_null(summary.hit_rate())},
-                        {"least_hit_rate", kMinHitRate},
-                        {"median_ratio", number_or_null(summary.median_ratio)},
-                        {"largest_median_ratio", kMaxMedianRatio},
-                        {"levels_to_judge", kMinLevels},
-                        {"holds", !summary.fails()}};
-  }
-  for (const Run& run : runs) {
-    if (!results["cases"].contains(run.case_id)) {
-      // A case that could not be read is told of all the same.
-      results["cases"][run.case_id] = {{"title", run.case_id}, {"variants", Json::object()}};
-    }
-    results["runs"].push_back(run_json(run));
-  }
-  return results;
+results::Counters counters(const solver::Counters& counters) {
+  return {{"element_evaluations", counters.element_evaluations},
+          {"factorizations", counters.factorizations},
+          {"solves", counters.solves},
+          {"steps", counters.steps}};
 }
 
-fs::path write_results(const Json& results, const fs::path& folder) {
+results::Results results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
+                            const References& references) {
+  results::Results out;
+  out.environment = results::read_environment(environment());
+  for (const Case& test_case : cases) out.cases.push_back(case_info(test_case));
+  for (const auto& [id, cited] : references.used()) out.references.push_back(reference(id, cited));
+  const NumericalUncertaintySummary summary = numerical_uncertainty_of(runs);
+  if (summary.levels > 0) out.uncertainty_coverage = coverage(summary);
+  for (const Run& run : runs) {
+    const bool is_known =
+        std::any_of(out.cases.begin(), out.cases.end(),
+                    [&](const results::CaseInfo& info) { return info.id == run.case_id; });
+    // A case that could not be read is reported all the same.
+    if (!is_known) {
+      results::CaseInfo unread;
+      unread.id = unread.title = run.case_id;
+      out.cases.push_back(std::move(unread));
+    }
+    out.runs.push_back(run_results(run));
+  }
+  return out;
+}
+
+fs::path write_results(const results::Results& results, const fs::path& folder) {
   fs::path file = folder / "results.json";
-  write_file(file, pretty(results));
+  write_file(file, pretty(to_json(results)));
   return file;
 }
 

@@ -3,18 +3,22 @@
 #include <filesystem>
 #include <vector>
 
+#include "harness/results/results.h"
 #include "harness/run/run.h"
 
 namespace trammel::harness {
 
-/// results.json of the runs, by cases/schema/results.schema.json. Numbers that are not finite are
-/// null.
-[[nodiscard]] Json results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
-                              const References& references);
+/// What results.json says of the runs.
+[[nodiscard]] results::Results results_of(const std::vector<Run>& runs,
+                                          const std::vector<Case>& cases,
+                                          const References& references);
+
+[[nodiscard]] results::Counters counters(const solver::Counters& counters);
 
 /// Writes results.json into the folder, all of it or nothing. @returns its path.
 /// @throws InputError  where the folder cannot be made or written.
-std::filesystem::path write_results(const Json& results, const std::filesystem::path& folder);
+std::filesystem::path write_results(const results::Results& results,
+                                    const std::filesystem::path& folder);
 
 /// Makes the folder and finds out whether files can be written there, before hours are spent.
 /// @throws InputError

@@ -15,9 +15,9 @@ struct StatusText {
 };
 
 constexpr std::array<StatusText, 6> kStatusTexts = {{
-    {CheckStatus::passes, "holds", "holds", "✓"},
-    {CheckStatus::known_discrepancy, "known discrepancy", "known", "≠"},
-    {CheckStatus::not_judged, "recorded only", "recorded", "○"},
+    {CheckStatus::passes, "passes", "passes", "✓"},
+    {CheckStatus::known_discrepancy, "does not agree (known)", "known-discrepancy", "≠"},
+    {CheckStatus::not_judged, "not judged", "not-judged", "○"},
     {CheckStatus::fails, "fails", "fails", "✗"},
     {CheckStatus::error, "error", "error", "!"},
     {CheckStatus::not_run, "not run", "not-run", "–"},
@@ -26,7 +26,7 @@ constexpr std::array<StatusText, 6> kStatusTexts = {{
 const StatusText& text_of(CheckStatus status) {
   for (const StatusText& name : kStatusTexts)
     if (name.status == status) return name;
-  throw std::logic_error("unknown standing");
+  throw std::logic_error("unknown status");
 }
 
 int severity(CheckStatus status) {
@@ -52,7 +52,7 @@ int severity(CheckStatus status) {
 CheckStatus check_status(const Check& check) {
   switch (check.verdict) {
     case Verdict::pass:
-      return check.known_discrepancy ? CheckStatus::known_discrepancy : CheckStatus::passes;
+      return check.known_discrepancy() ? CheckStatus::known_discrepancy : CheckStatus::passes;
     case Verdict::fail:
       return CheckStatus::fails;
     case Verdict::error:

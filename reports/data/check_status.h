@@ -9,8 +9,8 @@
 
 namespace trammel::reports {
 
-/// Where a check stands, as the page says it: a pass that was expected to agree is not the same
-/// as a pass that was expected to differ.
+/// The status of a check on the page. A comparison that is recorded as not agreeing is a status of
+/// its own and no pass, although its verdict, which gates, is "pass" while it is as recorded.
 enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run };
 inline constexpr std::array<CheckStatus, 6> kAllCheckStatuses = {
     CheckStatus::passes,     CheckStatus::known_discrepancy,
@@ -19,12 +19,12 @@ inline constexpr std::array<CheckStatus, 6> kAllCheckStatuses = {
 
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
-/// How a run's own ending counts: a singular or not converged run holds when it has checks and all
+/// How a run's own ending counts: a singular or not converged run passes when it has checks and all
 /// of them pass, for then the case expects that ending.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
-/// "holds", "known discrepancy", "fails", "error", "not run"; and the class name in the style
-/// sheet; and a sign that does not need colour.
+/// "passes", "does not agree (known)", "not judged", "fails", "error", "not run"; and the class
+/// name in the style sheet; and a sign that does not need colour.
 [[nodiscard]] std::string to_text(CheckStatus status);
 [[nodiscard]] std::string css_class(CheckStatus status);
 [[nodiscard]] std::string sign(CheckStatus status);

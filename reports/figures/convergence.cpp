@@ -1,3 +1,5 @@
+#include "reports/figures/convergence.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -6,7 +8,7 @@
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/figures/figures.h"
+#include "reports/figures/outline.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -46,7 +48,7 @@ PlotScript::Rows floor_of(const Sweeps& sweeps) {
   for (const Convergence* c : sweeps)
     for (std::size_t i = 0; i < c->parameter.size(); ++i)
       if (c->roundoff[i] && *c->roundoff[i] > 0)
-        largest[c->parameter[i]] = std::max(largest[c->parameter[i]], *c->roundoff[i]);
+        largest[*c->parameter[i]] = std::max(largest[*c->parameter[i]], *c->roundoff[i]);
   PlotScript::Rows rows;
   for (const auto& [parameter, roundoff] : largest) rows.push_back({parameter, roundoff});
   return rows;
@@ -73,7 +75,7 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
     if (!errors[k]) continue;
     const double y = drawn_error(*errors[k]);
     extent.cover(y);
-    line.push_back({c.parameter[k], y});
+    line.push_back({*c.parameter[k], y});
     if (c.in_asymptotic_range[k]) inside.push_back(line.back());
   }
   const std::string color = lc(palette::color(i));
@@ -92,7 +94,7 @@ std::map<double, double> lowest_errors(const Sweeps& sweeps) {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       if (!errors[k]) continue;
       const double y = drawn_error(*errors[k]);
-      const auto [known, added] = lowest.emplace(c->parameter[k], y);
+      const auto [known, added] = lowest.emplace(*c->parameter[k], y);
       if (!added) known->second = std::min(known->second, y);
     }
   }
@@ -144,9 +146,9 @@ std::string conclusion_of_two(const Sweeps& sweeps) {
   std::size_t met = 0;
   double worst = 0;
   for (const Convergence* c : sweeps) {
-    if (!c->two_term_misfit) continue;
+    if (!c->two_term || !c->two_term->max_relative_misfit) continue;
     ++met;
-    worst = std::max(worst, *c->two_term_misfit);
+    worst = std::max(worst, *c->two_term->max_relative_misfit);
   }
   const std::string law = law_of(*sweeps.front());
   if (met == 0) return "Two orders mix by theory, but no law " + law + " meets the errors.";
@@ -221,7 +223,7 @@ Table table_of(const Sweeps& sweeps) {
   for (const Convergence* c : sweeps) {
     const Numbers errors = errors_of(*c);
     for (std::size_t k = 0; k < c->parameter.size(); ++k)
-      table.rows.push_back({c->parameter[k], static_cast<double>(c->index + 1), cell(c->values[k]),
+      table.rows.push_back({*c->parameter[k], static_cast<double>(c->index + 1), cell(c->values[k]),
                             cell(errors[k]), cell(c->roundoff[k]), cell(c->order[k]),
                             std::string(c->in_asymptotic_range[k] ? "yes" : "no"),
                             cell(c->gci[k])});
@@ -231,7 +233,8 @@ Table table_of(const Sweeps& sweeps) {
 
 void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
   std::set<double> levels;
-  for (const Convergence* c : sweeps) levels.insert(c->parameter.begin(), c->parameter.end());
+  for (const Convergence* c : sweeps)
+    for (const Number& level : c->parameter) levels.insert(*level);
   script.command("set logscale x");
   script.range("x", *levels.begin() / 1.3, *levels.rbegin() * 1.3);
   std::string tics;

@@ -17,12 +17,13 @@ struct CostExtent {
   double low_error = 1e300, high_error = 0, low_time = 1e300, high_time = 0;
 };
 
-double drawn_error(const CostSetting& setting) {
-  return std::max(setting.error.value_or(0), kSmallestDrawnCostError);
+double drawn_error(const CostStudy& study, const CostSetting& setting) {
+  return std::max(study.error(setting).value_or(0), kSmallestDrawnCostError);
 }
 
-bool is_drawn(const CostSetting& setting) {
-  return (setting.measured() || setting.status == "wide") && setting.error && setting.relative;
+bool is_drawn(const CostStudy& study, const CostSetting& setting) {
+  return (setting.measured() || setting.spread_too_wide()) && study.error(setting) &&
+         setting.relative;
 }
 
 CostExtent extent_of(const CostStudy& study) {
@@ -34,9 +35,9 @@ CostExtent extent_of(const CostStudy& study) {
   };
   for (const CostSetting& setting : study.settings) {
     cover_time(setting.relative.value_or(0));
-    if (!is_drawn(setting)) continue;
-    extent.low_error = std::min(extent.low_error, drawn_error(setting));
-    extent.high_error = std::max(extent.high_error, drawn_error(setting));
+    if (!is_drawn(study, setting)) continue;
+    extent.low_error = std::min(extent.low_error, drawn_error(study, setting));
+    extent.high_error = std::max(extent.high_error, drawn_error(study, setting));
   }
   if (extent.high_error == 0) extent.low_error = extent.high_error = 1;
   // No point stands on the frame.
@@ -81,8 +82,8 @@ void draw_strip(PlotScript& script, const Strip& strip) {
 PlotScript::Rows steps_of(const CostStudy& study, const CostExtent& extent) {
   std::vector<std::pair<double, double>> front;
   for (const CostSetting& setting : study.settings)
-    if (setting.pareto_optimal && is_drawn(setting))
-      front.emplace_back(drawn_error(setting), *setting.relative);
+    if (setting.pareto_optimal && is_drawn(study, setting))
+      front.emplace_back(drawn_error(study, setting), *setting.relative);
   std::sort(front.rbegin(), front.rend());
   PlotScript::Rows rows;
   for (const auto& [error, time] : front) {
@@ -105,10 +106,12 @@ void draw_curve(PlotScript& script, const CostStudy& study, const std::string& c
     title = setting.curve_title;
     if (setting.without_result() && setting.relative && *setting.relative > 0)
       outside.push_back({strip.middle, *setting.relative});
-    if (!is_drawn(setting)) continue;
-    const std::vector<double> point = {drawn_error(setting), *setting.relative,
-                                       setting.lower.value_or(*setting.relative),
-                                       setting.upper.value_or(*setting.relative)};
+    if (!is_drawn(study, setting)) continue;
+    const double time = *setting.relative;
+    const std::vector<double> point = {
+        drawn_error(study, setting), time,
+        setting.relative_to_baseline(&SettingTime::lower_quartile_s).value_or(time),
+        setting.relative_to_baseline(&SettingTime::upper_quartile_s).value_or(time)};
     line.push_back(point);
     (setting.measured() ? used : wide).push_back(point);
   }
@@ -128,7 +131,7 @@ Table table_of(const CostStudy& study) {
   table.heads = {"setting",
                  "curve",
                  "value",
-                 "standing",
+                 "status",
                  "reason",
                  "error_max",
                  "error_rms",
@@ -138,17 +141,25 @@ Table table_of(const CostStudy& study) {
                  "relative_lower_quartile",
                  "relative_upper_quartile",
                  "spread",
-                 "on_front"};
+                 "pareto_optimal"};
   for (const auto& counter : study.settings.front().counters) table.heads.push_back(counter.first);
   for (const CostSetting& s : study.settings) {
-    std::vector<Table::Cell> row = {s.title,        s.curve,
-                                    cell(s.value),  s.status,
-                                    s.reason,       cell(s.max),
-                                    cell(s.rms),    cell(s.mean),
-                                    s.cpu_s,        cell(s.relative),
-                                    cell(s.lower),  cell(s.upper),
-                                    cell(s.spread), std::string(s.pareto_optimal ? "yes" : "no")};
-    for (const auto& counter : s.counters) row.emplace_back(counter.second);
+    const ErrorNorms errors = s.errors.value_or(ErrorNorms{});
+    std::vector<Table::Cell> row = {s.title,
+                                    s.curve,
+                                    cell(s.value),
+                                    s.status,
+                                    s.reason,
+                                    cell(errors.max),
+                                    cell(errors.rms),
+                                    cell(errors.mean),
+                                    s.cpu_s,
+                                    cell(s.relative),
+                                    cell(s.relative_to_baseline(&SettingTime::lower_quartile_s)),
+                                    cell(s.relative_to_baseline(&SettingTime::upper_quartile_s)),
+                                    cell(s.time ? Number(s.time->spread) : Number()),
+                                    std::string(s.pareto_optimal ? "yes" : "no")};
+    for (const auto& counter : s.counters) row.emplace_back(static_cast<double>(counter.second));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -158,7 +169,7 @@ std::string notes_on(const CostStudy& study) {
   std::size_t outside = 0, wide = 0;
   for (const CostSetting& setting : study.settings) {
     outside += setting.without_result() ? 1 : 0;
-    wide += setting.status == "wide" ? 1 : 0;
+    wide += setting.spread_too_wide() ? 1 : 0;
   }
   std::string text;
   if (outside > 0)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/data/cost_study.h"
+#include "reports/data/results.h"
 #include "reports/drawing/figure.h"
 
 namespace trammel::reports {

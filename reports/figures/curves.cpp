@@ -1,3 +1,5 @@
+#include "reports/figures/curves.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,7 +7,6 @@
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/figures/figures.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -57,8 +58,8 @@ PlotScript::Rows curve_rows(const Numbers* x, const Numbers& y, std::pair<double
                             const PlotRequest& request) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < y.size(); ++i) {
-    const Number at = shown(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.log_x);
-    const Number value = shown(y[i], request.log_y);
+    const Number at = shown(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.is_log("x"));
+    const Number value = shown(y[i], request.is_log("y"));
     if (at && value) {
       rows.push_back({factors.first * *at, factors.second * *value});
     } else if (!rows.empty() && !rows.back().empty()) {
@@ -277,8 +278,8 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   double largest = 0;
   for (const Series& s : series) largest = std::max(largest, s.largest);
   const Numbers* x_values = run_of(runs, series.front().variant)->quantity(request.x);
-  const Scale y_scale = request.log_y ? Scale{1, y.unit} : readable_scale(y.unit, largest);
-  const Scale x_scale = x.unit == "s" || !x_values || request.log_x
+  const Scale y_scale = request.is_log("y") ? Scale{1, y.unit} : readable_scale(y.unit, largest);
+  const Scale x_scale = x.unit == "s" || !x_values || request.is_log("x")
                             ? Scale{1, x.unit}
                             : readable_scale(x.unit, largest_of(*x_values));
 
@@ -287,12 +288,12 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   const std::string words = common_words(request.y);
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
-  if (request.log_y && largest > 0) {
+  if (request.is_log("y") && largest > 0) {
     std::vector<const Numbers*> all;
     for (const Series& s : series) all.push_back(s.values);
     log_range(script, "y", all);
   }
-  if (x_values && request.log_x) {
+  if (x_values && request.is_log("x")) {
     log_range(script, "x", {x_values});
   } else if (x_values) {
     x_range(script, *x_values, x_scale.factor);

@@ -1,9 +1,10 @@
+#include "reports/figures/discrepancy.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "reports/data/check_status.h"
 #include "reports/drawing/palette.h"
-#include "reports/figures/figures.h"
 #include "reports/figures/strip.h"
 #include "reports/text/number.h"
 
@@ -26,7 +27,7 @@ std::vector<DiscrepancySubject> subjects(const std::vector<const Run*>& runs) {
       const Check& check = group.front();
       const bool expected =
           std::any_of(group.checks.begin(), group.checks.end(),
-                      [](const Check* entry) { return entry->known_discrepancy; });
+                      [](const Check* entry) { return entry->known_discrepancy(); });
       if (!expected || !check.tolerance) continue;
       auto subject = std::find_if(out.begin(), out.end(), [&](const DiscrepancySubject& known) {
         return known.name == check.name && known.measure == check.measure;
@@ -168,8 +169,8 @@ Table table_of(const DiscrepancySubject& subject, const CaseInfo& info) {
                  "expected",
                  "unit",
                  "difference" + unit,
-                 "band_low" + unit,
-                 "band_high" + unit,
+                 "recorded_low" + unit,
+                 "recorded_high" + unit,
                  "verdict"};
   for (const CheckGroup& row : subject.rows)
     for (const Check* check : row.checks)
@@ -205,15 +206,15 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Discrepancy
   const Reference* reference = results.reference(first.reference);
   Figure figure;
   figure.id = slug(info.id + "-" + subject.name + "-" + subject.measure + "-discrepancy");
-  figure.title = "Known discrepancy: " + (!first.title.empty() ? first.title
-                                          : reference          ? reference->title
-                                                               : subject.name);
+  figure.title = "Does not agree: " + (!first.title.empty() ? first.title
+                                       : reference          ? reference->title
+                                                            : subject.name);
   figure.caption = conclusion(subject);
   const bool modes = first.quantity.rfind("frequency", 0) == 0;
   if (digits_shown(subject)) {
     figure.caption += std::string(" Digits number the ") + (modes ? "modes." : "entries.");
   }
-  figure.alt = "Differences of every variant with the band expected. " + figure.caption;
+  figure.alt = "Differences of every variant with the recorded range. " + figure.caption;
   figure.height = strip_height(subject.rows.size()) + 20;
   figure.commands = script.commands();
   figure.data = table_of(subject, info);

@@ -1,9 +1,10 @@
+#include "reports/figures/map.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/figures/figures.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 

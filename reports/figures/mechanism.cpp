@@ -1,10 +1,11 @@
+#include "reports/figures/mechanism.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
 

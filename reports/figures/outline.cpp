@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "reports/figures/figures.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {

@@ -44,4 +44,7 @@ struct Box {
 /// Sets ranges and an equal scale on both axes.
 void frame(PlotScript& script, const Box& box);
 
+/// A title with the variant's behind it, unless it is the case as it stands.
+[[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
+
 }  // namespace trammel::reports

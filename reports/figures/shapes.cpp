@@ -1,9 +1,10 @@
+#include "reports/figures/shapes.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
 

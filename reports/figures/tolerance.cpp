@@ -1,10 +1,11 @@
+#include "reports/figures/tolerance.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/drawing/palette.h"
-#include "reports/figures/figures.h"
 #include "reports/figures/strip.h"
 #include "reports/text/number.h"
 
@@ -27,7 +28,7 @@ double share(const Check& check) {
 }
 
 bool is_shown(const Check& check) {
-  if (check.known_discrepancy || check.verdict == Verdict::not_run) return false;
+  if (check.known_discrepancy() || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
          (check.verdict == Verdict::pass && std::isfinite(tolerance_fraction(check)));
 }
@@ -80,7 +81,7 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
   if (beyond > 0)
     return std::to_string(beyond) + " of " + count(n, "check") + " not within tolerance; see " +
            worst->label + ".";
-  return (n == 1 ? "The check holds" : "All " + count(n, "check") + " hold") +
+  return (n == 1 ? "The check passes" : "All " + count(n, "check") + " pass") +
          "; the one nearest to its limit uses " + trimmed(100 * worst->worst, 2) +
          "\u202f% of its tolerance (" + worst->label + ").";
 }
@@ -143,9 +144,9 @@ std::optional<Figure> tolerance_figure(const std::string& family,
 
   Figure figure;
   figure.id = slug(family + "-tolerance");
-  figure.title = "How much of its tolerance each check uses";
+  figure.title = "Share of the tolerance used by each check";
   figure.caption = conclusion(rows);
-  figure.alt = "One dot a check on a logarithmic axis, with the limit marked. " + figure.caption;
+  figure.alt = "One dot per check on a logarithmic axis, with the limit marked. " + figure.caption;
   figure.height = strip_height(rows.size()) + 20;
   figure.commands = script.commands();
   figure.data = table_of(rows);

@@ -60,8 +60,11 @@ std::string testcase(const std::string& classname, const std::string& name, doub
     case CheckStatus::not_run:
       ++tally.skipped;
       return with("skipped");
-    case CheckStatus::passes:
     case CheckStatus::known_discrepancy:
+      // No failure of the gate, but no agreement either.
+      return head + ">\n      <system-out>does not agree: " + xml_escaped(message) +
+             "</system-out>\n    </testcase>\n";
+    case CheckStatus::passes:
     case CheckStatus::not_judged:
       break;
   }

@@ -2,8 +2,18 @@
 
 #include <stdexcept>
 
-#include "reports/page/gallery.h"
-#include "reports/page/sections.h"
+#include "reports/figures/gallery.h"
+#include "reports/sections/claims.h"
+#include "reports/sections/cost.h"
+#include "reports/sections/environment.h"
+#include "reports/sections/family.h"
+#include "reports/sections/orders.h"
+#include "reports/sections/references.h"
+#include "reports/sections/stress_suite.h"
+#include "reports/sections/summary.h"
+#include "reports/sections/tables.h"
+#include "reports/sections/targets.h"
+#include "reports/sections/validation_uncertainty.h"
 #include "reports/text/files.h"
 #include "reports/text/html.h"
 #include "reports/text/templates.h"
@@ -45,10 +55,10 @@ Data page_data(const Results& results, const std::vector<Family>& families,
       summaries.push_back({title, anchor, words->string_value()});
   };
   add_summary("The paper's claims", "claims", claims, "overview");
-  add_summary("What accuracy costs", "cost", cost, "words");
-  add_summary("The stress suite", "stress-suite", stress_suite, "words");
-  add_summary("Published targets", "targets", targets, "words");
-  add_summary("Orders and bands", "orders", orders, "words");
+  add_summary("Accuracy and computing time", "cost", cost, "words");
+  add_summary("Stress suite", "stress-suite", stress_suite, "words");
+  add_summary("Published benchmark values", "targets", targets, "words");
+  add_summary("Orders of convergence and numerical uncertainty", "orders", orders, "words");
   add_summary("Validation uncertainty", "validation-uncertainty", uncertainty, "words");
   page.set("summary", summary_section(results, families, summaries));
   page.set("claims", claims);

@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(the_numbers_do_not_depend_on_the_jobs) {
   const std::vector<Case> cases = {testing::read(folder, json), testing::read(folder, robot)};
   const auto text = [&](unsigned jobs) {
     const References references;
-    Json results = results_of(run_all(cases, jobs), cases, references);
+    Json results = to_json(results_of(run_all(cases, jobs), cases, references));
     results.erase("environment");
     for (Json& one : results["runs"]) one.erase("cost");
     return results.dump();
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(results_obey_their_schema) {
   json["variants"]["nothing-holds"]["model"]["supports"] = {{"A", {"x"}}};
   const std::vector<Case> cases = {testing::read(folder, json)};
   const References references;
-  const Json results = results_of(run_cases(cases, references, {}), cases, references);
+  const Json results = to_json(results_of(run_cases(cases, references, {}), cases, references));
   const auto fault = find_schema_error(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST(results["references"].contains("exact"));

@@ -150,14 +150,15 @@ BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
 BOOST_AUTO_TEST_CASE(the_results_obey_their_schema_and_give_the_front_back) {
   const MeasuredStudy study = measured(study_json());
   const References references;
-  Json results = results_of({}, {}, references);
-  results["cost"] = cost_json({study}, SweepExtent::full, {});
+  results::Results filled = results_of({}, {}, references);
+  filled.cost = cost_results({study}, SweepExtent::full, {});
+  const Json results = to_json(filled);
   const auto fault = find_schema_error(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   const Json& written = results["cost"]["studies"][0];
   BOOST_TEST(written["settings"].size() == 5U);
   BOOST_TEST(written["cheapest"].size() == target_errors().size());
-  const std::vector<CostPoint> points = cost_points(written);
+  const std::vector<CostPoint> points = cost_points(filled.cost->studies[0]);
   BOOST_TEST_REQUIRE(points.size() == study.points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     BOOST_TEST(points[i].error == study.points[i].error);

@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(results_with_uncertainty_obey_the_schema_and_do_not_depend_
     const References references;
     RunOptions options;
     options.jobs = jobs;
-    return results_of(run_cases({given}, references, options), {given}, references);
+    return to_json(results_of(run_cases({given}, references, options), {given}, references));
   };
   const Json one = results(1);
   const Json two = results(2);

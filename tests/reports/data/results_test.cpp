@@ -8,7 +8,7 @@
 
 using namespace trammel::testing;
 using nlohmann::ordered_json;
-using trammel::reports::read_results;
+using trammel::results::read_results;
 
 namespace {
 
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(a_number_that_is_not_there_is_empty_and_not_zero) {
       if (check.name != "inertia") continue;
       seen = true;
       BOOST_TEST(!check.computed.has_value());
-      BOOST_TEST((check.verdict == trammel::reports::Verdict::error));
+      BOOST_TEST((check.verdict == trammel::results::Verdict::error));
     }
   BOOST_TEST(seen);
 }

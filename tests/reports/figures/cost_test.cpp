@@ -20,7 +20,7 @@ const std::string& page() {
 
 CostStudies sample_studies() {
   const auto json = sample_results();
-  return read_cost_studies(JsonView(json.at("cost")));
+  return trammel::results::read_cost_studies(json.at("cost"));
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(the_page_has_figure_table_sentence_and_says_which_sweep_it_
   BOOST_TEST(contains(page(), "none of these settings"));
   BOOST_TEST(contains(page(), "dense, 64 elements: out of time"));
   BOOST_TEST(contains(page(), "six modes of &lt;three&gt;"));
-  BOOST_TEST(contains(page(), "6 of 7 settings on the front both"));
+  BOOST_TEST(contains(page(), "6 of 7 settings on the Pareto front in both halves"));
 }
 
 BOOST_AUTO_TEST_CASE(results_of_studies_alone_are_a_page_of_their_own) {
@@ -73,11 +73,11 @@ BOOST_AUTO_TEST_CASE(results_of_studies_alone_are_a_page_of_their_own) {
   const std::string text =
       text_of(trammel::reports::write_report(space.results(json), space.path()));
   BOOST_TEST(markup_fault(text, true) == "");
-  BOOST_TEST(contains(text, "<h1>What accuracy costs in time</h1>"));
+  BOOST_TEST(contains(text, "<h1>Accuracy and computing time</h1>"));
   BOOST_TEST(contains(text, "This is the full sweep"));
   BOOST_TEST(!contains(text, "id=\"summary\""));
   BOOST_TEST(!contains(text, "href=\"#summary\""));
-  BOOST_TEST(!contains(text, "Where the time of this report went"));
+  BOOST_TEST(!contains(text, "Computing time of this report"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,10 +1,12 @@
-#include "reports/figures/figures.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "reports/figures/convergence.h"
+#include "reports/figures/curves.h"
+#include "reports/figures/discrepancy.h"
+#include "reports/figures/gallery.h"
 #include "reports/figures/outline.h"
-#include "reports/page/gallery.h"
+#include "reports/figures/tolerance.h"
 
 using namespace trammel::reports;
 
@@ -88,12 +90,12 @@ BOOST_AUTO_TEST_CASE(where_two_orders_mix_the_caption_names_their_law_and_how_we
   Convergence mixed = sweep(0, 4);
   mixed.fitted_order.reset();
   mixed.lower_order = 1.354;
-  mixed.two_term_misfit = 0.042;
+  mixed.two_term = TwoTermLaw{{}, 0.042, {}};
   const auto figure = convergence_figures(beam(), run_with({mixed}));
   BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35 of the size h"));
   BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
   BOOST_TEST(!contains(figure[0].caption, "No order"));
-  mixed.two_term_misfit.reset();
+  mixed.two_term.reset();
   BOOST_TEST(contains(convergence_figures(beam(), run_with({mixed}))[0].caption,
                       "no law a h^4 + b h^1.35 meets the errors"));
 }
@@ -207,7 +209,7 @@ BOOST_AUTO_TEST_CASE(a_discrepancy_that_could_not_be_computed_is_not_given_a_num
   run.checks = {judged("known", 0.1, 0.2), judged("known", 0.1, 0.2)};
   for (std::size_t i = 0; i < 2; ++i) {
     run.checks[i].index = static_cast<int>(i);
-    run.checks[i].known_discrepancy = true;
+    run.checks[i].expectation = Expectation::known_discrepancy;
   }
   const auto caption = [&run] {
     const auto figures = discrepancy_figures(beam(), Results{}, {&run});

@@ -1,8 +1,9 @@
+#include "reports/figures/map.h"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "reports/drawing/palette.h"
-#include "reports/figures/figures.h"
 
 using namespace trammel::reports;
 

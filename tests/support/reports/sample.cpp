@@ -109,7 +109,9 @@ Json beam_sweep(double beta_length, double exact, int mode) {
     sweep["values"].push_back(exact * (1 + error));
     sweep["error"].push_back(error);
     sweep["roundoff"].push_back(floor);
-    sweep["band"].push_back(1.25 * error);
+    sweep["gci"].push_back(1.25 * error);
+    sweep["safety_factor"].push_back(1.25);
+    sweep["at_roundoff_floor"].push_back(false);
     sweep["in_asymptotic_range"].push_back(inside);
     sweep["order"].push_back(previous > 0 ? Json(std::log2(previous / error)) : Json());
     if (inside && previous > 0) sum += std::log2(previous / error), ++fitted;
@@ -121,7 +123,7 @@ Json beam_sweep(double beta_length, double exact, int mode) {
 }
 
 Json beam_drawing(const std::vector<double>& beta_lengths, const std::vector<double>& frequencies) {
-  Json drawing;
+  Json drawing = {{"triangles", Json::array()}, {"shapes", Json::array()}};
   for (int i = 0; i <= 16; ++i) drawing["nodes_m"].push_back({i / 16.0, 0.0});
   for (int i = 0; i < 16; ++i) drawing["members"].push_back({i, i + 1});
   drawing["joints"] = {{{"node", 0}, {"kind", "support"}, {"name", "A"}}};
@@ -163,9 +165,10 @@ void add_beams(Json& results) {
                                                  {"uncertainty", {0.05}},
                                                  {"citation", "A manual."},
                                                  {"place", "p. 1"}};
-  results["bands"] = {{"levels", 126},          {"hits", 125},          {"hit_rate", 125.0 / 126},
-                      {"least_hit_rate", 0.95}, {"median_ratio", 1.25}, {"largest_median_ratio", 3},
-                      {"levels_to_judge", 100}, {"holds", true}};
+  results["numerical_uncertainty"] = {{"levels", 126},           {"covered", 125},
+                                      {"coverage", 125.0 / 126}, {"min_coverage", 0.95},
+                                      {"median_ratio", 1.25},    {"max_median_ratio", 3},
+                                      {"min_levels", 100},       {"passes", true}};
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"cantilever", "Cantilever, six modes"},
       {"pinned-pinned", "Pinned-pinned beam, six modes"},
@@ -212,12 +215,26 @@ Json compared(const std::string& name, const std::string& reference, int index, 
           {"reference", reference},
           {"simulation", simulation},
           {"expected", expected},
+          {"u_num", nullptr},
+          {"u_input", nullptr},
+          {"u_input_sampled", nullptr},
+          {"u_reference", nullptr},
+          {"contributions", Json::object()},
+          {"spread", Json::array()},
+          {"interval", {nullptr, nullptr}},
+          {"all_inputs",
+           {{"u_input", nullptr},
+            {"u_input_sampled", nullptr},
+            {"u_val", nullptr},
+            {"interval", {nullptr, nullptr}},
+            {"verdict", "undecided"},
+            {"conclusion", ""}}},
           {"difference", simulation - expected},
           {"u_val", u_val},
           {"dominant_input", "link-thickness"},
           {"dominant_share", 0.987},
           {"verdict", verdict},
-          {"words", "the difference & its \"noise\" <b>"}};
+          {"conclusion", "the difference & its \"noise\" <b>"}};
 }
 
 struct Mechanism {
@@ -266,7 +283,8 @@ Json manipulator_drawing(Point centre, const std::vector<double>& frequencies) {
   Json drawing = {{"nodes_m", m.nodes},
                   {"members", m.members},
                   {"triangles", m.triangles},
-                  {"joints", m.joints}};
+                  {"joints", m.joints},
+                  {"shapes", Json::array()}};
   for (std::size_t mode = 0; mode < frequencies.size(); ++mode) {
     Json shape = {{"label", "mode " + std::to_string(mode + 1) + ", " +
                                 std::to_string(frequencies[mode]).substr(0, 5) + " Hz"}};
@@ -341,9 +359,13 @@ void add_table_2(Json& results) {
                     "Hz", "table-2-ansys", "validation", 0, ""),
               -0.7, 1.0, "The row probably holds motion out of the plane in modes 1, 5 and 6."));
         if (o == 0) {
+          solved["uncertainty"] = {
+              {"inputs", Json::array()}, {"samples", 0},           {"failed", 0},
+              {"samples_all_inputs", 0}, {"failed_all_inputs", 0}, {"numerical", Json::array()}};
           solved["uncertainty"]["comparisons"] = {
-              compared("ansys", "table-2-ansys", 0, frequencies[0], ansys[0], 0.35, "model-off"),
-              compared("ansys", "table-2-ansys", 1, frequencies[1], ansys[1], 9, "within-noise")};
+              compared("ansys", "table-2-ansys", 0, frequencies[0], ansys[0], 0.35, "model-error"),
+              compared("ansys", "table-2-ansys", 1, frequencies[1], ansys[1], 9,
+                       "within-uncertainty")};
         }
         solved["quantities"]["frequency_Hz"] = frequencies;
         solved["drawing"] = manipulator_drawing(centre, frequencies);
@@ -527,32 +549,34 @@ void add_audit(Json& results) {
 
 Json cost_setting(const std::string& curve, double value, double error, double time) {
   const std::string title = curve + ", " + std::to_string(static_cast<int>(value)) + " elements";
-  return {
-      {"curve", curve},
-      {"curve_title", curve},
-      {"title", title},
-      {"value", value},
-      {"standing", "measured"},
-      {"reason", ""},
-      {"error", {{"max", error}, {"rms", error / 2}, {"mean", error / 3}}},
-      {"cpu_s", 1e-3 * time},
-      {"relative_time", time},
-      {"time",
-       {{"cpu_s", {1e-3 * time, 1.1e-3 * time, 0.9e-3 * time}},
-        {"lower_quartile_s", 0.95e-3 * time},
-        {"upper_quartile_s", 1.05e-3 * time},
-        {"spread", 0.1},
-        {"wall_median_s", 1e-3 * time},
-        {"runs_each", 2}}},
-      {"counters", {{"element_evaluations", 12 * value}, {"factorizations", 2}, {"solves", 20}}},
-      {"on_front", curve == "sparse"}};
+  return {{"curve", curve},
+          {"curve_title", curve},
+          {"title", title},
+          {"value", value},
+          {"status", "measured"},
+          {"reason", ""},
+          {"error", {{"max", error}, {"rms", error / 2}, {"mean", error / 3}}},
+          {"cpu_s", 1e-3 * time},
+          {"relative_time", time},
+          {"time",
+           {{"cpu_s", {1e-3 * time, 1.1e-3 * time, 0.9e-3 * time}},
+            {"lower_quartile_s", 0.95e-3 * time},
+            {"upper_quartile_s", 1.05e-3 * time},
+            {"spread", 0.1},
+            {"wall_median_s", 1e-3 * time},
+            {"runs_per_measurement", 2}}},
+          {"counters",
+           {{"element_evaluations", static_cast<int>(12 * value)},
+            {"factorizations", 2},
+            {"solves", 20}}},
+          {"pareto_optimal", curve == "sparse"}};
 }
 
 Json without_answer(Json setting, const std::string& status, const std::string& reason) {
-  setting["standing"] = status;
+  setting["status"] = status;
   setting["reason"] = reason;
-  setting["on_front"] = false;
-  if (status != "wide") setting["time"] = nullptr;
+  setting["pareto_optimal"] = false;
+  if (status != "spread-too-wide") setting["time"] = nullptr;
   if (status == "failed" || status == "timed-out") setting["error"] = nullptr;
   return setting;
 }
@@ -565,7 +589,7 @@ void add_cost(Json& results) {
   for (double n = 1; n <= 32; n *= 2) {
     settings.push_back(cost_setting("dense", n, 0.1 * std::pow(n, -4), 0.6 + n * n * n / 30));
   }
-  settings.push_back(without_answer(cost_setting("sparse", 3, 2e-3, 1.2), "wide", ""));
+  settings.push_back(without_answer(cost_setting("sparse", 3, 2e-3, 1.2), "spread-too-wide", ""));
   settings.push_back(without_answer(cost_setting("dense", 64, 1, 6e4), "timed-out",
                                     "not done after 60 s of processor time"));
   settings.push_back(
@@ -574,7 +598,7 @@ void add_cost(Json& results) {
                 {"family", "modes"},
                 {"title", "Frequencies of a sample"},
                 {"description", "Made up, with everything that can happen."},
-                {"truth", "the exact values"},
+                {"reference_solution", "the exact values"},
                 {"scale", "relative to each true value"},
                 {"norm", "max"},
                 {"baseline", 2},
@@ -582,19 +606,19 @@ void add_cost(Json& results) {
                 {"settings", settings},
                 {"cheapest", Json::array()},
                 {"repeatability",
-                 {{"shared", 6},
-                  {"either", 7},
+                 {{"on_both_fronts", 6},
+                  {"on_either_front", 7},
                   {"same_cheapest", 4},
-                  {"asked", 4},
+                  {"target_errors", 4},
                   {"median_difference", 0.01},
                   {"largest_difference", 0.034}}},
-                {"words", "Within 1 %, 'sparse, 2 elements' is cheapest."}};
+                {"conclusion", "Within 1 %, 'sparse, 2 elements' is cheapest."}};
   const std::vector<std::pair<double, Json>> cheapest = {
       {0.05, 1}, {0.01, 1}, {1e-3, 2}, {1e-6, nullptr}};
   for (const auto& [error, setting] : cheapest)
     study["cheapest"].push_back({{"error", error}, {"setting", setting}});
   results["cost"] = {{"sweep", "quick"},     {"seed", 1},
-                     {"repeats", 7},         {"widest_spread", 0.25},
+                     {"repeats", 7},         {"max_spread", 0.25},
                      {"equal_within", 0.05}, {"diverged_above", 10},
                      {"studies", {study}}};
 }
@@ -610,26 +634,26 @@ Json claim(const char* id, const char* text, const char* verdict, const char* ex
           {"expected", expected},
           {"conclusion", "What <b>follows</b> & why."},
           {"undecidable", readings.empty() ? "Nothing is published." : ""},
-          {"readings", readings}};
+          {"interpretations", readings}};
 }
 
 void add_claims(Json& results) {
   const Json ratio = {
-      {"what", "flexible over rigid"},
-      {"take", "ratio"},
+      {"description", "flexible over rigid"},
+      {"metric", "ratio"},
       {"unit", "1"},
       {"verdict", "contradicts"},
       {"entries",
        {{{"case", "circle-load"}, {"variant", "base"}, {"name", "claim-3"}, {"value", 1.0001}},
         {{"case", "circle-load"}, {"variant", "base"}, {"name", "claim-3"}, {"value", 1.5}}}}};
-  const Json unmeasured = {{"what", "sensitivity"},
-                           {"take", "relative"},
+  const Json unmeasured = {{"description", "sensitivity"},
+                           {"metric", "relative"},
                            {"unit", "1"},
                            {"verdict", "not measured"},
                            {"entries", Json::array()}};
-  results["ledger"] = {
+  results["claims"] = {
       {"title", "Three claims"},
-      {"follows", false},
+      {"as_recorded", false},
       {"claims",
        {claim("3", "Displacements are small.", "contradicted", "confirmed", Json::array({ratio})),
         claim("7", "The sensitivity rises.", "not measured", "confirmed",
@@ -647,8 +671,8 @@ void add_claims(Json& results) {
            {{"title", "over a guess"}, {"timing", "solve"}, {"over_timing", "guess"}}}}}}}};
   for (Json& run : results["runs"]) {
     if (run["case"] != "circle-load") continue;
-    run["cost"]["timings"] = {{"solve", {{"each_s", 2e-5}, {"evaluations", 631}}},
-                              {"guess", {{"each_s", 1e-5}, {"evaluations", 631}}}};
+    run["cost"]["timings"] = {{"solve", {{"per_evaluation_s", 2e-5}, {"evaluations", 631}}},
+                              {"guess", {{"per_evaluation_s", 1e-5}, {"evaluations", 631}}}};
   }
 }
 

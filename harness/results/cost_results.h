@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "harness/results/run_results.h"
+
+/// What results.json says under /cost: settings of one computation, measured for error and time.
+namespace trammel::results {
+
+/// Norms of the relative error over all observed values.
+struct ErrorNorms {
+  Number max, rms, mean;
+};
+
+struct SettingTime {
+  std::vector<double> cpu_s;  ///< of one computation, by repeat
+  double lower_quartile_s = 0, upper_quartile_s = 0;
+  double spread = 0;  ///< quartile distance over median
+  double wall_median_s = 0;
+  std::size_t runs_per_measurement = 0;
+};
+
+struct CostSetting {
+  std::string curve, curve_title, title, status, reason;
+  Number value;  ///< along the curve
+  std::optional<ErrorNorms> errors;
+  double cpu_s = 0;  ///< median, or of the one trial
+  Number relative;   ///< to the baseline's
+  std::optional<SettingTime> time;
+  Counters counters;
+  bool pareto_optimal = false;
+
+  /// Whether it has an error and a time that are used.
+  [[nodiscard]] bool measured() const { return status == "measured"; }
+  [[nodiscard]] bool spread_too_wide() const { return status == "spread-too-wide"; }
+  /// Whether it belongs into the strip at the edge: it failed, diverged or was not done in time.
+  [[nodiscard]] bool without_result() const {
+    return status == "failed" || status == "diverged" || status == "timed-out";
+  }
+  /// A time relative to the baseline's median.
+  [[nodiscard]] Number relative_to_baseline(double SettingTime::*seconds) const;
+};
+
+struct CheapestSetting {
+  double error = 0;
+  std::optional<std::size_t> setting;  ///< its number; none within that error: empty
+};
+
+/// How near the Pareto fronts of odd and of even repeats come.
+struct Repeatability {
+  std::size_t on_both_fronts = 0, on_either_front = 0;  ///< settings
+  std::size_t same_cheapest = 0, target_errors = 0;
+  Number median_difference, largest_difference;  ///< of the time that an accuracy takes
+};
+
+struct CostStudy {
+  std::string id, family, title, description, reference_solution, scale, norm, conclusion;
+  std::vector<CostSetting> settings;
+  std::size_t baseline = 0;
+  double wall_s = 0;
+  std::vector<CheapestSetting> cheapest;
+  Repeatability repeatability;
+
+  /// The error of a setting in the study's norm.
+  [[nodiscard]] Number error(const CostSetting& setting) const;
+};
+
+struct CostStudies {
+  std::string sweep;  ///< quick or full
+  std::size_t seed = 0, repeats = 0;
+  double max_spread = 0, equal_within = 0, diverged_above = 0;
+  std::vector<CostStudy> studies;
+
+  [[nodiscard]] bool is_quick() const { return sweep == "quick"; }
+};
+
+}  // namespace trammel::results

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/results/cost_results.h"
+#include "harness/results/run_results.h"
+
+/// What results.json says, as plain values in its own order: written by the harness, read by the
+/// reports. The keys stand in fields of the source; cases/schema/results.schema.json describes the
+/// file to others.
+namespace trammel::results {
+
+struct Environment {
+  std::string trammel, commit, date, compiler, flags, build_type, processor, system;
+  int cores = 0;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+};
+
+/// A plot that a case asks for: quantities `y` over the quantity `x`, for some of its variants.
+struct PlotRequest {
+  struct Line {
+    std::string title, x, y;
+  };
+  std::string id, title, x, caption;
+  std::vector<std::string> y, variants;
+  std::vector<std::string> log = {};  ///< axes with a logarithmic scale, of magnitudes
+  std::string value = {};             ///< in colours over x and the one y: a map; empty: curves
+  std::vector<Line> lines = {};       ///< on a map
+  [[nodiscard]] bool is_log(const std::string& axis) const;
+};
+
+/// A column of a table that a case asks for: a statistic of a quantity, or one timing (over
+/// another).
+struct ColumnRequest {
+  std::string id, title, quantity, statistic, timing, over_timing;
+};
+
+/// A number of each variant (all where none is named) in each column.
+struct TableRequest {
+  std::string id, title, caption;
+  std::vector<ColumnRequest> columns;
+  std::vector<std::string> variants;
+};
+
+/// The place of a case in the stress suite: an item, and the checks that show how well it is
+/// solved.
+struct StressSuiteEntry {
+  int item = 0;
+  std::vector<std::string> indicators;
+};
+
+struct Variant {
+  std::string id, title;
+};
+
+struct CaseInfo {
+  std::string id, title, description, family, analysis;
+  std::vector<std::string> labels;
+  std::optional<StressSuiteEntry> stress_suite;
+  std::vector<PlotRequest> figures;
+  std::vector<TableRequest> tables;
+  std::vector<Variant> variants;
+
+  [[nodiscard]] std::string variant_title(const std::string& variant) const;
+};
+
+struct Reference {
+  std::string id, title, kind, unit, citation, doi, place, derivation, notes;
+  Numbers values, uncertainty;  ///< absolute half widths
+  std::vector<std::string> printed, errata;
+};
+
+/// Coverage of the numerical uncertainty (GCI) over all refinements with exact values.
+struct UncertaintyCoverage {
+  int levels = 0, covered = 0, min_levels = 0;
+  Number coverage, min_coverage;
+  Number median_ratio, max_median_ratio;  ///< of GCI over true error
+  bool passes = false;
+};
+
+/// One number that an interpretation of a claim rests on.
+struct ClaimEntry {
+  std::string case_id, variant, name;
+  double value = 0;
+};
+
+struct ClaimInterpretation {
+  std::string description, metric, unit, verdict;
+  std::vector<ClaimEntry> entries;
+};
+
+/// A claim of the publication under examination; verdicts in words.
+struct Claim {
+  std::string id, claim, place, verdict, expected, conclusion, undecidable;
+  std::vector<ClaimInterpretation> interpretations;
+};
+
+struct Claims {
+  std::string title;
+  bool as_recorded = false;  ///< every verdict is the expected one
+  std::vector<Claim> claims;
+};
+
+struct Results {
+  int format = 1;
+  Environment environment;
+  std::vector<CaseInfo> cases;
+  std::vector<Reference> references;
+  std::vector<Run> runs;
+  std::optional<UncertaintyCoverage> uncertainty_coverage;
+  std::optional<CostStudies> cost;  ///< accuracy and computing time, where measured
+  std::optional<Claims> claims;
+
+  [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
+  /// @returns nullptr for an unknown or empty id.
+  [[nodiscard]] const Reference* reference(const std::string& id) const;
+};
+
+[[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
+
+/// Figures, tables and the like of a case file, which results hold as they stand there.
+[[nodiscard]] std::vector<PlotRequest> read_figures(const nlohmann::ordered_json& json);
+[[nodiscard]] std::vector<TableRequest> read_tables(const nlohmann::ordered_json& json);
+[[nodiscard]] StressSuiteEntry read_stress_suite(const nlohmann::ordered_json& json);
+[[nodiscard]] Environment read_environment(const nlohmann::ordered_json& json);
+[[nodiscard]] CostStudies read_cost_studies(const nlohmann::ordered_json& json);
+
+/// Titles that a file leaves out are filled in with the names.
+/// @throws std::runtime_error  with the JSON pointer of what is absent, of a wrong type, or does
+///                             not fit the rest.
+[[nodiscard]] Results read_results(const nlohmann::ordered_json& json);
+
+/// @throws std::runtime_error, one line with file and JSON pointer (byte offset for broken JSON).
+[[nodiscard]] Results read_results(const std::filesystem::path& file);
+
+}  // namespace trammel::results

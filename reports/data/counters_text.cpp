@@ -1,0 +1,33 @@
+#include "reports/data/counters_text.h"
+
+#include <algorithm>
+
+namespace trammel::reports {
+
+namespace {
+
+/// 1 240 000 with thin spaces.
+std::string grouped(std::size_t n) {
+  const std::string digits = std::to_string(n);
+  std::string out;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) out += "\u202f";
+    out += digits[i];
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string counters_text(const Counters& counters) {
+  std::string text;
+  for (const auto& [name, n] : counters) {
+    if (n == 0 && name == "steps") continue;  // most computations have none
+    std::string words = name;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    text += (text.empty() ? "" : ", ") + grouped(n) + " " + words;
+  }
+  return text;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,189 @@
+#include "reports/figures/gallery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "reports/figures/convergence.h"
+#include "reports/figures/curves.h"
+#include "reports/figures/discrepancy.h"
+#include "reports/figures/map.h"
+#include "reports/figures/mechanism.h"
+#include "reports/figures/shapes.h"
+#include "reports/figures/tolerance.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t kMaxPoses = 4;
+constexpr std::size_t kMaxDrawnVariants =
+    24;  ///< variants of one case whose shapes the page carries
+
+/// Joints of one name stand in one place; what has no name says nothing.
+bool same_geometry(const Drawing& a, const Drawing& b) {
+  for (const Joint& ja : a.joints) {
+    if (ja.name.empty()) continue;
+    for (const Joint& jb : b.joints) {
+      const auto& [ax, ay] = a.nodes[ja.node];
+      const auto& [bx, by] = b.nodes[jb.node];
+      if (ja.name == jb.name && std::hypot(ax - bx, ay - by) > 1e-9) return false;
+    }
+  }
+  return true;
+}
+
+/// Variants whose joints stand elsewhere than in `base`, one for each pose.
+std::vector<std::pair<std::string, const Drawing*>> further_poses(
+    const CaseInfo& info, const std::vector<const Run*>& runs, const Drawing& base) {
+  std::vector<std::pair<std::string, const Drawing*>> poses;
+  for (const Run* run : runs) {
+    if (!run->drawing || run->drawing->joints.empty() || poses.size() + 1 == kMaxPoses) continue;
+    const Drawing& drawing = *run->drawing;
+    const bool known = same_geometry(base, drawing) ||
+                       std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
+                         return same_geometry(*pose.second, drawing);
+                       });
+    if (!known) poses.emplace_back(info.variant_title(run->variant), &drawing);
+  }
+  return poses;
+}
+
+void append(std::vector<Figure>& figures, std::vector<Figure> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(figures));
+}
+
+/// Drawing and shapes of the first run are shown; the shapes and convergence of others are folded.
+Gallery gallery_of(const CaseInfo& info, const Results& results,
+                   const std::vector<const Run*>& runs) {
+  Gallery gallery;
+  const auto drawn =
+      std::find_if(runs.begin(), runs.end(), [](const Run* run) { return run->drawing; });
+  if (drawn != runs.end()) {
+    const auto poses = further_poses(info, runs, *(*drawn)->drawing);
+    if (auto figure = mechanism_figure(info, **drawn, poses)) gallery.shown.push_back(*figure);
+  }
+  std::size_t variants = 0;
+  for (const Run* run : runs) {
+    if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= kMaxDrawnVariants)
+      (variants == 1 ? gallery.shown : gallery.folded).push_back(*shapes);
+  }
+  if (variants > kMaxDrawnVariants)
+    gallery.problems.push_back("The page draws the shapes of the first " +
+                               std::to_string(kMaxDrawnVariants) + " variants; those of " +
+                               std::to_string(variants - kMaxDrawnVariants) +
+                               " more stand in results.json.");
+  for (const PlotRequest& request : info.figures) {
+    std::string problem;
+    const auto draw = request.value.empty() ? curves_figure : map_figure;
+    if (auto figure = draw(info, request, runs, problem)) {
+      gallery.shown.push_back(*figure);
+    } else {
+      gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
+    }
+  }
+  append(gallery.shown, discrepancy_figures(info, results, runs));
+  bool first = true;
+  for (const Run* run : runs) {
+    auto figures = convergence_figures(info, *run);
+    const bool any = !figures.empty();
+    append(first ? gallery.shown : gallery.folded, std::move(figures));
+    first = first && !any;
+  }
+  return gallery;
+}
+
+std::string family_title(const std::string& id) {
+  std::string title = id;
+  std::replace(title.begin(), title.end(), '-', ' ');
+  std::replace(title.begin(), title.end(), '_', ' ');
+  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
+}
+
+std::map<std::string, std::string> short_titles(const Family& family) {
+  std::map<std::string, std::string> titles;
+  for (const CaseInfo* info : family.cases) titles[info->id] = family.short_title(*info);
+  return titles;
+}
+
+}  // namespace
+
+std::string Family::short_title(const CaseInfo& info) const {
+  const std::string& whole = info.title;
+  std::size_t same = whole.size();
+  for (const CaseInfo* other : cases) {
+    if (other == &info) continue;
+    std::size_t i = 0;
+    while (i < same && i < other->title.size() && other->title[i] == whole[i]) ++i;
+    same = i;
+  }
+  if (cases.size() < 2 || same == 0 || same == whole.size()) return whole;
+  const std::size_t word = whole.find_last_of(",:", same - 1);
+  if (word == std::string::npos) return whole;
+  const std::size_t from = whole.find_first_not_of(" ,:", word);
+  return from == std::string::npos ? whole : whole.substr(from);
+}
+
+std::vector<const Run*> Family::runs_of(const std::string& case_id) const {
+  std::vector<const Run*> out;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(out),
+               [&](const Run* run) { return run->case_id == case_id; });
+  return out;
+}
+
+std::vector<Family> plan_families(const Results& results) {
+  std::vector<Family> families;
+  for (const CaseInfo& info : results.cases) {
+    std::vector<const Run*> runs;
+    for (const Run& run : results.runs)
+      if (run.case_id == info.id) runs.push_back(&run);
+    if (runs.empty()) continue;
+    auto family = std::find_if(families.begin(), families.end(),
+                               [&](const Family& f) { return f.id == info.family; });
+    if (family == families.end()) {
+      family = families.insert(families.end(), Family{});
+      family->id = info.family;
+      family->title = family_title(info.family);
+    }
+    family->cases.push_back(&info);
+    family->runs.insert(family->runs.end(), runs.begin(), runs.end());
+    family->galleries[info.id] = gallery_of(info, results, runs);
+  }
+  for (Family& family : families) {
+    if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))
+      family.overview.push_back(*figure);
+  }
+  return families;
+}
+
+std::vector<Figure*> all_figures(std::vector<Family>& families) {
+  std::vector<Figure*> figures;
+  const auto add = [&](std::vector<Figure>& from) {
+    for (Figure& figure : from) figures.push_back(&figure);
+  };
+  for (Family& family : families) {
+    add(family.overview);
+    for (const CaseInfo* info : family.cases) {
+      Gallery& gallery = family.galleries.at(info->id);
+      add(gallery.shown);
+      add(gallery.folded);
+    }
+  }
+  return figures;
+}
+
+void number_figures(const std::vector<Figure*>& figures) {
+  std::set<std::string> used;
+  int number = 0;
+  for (Figure* figure : figures) {
+    const std::string wanted = figure->id;
+    for (int copy = 2; !used.insert(figure->id).second; ++copy)
+      figure->id = wanted + "-" + std::to_string(copy);
+    figure->number = ++number;
+  }
+}
+
+}  // namespace trammel::reports

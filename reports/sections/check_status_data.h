@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "reports/data/check_status.h"
+#include "reports/text/html.h"
+
+namespace trammel::reports {
+
+/// Text, class name and sign of a status: keys status_text, status_class, sign.
+void set_check_status(Data& data, CheckStatus status);
+
+/// Counts as a list of {n, status_text, status_class, sign, percent} without the zeros.
+[[nodiscard]] Data counts_list(const Counts& counts);
+
+[[nodiscard]] std::string case_anchor(const std::string& id);
+[[nodiscard]] std::string family_anchor(const std::string& id);
+[[nodiscard]] std::string reference_anchor(const std::string& id);
+
+}  // namespace trammel::reports

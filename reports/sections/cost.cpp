@@ -1,0 +1,217 @@
+#include "reports/sections/cost.h"
+
+#include <algorithm>
+
+#include "reports/data/counters_text.h"
+#include "reports/figures/cost.h"
+#include "reports/sections/check_status_data.h"
+#include "reports/sections/family.h"
+#include "reports/text/html.h"
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+
+namespace {
+
+struct CaseCost {
+  const CaseInfo* info;
+  std::size_t runs = 0;
+  double wall_s = 0, cpu_s = 0;
+  Counters counters;
+};
+
+std::vector<CaseCost> costs(const std::vector<Family>& families) {
+  std::vector<CaseCost> out;
+  for (const Family& family : families) {
+    for (const CaseInfo* info : family.cases) {
+      CaseCost cost;
+      cost.info = info;
+      for (const Run* run : family.runs_of(info->id)) {
+        ++cost.runs;
+        cost.wall_s += run->cost.wall_s;
+        cost.cpu_s += run->cost.cpu_s;
+        for (const auto& [name, n] : run->cost.counters) {
+          auto known = std::find_if(cost.counters.begin(), cost.counters.end(),
+                                    [&, key = name](const auto& c) { return c.first == key; });
+          if (known == cost.counters.end()) {
+            cost.counters.emplace_back(name, n);
+          } else {
+            known->second += n;
+          }
+        }
+      }
+      out.push_back(std::move(cost));
+    }
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const CaseCost& a, const CaseCost& b) { return a.wall_s > b.wall_s; });
+  return out;
+}
+
+Data row_of(const CaseCost& cost, double longest) {
+  Data row = object();
+  row.set("case_title", cost.info->title);
+  row.set("case_anchor", case_anchor(cost.info->id));
+  row.set("runs", std::to_string(cost.runs));
+  row.set("wall", duration(cost.wall_s));
+  row.set("cpu", duration(cost.cpu_s));
+  row.set("percent", trimmed(longest > 0 ? 100 * cost.wall_s / longest : 0, 3));
+  set_text(row, "counters", counters_text(cost.counters));
+  return row;
+}
+
+/// Where the time of the runs went.
+void set_runs(Data& section, const std::vector<Family>& families) {
+  const std::vector<CaseCost> all = costs(families);
+  double wall = 0, cpu = 0;
+  for (const CaseCost& cost : all) wall += cost.wall_s, cpu += cost.cpu_s;
+  std::string words = "All runs together took " + duration(wall) + " one after another (" +
+                      duration(cpu) + " of processor time)";
+  if (!all.empty() && wall > 0)
+    words += "; the longest case, " + all.front().info->title + ", has " +
+             relative(all.front().wall_s / wall, 2, false) + " of it";
+  section.set("runs_words", words + ".");
+  Data rows = list();
+  for (const CaseCost& cost : all) rows.push_back(row_of(cost, all.front().wall_s));
+  section.set("rows", rows);
+  set_flag(section, "has_runs", !all.empty());
+}
+
+/// "2.4 ×".
+std::string times(const std::optional<double>& factor) {
+  return factor ? trimmed(*factor, *factor < 10 ? 2 : 3) + "\u202f×" : "–";
+}
+
+std::string within(double error) {
+  return error < 1e-4 ? power_of_ten(-6) : trimmed(100 * error, 2) + "\u202f%";
+}
+
+Data cheapest_row(const CostStudy& study, double error, std::optional<std::size_t> number) {
+  Data row = object();
+  row.set("within", within(error));
+  set_flag(row, "found", number.has_value());
+  if (!number) return row;
+  const CostSetting& setting = study.settings[*number];
+  const Number error_of = study.error(setting);
+  row.set("setting", setting.title);
+  row.set("error", error_of ? relative(*error_of, 2, false) : "–");
+  row.set("times", times(setting.relative));
+  row.set("cpu", duration(setting.cpu_s));
+  row.set("work", counters_text(setting.counters));
+  return row;
+}
+
+std::string status_text(const CostSetting& setting) {
+  if (setting.spread_too_wide())
+    return "spread of " + relative((setting.time ? setting.time->spread : 0), 2, false) +
+           ", not used";
+  if (setting.status == "timed-out") return "out of time";
+  return setting.status == "diverged" ? "diverged" : "no solution";
+}
+
+Data left_out(const CostStudy& study) {
+  Data rows = list();
+  for (const CostSetting& setting : study.settings) {
+    if (!setting.without_result() && !setting.spread_too_wide()) continue;
+    Data row = object();
+    row.set("setting", setting.title);
+    row.set("status_text", status_text(setting));
+    set_text(row, "reason", setting.reason);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string measured_text(const CostStudy& study) {
+  const CostSetting& baseline = study.settings[study.baseline];
+  std::string norm = study.norm == "max"   ? "The largest error"
+                     : study.norm == "rms" ? "The root mean square of the errors"
+                                           : "The mean error";
+  return norm + " against " + study.reference_solution + ", " + study.scale +
+         ". Times are relative to '" + baseline.title + "', which takes " +
+         duration(baseline.cpu_s) + ". Taken by themselves, odd and even repeats put " +
+         std::to_string(study.repeatability.on_both_fronts) + " of " +
+         std::to_string(study.repeatability.on_either_front) +
+         " settings on the Pareto front in both halves, and the time that an accuracy takes "
+         "differs by at most " +
+         relative(study.repeatability.largest_difference.value_or(0), 2, false) + " between them.";
+}
+
+std::string study_anchor(const CostStudy& study) {
+  return "cost-" + slug(study.id);
+}
+
+Data study_data(const CostPanel& panel) {
+  const CostStudy& study = *panel.study;
+  Data data = object();
+  data.set("anchor", study_anchor(study));
+  data.set("study_title", study.title);
+  set_text(data, "description", study.description);
+  data.set("measured", measured_text(study));
+  data.set("figure", figure_data(panel.figure));
+  Data rows = list();
+  for (const auto& [error, setting] : study.cheapest)
+    rows.push_back(cheapest_row(study, error, setting));
+  data.set("cheapest", rows);
+  const Data lost = left_out(study);
+  set_flag(data, "has_left_out", lost.is_non_empty_list());
+  data.set("left_out", lost);
+  return data;
+}
+
+/// All studies in one table: the cheapest setting for each accuracy.
+void set_overview(Data& section, const std::vector<CostPanel>& panels) {
+  Data heads = list();
+  for (const auto& [error, setting] : panels.front().study->cheapest) {
+    Data head = object();
+    head.set("within", within(error));
+    heads.push_back(head);
+  }
+  Data rows = list();
+  for (const CostPanel& panel : panels) {
+    Data row = object();
+    row.set("anchor", study_anchor(*panel.study));
+    row.set("study_title", panel.study->title);
+    Data cells = list();
+    for (const auto& [error, setting] : panel.study->cheapest)
+      cells.push_back(cheapest_row(*panel.study, error, setting));
+    row.set("cells", cells);
+    rows.push_back(row);
+  }
+  section.set("overview_heads", heads);
+  section.set("overview_rows", rows);
+}
+
+}  // namespace
+
+std::vector<CostPanel> plan_cost(const Results& results) {
+  std::vector<CostPanel> panels;
+  if (!results.cost) return panels;
+  for (const CostStudy& study : results.cost->studies)
+    panels.push_back({&study, cost_figure(study)});
+  return panels;
+}
+
+Data cost_section(const Results& results, const std::vector<Family>& families,
+                  const std::vector<CostPanel>& panels) {
+  Data section = object();
+  set_runs(section, families);
+  set_flag(section, "has_studies", !panels.empty());
+  if (panels.empty()) return section;
+  const CostStudies& cost = *results.cost;
+  section.set("sweep", cost.is_quick() ? "the quick sweep" : "the full sweep");
+  set_flag(section, "quick", cost.is_quick());
+  section.set("repeats", std::to_string(cost.repeats));
+  section.set("widest", relative(cost.max_spread, 2, false));
+  Data studies = list();
+  for (const CostPanel& panel : panels) studies.push_back(study_data(panel));
+  const std::string studies_count = count(panels.size(), "study", "studies");
+  section.set("studies_count", studies_count);
+  const CostStudy& first = *panels.front().study;
+  section.set("words", studies_count + ". " + first.title + ": " + first.conclusion);
+  set_overview(section, panels);
+  section.set("studies", studies);
+  return section;
+}
+
+}  // namespace trammel::reports

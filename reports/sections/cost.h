@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/data/results.h"
+#include "reports/drawing/figure.h"
+#include "reports/figures/gallery.h"
+#include "reports/text/html.h"
+
+namespace trammel::reports {
+
+/// A study of accuracy and computing time with its figure.
+struct CostPanel {
+  const CostStudy* study = nullptr;
+  Figure figure;
+};
+
+/// A panel for each study, its figure neither numbered nor drawn.
+[[nodiscard]] std::vector<CostPanel> plan_cost(const Results& results);
+
+/// Accuracy and computing time, study by study, and the computing time of the runs.
+[[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families,
+                                const std::vector<CostPanel>& panels);
+
+}  // namespace trammel::reports

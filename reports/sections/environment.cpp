@@ -1,0 +1,32 @@
+#include "reports/sections/environment.h"
+
+#include "reports/text/html.h"
+
+namespace trammel::reports {
+
+Data environment_section(const Results& results) {
+  const Environment& from = results.environment;
+  const std::pair<const char*, std::string> entries[] = {
+      {"trammel", from.trammel},     {"commit", from.commit},
+      {"date", from.date},           {"compiler", from.compiler},
+      {"build", from.build_type},    {"flags", from.flags},
+      {"processor", from.processor}, {"cores", std::to_string(from.cores)},
+      {"system", from.system}};
+  Data data = object();
+  Data rows = list();
+  const auto add = [&](const std::string& key, const std::string& value) {
+    Data row = object();
+    row.set("key", key);
+    row.set("value", value);
+    rows.push_back(row);
+  };
+  for (const auto& [key, value] : entries) {
+    set_text(data, key, value);
+    if (!value.empty()) add(key, value);
+  }
+  for (const auto& [name, version] : from.libraries) add(name, version);
+  data.set("rows", rows);
+  return data;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,127 @@
+#include "reports/sections/family.h"
+
+#include <algorithm>
+
+#include "reports/data/check_status.h"
+#include "reports/sections/check_status_data.h"
+#include "reports/sections/effects.h"
+#include "reports/sections/matrix.h"
+#include "reports/sections/tables.h"
+#include "reports/sections/variant_tables.h"
+#include "reports/text/html.h"
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+
+Data figure_data(const Figure& figure) {
+  Data data = object();
+  data.set("id", "fig-" + figure.id);
+  data.set("number", std::to_string(figure.number));
+  data.set("figure_title", figure.title);
+  set_text(data, "caption", figure.caption);
+  data.set("svg", figure.svg);
+  data.set("file", "figures/" + figure.id);
+  return data;
+}
+
+namespace {
+
+Data figures_data(const std::vector<Figure>& figures) {
+  Data out = list();
+  for (const Figure& figure : figures) out.push_back(figure_data(figure));
+  return out;
+}
+
+Counts counts_of(const std::vector<const Run*>& runs) {
+  Counts counts;
+  for (const Run* run : runs) add(counts, *run);
+  return counts;
+}
+
+/// The one sign of many checks and runs: the worst of them.
+CheckStatus overall(const std::vector<const Run*>& runs) {
+  const Counts counts = counts_of(runs);
+  const auto any_run = [&](CheckStatus which) {
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const Run* run) { return check_status(*run) == which; });
+  };
+  for (const CheckStatus bad : {CheckStatus::error, CheckStatus::fails})
+    if (count_of(counts, bad) > 0 || any_run(bad)) return bad;
+  for (const CheckStatus some :
+       {CheckStatus::known_discrepancy, CheckStatus::passes, CheckStatus::not_judged})
+    if (count_of(counts, some) > 0) return some;
+  return CheckStatus::not_run;
+}
+
+Data endings(const CaseInfo& info, const std::vector<const Run*>& runs) {
+  Data out = list();
+  for (const Run* run : runs) {
+    if (run->status == Status::solved) continue;
+    Data data = object();
+    data.set("variant", info.variant_title(run->variant));
+    data.set("status", to_string(run->status));
+    set_text(data, "reason", run->reason);
+    set_check_status(data, check_status(*run));
+    out.push_back(data);
+  }
+  return out;
+}
+
+Data texts(const std::vector<std::string>& strings) {
+  Data out = list();
+  for (const std::string& text : strings) {
+    Data data = object();
+    data.set("text", text);
+    out.push_back(data);
+  }
+  return out;
+}
+
+Data case_data(const CaseInfo& info, const Family& family, const Results& results) {
+  const std::vector<const Run*> runs = family.runs_of(info.id);
+  const Gallery& gallery = family.galleries.at(info.id);
+  Data data = object();
+  data.set("anchor", case_anchor(info.id));
+  data.set("case_id", info.id);
+  data.set("case_title", info.title);
+  data.set("short_title", family.short_title(info));
+  set_text(data, "description", info.description);
+  data.set("labels", texts(info.labels));
+  set_text(data, "variants_count", runs.size() > 1 ? count(runs.size(), "variant") : "");
+  data.set("counts", counts_list(counts_of(runs)));
+  set_check_status(data, overall(runs));
+  data.set("endings", endings(info, runs));
+  set_effects(data, runs);
+  data.set("problems", texts(gallery.problems));
+  set_flag(data, "has_figures", !gallery.shown.empty());
+  data.set("figures", figures_data(gallery.shown));
+  set_text(data, "folded_figures_title",
+           gallery.folded.empty() ? "" : count(gallery.folded.size(), "further figure"));
+  data.set("folded_figures", figures_data(gallery.folded));
+  data.set("tables", case_tables(info, runs, results));
+  data.set("variant_tables", variant_tables(info, runs));
+  data.set("csv", "checks/" + slug(info.id) + ".csv");
+  return data;
+}
+
+}  // namespace
+
+Data family_section(const Family& family, const Results& results) {
+  Data data = object();
+  data.set("anchor", family_anchor(family.id));
+  data.set("family_title", family.title);
+  const std::string cases_count = count(family.cases.size(), "case");
+  data.set("cases_count", cases_count);
+  data.set("extent", cases_count + ", " + count(total(counts_of(family.runs)), "check"));
+  data.set("counts", counts_list(counts_of(family.runs)));
+  set_check_status(data, overall(family.runs));
+  set_flag(data, "has_overview", !family.overview.empty());
+  data.set("overview", figures_data(family.overview));
+  data.set("matrices", comparison_matrices(family, results));
+  Data cases = list();
+  for (const CaseInfo* info : family.cases) cases.push_back(case_data(*info, family, results));
+  data.set("cases", cases);
+  return data;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,339 @@
+#include "reports/sections/summary.h"
+
+#include <algorithm>
+
+#include "reports/data/check_status.h"
+#include "reports/data/check_text.h"
+#include "reports/sections/check_status_data.h"
+#include "reports/sections/matrix.h"
+#include "reports/text/html.h"
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+
+namespace {
+
+struct Role {
+  const char *name, *meaning;
+};
+constexpr std::array<Role, 3> kRoles = {{
+    {"verification", "against exact or independent reference solutions"},
+    {"validation", "against the published results under examination"},
+    {"regression", "against our own earlier results"},
+}};
+
+Counts counts_of(const Results& results, const std::string& role) {
+  Counts counts;
+  for (const Run& run : results.runs)
+    for (const Check& check : run.checks)
+      if (role.empty() || check.role == role) ++counts[check_status(check)];
+  return counts;
+}
+
+/// All but what few results have and none of these does.
+std::vector<CheckStatus> role_columns(const Counts& all) {
+  std::vector<CheckStatus> columns;
+  for (const CheckStatus which : kAllCheckStatuses)
+    if (which != CheckStatus::not_judged || count_of(all, which) > 0) columns.push_back(which);
+  return columns;
+}
+
+Data role_row(const std::string& name, const std::string& meaning, const Counts& counts,
+              const std::vector<CheckStatus>& columns) {
+  Data row = object();
+  row.set("role", name);
+  set_text(row, "meaning", meaning);
+  Data cells = list();
+  for (const CheckStatus which : columns) {
+    Data cell = object();
+    const std::size_t n = count_of(counts, which);
+    set_check_status(cell, which);
+    set_text(cell, "n", n ? std::to_string(n) : "");
+    cells.push_back(cell);
+  }
+  row.set("cells", cells);
+  row.set("total", std::to_string(total(counts)));
+  return row;
+}
+
+Data role_table(const Results& results) {
+  Data rows = list();
+  const Counts all = counts_of(results, "");
+  const std::vector<CheckStatus> columns = role_columns(all);
+  for (const Role& role : kRoles) {
+    const Counts counts = counts_of(results, role.name);
+    if (total(counts) > 0) rows.push_back(role_row(role.name, role.meaning, counts, columns));
+  }
+  rows.push_back(role_row("all", "", all, columns));
+  return rows;
+}
+
+Data item(const CaseInfo& info, const Run& run, const std::string& what, const std::string& text) {
+  Data data = object();
+  data.set("case_title", info.title);
+  data.set("case_anchor", case_anchor(info.id));
+  set_text(data, "variant_title", info.variants.size() > 1 ? info.variant_title(run.variant) : "");
+  set_text(data, "what", what);
+  set_text(data, "text", text);
+  return data;
+}
+
+/// Runs that did not end as their case expects, and checks that fail or could not be judged.
+Data failures(const Results& results, std::size_t& unexpected_endings) {
+  Data out = list();
+  for (const Run& run : results.runs) {
+    const CaseInfo& info = results.case_info(run.case_id);
+    const CheckStatus ending = check_status(run);
+    if (ending == CheckStatus::fails || ending == CheckStatus::error) {
+      ++unexpected_endings;
+      Data data = item(info, run, to_string(run.status), run.reason);
+      set_check_status(data, ending);
+      out.push_back(data);
+    }
+    for (const CheckGroup& group : group_checks(run)) {
+      const CheckStatus worst = check_status(group.worst());
+      if (worst != CheckStatus::fails && worst != CheckStatus::error) continue;
+      Data data = item(info, run, check_title(group.front()), failure_text(group));
+      set_check_status(data, worst);
+      out.push_back(data);
+    }
+  }
+  return out;
+}
+
+/// Differences with one and the same reason.
+struct Reason {
+  std::string text;
+  const Check* lowest;
+  const Check* highest;
+  std::vector<const Run*> runs;
+};
+
+/// Known discrepancies of a family under one name and with one reference.
+struct KnownDiscrepancy {
+  const Family* family;
+  const Check* first;
+  std::size_t checks = 0;
+  std::vector<const CaseInfo*> cases;
+  std::vector<Reason> reasons;
+};
+
+template <typename Item, typename Is>
+Item& find_or_add(std::vector<Item>& items, Is is, const Item& fresh) {
+  const auto found = std::find_if(items.begin(), items.end(), is);
+  return found == items.end() ? items.emplace_back(fresh) : *found;
+}
+
+void add(KnownDiscrepancy& known, const Run& run, const Check& check, const CaseInfo& info) {
+  ++known.checks;
+  find_or_add(
+      known.cases, [&](const CaseInfo* c) { return c == &info; }, &info);
+  Reason& reason = find_or_add(
+      known.reasons, [&](const Reason& r) { return r.text == check.why; },
+      Reason{check.why, &check, &check, {}});
+  if (check.difference < reason.lowest->difference) reason.lowest = &check;
+  if (check.difference > reason.highest->difference) reason.highest = &check;
+  find_or_add(
+      reason.runs, [&](const Run* r) { return r == &run; }, &run);
+}
+
+std::vector<KnownDiscrepancy> known_discrepancies(const Results& results,
+                                                  const std::vector<Family>& families) {
+  std::vector<KnownDiscrepancy> out;
+  for (const Family& family : families) {
+    for (const Run* run : family.runs) {
+      for (const Check& check : run->checks) {
+        if (check_status(check) != CheckStatus::known_discrepancy) continue;
+        const auto same = [&](const KnownDiscrepancy& known) {
+          return known.family == &family && known.first->name == check.name &&
+                 known.first->reference == check.reference && known.first->measure == check.measure;
+        };
+        add(find_or_add(out, same, KnownDiscrepancy{&family, &check, 0, {}, {}}), *run, check,
+            results.case_info(run->case_id));
+      }
+    }
+  }
+  return out;
+}
+
+std::string span_text(const Check& lowest, const Check& highest) {
+  if (!lowest.difference || !highest.difference) return "";
+  const std::string low = difference_text(lowest, *lowest.difference);
+  const std::string high = difference_text(highest, *highest.difference);
+  return low == high ? low : low + " to " + high;
+}
+
+std::string span_text(const KnownDiscrepancy& known) {
+  const Check* lowest = known.first;
+  const Check* highest = known.first;
+  for (const Reason& reason : known.reasons) {
+    if (reason.lowest->difference < lowest->difference) lowest = reason.lowest;
+    if (reason.highest->difference > highest->difference) highest = reason.highest;
+  }
+  return span_text(*lowest, *highest);
+}
+
+/// What does not agree: as the case puts it, else what it is compared with.
+std::string known_title(const Check& check, const Reference* reference) {
+  if (!check.title.empty()) return check.title;
+  return reference ? reference->title : check.name;
+}
+
+std::string run_names(const Reason& reason, const KnownDiscrepancy& known, const Results& results) {
+  std::string text;
+  for (const Run* run : reason.runs) {
+    const CaseInfo& info = results.case_info(run->case_id);
+    text += (text.empty() ? "" : "; ") + info.variant_title(run->variant);
+    if (known.cases.size() > 1) text += " (" + known.family->short_title(info) + ")";
+  }
+  return text;
+}
+
+Data reasons_data(const KnownDiscrepancy& known, const Results& results) {
+  Data out = list();
+  for (const Reason& reason : known.reasons) {
+    Data data = object();
+    set_text(data, "span", span_text(*reason.lowest, *reason.highest));
+    set_text(data, "text", reason.text);
+    data.set("variants", run_names(reason, known, results));
+    out.push_back(data);
+  }
+  return out;
+}
+
+/// One reason stands as it is; many stand folded, under what they come to.
+Data known_data(const KnownDiscrepancy& known, const Results& results) {
+  Data data = object();
+  const Reference* reference = results.reference(known.first->reference);
+  Data cases = list();
+  std::size_t variants = 0;
+  for (const Reason& reason : known.reasons) variants += reason.runs.size();
+  for (const CaseInfo* info : known.cases) {
+    Data entry = object();
+    entry.set("case_title", info->title);
+    entry.set("case_anchor", case_anchor(info->id));
+    cases.push_back(entry);
+  }
+  data.set("cases", cases);
+  data.set("what", known_title(*known.first, reference));
+  set_text(data, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(data, "span", span_text(known));
+  std::string extent = count(known.checks, "check");
+  if (variants > 1) extent += " of " + count(variants, "variant");
+  data.set("extent", extent);
+  const bool single_reason = known.reasons.size() == 1;
+  set_text(data, "reason",
+           single_reason ? known.reasons.front().text
+                         : comparison_conclusion(*known.family, results, *known.first));
+  set_text(data, "reasons_title", single_reason ? "" : count(known.reasons.size(), "reason"));
+  data.set("reasons", single_reason ? list() : reasons_data(known, results));
+  return data;
+}
+
+/// Families with known discrepancies, each with its list.
+Data known_by_family(const Results& results, const std::vector<Family>& families) {
+  const std::vector<KnownDiscrepancy> all = known_discrepancies(results, families);
+  Data out = list();
+  for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+    std::size_t checks = 0;
+    Data entries = list();
+    for (to = from; to < all.size() && all[to].family == all[from].family; ++to) {
+      checks += all[to].checks;
+      entries.push_back(known_data(all[to], results));
+    }
+    Data family = object();
+    family.set("family_title", all[from].family->title);
+    family.set("extent",
+               count(to - from, "discrepancy", "discrepancies") + " in " + count(checks, "check"));
+    family.set("known", entries);
+    out.push_back(family);
+  }
+  return out;
+}
+
+Data section_summaries(const std::vector<SectionSummary>& summaries) {
+  Data out = list();
+  for (const SectionSummary& summary : summaries) {
+    Data data = object();
+    data.set("title", summary.title);
+    data.set("anchor", summary.anchor);
+    data.set("words", summary.text);
+    out.push_back(data);
+  }
+  return out;
+}
+
+std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
+  const std::size_t fails = count_of(counts, CheckStatus::fails);
+  const std::size_t errors = count_of(counts, CheckStatus::error);
+  if (total(counts) == 0) return "No checks were made.";
+  std::string text;
+  const auto add_part = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (fails > 0) add_part(count(fails, "check fails", "checks fail"));
+  if (errors > 0) add_part(std::to_string(errors) + " could not be evaluated");
+  if (unexpected_endings > 0)
+    add_part(
+        count(unexpected_endings, "run did not end as expected", "runs did not end as expected"));
+  if (!text.empty()) return text + ".";
+  const std::size_t known = count_of(counts, CheckStatus::known_discrepancy);
+  if (known == 0) return "Every check passes.";
+  return "Every check with an expected agreement passes; " +
+         count(known, "comparison does not agree", "comparisons do not agree") +
+         " with the publication, as recorded.";
+}
+
+std::string overview_text(const Results& results, const std::vector<Family>& families,
+                          const Counts& counts) {
+  std::size_t cases = 0;
+  for (const Family& family : families) cases += family.cases.size();
+  std::string text = count(cases, "case") + " in " + count(families.size(), "family", "families") +
+                     " were solved in " + count(results.runs.size(), "variant") + " and " +
+                     count(total(counts), "check") + " made. ";
+  if (const std::size_t known = count_of(counts, CheckStatus::known_discrepancy))
+    text += count(known, "comparison does", "comparisons do") +
+            " not agree with the reference; the difference is as recorded, the reasons are below. ";
+  text += count(count_of(counts, CheckStatus::passes), "check passes", "checks pass") +
+          " within the stated tolerance.";
+  if (const std::size_t recorded = count_of(counts, CheckStatus::not_judged))
+    text += " " + count(recorded, "comparison is", "comparisons are") +
+            " reported without a criterion (not judged).";
+  if (const std::size_t skipped = count_of(counts, CheckStatus::not_run))
+    text += " " + count(skipped, "check was", "checks were") + " not run.";
+  return text;
+}
+
+}  // namespace
+
+Data summary_section(const Results& results, const std::vector<Family>& families,
+                     const std::vector<SectionSummary>& summaries) {
+  const Counts counts = counts_of(results, "");
+  std::size_t unexpected_endings = 0;
+  Data summary = object();
+  const Data failure_list = failures(results, unexpected_endings);
+  const bool good = all_checks_pass(counts) && unexpected_endings == 0 && total(counts) > 0;
+  summary.set("verdict", verdict_text(counts, unexpected_endings));
+  const bool all_agree = count_of(counts, CheckStatus::known_discrepancy) == 0;
+  summary.set("verdict_class", css_class(!good       ? CheckStatus::fails
+                                         : all_agree ? CheckStatus::passes
+                                                     : CheckStatus::known_discrepancy));
+  summary.set("overview", overview_text(results, families, counts));
+  summary.set("bar", counts_list(counts));
+  summary.set("roles", role_table(results));
+  set_flag(summary, "has_troubles", failure_list.is_non_empty_list());
+  summary.set("troubles", failure_list);
+  set_flag(summary, "has_answers", !summaries.empty());
+  summary.set("answers", section_summaries(summaries));
+  const Data known = known_by_family(results, families);
+  set_flag(summary, "has_known", known.is_non_empty_list());
+  summary.set("known_families", known);
+  Data heads = list();
+  for (const CheckStatus which : role_columns(counts)) {
+    Data head = object();
+    set_check_status(head, which);
+    heads.push_back(head);
+  }
+  summary.set("heads", heads);
+  return summary;
+}
+
+}  // namespace trammel::reports

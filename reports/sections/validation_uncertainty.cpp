@@ -1,0 +1,205 @@
+#include "reports/sections/validation_uncertainty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "reports/sections/check_status_data.h"
+#include "reports/text/html.h"
+#include "reports/text/number.h"
+#include "reports/text/quantity.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t kMaxUnfoldedComparisons = 8;
+constexpr double kFullColourDifference = 0.4;  ///< relative difference that is drawn in full colour
+
+/// One variant in one check.
+struct ComparisonRow {
+  const Run* run;
+  std::map<int, const Comparison*> entries;
+};
+
+/// One check, which may compare entries of a reference in another order than another check.
+struct ComparisonSubject {
+  const CaseInfo* info;
+  std::string reference, quantity, check;
+  std::vector<ComparisonRow> rows;
+  std::map<int, double> targets;
+};
+
+void add_run(const Run& run, const CaseInfo& info, std::vector<ComparisonSubject>& subjects) {
+  if (!run.uncertainty) return;
+  for (const Comparison& c : run.uncertainty->comparisons) {
+    if (!c.expected || *c.expected == 0 || !c.difference || !c.u_val) continue;
+    auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const ComparisonSubject& s) {
+      return s.info == &info && s.reference == c.reference && s.check == c.check;
+    });
+    if (subject == subjects.end())
+      subject = subjects.insert(subjects.end(),
+                                ComparisonSubject{&info, c.reference, c.quantity, c.check, {}, {}});
+    if (subject->rows.empty() || subject->rows.back().run != &run)
+      subject->rows.push_back({&run, {}});
+    subject->rows.back().entries[c.index] = &c;
+    subject->targets.emplace(c.index, *c.expected);
+  }
+}
+
+/// Number of each verdict, and of the entries that an input dominates.
+struct Tally {
+  std::map<std::string, std::size_t> verdict, dominant;
+  std::size_t entries = 0;
+
+  void add(const ComparisonRow& row) {
+    for (const auto& [_, c] : row.entries) {
+      ++entries;
+      ++verdict[c->verdict];
+      if (!c->dominant_input.empty()) ++dominant[c->dominant_input];
+    }
+  }
+};
+
+std::string verdict_text(const Tally& counts) {
+  constexpr std::array<std::pair<const char*, const char*>, 4> words = {{
+      {"within-uncertainty", "within the validation uncertainty"},
+      {"model-error", "with a model error"},
+      {"reference-inconsistent", "against an inconsistent reference"},
+      {"undecided", "undecided"},
+  }};
+  std::string text;
+  for (const auto& [key, text_of_key] : words) {
+    const auto found = counts.verdict.find(key);
+    if (found == counts.verdict.end()) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(found->second) + " " + text_of_key;
+  }
+  return text;
+}
+
+std::string display_name(std::string name) {
+  std::replace(name.begin(), name.end(), '-', ' ');
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string dominant_text(const Tally& counts) {
+  const auto most =
+      std::max_element(counts.dominant.begin(), counts.dominant.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == counts.dominant.end()) return "";
+  return " The dominant input is the " + display_name(most->first) + ", for " +
+         std::to_string(most->second) + " of " + std::to_string(counts.entries) + ".";
+}
+
+/// The inputs that dominate a row, each with its modes' largest share.
+std::string dominant_text(const ComparisonRow& row) {
+  std::map<std::string, Number> shares;
+  for (const auto& [_, c] : row.entries) {
+    if (c->dominant_input.empty()) continue;
+    Number& share = shares[c->dominant_input];
+    if (c->dominant_share && (!share || *share < *c->dominant_share)) share = c->dominant_share;
+  }
+  std::string text;
+  for (const auto& [name, share] : shares) {
+    text += (text.empty() ? "" : "; ") + display_name(name);
+    if (share) text += ", up to " + relative(*share, 2, false);
+  }
+  return text.empty() ? "–" : text;
+}
+
+Data cell_of(const Comparison* c) {
+  Data cell = object();
+  set_flag(cell, "filled", c != nullptr);
+  if (!c) return cell;
+  const double difference = *c->difference / std::abs(*c->expected);
+  cell.set("difference", relative(difference, 3, true));
+  cell.set("expanded_uncertainty", relative(2 * *c->u_val / std::abs(*c->expected), 2, false));
+  cell.set("verdict", c->verdict);
+  cell.set("side", difference < 0 ? "below" : "above");
+  cell.set("depth", trimmed(std::min(1.0, std::abs(difference) / kFullColourDifference), 2));
+  std::string words = c->conclusion;
+  if (!c->all_inputs.conclusion.empty())
+    words +=
+        " With nominal lengths as uncertain as their printed digits: " + c->all_inputs.conclusion;
+  set_text(cell, "words", words);
+  return cell;
+}
+
+Data row_of(const ComparisonRow& row, const ComparisonSubject& subject) {
+  Data data = object();
+  data.set("title", subject.info->variant_title(row.run->variant));
+  Data cells = list();
+  for (const auto& [entry, _] : subject.targets) {
+    const auto found = row.entries.find(entry);
+    cells.push_back(cell_of(found == row.entries.end() ? nullptr : found->second));
+  }
+  data.set("cells", cells);
+  data.set("dominant", dominant_text(row));
+  return data;
+}
+
+Data table_of(const ComparisonSubject& subject, bool is_only, const Results& results) {
+  const Reference* reference = results.reference(subject.reference);
+  Data table = object();
+  table.set("title", reference ? reference->title : subject.reference);
+  set_text(table, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(table, "unit", reference ? display_unit(reference->unit) : "");
+  set_text(table, "check", is_only ? "" : display_name(subject.check));
+  table.set("case_title", subject.info->title);
+  table.set("case_anchor", case_anchor(subject.info->id));
+  const bool modes = subject.quantity.rfind("frequency", 0) == 0;
+  Data columns = list();
+  for (const auto& [entry, target] : subject.targets) {
+    Data column = object();
+    column.set("entry", (modes ? "mode " : "entry ") + std::to_string(entry + 1));
+    column.set("target", trimmed(target, 6));
+    columns.push_back(column);
+  }
+  table.set("columns", columns);
+  Tally counts;
+  Data rows = list(), folded = list();
+  const std::size_t shown = subject.rows.size() > kMaxUnfoldedComparisons + 3
+                                ? kMaxUnfoldedComparisons
+                                : subject.rows.size();
+  for (std::size_t i = 0; i < subject.rows.size(); ++i) {
+    counts.add(subject.rows[i]);
+    (i < shown ? rows : folded).push_back(row_of(subject.rows[i], subject));
+  }
+  table.set("rows", rows);
+  table.set("folded", folded);
+  set_text(
+      table, "folded_title",
+      shown == subject.rows.size() ? "" : count(subject.rows.size() - shown, "further variant"));
+  table.set("words", "Of " + count(counts.entries, "comparison") + ": " + verdict_text(counts) +
+                         "." + dominant_text(counts));
+  return table;
+}
+
+}  // namespace
+
+Data validation_uncertainty_section(const Results& results, const std::vector<Family>& families) {
+  std::vector<ComparisonSubject> subjects;
+  for (const Family& family : families)
+    for (const CaseInfo* info : family.cases)
+      for (const Run* run : family.runs_of(info->id)) add_run(*run, *info, subjects);
+  Tally all;
+  Data section = object();
+  Data tables = list();
+  for (const ComparisonSubject& subject : subjects) {
+    for (const ComparisonRow& row : subject.rows) all.add(row);
+    const auto same =
+        std::count_if(subjects.begin(), subjects.end(), [&](const ComparisonSubject& other) {
+          return other.info == subject.info && other.reference == subject.reference;
+        });
+    tables.push_back(table_of(subject, same == 1, results));
+  }
+  set_flag(section, "has_rows", !subjects.empty());
+  section.set("words", count(all.entries, "comparison") + " with the paper: " + verdict_text(all) +
+                           "." + dominant_text(all));
+  section.set("tables", tables);
+  return section;
+}
+
+}  // namespace trammel::reports

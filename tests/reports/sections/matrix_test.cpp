@@ -1,0 +1,87 @@
+#include "reports/sections/matrix.h"
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+#include <vector>
+
+using namespace trammel::reports;
+
+namespace {
+
+/// Entry by entry against a target of 100 Hz.
+Check compared(const std::string& name, int entry, double difference) {
+  Check check;
+  check.name = name;
+  check.role = "validation";
+  check.measure = "relative";
+  check.quantity = "frequency_Hz";
+  check.reference = "printed";
+  check.index = entry;
+  check.expected = 100;
+  check.computed = 100 * (1 + difference);
+  check.difference = difference;
+  check.verdict = Verdict::pass;
+  return check;
+}
+
+/// Four variants that miss three modes by 10, 20 and 30 %.
+struct Sample {
+  Results results;
+  Family family;
+
+  Sample() {
+    CaseInfo info;
+    info.id = "modes";
+    info.title = "Modes";
+    for (const char* variant : {"a", "b", "c", "d"}) {
+      info.variants.push_back({variant, variant});
+      Run run;
+      run.case_id = "modes";
+      run.variant = variant;
+      run.status = Status::solved;
+      for (int entry = 0; entry < 3; ++entry) {
+        run.checks.push_back(compared("program", entry, 0.1 * (entry + 1)));
+      }
+      results.runs.push_back(run);
+    }
+    results.cases = {info};
+  }
+
+  std::string conclusion(const Check& check) {
+    family.cases = {&results.cases.front()};
+    family.runs.clear();
+    for (const Run& run : results.runs) family.runs.push_back(&run);
+    return comparison_conclusion(family, results, check);
+  }
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(matrix)
+
+BOOST_AUTO_TEST_CASE(targets_that_no_variant_reaches_are_named_with_the_nearest) {
+  Sample sample;
+  sample.results.runs[2].checks[0] = compared("program", 0, 0.005);
+  const std::string words = sample.conclusion(sample.results.runs[0].checks[0]);
+  BOOST_TEST(contains(words, "Nearest as a whole: c,"), words);
+  BOOST_TEST(contains(words, "No variant comes within 1\u202f% of modes 2 (nearest +20\u202f%)"),
+             words);
+}
+
+BOOST_AUTO_TEST_CASE(a_check_against_other_entries_of_the_reference_is_not_put_in_its_columns) {
+  // the first mode against the second target: once it stood as the first mode's difference, and the
+  // first target as reached
+  Sample sample;
+  for (int entry = 0; entry < 2; ++entry) {
+    sample.results.runs[1].checks.push_back(compared("shifted", entry, 0.001));
+  }
+  const std::string words = sample.conclusion(sample.results.runs[1].checks[0]);
+  BOOST_TEST(contains(words, "modes 1 (nearest +10\u202f%), 2 (nearest +20\u202f%), 3"), words);
+  BOOST_TEST(sample.conclusion(sample.results.runs[1].checks[3]) == "");  // one variant: no matrix
+}
+
+BOOST_AUTO_TEST_SUITE_END()
