@@ -1,6 +1,8 @@
 #include "harness/input/check.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "harness/base/text.h"
@@ -137,11 +139,16 @@ Measure read_measure(const std::string& word) {
   return word == "ratio" ? Measure::ratio : Measure::value;
 }
 
+/// The decimal number that a sum of decimal numbers is: 0.033 for 0.038 - 0.005.
+double decimal(double sum) {
+  return std::isfinite(sum) ? std::strtod(rounded(sum, 15).c_str(), nullptr) : sum;
+}
+
 /// Stated values with one half width for all: v - w, v + w.
 std::vector<Window> windows_around(const JsonView& values, double half_width) {
   std::vector<Window> windows;
   const auto add = [&](double value) {
-    windows.push_back({value - half_width, value + half_width});
+    windows.push_back({decimal(value - half_width), decimal(value + half_width)});
   };
   if (values.json().is_array()) {
     for (const auto& entry : values.entries()) add(entry.second.get<double>());

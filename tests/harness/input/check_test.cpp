@@ -40,13 +40,13 @@ BOOST_AUTO_TEST_SUITE(check)
 
 BOOST_AUTO_TEST_CASE(stated_values_share_one_half_width) {
   const Check each =
-      check_of(expecting({{"agrees", "r"}, {"relative", {0.25, -0.5}}, {"within", 0.125}}));
+      check_of(expecting({{"agrees", "r"}, {"relative", {0.038, -0.106}}, {"within", 0.005}}));
   BOOST_TEST((each.measure == Measure::relative));
   BOOST_REQUIRE(each.windows.size() == 2);
-  BOOST_TEST(each.windows[0].low == 0.125);
-  BOOST_TEST(each.windows[0].high == 0.375);
-  BOOST_TEST(each.windows[1].low == -0.625);
-  BOOST_TEST(each.windows[1].high == -0.375);
+  BOOST_TEST(each.windows[0].low == 0.033);
+  BOOST_TEST(each.windows[0].high == 0.043);
+  BOOST_TEST(each.windows[1].low == -0.111);
+  BOOST_TEST(each.windows[1].high == -0.101);
   const Check one = check_of(expecting({{"agrees", "r"}, {"ratio", 2}, {"within", 0.5}}));
   BOOST_TEST((one.measure == Measure::ratio));
   BOOST_REQUIRE(one.windows.size() == 1);
