@@ -27,7 +27,7 @@ std::string measured(const Interpretation& interpretation) {
 
 void print_claim(const Claim& claim) {
   std::cout << claim.id << ". " << to_text(claim.verdict);
-  if (!claim.as_expected()) std::cout << "  ** recorded: " << to_text(claim.expected) << " **";
+  if (!claim.as_expected()) std::cout << "  ** expected: " << to_text(claim.expected) << " **";
   std::cout << '\n' << wrapped(claim.claim, "   ");
   for (const Interpretation& interpretation : claim.interpretations) {
     std::cout << wrapped(

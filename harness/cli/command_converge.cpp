@@ -34,7 +34,7 @@ void print(const Convergence& found) {
   if (series.exact)
     std::cout << ", exact " << shortest(*series.exact) << " (" << series.reference << ")";
   std::cout << '\n';
-  Table table({">" + series.sweep, ">value", ">error", ">order", ">band", ">factor", ""});
+  Table table({">" + series.sweep, ">value", ">error", ">order", ">GCI", ">safety factor", ""});
   for (std::size_t k = 0; k < series.values.size(); ++k) {
     table.add({rounded(series.parameter[k]), rounded(series.values[k], 12),
                rounded(found.error[k], 3), rounded(found.order[k], 4), rounded(found.gci[k], 3),
@@ -76,9 +76,9 @@ int converge_command(const std::string& name, const std::string& variant, unsign
     for (const Convergence& found : run.convergence) print(found);
   }
   print_numerical_uncertainty(numerical_uncertainty_of(runs), std::cout);
-  std::cout
-      << "error: relative, of the exact value or else of the extrapolated one; band: grid\n"
-         "convergence index with Roache's factor, 1.25 where the order is near theory, else 3\n";
+  std::cout << "error: relative, of the exact value or else of the extrapolated one; GCI: grid\n"
+               "convergence index with Roache's safety factor, 1.25 where the order is near "
+               "theory, else 3\n";
   return exit_status(runs) == 3 ? 3 : 0;
 }
 

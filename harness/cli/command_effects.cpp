@@ -61,8 +61,8 @@ void print_singles(const EffectStudy& study) {
   }
   add_row(table, "all but the chosen", study.chosen, study.full);
   table.print(std::cout, "  ");
-  std::cout << "  time: over that of the whole scene, medians of runs in turns; ~ spreads by more "
-               "than 10 %\n";
+  std::cout << "  time: relative to the full model, median of interleaved runs; ~ quartile spread "
+               "above 10 %\n";
 }
 
 /// Pairs whose joint change is not the larger, nor the sum, of the two.
@@ -96,21 +96,21 @@ void print_verdict(const EffectStudy& study) {
   std::cout << "\nChosen    " << effect_names(study.choice.chosen) << '\n';
   const double off = max_change(study.chosen.changes);
   std::cout << "Within    " << (study.within_tolerance() ? "yes" : "no") << ": " << in_percent(off)
-            << " % from the whole scene, where " << in_percent(study.tolerance)
+            << " % from the full model, where " << in_percent(study.tolerance)
             << " % are allowed\n";
   std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no");
   for (const Ablation& ablation : study.from_chosen) {
     const double change = max_change(ablation.run.changes);
     if (change <= study.tolerance) {
       std::cout << "; " << in_percent(change) << " % without " << names_of(ablation.effects)
-                << (change > 0.9 * study.tolerance ? ", kept by the tenth in hand"
-                                                   : ", which the estimate took for more");
+                << (change > 0.9 * study.tolerance ? ", kept by the safety margin of 10 %"
+                                                   : ", overestimated");
     }
   }
   std::cout << '\n';
   if (study.full.cpu_s > 0) {
     std::cout << "Time      " << ratio(study.chosen.cpu_s, study.full.cpu_s)
-              << " of the whole scene's " << rounded(1e3 * study.full.cpu_s, 3)
+              << " of the full model's " << rounded(1e3 * study.full.cpu_s, 3)
               << " ms; to decide took " << rounded(1e3 * study.choice_cpu_s, 3) << " ms\n";
   }
 }
@@ -168,7 +168,7 @@ int effects_command(const EffectsCommand& command) {
     throw InputError(json.at("id").get<std::string>() + ": expected a solution with all effects (" +
                      study.full.outcome.reason + ")");
   }
-  std::cout << "\nMeasured against the whole scene\n";
+  std::cout << "\nMeasured against the full model\n";
   print_singles(study);
   print_pairs(study);
   print_verdict(study);
@@ -199,7 +199,7 @@ int labelled_effects_command(const EffectsCommand& command) {
   if (scenes == 0)
     throw InputError("expected a case with these labels whose analysis knows effects");
   table.print(std::cout, "");
-  std::cout << "time, deciding, elements, solves: over those of the whole scene\n";
+  std::cout << "time, deciding, elements, solves: relative to the full model\n";
   return within ? 0 : 1;
 }
 
@@ -222,9 +222,9 @@ int random_effects_command(const EffectsCommand& command) {
     return std::to_string(hits) + " of " + std::to_string(counts.scenes) + ", " +
            rounded(100 * share(hits), 3) + " %";
   };
-  std::cout << "Random scenes, seed " << command.seed << ", tolerance "
+  std::cout << "Random models, seed " << command.seed << ", tolerance "
             << in_percent(command.tolerance) << " %\n"
-            << "  within the tolerance of the whole scene  " << rate(counts.within) << '\n'
+            << "  within the tolerance of the full model   " << rate(counts.within) << '\n'
             << "  minimal                                  " << rate(counts.minimal) << '\n'
             << "  without a solution to compare with       " << counts.unsolved << '\n';
   return share(counts.within) >= 0.99 && share(counts.minimal) >= 0.9 ? 0 : 1;

@@ -25,8 +25,8 @@ namespace {
 constexpr const char* kAbout =
     R"(Verification and validation of flexible-link planar parallel manipulators.
 
-A case is a JSON file: a model, an analysis, and checks against references with passports. A name
-is looked up in the catalogue; a path is a file of your own, in any folder.)";
+A case is a JSON file: a model, an analysis, and checks against references with their
+provenance. A name is looked up in the catalogue; a path is a file of your own, in any folder.)";
 
 constexpr const char* kFooter = R"(
 Examples:
@@ -36,14 +36,14 @@ Examples:
   trammel run -L verification --jobs 4      every case with that label
   trammel run ~/my-robot.json               a case file of your own
   trammel compare manipulator-modes manipulator-modes:rigid-platform
-  trammel converge beam-cantilever          orders, extrapolation, uncertainty bands
-  trammel cost modes                        what accuracy costs in time
+  trammel converge beam-cantilever          orders, extrapolation, numerical uncertainty
+  trammel cost modes                        accuracy against computing time
   trammel claims                            the paper's claims, and a verdict for each
-  trammel effects scene-soft-platform       what each effect is worth in a scene
+  trammel effects scene-soft-platform       influence of each effect on a model
   trammel report                            the whole catalogue as a page
   trammel report ~/my-robot.json            a page of your own case
 
-Exit status: 0 every gate holds, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
+Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
 
 /// All words of the command line, and what to do with them.
 class CommandLine {
@@ -123,7 +123,7 @@ class CommandLine {
     sub->callback([this] { command_ = [this] { return describe_case(name_, json_); }; });
   }
   void define_run() {
-    CLI::App* sub = add("run", "Compute cases and judge them",
+    CLI::App* sub = add("run", "Compute cases and evaluate their checks",
                         "\nExamples:\n  trammel run manipulator-modes --variant rigid-platform\n"
                         "  trammel run my-robot.json other.json --jobs 2\n"
                         "  trammel run -L beam -L frame --out results");
@@ -149,8 +149,9 @@ class CommandLine {
     sub->callback([this] { command_ = [this] { return compare_command(name_, other_); }; });
   }
   void define_converge() {
-    CLI::App* sub = add("converge", "What a case's refinements show",
-                        "\nExample:\n  trammel converge beam-cantilever");
+    CLI::App* sub =
+        add("converge", "Convergence of a case: orders, extrapolated values, numerical uncertainty",
+            "\nExample:\n  trammel converge beam-cantilever");
     sub->add_option("case", name_, "Name or file of a case with sweeps")->required();
     sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
     add_jobs(sub);
@@ -159,9 +160,9 @@ class CommandLine {
   }
   void define_cost() {
     CLI::App* sub =
-        add("cost", "What accuracy costs in time: error, time and the efficient front",
+        add("cost", "Accuracy against computing time: error, time and Pareto front",
             "\nStudies stand in cases/cost; a case of your own is studied by its sweeps.\n"
-            "Settings are run in shuffled order, one at a time: leave the machine to it.\n\n"
+            "Settings run in random order, one at a time; keep the machine otherwise idle.\n\n"
             "Examples:\n  trammel cost\n  trammel cost modes statics --quick\n"
             "  trammel cost beam-cantilever --sweep elements\n"
             "  trammel cost my-study.json --repeats 15 --out cost");
@@ -190,15 +191,16 @@ class CommandLine {
     sub->callback([this] { command_ = [this] { return claims_command(run_.jobs, json_); }; });
   }
   void define_effects() {
-    CLI::App* sub = add("effects", "What each effect is worth in a scene, estimated and measured",
-                        "\nThe whole scene against itself without each effect, without pairs, and "
-                        "with only those\nthat its tolerance calls for.\n\nExamples:\n"
-                        "  trammel effects scene-soft-platform\n"
-                        "  trammel effects my-robot.json --tolerance 0.001\n"
-                        "  trammel effects -L effects                 a table of the scenes\n"
-                        "  trammel effects --random 200 --seed 1      hit rate on random scenes\n"
-                        "  trammel effects --random 200 --motion      of scenes in motion\n"
-                        "  trammel effects --seed 1 --scene 17        one of them");
+    CLI::App* sub =
+        add("effects", "Physical effects of a model: estimated and measured influence of each",
+            "\nThe full model against the model without each effect, without pairs, and "
+            "with only those\nselected for the tolerance.\n\nExamples:\n"
+            "  trammel effects scene-soft-platform\n"
+            "  trammel effects my-robot.json --tolerance 0.001\n"
+            "  trammel effects -L effects                 a table of these cases\n"
+            "  trammel effects --random 200 --seed 1      hit rate on random models\n"
+            "  trammel effects --random 200 --motion      of random models in motion\n"
+            "  trammel effects --seed 1 --model 17        one of them");
     sub->add_option("case", name_, "Name or file of a case with statics, modes or elastodynamics");
     sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
     sub->add_option("--tolerance", effects_.tolerance,
@@ -208,19 +210,20 @@ class CommandLine {
     sub->add_option("--repeats", effects_.repeats, "Measurements of time")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
-    auto* random = sub->add_option("--random", effects_.random, "So many random scenes instead")
-                       ->check(CLI::Range(1, 100000));
-    auto* scene = sub->add_option("--scene", effects_.scene, "This one of the random scenes");
-    sub->add_option("--seed", effects_.seed, "Of random scenes")->capture_default_str();
+    auto* random =
+        sub->add_option("--random", effects_.random, "Number of random models instead of a case")
+            ->check(CLI::Range(1, 100000));
+    auto* scene = sub->add_option("--model", effects_.scene, "Number of one random model");
+    sub->add_option("--seed", effects_.seed, "Seed of the random models")->capture_default_str();
     sub->add_flag("--motion", effects_.motion,
-                  "Random scenes in motion: along circles, and spinning links");
+                  "Random models in motion: circular trajectories and spinning links");
     auto* labels = sub->add_option("-L,--label", effects_.labels,
                                    "Every case with one of these labels, in a table")
                        ->allow_extra_args(false);
     sub->callback([this, random, scene, labels] {
       const bool many = random->count() > 0, one = scene->count() > 0, all = labels->count() > 0;
       if (int(many) + int(one) + int(all) + int(!name_.empty()) != 1) {
-        throw CLI::RequiredError("exactly one of a case, --label, --random and --scene");
+        throw CLI::RequiredError("exactly one of a case, --label, --random and --model");
       }
       effects_.name = name_;
       command_ = [this, many, all] {

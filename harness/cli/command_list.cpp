@@ -77,7 +77,7 @@ std::string describe_model(const Document& document) {
 }
 
 std::string describe_windows(const Check& check) {
-  if (check.windows.empty()) return "recorded, does not gate";
+  if (check.windows.empty()) return "reported, not judged";
   if (check.symmetric) return "within " + shortest(check.windows[0].high);
   std::vector<std::string> each;
   for (const Window& window : check.windows) {
@@ -107,7 +107,8 @@ std::string describe_check(const Check& check) {
   }
   text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
   text += describe_windows(check);
-  if (check.expectation == Expectation::known_discrepancy) text += " (a known discrepancy)";
+  if (check.expectation == Expectation::known_discrepancy)
+    text += " (does not agree; recorded range)";
   return text;
 }
 
@@ -133,7 +134,7 @@ void describe_checks(const Case& given, const References& references) {
 void describe_inputs(const Case& given, const References& references) {
   const Document base = patched(given, kBaseVariant);
   if (!base.value().contains("uncertainty")) return;
-  std::cout << "\nInputs, as well as they are known\n";
+  std::cout << "\nInput uncertainties\n";
   Table table({"input", ">half width", "", "why"});
   for (const StatedInput& input : stated_inputs(base, references)) {
     table.add({input.name, rounded(input.half_width),

@@ -129,7 +129,7 @@ std::string tolerance_text(const CheckResult& check_result) {
 std::string verdict_text(const CheckResult& check_result) {
   if (check_result.verdict == Verdict::pass &&
       check_result.expectation == Expectation::known_discrepancy) {
-    return "known";
+    return "does not agree";
   }
   return to_string(check_result.verdict);
 }

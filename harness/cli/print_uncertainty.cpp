@@ -48,9 +48,9 @@ void print_validation_summary(const std::vector<Run>& runs, std::ostream& out) {
 
 void print_numerical_uncertainty(const NumericalUncertaintySummary& summary, std::ostream& out) {
   if (summary.levels == 0) return;
-  out << "bands of numerical uncertainty hold the exact value on " << summary.hits << " of "
-      << summary.levels << " levels (" << percent(summary.hit_rate())
-      << "), median band over error " << rounded(summary.median_ratio, 3);
+  out << "the numerical uncertainty (GCI) covers the exact value on " << summary.hits << " of "
+      << summary.levels << " levels (" << percent(summary.hit_rate()) << "), median GCI over error "
+      << rounded(summary.median_ratio, 3);
   if (summary.fails()) {
     out << ": FAIL, expected at least " << percent(kMinHitRate) << " and at most "
         << rounded(kMaxMedianRatio);

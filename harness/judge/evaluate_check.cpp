@@ -146,9 +146,9 @@ std::string outside(const Check& check, double value, const Window& window) {
   const std::string where = fmt::format("{} is outside of [{}, {}]", shortest(value),
                                         shortest(window.low), shortest(window.high));
   if (check.expectation == Expectation::known_discrepancy) {
-    return "the known discrepancy is no longer what was recorded: " + where;
+    return "the difference left its recorded range: " + where;
   }
-  if (check.role == Role::validation) return "the recorded agreement no longer holds: " + where;
+  if (check.role == Role::validation) return "no longer agrees within the recorded range: " + where;
   return where;
 }
 
@@ -183,8 +183,8 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   }
   const double scale = check.measure == Measure::relative ? std::abs(expected) : 1;
   if (check.role == Role::verification && check.symmetric && uncertainty > window->high * scale) {
-    entry.message = "the reference is known to +-" + shortest(uncertainty) +
-                    " only, which is more than the tolerance";
+    entry.message = "the uncertainty of the reference is +-" + shortest(uncertainty) +
+                    ", which is more than the tolerance";
     return;
   }
   const bool holds = window->contains(value);

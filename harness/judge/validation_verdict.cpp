@@ -61,20 +61,20 @@ std::string describe_validation(const Validation& v, const std::string& unit) {
     return "undecided: the value or one of its uncertainties could not be computed";
   }
   if (v.verdict == ValidationVerdict::within_validation_uncertainty) {
-    return fmt::format("the difference of {} {} is within the noise of ±{} {}",
+    return fmt::format("the difference of {} {} is within the validation uncertainty of ±{} {}",
                        rounded(v.difference, 3), unit, rounded(noise, 3), unit);
   }
   const double a = std::min(std::abs(v.low), std::abs(v.high));
   const double b = std::max(std::abs(v.low), std::abs(v.high));
-  return fmt::format("the model is off by between {} and {} {}, too {}", rounded(a, 3),
-                     rounded(b, 3), unit, v.difference > 0 ? "high" : "low");
+  return fmt::format("model error between {} and {} {}, too {}", rounded(a, 3), rounded(b, 3), unit,
+                     v.difference > 0 ? "high" : "low");
 }
 
 std::string contradiction(const Spread& spread, std::size_t first, std::size_t end,
                           const std::string& unit) {
   return fmt::format(
-      "the reference contradicts itself: values {} to {} are one repeated value by "
-      "symmetry, and it has {} to {} {}",
+      "the reference is inconsistent: values {} to {} are equal by symmetry "
+      "but printed as {} to {} {}",
       first + 1, end, rounded(spread.low, 6), rounded(spread.high, 6), unit);
 }
 

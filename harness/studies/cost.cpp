@@ -27,8 +27,8 @@ std::vector<double> relative_errors(const std::vector<double>& found,
                                     const Scale& scale, double largest_of_all) {
   if (found.size() != reference_solution.size()) {
     throw std::runtime_error("expected " + std::to_string(reference_solution.size()) +
-                             " values, as the truth has (got " + std::to_string(found.size()) +
-                             ")");
+                             " values, as the reference solution has (got " +
+                             std::to_string(found.size()) + ")");
   }
   const double largest =
       scale.kind == Scale::Kind::largest ? largest_of_all : max_abs(reference_solution);
@@ -63,7 +63,7 @@ Observations compute_reference_solution(const CostStudy& study, const References
   const SandboxedRun sandboxed =
       run_sandboxed(*study.reference_solution, study.time_limit_s, references);
   if (sandboxed.termination != SandboxedRun::Termination::solved)
-    throw cannot(*study.reference_solution, "a truth", sandboxed.reason);
+    throw cannot(*study.reference_solution, "a reference solution", sandboxed.reason);
   return sandboxed.values;
 }
 

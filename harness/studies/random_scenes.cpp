@@ -265,7 +265,7 @@ Document written(const std::string& name, const Json& scene) {
 Document random_motion(std::uint64_t seed, std::uint64_t n) {
   Draw draw((seed + 1) * kSpread + n);
   const std::string name = "random-motion-" + std::to_string(seed) + "-" + std::to_string(n);
-  Json scene = {{"id", name}, {"title", "Random scene in motion"}};
+  Json scene = {{"id", name}, {"title", "Random model in motion"}};
   const bool spins = draw.chance(0.25);
   Json model = spins ? spinning_link(draw, scene) : moving_manipulator(draw, scene);
   scene["model"] = std::move(model);
@@ -277,7 +277,7 @@ Document random_scene(std::uint64_t seed, std::uint64_t n) {
   const bool modes = draw.chance(0.5);
   const double kind = draw.uniform(0, 1);
   const std::string name = "random-" + std::to_string(seed) + "-" + std::to_string(n);
-  Json scene = {{"id", name}, {"title", "Random scene"}};
+  Json scene = {{"id", name}, {"title", "Random model"}};
   scene["model"] = kind < 0.5    ? manipulator(modes, draw)
                    : kind < 0.75 ? beam(modes, draw)
                                  : portal(modes, draw);

@@ -323,7 +323,7 @@ BOOST_AUTO_TEST_CASE(the_noise_of_a_validation_is_told_where_one_variant_is_run)
   const Outcome one = run(folder, "run manipulator-modes --variant rigid-platform");
   BOOST_TEST(contains(one.out, "u_input"));
   BOOST_TEST(contains(one.out, "link thickness"));
-  BOOST_TEST(contains(one.out, "is within the noise of"));
+  BOOST_TEST(contains(one.out, "is within the validation uncertainty of"));
   BOOST_TEST(contains(one.out, "comparisons with the paper (ASME V&V 20)"));
 }
 

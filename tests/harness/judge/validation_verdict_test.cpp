@@ -15,13 +15,13 @@ BOOST_AUTO_TEST_CASE(uncertainties_add_in_quadrature_and_count_twice) {
   BOOST_TEST(v.low == -7.0);
   BOOST_TEST(v.high == 21.0);
   BOOST_TEST((v.verdict == ValidationVerdict::within_validation_uncertainty));
-  BOOST_TEST(v.text == "the difference of 7 Hz is within the noise of ±14 Hz");
+  BOOST_TEST(v.text == "the difference of 7 Hz is within the validation uncertainty of ±14 Hz");
 }
 
 BOOST_AUTO_TEST_CASE(a_difference_beyond_the_noise_is_given_as_a_range) {
   const auto v = evaluate_validation_row({{10.0, 12.0, 0.0, 0.25, 0.0}}, "Hz").front();
   BOOST_TEST((v.verdict == ValidationVerdict::beyond_validation_uncertainty));
-  BOOST_TEST(v.text == "the model is off by between 1.5 and 2.5 Hz, too low");
+  BOOST_TEST(v.text == "model error between 1.5 and 2.5 Hz, too low");
 }
 
 BOOST_AUTO_TEST_CASE(a_reference_that_splits_a_repeated_value_contradicts_itself) {

@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
   Json json = study_json();
   json["reference_solution"]["patch"]["model"]["supports"] = {{"A", nullptr}};
   json["quantities"]["frequency_Hz"]["index"] = {7};
-  BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a truth"));
+  BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a reference solution"));
   json = study_json();
   json["baseline"] = {{"curve", "more"}};
   BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a baseline"));
