@@ -9,6 +9,7 @@
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/claims.h"
+#include "harness/results/results.h"
 
 namespace trammel::harness {
 namespace {
@@ -51,7 +52,7 @@ int claims_command(unsigned jobs, bool json) {
       run_cases(cases_of(document, Catalogue().load()), references, options);
   const ClaimSet claim_set = evaluate_claims(document, runs);
   if (json) {
-    std::cout << pretty(to_json(claim_set));
+    std::cout << pretty(results::claims_to_json(claim_results(claim_set)));
   } else {
     std::cout << claim_set.title << "\n\n";
     for (const Claim& claim : claim_set.claims) print_claim(claim);

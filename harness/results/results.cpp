@@ -508,6 +508,10 @@ void Place::fail(const std::string& expected) const {
   throw std::runtime_error((where.empty() ? "/" : where) + ": expected " + expected);
 }
 
+nlohmann::ordered_json claims_to_json(const Claims& claims) {
+  return to_json(claims);
+}
+
 Json to_json(const Results& results) {
   return to_json<Results>(results);
 }

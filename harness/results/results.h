@@ -122,6 +122,7 @@ struct Results {
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
+[[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
 
 /// Figures, tables and the like of a case file, which results hold as they stand there.
 [[nodiscard]] std::vector<PlotRequest> read_figures(const nlohmann::ordered_json& json);
