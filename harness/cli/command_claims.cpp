@@ -8,8 +8,8 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
-#include "harness/run/claims.h"
 #include "harness/results/results.h"
+#include "harness/run/claims.h"
 
 namespace trammel::harness {
 namespace {

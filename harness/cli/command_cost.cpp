@@ -176,7 +176,8 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   return any_lost ? 1 : 0;
 }
 
-results::CostStudies quick_cost(const References& references, std::vector<std::string>& error_messages) {
+results::CostStudies quick_cost(const References& references,
+                                std::vector<std::string>& error_messages) {
   Progress progress("cost studies");
   const CostOptions options;
   const std::vector<fs::path> files = cost_study_files();

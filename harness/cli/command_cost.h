@@ -27,6 +27,6 @@ int cost_command(const CostCommand& command, const Renderers& renderers);
 /// The quick sweep of every study of the catalogue, as results.json has it.
 /// @param error_messages  gets a line for each study that could not be measured
 [[nodiscard]] results::CostStudies quick_cost(const References& references,
-                              std::vector<std::string>& error_messages);
+                                              std::vector<std::string>& error_messages);
 
 }  // namespace trammel::harness

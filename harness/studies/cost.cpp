@@ -228,7 +228,8 @@ void derive_results(MeasuredStudy& measured) {
 }
 
 const char* to_string(MeasurementStatus status) {
-  constexpr std::array names = {"measured", "spread-too-wide", "reference", "diverged", "timed-out", "failed"};
+  constexpr std::array names = {"measured", "spread-too-wide", "reference",
+                                "diverged", "timed-out",       "failed"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -67,7 +67,8 @@ class Body {
 
 }  // namespace
 
-std::array<PointJet, 3> limb_joints(const LimbBodies& limb, const std::array<Jet<Real>, 3>& motion) {
+std::array<PointJet, 3> limb_joints(const LimbBodies& limb,
+                                    const std::array<Jet<Real>, 3>& motion) {
   const PointJet base_joint = {limb.base[0], limb.base[1]};
   const PointJet corner = rotated(limb.corner, motion[2]);
   const PointJet C = {motion[0] + corner[0], motion[1] + corner[1]};

@@ -11,6 +11,7 @@ namespace trammel::references {
 
 /// x, y and orientation of the platform with their derivatives at a time.
 /// @throws DerivationError  with the JSON pointer.
-[[nodiscard]] std::array<Jet<Real>, 3> platform_motion(const Arguments& trajectory, const Real& time);
+[[nodiscard]] std::array<Jet<Real>, 3> platform_motion(const Arguments& trajectory,
+                                                       const Real& time);
 
 }  // namespace trammel::references

@@ -8,9 +8,6 @@
 
 namespace trammel::solver {
 
-namespace {
-
-/// M [kg, kg m, kg m^2], symmetric.
 template <class S>
 Eigen::Matrix<S, 9, 9> mass_matrix(const RigidManipulator& m, const Eigen::Matrix<S, 9, 1>& q) {
   Eigen::Matrix<S, 9, 9> M = Eigen::Matrix<S, 9, 9>::Zero();
@@ -32,12 +29,20 @@ Eigen::Matrix<S, 9, 9> mass_matrix(const RigidManipulator& m, const Eigen::Matri
   return M;
 }
 
-/// Mh = W^T M W [kg m^2]; its derivative along a motion is Im(Mh(q + i h q.)) / h.
 template <class S>
 Eigen::Matrix<S, 3, 3> reduced_mass(const RigidManipulator& m, const Eigen::Matrix<S, 9, 1>& q) {
   const Eigen::Matrix<S, 9, 3> W = motion_map<S>(m, q);
   return W.transpose() * mass_matrix(m, q) * W;
 }
+
+template Matrix9d mass_matrix(const RigidManipulator&, const Vector9d&);
+template Eigen::Matrix<std::complex<double>, 9, 9> mass_matrix(
+    const RigidManipulator&, const Eigen::Matrix<std::complex<double>, 9, 1>&);
+template Matrix3d reduced_mass(const RigidManipulator&, const Vector9d&);
+template Eigen::Matrix<std::complex<double>, 3, 3> reduced_mass(
+    const RigidManipulator&, const Eigen::Matrix<std::complex<double>, 9, 1>&);
+
+namespace {
 
 /// Of Christoffel symbols.
 Matrix9d coriolis_matrix(const RigidManipulator& m, const Vector9d& q, const Vector9d& q_dot) {

@@ -24,6 +24,16 @@ struct RigidTerms {
   Vector3d Nh;
 };
 
+/// M [kg, kg m, kg m^2], symmetric; for double and std::complex<double>.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, 9, 9> mass_matrix(const RigidManipulator& m,
+                                                 const Eigen::Matrix<S, 9, 1>& q);
+
+/// Mh = W^T M W [kg m^2]; its derivative along a motion is Im(Mh(q + i h q.)) / h.
+template <class S>
+[[nodiscard]] Eigen::Matrix<S, 3, 3> reduced_mass(const RigidManipulator& m,
+                                                  const Eigen::Matrix<S, 9, 1>& q);
+
 /// @param velocity  of the platform (xdot, ydot [m/s], phidot [rad/s])
 /// @throws ModelError  as `inverse_kinematics`.
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,

@@ -233,7 +233,8 @@ class TransientIntegrator {
     const double c = gamma_prime() * h;
     const double k = beta_prime() * h * h;
     if (!matrices_.constant()) {
-      if (factors_.empty()) factors_.push_back(std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean));
+      if (factors_.empty())
+        factors_.push_back(std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean));
       level = 0;
     } else {
       if (factors_.size() <= static_cast<std::size_t>(level)) {

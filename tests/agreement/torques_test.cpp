@@ -79,9 +79,9 @@ struct RandomState {
     motion.acceleration *= 3;
     wrench = wrench.cwiseProduct(Vector3d(10, 10, 1));
   }
-  [[nodiscard]] std::array<references::Jet, 3> jets() const {
+  [[nodiscard]] std::array<references::Jet<references::Real>, 3> jets() const {
     const Vector3d x(motion.pose.x, motion.pose.y, motion.pose.phi);
-    std::array<references::Jet, 3> result;
+    std::array<references::Jet<references::Real>, 3> result;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<Index>(i);
       result[i] = {x(k), motion.velocity(k), motion.acceleration(k)};

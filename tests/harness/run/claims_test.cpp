@@ -6,6 +6,7 @@
 
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
+#include "harness/results/results.h"
 #include "tests/support/harness/support.h"
 
 using namespace trammel;
@@ -209,12 +210,12 @@ BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_results_say_of_the_ledger_obeys_their_schema) {
+BOOST_AUTO_TEST_CASE(what_results_say_of_the_claims_obeys_their_schema) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
-  const Json json = to_json(evaluate_claims(document, {bend(1, 2)}));
+  const Json json = results::claims_to_json(claim_results(evaluate_claims(document, {bend(1, 2)})));
   BOOST_TEST(json["claims"][0]["verdict"] == "confirmed in part");
-  BOOST_TEST(json["follows"] == false);
-  Json results = {{"format", 1}, {"ledger", json}};
+  BOOST_TEST(json["as_recorded"] == false);
+  Json results = {{"format", 1}, {"claims", json}};
   const auto fault = find_schema_error(results, "results");
   // Only what is missing around it is at fault.
   BOOST_REQUIRE(fault.has_value());

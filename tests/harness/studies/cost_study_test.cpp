@@ -1,8 +1,7 @@
-#include "harness/studies/cost_study_of_sweeps.h"
-
 #include <boost/test/unit_test.hpp>
 
 #include "harness/input/catalogue.h"
+#include "harness/studies/cost_study_of_sweeps.h"
 #include "tests/support/harness/support.h"
 
 using namespace trammel;

@@ -35,7 +35,6 @@ std::string complaint(const std::function<void(Model&)>& spoil) {
   return "no complaint";
 }
 
-
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(validate)

@@ -241,7 +241,8 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
 
 BOOST_AUTO_TEST_CASE(gyroscopic_terms_are_the_second_derivative_of_the_turning_interpolation) {
   // u(x, t) = W(t) T(t) q(t) with a quadratic q(t); its acceleration at each mass point by
-  // differences in time, against M q.. + C q. + K q with the gyroscopic C and the centrifugal and Euler K
+  // differences in time, against M q.. + C q. + K q with the gyroscopic C and the centrifugal and
+  // Euler K
   for (const ManipulatorDesign& design : designs()) {
     if (!design.proximal[0].axially_flexible) continue;  // other coordinates may be eliminated
     const Path path = waltz();

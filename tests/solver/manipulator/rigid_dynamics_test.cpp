@@ -1,6 +1,4 @@
 // ctest: labels=manipulator;dynamics
-#include "solver/manipulator/inverse_dynamics.h"
-
 #include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -8,6 +6,9 @@
 #include <numbers>
 #include <random>
 
+#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/manipulator/motion_map.h"
+#include "solver/manipulator/rigid_terms.h"
 #include "solver/manipulator/trajectory.h"
 #include "tests/support/solver/differences.h"
 #include "tests/support/solver/table_1.h"

@@ -1,10 +1,9 @@
 // ctest: timeout=300
-#include "solver/sensitivity/sensitivity_map.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "solver/sensitivity/frequency_complex_step.h"
+#include "solver/sensitivity/sensitivity_map.h"
 #include "solver/sensitivity/workspace_curves.h"
 #include "tests/support/solver/sensitivity_differences.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/modes/rotating_modes.h"
+#include "solver/time/transient_history.h"
 #include "tests/support/solver/frames.h"
 
 using namespace trammel::solver;

@@ -1,11 +1,10 @@
-#include "solver/time/transient_history.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "solver/assembly/damping.h"
 #include "solver/time/modal_superposition.h"
+#include "solver/time/transient_history.h"
 #include "tests/support/solver/allocations.h"
 
 using namespace trammel::solver;
