@@ -7,7 +7,7 @@
 #include "harness/readers/time_reader.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/analyse_statics.h"
-#include "solver/manipulator/elastodynamics.h"
+#include "solver/elastodynamics/elastodynamics.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"
 

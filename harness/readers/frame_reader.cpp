@@ -9,7 +9,7 @@
 #include "harness/readers/member_chain.h"
 #include "harness/readers/plate_reader.h"
 #include "harness/readers/symbol_table.h"
-#include "solver/large_motion/system/linear_joints.h"
+#include "solver/large_motion/elements/linear_joints.h"
 
 namespace trammel::harness {
 namespace {

@@ -4,7 +4,7 @@
 #include "harness/readers/joint_reader.h"
 #include "harness/readers/manipulator_reader.h"
 #include "solver/assembly/restrict_model_effects.h"
-#include "solver/large_motion/system/linear_joints.h"
+#include "solver/large_motion/elements/linear_joints.h"
 #include "solver/manipulator/restrict_design_effects.h"
 
 namespace trammel::harness {

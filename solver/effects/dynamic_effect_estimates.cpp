@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "solver/effects/energy_shares.h"
+#include "solver/elastodynamics/nominal_motion.h"
+#include "solver/elastodynamics/path_follower.h"
 #include "solver/linalg/factorization.h"
-#include "solver/manipulator/nominal_motion.h"
-#include "solver/manipulator/path_follower.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/effects/effect_estimates.h"
-#include "solver/manipulator/elastodynamics.h"
+#include "solver/elastodynamics/elastodynamics.h"
 
 /// What a motion would lose without an effect, to first order. Numbers without dimension: with the
 /// first angular frequency w1 and damping ratio z, how fast the path turns W, the time T.

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/large_motion/system/constrained_system.h"
+#include "solver/large_motion/elements/constrained_system.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver::large_motion {

@@ -1,6 +1,6 @@
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 
-#include "solver/large_motion/system/shape_functions.h"
+#include "solver/large_motion/elements/shape_functions.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {

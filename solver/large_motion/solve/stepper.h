@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/large_motion/system/constrained_system.h"
+#include "solver/large_motion/elements/constrained_system.h"
 
 namespace trammel::solver::large_motion {
 

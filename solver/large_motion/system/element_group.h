@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/large_motion/system/constrained_system.h"
+#include "solver/large_motion/elements/constrained_system.h"
 #include "solver/large_motion/system/penalty_scales.h"
 #include "solver/model/numbers.h"
 

@@ -1,7 +1,7 @@
 #include "solver/large_motion/system/energy_elements.h"
 
-#include "solver/large_motion/system/coordinate_spring.h"
-#include "solver/large_motion/system/triangle.h"
+#include "solver/large_motion/elements/coordinate_spring.h"
+#include "solver/large_motion/elements/triangle.h"
 
 namespace trammel::solver::large_motion {
 

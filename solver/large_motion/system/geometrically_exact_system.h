@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/large_motion/system/constrained_system.h"
+#include "solver/large_motion/elements/constrained_system.h"
 #include "solver/large_motion/system/layout.h"
 #include "solver/large_motion/system/system_parts.h"
 #include "solver/model/model.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solver/large_motion/system/joints.h"
+#include "solver/large_motion/elements/joints.h"
 
 namespace trammel::solver::large_motion {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "solver/large_motion/system/large_motion_model.h"
+#include "solver/large_motion/elements/large_motion_model.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver::large_motion {

@@ -1,6 +1,6 @@
 #include "solver/large_motion/system/member_elements.h"
 
-#include "solver/large_motion/system/bar.h"
+#include "solver/large_motion/elements/bar.h"
 
 namespace trammel::solver::large_motion {
 

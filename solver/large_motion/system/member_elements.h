@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/large_motion/system/beam.h"
+#include "solver/large_motion/elements/beam.h"
 #include "solver/large_motion/system/layout.h"
 #include "solver/large_motion/system/system_parts.h"
 

@@ -2,9 +2,9 @@
 #include <boost/test/unit_test.hpp>
 #include <random>
 
-#include "solver/large_motion/system/beam.h"
-#include "solver/large_motion/system/joints.h"
-#include "solver/large_motion/system/triangle.h"
+#include "solver/large_motion/elements/beam.h"
+#include "solver/large_motion/elements/joints.h"
+#include "solver/large_motion/elements/triangle.h"
 
 namespace {
 

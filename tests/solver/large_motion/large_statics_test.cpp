@@ -3,9 +3,9 @@
 #include <numbers>
 #include <vector>
 
+#include "solver/large_motion/elements/joints.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
-#include "solver/large_motion/system/joints.h"
 #include "tests/support/solver/large_models.h"
 
 namespace {

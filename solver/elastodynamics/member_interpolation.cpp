@@ -1,4 +1,4 @@
-#include "solver/manipulator/member_interpolation.h"
+#include "solver/elastodynamics/member_interpolation.h"
 
 namespace trammel::solver {
 

@@ -1,4 +1,4 @@
-#include "solver/manipulator/motion_postprocessing.h"
+#include "solver/elastodynamics/motion_postprocessing.h"
 
 #include <algorithm>
 #include <cmath>

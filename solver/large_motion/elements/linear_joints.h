@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/large_motion/system/large_motion_model.h"
+#include "solver/large_motion/elements/large_motion_model.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver {

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "solver/assembly/system.h"
-#include "solver/manipulator/member_interpolation.h"
-#include "solver/manipulator/moving_constraints.h"
-#include "solver/manipulator/moving_element.h"
-#include "solver/manipulator/moving_pattern.h"
+#include "solver/elastodynamics/member_interpolation.h"
+#include "solver/elastodynamics/moving_constraints.h"
+#include "solver/elastodynamics/moving_element.h"
+#include "solver/elastodynamics/moving_pattern.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver {

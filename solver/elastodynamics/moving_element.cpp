@@ -1,4 +1,4 @@
-#include "solver/manipulator/moving_element.h"
+#include "solver/elastodynamics/moving_element.h"
 
 #include <algorithm>
 #include <cmath>

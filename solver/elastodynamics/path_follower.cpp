@@ -1,9 +1,9 @@
-#include "solver/manipulator/path_follower.h"
+#include "solver/elastodynamics/path_follower.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "solver/manipulator/nominal_motion.h"
+#include "solver/elastodynamics/nominal_motion.h"
 
 namespace trammel::solver {
 

@@ -1,10 +1,10 @@
-#include "solver/manipulator/elastodynamics_recorder.h"
+#include "solver/elastodynamics/elastodynamics_recorder.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "solver/manipulator/motion_postprocessing.h"
+#include "solver/elastodynamics/motion_postprocessing.h"
 #include "solver/model/plane.h"
 
 namespace trammel::solver {

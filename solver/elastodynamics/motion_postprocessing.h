@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/manipulator/moving_system.h"
+#include "solver/elastodynamics/moving_system.h"
 #include "solver/statics/statics.h"
 
 namespace trammel::solver {

@@ -1,4 +1,4 @@
-#include "solver/manipulator/moving_pattern.h"
+#include "solver/elastodynamics/moving_pattern.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/manipulator/elastodynamics_options.h"
+#include "solver/elastodynamics/elastodynamics_options.h"
 #include "solver/model/numbers.h"
 #include "solver/statics/statics.h"
 

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
+#include "solver/elastodynamics/elastodynamics_options.h"
+#include "solver/elastodynamics/moving_system.h"
 #include "solver/linalg/sparse_ldlt.h"
-#include "solver/manipulator/elastodynamics_options.h"
-#include "solver/manipulator/moving_system.h"
 
 namespace trammel::solver {
 

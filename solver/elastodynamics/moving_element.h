@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "solver/assembly/system.h"
+#include "solver/elastodynamics/nominal_motion.h"
 #include "solver/elements/frame_element.h"
-#include "solver/manipulator/nominal_motion.h"
 
 namespace trammel::solver {
 

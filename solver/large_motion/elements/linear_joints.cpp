@@ -1,4 +1,4 @@
-#include "solver/large_motion/system/linear_joints.h"
+#include "solver/large_motion/elements/linear_joints.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/manipulator/elastodynamics.h"
-#include "solver/manipulator/path_follower.h"
+#include "solver/elastodynamics/elastodynamics.h"
+#include "solver/elastodynamics/path_follower.h"
 
 namespace trammel::solver {
 

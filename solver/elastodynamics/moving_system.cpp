@@ -1,4 +1,4 @@
-#include "solver/manipulator/moving_system.h"
+#include "solver/elastodynamics/moving_system.h"
 
 #include <algorithm>
 

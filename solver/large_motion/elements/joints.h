@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "solver/large_motion/system/beam.h"
-#include "solver/large_motion/system/large_motion_model.h"
+#include "solver/large_motion/elements/beam.h"
+#include "solver/large_motion/elements/large_motion_model.h"
 #include "solver/model/plane.h"
 
 /// Joints as constraint rows, with the same functions as `Beam`: g and its gradient G, its second

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "solver/assembly/system.h"
-#include "solver/manipulator/moving_element.h"
+#include "solver/elastodynamics/moving_element.h"
 
 namespace trammel::solver {
 

@@ -1,4 +1,4 @@
-#include "solver/large_motion/system/triangle.h"
+#include "solver/large_motion/elements/triangle.h"
 
 #include <cmath>
 

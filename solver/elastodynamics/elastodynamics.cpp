@@ -1,11 +1,11 @@
-#include "solver/manipulator/elastodynamics.h"
+#include "solver/elastodynamics/elastodynamics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "solver/manipulator/elastodynamics_recorder.h"
-#include "solver/manipulator/path_follower.h"
+#include "solver/elastodynamics/elastodynamics_recorder.h"
+#include "solver/elastodynamics/path_follower.h"
 #include "solver/modes/modes.h"
 #include "solver/time/modal_superposition.h"
 

@@ -1,4 +1,4 @@
-#include "solver/manipulator/moving_system.h"
+#include "solver/elastodynamics/moving_system.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/strain.h"
-#include "solver/manipulator/elastodynamics.h"
-#include "solver/manipulator/nominal_motion.h"
+#include "solver/elastodynamics/elastodynamics.h"
+#include "solver/elastodynamics/nominal_motion.h"
 #include "solver/model/quadrature.h"
 #include "solver/time/modal_superposition.h"
 #include "tests/support/solver/table_1.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/large_motion/system/joints.h"
+#include "solver/large_motion/elements/joints.h"
 
 namespace trammel::solver::large_motion {
 

@@ -1,4 +1,4 @@
-#include "solver/large_motion/system/kkt_matrix.h"
+#include "solver/large_motion/elements/kkt_matrix.h"
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>

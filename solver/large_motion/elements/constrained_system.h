@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/large_motion/system/kkt_matrix.h"
+#include "solver/large_motion/elements/kkt_matrix.h"
 
 /// The equations that statics and every time integrator of this tier solve:
 ///

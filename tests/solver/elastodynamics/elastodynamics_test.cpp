@@ -1,4 +1,4 @@
-#include "solver/manipulator/elastodynamics.h"
+#include "solver/elastodynamics/elastodynamics.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

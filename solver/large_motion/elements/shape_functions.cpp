@@ -1,4 +1,4 @@
-#include "solver/large_motion/system/shape_functions.h"
+#include "solver/large_motion/elements/shape_functions.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "solver/large_motion/system/constrained_system.h"
-#include "solver/large_motion/system/shape_functions.h"
+#include "solver/large_motion/elements/constrained_system.h"
+#include "solver/large_motion/elements/shape_functions.h"
 #include "solver/model/plane.h"
 
 namespace trammel::solver::large_motion {

@@ -1,4 +1,4 @@
-#include "solver/manipulator/moving_constraints.h"
+#include "solver/elastodynamics/moving_constraints.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "solver/large_motion/system/large_motion_model.h"
+#include "solver/large_motion/elements/large_motion_model.h"
 
 #include "solver/model/labels.h"
 #include "solver/model/numbers.h"

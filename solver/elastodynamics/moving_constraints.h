@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "solver/assembly/system.h"
+#include "solver/elastodynamics/nominal_motion.h"
 #include "solver/linalg/dense_lu.h"
-#include "solver/manipulator/nominal_motion.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver {

@@ -1,4 +1,4 @@
-#include "solver/manipulator/nominal_motion.h"
+#include "solver/elastodynamics/nominal_motion.h"
 
 #include <algorithm>
 #include <cmath>
