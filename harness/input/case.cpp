@@ -65,7 +65,7 @@ void check_names(const Case& given) {
   }
 }
 
-/// Indicators of the battery are checks of the case.
+/// Indicators of the stress suite are checks of the case.
 void check_indicators(const Case& given) {
   const JsonView root(given.document);
   if (!root.has("stress_suite")) return;

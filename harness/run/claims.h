@@ -7,11 +7,11 @@
 #include "harness/results/results.h"
 #include "harness/run/run.h"
 
-/// The ledger of a publication's claims: from results, by the rules of cases/paper/claims/, to a
+/// A publication's claims: from results, by the rules of cases/paper/claims/, to a
 /// verdict for each claim.
 namespace trammel::harness {
 
-/// What the entries of a reading come to.
+/// What the entries of an interpretation come to.
 enum class InterpretationVerdict { confirms, contradicts, in_part, undecided, not_measured };
 enum class ClaimVerdict {
   confirmed,
@@ -51,16 +51,17 @@ struct ClaimSet {
   [[nodiscard]] bool as_expected() const;
 };
 
-/// The one ledger of the catalogue, cases/paper/claims/varalakshmi-2017.json.
+/// The claims of the catalogue, cases/paper/claims/varalakshmi-2017.json.
 /// @throws InputError  where it cannot be read or breaks its schema.
 [[nodiscard]] Document load_claims();
 
-/// The cases that the ledger's readings look at, by name or by the references of their checks.
+/// The cases that the interpretations of claims look at, by name or by the references of their
+/// checks.
 /// @param catalogue  all cases
 [[nodiscard]] std::vector<Case> cases_of(const Document& claim_set,
                                          const std::vector<Case>& catalogue);
 
-/// Readings of cases that were not run have no say; a claim without any reading that has is not
+/// Interpretations of cases that were not run do not count; a claim without any that does is not
 /// measured, and neither is one that misses a single number of a case that was.
 /// @throws InputError  where a rule contradicts itself.
 [[nodiscard]] ClaimSet evaluate_claims(const Document& claim_set, const std::vector<Run>& runs);

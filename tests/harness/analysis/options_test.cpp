@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(endings_that_differ_where_none_may_are_an_endless_disagreem
   BOOST_TEST(number(found, "result_difference_over_roundoff") > 1e300);
 }
 
-BOOST_AUTO_TEST_CASE(the_battery_of_the_catalogue_has_its_fourteen_items) {
+BOOST_AUTO_TEST_CASE(the_stress_suite_of_the_catalogue_has_its_fourteen_items) {
   std::set<int> items;
   for (const Case& one : Catalogue().load({"hard"})) {
     const Json& document = one.document.value();

@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(the_page_of_one_s_own_case_has_that_case_alone) {
   BOOST_TEST(std::filesystem::exists(folder.path() / "mine/index.html"));
   const Json results = read_json(folder.path() / "mine/results.json");
   BOOST_TEST(results["cases"].size() == 1U);
-  BOOST_TEST(!results.contains("ledger"));
+  BOOST_TEST(!results.contains("claims"));
   (void)folder.write(judged(99));
   BOOST_TEST(run(folder, "report cantilever.json --out mine").status == 1);
 }

@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(what_is_extended_may_be_in_another_folder) {
                       "/extends: expected a file relative to this one or a case of the catalogue"));
 }
 
-BOOST_AUTO_TEST_CASE(an_indicator_of_the_battery_is_a_check_of_the_case) {
+BOOST_AUTO_TEST_CASE(an_indicator_of_the_stress_suite_is_a_check_of_the_case) {
   const Folder folder;
   const auto file =
       folder.write("beam.json", R"({"id": "beam", "title": "t", "analysis": {"modes": {"count": 1}},

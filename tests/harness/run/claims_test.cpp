@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
   BOOST_TEST(contains(refusal("metric", "quotient"), "/claims/1/interpretations/r/metric"));
 }
 
-BOOST_AUTO_TEST_CASE(the_ledger_of_the_catalogue_has_eleven_claims_and_knows_its_cases) {
+BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
   const Document document = load_claims();
   const ClaimSet found = evaluate_claims(document, {});
   BOOST_TEST(found.claims.size() == 11U);
