@@ -15,7 +15,7 @@ StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
     all.counters += found.counters;
     if (found.drawing) all.drawing = std::move(found.drawing);
     if (found.outcome.solved()) continue;
-    all.outcome = at_point(case_model, step, found.outcome);
+    all.outcome = outcome_at_path_point(case_model, step, found.outcome);
     break;
   }
   return all;
@@ -35,7 +35,7 @@ AnalysisResult result_of(StepResult found, Recorder& record) {
   result.drawing = std::move(found.drawing);
   result.counters = found.counters;
   result.timings = std::move(found.timings);
-  if (result.outcome.solved()) result.quantities = record.release();
+  if (result.outcome.solved()) result.quantities = record.take_quantities();
   return result;
 }
 
@@ -49,7 +49,7 @@ AnalysisResult analyse(const Document& document, const References& references,
                        const AnalysisOptions& options) {
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
   Recorder record;
-  if (!kind.has_scene(document)) {
+  if (!kind.needs_model(document)) {
     return result_of(kind.of_case(document, references, options.drawing, record), record);
   }
   const JsonView place = JsonView(document)["analysis"][kind.name];

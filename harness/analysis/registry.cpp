@@ -26,7 +26,7 @@
 
 namespace trammel::harness {
 
-bool AnalysisKind::has_scene(const Document& document) const {
+bool AnalysisKind::needs_model(const Document& document) const {
   return of_case == nullptr || (of_scene.index() != 0 && document.value().contains("model"));
 }
 

@@ -30,7 +30,7 @@ struct AnalysisKind {
   CaseAnalysis of_case = nullptr;
   const char* without_model = "";  ///< what stands for the model then, in words
 
-  [[nodiscard]] bool has_scene(const Document& document) const;
+  [[nodiscard]] bool needs_model(const Document& document) const;
 };
 
 [[nodiscard]] const std::vector<AnalysisKind>& analysis_kinds();

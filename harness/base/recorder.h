@@ -16,7 +16,7 @@ class Recorder {
     quantity.values.push_back(value);
     if (roundoff >= 0) quantity.roundoff.push_back(roundoff);
   }
-  [[nodiscard]] Quantities release() { return std::move(quantities_); }
+  [[nodiscard]] Quantities take_quantities() { return std::move(quantities_); }
 
  private:
   Quantities quantities_;

@@ -28,7 +28,7 @@ struct Side {
   Run run;
 };
 
-Side load_side(const std::string& name, const References& references) {
+Side side_loads(const std::string& name, const References& references) {
   // A colon in a file's own name is no variant.
   const auto colon = name.rfind(':');
   const bool split =
@@ -143,7 +143,7 @@ bool is_results(const Json& json) {
 [[noreturn]] void refuse_beside_results(const std::string& name, const Json& json) {
   if (!is_json_file(name)) (void)Catalogue().find_case(name.substr(0, name.rfind(':')));
   if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
-    const auto schema_error = find_schema_error(json, "results");
+    const auto schema_error = find_schema_fault(json, "results");
     if (schema_error) throw InputError(name, schema_error->pointer, schema_error->message);
   }
   throw InputError("expected two variants or two result files (got one of each)");
@@ -151,7 +151,7 @@ bool is_results(const Json& json) {
 
 /// "case:variant" -> quantities of a results file.
 std::map<std::string, Named> read_runs(const std::string& file, const Json& json) {
-  if (const auto schema_error = find_schema_error(json, "results")) {
+  if (const auto schema_error = find_schema_fault(json, "results")) {
     throw InputError(file, schema_error->pointer, schema_error->message);
   }
   std::map<std::string, Named> runs;
@@ -258,7 +258,7 @@ int compare_command(const std::string& a, const std::string& b) {
   }
   if (results_a) return compare_results(a, json_a, b, json_b);
   const References references;
-  const Side side_a = load_side(a, references), side_b = load_side(b, references);
+  const Side side_a = side_loads(a, references), side_b = side_loads(b, references);
   if (analysis_kind(side_a.document) != analysis_kind(side_b.document)) {
     throw InputError("expected two variants of one kind of analysis (got " +
                      analysis_kind(side_a.document) + " and " + analysis_kind(side_b.document) +

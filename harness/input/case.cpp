@@ -88,14 +88,14 @@ InputError no_such_place(const JsonView& pointer, const std::string& guess) {
 
 /// What the schema has against a key that a pointer names and the document does not have: nothing
 /// where the key is one that stands for a default, as /model/elements.
-std::optional<SchemaError> schema_error_of_new_key(const Json& document, const JsonPointer& pointer,
+std::optional<SchemaFault> schema_error_of_new_key(const Json& document, const JsonPointer& pointer,
                                                    const Json& value) {
-  const SchemaError nowhere{pointer.to_string(), ""};
+  const SchemaFault nowhere{pointer.to_string(), ""};
   if (pointer.empty() || !document.contains(pointer.parent_pointer())) return nowhere;
   if (!document.at(pointer.parent_pointer()).is_object()) return nowhere;
   Json probe = document;
   probe[pointer] = value;
-  const auto schema_error = find_schema_error(probe, "case");
+  const auto schema_error = find_schema_fault(probe, "case");
   return schema_error && schema_error->pointer == pointer.to_string() ? schema_error : std::nullopt;
 }
 

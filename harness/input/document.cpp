@@ -63,7 +63,7 @@ InputError Document::error(const std::string& pointer, const std::string& messag
 }
 
 void Document::validate(const std::string& schema) const {
-  if (const auto schema_error = find_schema_error(value_, schema))
+  if (const auto schema_error = find_schema_fault(value_, schema))
     throw error(schema_error->pointer, schema_error->message);
 }
 

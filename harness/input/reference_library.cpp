@@ -31,7 +31,7 @@ std::vector<fs::path> places_beside(const std::string& id, const fs::path& case_
 
 CitedReference read(const fs::path& file) {
   const Json json = read_json(file);
-  if (const auto schema_error = find_schema_error(json, "reference")) {
+  if (const auto schema_error = find_schema_fault(json, "reference")) {
     throw InputError(file.string(), schema_error->pointer, schema_error->message);
   }
   try {

@@ -146,7 +146,7 @@ class Checker {
 
 }  // namespace
 
-std::optional<SchemaError> find_schema_error(const Json& document, const std::string& schema) {
+std::optional<SchemaFault> find_schema_fault(const Json& document, const std::string& schema) {
   const SchemaRule& root = load_schema(schema);
   Checker checker(root);
   if (checker.check(root, document)) return std::nullopt;

@@ -9,14 +9,14 @@
 namespace trammel::harness {
 
 /// What is wrong, and where.
-struct SchemaError {
+struct SchemaFault {
   std::string pointer;  ///< JSON pointer into the document; empty: the document itself
   std::string message;  ///< "expected ... (got ...)"
 };
 
 /// The deepest fault of a document, empty when it obeys the schema.
 /// @param schema  "case", "cost", "reference" or "results"
-[[nodiscard]] std::optional<SchemaError> find_schema_error(const Json& document,
+[[nodiscard]] std::optional<SchemaFault> find_schema_fault(const Json& document,
                                                            const std::string& schema);
 
 }  // namespace trammel::harness

@@ -143,7 +143,7 @@ std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule)
   return keys;
 }
 
-SchemaError explain_object(const Json& object, std::vector<std::string> path, const Rules& rules) {
+SchemaFault explain_object(const Json& object, std::vector<std::string> path, const Rules& rules) {
   const std::vector<std::string> allowed = allowed_keys(rules);
   for (const auto& item : object.items()) {
     const bool known = std::find(allowed.begin(), allowed.end(), item.key()) != allowed.end();
@@ -170,7 +170,7 @@ SchemaError explain_object(const Json& object, std::vector<std::string> path, co
   return {pointer_to(path), "expected " + wanted};
 }
 
-SchemaError explain_value(const SchemaRule& root, const BrokenRules& broken) {
+SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
   std::vector<std::string> wanted, choices;
   std::string suffix;
   for (const SchemaRule* rule : broken.rules) {
@@ -192,7 +192,7 @@ SchemaError explain_value(const SchemaRule& root, const BrokenRules& broken) {
 
 }  // namespace
 
-SchemaError explain(const SchemaRule& schema, const BrokenRules& broken) {
+SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken) {
   Rules of_objects;
   std::copy_if(broken.rules.begin(), broken.rules.end(), std::back_inserter(of_objects),
                [](const SchemaRule* rule) { return wants(*rule, "object"); });

@@ -18,6 +18,6 @@ struct BrokenRules {
 
 /// What the schema wants instead, in words.
 /// @param schema  root of the schema document
-[[nodiscard]] SchemaError explain(const SchemaRule& schema, const BrokenRules& broken);
+[[nodiscard]] SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken);
 
 }  // namespace trammel::harness

@@ -56,9 +56,9 @@ void summarise(std::vector<double> values, SampledUncertainty& result) {
 
 }  // namespace
 
-std::optional<DerivativeUncertainty> uncertainty_by_derivatives(
+std::optional<PropagatedUncertainty> uncertainty_by_derivatives(
     const Response& response, const std::vector<double>& half_widths) {
-  DerivativeUncertainty result;
+  PropagatedUncertainty result;
   for (std::size_t k = 0; k < half_widths.size(); ++k) {
     std::vector<double> offsets(half_widths.size(), 0.0);
     offsets[k] = kStep * half_widths[k];

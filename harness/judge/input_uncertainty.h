@@ -16,7 +16,7 @@ namespace trammel::harness {
 using Response = std::function<std::optional<std::vector<double>>(const std::vector<double>&)>;
 
 /// First order: u^2 = sum over inputs of (df/dx half_width)^2 / 3.
-struct DerivativeUncertainty {
+struct PropagatedUncertainty {
   /// input x output: df/dx * half_width / sqrt(3), with its sign [unit of the output]
   std::vector<std::vector<double>> contribution;
   std::vector<double> standard;  ///< output: root of the sum of squares
@@ -25,7 +25,7 @@ struct DerivativeUncertainty {
 /// Central differences over +-half_width / 16: truncation is 1/256 of what the nonlinearity over
 /// the half width is.
 /// @return empty where the model has no solution near its nominal inputs
-[[nodiscard]] std::optional<DerivativeUncertainty> uncertainty_by_derivatives(
+[[nodiscard]] std::optional<PropagatedUncertainty> uncertainty_by_derivatives(
     const Response& response, const std::vector<double>& half_widths);
 
 /// All inputs at once, nonlinearity included.

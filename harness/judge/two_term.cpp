@@ -10,7 +10,7 @@ namespace {
 /// Least squares for 1 = (a h^p + b h^q) / error over levels first, first + 1, ...
 class Fit {
  public:
-  Fit(const std::vector<double>& h, const std::vector<double>& error, const TwoTermLaw& law)
+  Fit(const std::vector<double>& h, const std::vector<double>& error, const TwoTermOrders& law)
       : h_(h), error_(error), law_(law) {}
 
   [[nodiscard]] std::optional<TwoTermFit> over(const std::vector<bool>& levels) const {
@@ -41,14 +41,14 @@ class Fit {
 
   const std::vector<double>& h_;
   const std::vector<double>& error_;
-  const TwoTermLaw& law_;
+  const TwoTermOrders& law_;
 };
 
 }  // namespace
 
 std::optional<TwoTermFit> fit_two_terms(const std::vector<double>& h,
                                         const std::vector<double>& error,
-                                        const std::vector<bool>& usable, const TwoTermLaw& law,
+                                        const std::vector<bool>& usable, const TwoTermOrders& law,
                                         double within) {
   std::vector<bool> levels = usable;
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -65,7 +65,7 @@ std::optional<TwoTermFit> fit_two_terms(const std::vector<double>& h,
 }
 
 double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<double, 3>& v,
-                             const TwoTermLaw& law) {
+                             const TwoTermOrders& law) {
   // Differences rid of the limit, then of b: v_i - v_2 = a (h_i^p - h_2^p) + b (h_i^q - h_2^q).
   const double fine = h[2];
   const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };

@@ -9,7 +9,7 @@
 /// elements. Between the two no single order is observed.
 namespace trammel::harness {
 
-struct TwoTermLaw {
+struct TwoTermOrders {
   double p = 4, q = 2;  ///< orders, p > q > 0
 };
 
@@ -28,10 +28,11 @@ struct TwoTermFit {
 [[nodiscard]] std::optional<TwoTermFit> fit_two_terms(const std::vector<double>& h,
                                                       const std::vector<double>& error,
                                                       const std::vector<bool>& usable,
-                                                      const TwoTermLaw& law, double within);
+                                                      const TwoTermOrders& law, double within);
 
 /// The limit of values v = limit + a h^p + b h^q through three levels; NaN where two have one size.
 [[nodiscard]] double extrapolate_two_terms(const std::array<double, 3>& h,
-                                           const std::array<double, 3>& v, const TwoTermLaw& law);
+                                           const std::array<double, 3>& v,
+                                           const TwoTermOrders& law);
 
 }  // namespace trammel::harness

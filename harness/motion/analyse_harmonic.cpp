@@ -15,7 +15,7 @@ class Response {
   Response(const solver::System& system, const solver::HarmonicDamping& damping)
       : system_(system), response_(system, damping) {}
 
-  [[nodiscard]] const solver::HarmonicResponse& of_system() const { return response_; }
+  [[nodiscard]] const solver::HarmonicSolver& of_system() const { return response_; }
 
   void record_at(double frequency, const std::vector<Output>& outputs, Recorder& record) const {
     const Eigen::VectorXcd q = response_.at(frequency);
@@ -54,7 +54,7 @@ class Response {
 
  private:
   const solver::System& system_;
-  solver::HarmonicResponse response_;
+  solver::HarmonicSolver response_;
 };
 
 }  // namespace

@@ -108,7 +108,7 @@ StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& c
     const solver::InverseDynamics found =
         solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) {
-      result.outcome = at_point(case_model, step, found.outcome);
+      result.outcome = outcome_at_path_point(case_model, step, found.outcome);
       return result;
     }
     record_joints(found, record);

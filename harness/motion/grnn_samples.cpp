@@ -52,7 +52,8 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
     const solver::InverseDynamics found =
         solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) {
-      result.outcome = at_point(case_model, static_cast<std::size_t>(k), found.outcome);
+      result.outcome =
+          outcome_at_path_point(case_model, static_cast<std::size_t>(k), found.outcome);
       return result;
     }
     samples.inputs.row(k) = found.torque.transpose();

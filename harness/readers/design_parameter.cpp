@@ -6,7 +6,7 @@
 namespace trammel::harness {
 namespace {
 
-using Quantity = solver::DesignParameter::Quantity;
+using Kind = trammel::solver::DesignParameter::Kind;
 
 void choose(const std::string& link, solver::DesignParameter& parameter) {
   const auto limb = static_cast<std::size_t>(link[1] - '1');
@@ -16,19 +16,19 @@ void choose(const std::string& link, solver::DesignParameter& parameter) {
 }  // namespace
 
 solver::DesignParameter read_design_parameter(const JsonView& parameter) {
-  static const std::map<std::string, Quantity> quantities = {{"length", Quantity::length},
-                                                             {"thickness", Quantity::thickness},
-                                                             {"width", Quantity::width},
-                                                             {"E", Quantity::E},
-                                                             {"density", Quantity::density}};
-  solver::DesignParameter read{.quantity = quantities.at(parameter.text("property"))};
+  static const std::map<std::string, Kind> kinds = {{"length", Kind::length},
+                                                    {"thickness", Kind::thickness},
+                                                    {"width", Kind::width},
+                                                    {"E", Kind::E},
+                                                    {"density", Kind::density}};
+  solver::DesignParameter read{.kind = kinds.at(parameter.text("property"))};
   read.platform = parameter.get("platform", false);
   if (const auto links = parameter.find("links")) {
     read.proximal.fill(false);
     read.distal.fill(false);
     for (const auto& entry : links->entries()) choose(entry.second.get<std::string>(), read);
   }
-  const bool platform_has = read.quantity != Quantity::length && read.quantity != Quantity::width;
+  const bool platform_has = read.kind != Kind::length && read.kind != Kind::width;
   if (read.platform && !platform_has) {
     throw parameter["platform"].error("expected the thickness, E or density of the platform");
   }
@@ -41,15 +41,15 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   return read;
 }
 
-std::string sensitivity_name(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::E:
+std::string sensitivity_name(Kind kind) {
+  switch (kind) {
+    case Kind::E:
       return "sensitivity_Hz_per_Pa";
-    case Quantity::density:
+    case Kind::density:
       return "sensitivity_Hz_m3_per_kg";
-    case Quantity::length:
-    case Quantity::thickness:
-    case Quantity::width:
+    case Kind::length:
+    case Kind::thickness:
+    case Kind::width:
       break;
   }
   return "sensitivity_Hz_per_m";

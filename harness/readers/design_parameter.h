@@ -13,6 +13,6 @@ namespace trammel::harness {
 [[nodiscard]] solver::DesignParameter read_design_parameter(const JsonView& parameter);
 
 /// "sensitivity_Hz_per_m", by the parameter's unit.
-[[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Quantity quantity);
+[[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Kind kind);
 
 }  // namespace trammel::harness

@@ -100,7 +100,7 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
   const solver::ManipulatorDesign& design = *case_model.manipulator;
   solver::DesignParameter parameter;
   if (const auto given = analysis.find("parameter")) parameter = read_design_parameter(*given);
-  const std::string quantity = sensitivity_name(parameter.quantity);
+  const std::string quantity = sensitivity_name(parameter.kind);
   const double margin = analysis.get("serial_margin", 0.1);
   const bool positions = analysis.get("positions", true);
   StepResult result;

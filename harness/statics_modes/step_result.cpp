@@ -17,7 +17,8 @@ void record_path(const CaseModel& case_model, std::size_t step, Recorder& record
   record.add("pose_phi_rad", "", point.pose.phi);
 }
 
-solver::Outcome at_point(const CaseModel& case_model, std::size_t step, solver::Outcome outcome) {
+solver::Outcome outcome_at_path_point(const CaseModel& case_model, std::size_t step,
+                                      solver::Outcome outcome) {
   if (case_model.path) outcome.reason.insert(0, "point " + std::to_string(step) + ": ");
   return outcome;
 }

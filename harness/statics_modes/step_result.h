@@ -31,7 +31,7 @@ inline constexpr solver::Index kMaxDrawnShapes = 12;
 void record_path(const CaseModel& case_model, std::size_t step, Recorder& record);
 
 /// The outcome of a step, its reason naming the point of the path.
-[[nodiscard]] solver::Outcome at_point(const CaseModel& case_model, std::size_t step,
-                                       solver::Outcome outcome);
+[[nodiscard]] solver::Outcome outcome_at_path_point(const CaseModel& case_model, std::size_t step,
+                                                    solver::Outcome outcome);
 
 }  // namespace trammel::harness

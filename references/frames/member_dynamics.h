@@ -55,7 +55,7 @@ namespace detail {
 /// C and S at half length h for a squared wave number of either sign, divided by cosh where
 /// hyperbolic.
 template <class T>
-std::array<T, 2> half_wave(const T& k2, const T& h) {
+std::array<T, 2> symmetric_wave_functions(const T& k2, const T& h) {
   using std::cos;
   using std::sin;
   using std::sqrt;
@@ -105,7 +105,7 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   std::array<std::array<T, 2>, 2> even_motion, even_force, odd_motion, odd_force;
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
-    const auto [C, S] = half_wave(k2, h);
+    const auto [C, S] = symmetric_wave_functions(k2, h);
     const T slope = k2 + g;
     const T shear = -slope * (m.EI * k2 + w2 * m.rotary_inertia) + tension * k2;
     even_motion[0][i] = C;

@@ -127,7 +127,7 @@ std::string tolerance_text(const Check& check) {
 }
 
 std::string quantity_text(const Check& check) {
-  const Quantity quantity = parse_quantity(check.quantity);
+  const QuantityLabel quantity = parse_quantity(check.quantity);
   std::string text = to_text(quantity);
   if (check.measure == "status") return "how the run ends";
   if (check.measure == "order") return "order of convergence of " + text;

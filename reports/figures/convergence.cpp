@@ -243,7 +243,7 @@ void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
   for (const double level : levels)
     if (i++ % step == 0) tics += (tics.empty() ? "" : ", ") + tic(trimmed(level, 3), level);
   script.command("set xtics (" + tics + ")");
-  const Quantity parameter = parse_quantity(sweeps.front()->sweep);
+  const QuantityLabel parameter = parse_quantity(sweeps.front()->sweep);
   script.axis_label("x", axis_label(parameter.label, parameter.unit));
 }
 

@@ -127,7 +127,7 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
 
 /// A quantity among those of a plot: what tells them apart.
 std::string own_words(const std::string& name, const PlotRequest& request) {
-  const Quantity quantity = parse_quantity(name);
+  const QuantityLabel quantity = parse_quantity(name);
   const bool one_label = std::all_of(request.y.begin(), request.y.end(), [&](const auto& y) {
     return parse_quantity(y).label == quantity.label;
   });
@@ -273,8 +273,8 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   if (series.empty()) return std::nullopt;
   name_series(series, info, request, variants.size());
 
-  const Quantity y = parse_quantity(request.y.front());
-  const Quantity x = parse_quantity(request.x);
+  const QuantityLabel y = parse_quantity(request.y.front());
+  const QuantityLabel x = parse_quantity(request.x);
   double largest = 0;
   for (const Series& s : series) largest = std::max(largest, s.largest);
   const Numbers* x_values = run_of(runs, series.front().variant)->quantity(request.x);

@@ -163,7 +163,7 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
     problem = "there is no " + request.value + " over " + request.x + " and " + request.y.front();
     return std::nullopt;
   }
-  const Quantity quantity = parse_quantity(request.value);
+  const QuantityLabel quantity = parse_quantity(request.value);
   Field field = read_field(*x, *y, *value);
   if (field.cells.empty() || !(field.dx > 0)) {
     problem = request.value + (field.cells.empty() ? " has no numbers" : " has a single position");

@@ -74,7 +74,7 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
 void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
                const std::string& color, double width, const std::string& title) {
   const std::string line = "with lines lw " + shortest(width) + lc(color);
-  script.curve(rows_of(inner_edges(drawing), nodes), "with lines lw 0.4" + lc(color));
+  script.curve(rows_of(triangle_edges_inside(drawing), nodes), "with lines lw 0.4" + lc(color));
   script.curve(rows_of(triangle_edges(drawing), nodes),
                "with lines lw " + shortest(0.5 * width) + lc(color),
                drawing.members.empty() ? title : "");

@@ -105,7 +105,7 @@ std::vector<std::vector<int>> triangle_edges(const Drawing& drawing) {
   return lines;
 }
 
-std::vector<std::vector<int>> inner_edges(const Drawing& drawing, std::size_t panels) {
+std::vector<std::vector<int>> triangle_edges_inside(const Drawing& drawing, std::size_t panels) {
   std::vector<std::vector<int>> lines;
   const std::size_t triangles = drawing.triangles.size();
   if (triangles <= kCoarseMesh || panels * triangles > kFineMesh) return lines;

@@ -17,8 +17,8 @@ namespace trammel::reports {
 
 /// The other edges, for thin lines: none of a coarse mesh, and none of one too fine to be seen
 /// where a figure has so many panels.
-[[nodiscard]] std::vector<std::vector<int>> inner_edges(const Drawing& drawing,
-                                                        std::size_t panels = 1);
+[[nodiscard]] std::vector<std::vector<int>> triangle_edges_inside(const Drawing& drawing,
+                                                                  std::size_t panels = 1);
 
 /// Rows of (x, y), polylines apart by an empty row.
 [[nodiscard]] PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,

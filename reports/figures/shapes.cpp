@@ -33,7 +33,7 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
   script.curve(rows_of(edges, drawing.nodes), "with lines lw 1" + grey);
   script.curve(rows_of(lines, drawing.nodes), "with lines lw 1.2" + grey);
   script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::kPlate));
-  script.curve(rows_of(inner_edges(drawing, panels), moved), "with lines lw 0.4" + blue);
+  script.curve(rows_of(triangle_edges_inside(drawing, panels), moved), "with lines lw 0.4" + blue);
   script.curve(rows_of(edges, moved), "with lines lw 1.2" + blue);
   script.curve(rows_of(lines, moved), "with lines lw 2.2" + blue);
   script.plot();

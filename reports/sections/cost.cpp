@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reports/data/counters_text.h"
+#include "reports/data/work_counters_text.h"
 #include "reports/figures/cost.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/sections/family.h"
@@ -56,7 +56,7 @@ Data row_of(const CaseCost& cost, double longest) {
   row.set("wall", duration(cost.wall_s));
   row.set("cpu", duration(cost.cpu_s));
   row.set("percent", trimmed(longest > 0 ? 100 * cost.wall_s / longest : 0, 3));
-  set_text(row, "counters", counters_text(cost.counters));
+  set_text(row, "counters", work_counters_text(cost.counters));
   return row;
 }
 
@@ -97,7 +97,7 @@ Data cheapest_row(const CostStudy& study, double error, std::optional<std::size_
   row.set("error", error_of ? relative(*error_of, 2, false) : "–");
   row.set("times", times(setting.relative));
   row.set("cpu", duration(setting.cpu_s));
-  row.set("work", counters_text(setting.counters));
+  row.set("work", work_counters_text(setting.counters));
   return row;
 }
 

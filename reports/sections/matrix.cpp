@@ -144,7 +144,7 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
 
 Data matrix_of(const MatrixSubject& subject, const Family& family, const Results& results) {
   const Reference* reference = results.reference(subject.reference);
-  const Quantity quantity = parse_quantity(subject.quantity);
+  const QuantityLabel quantity = parse_quantity(subject.quantity);
   Data matrix = object();
   matrix.set("title", reference ? reference->title : subject.reference);
   set_text(matrix, "reference_anchor", reference ? reference_anchor(reference->id) : "");

@@ -136,7 +136,7 @@ std::string observed_text(const Findings& found) {
 }
 
 Data data_of(const OrderRow& row, const Findings& found, const CaseInfo& info) {
-  const Quantity quantity = parse_quantity(row.front().quantity);
+  const QuantityLabel quantity = parse_quantity(row.front().quantity);
   Data data = object();
   data.set("quantity", to_text(quantity));
   set_text(data, "entries",

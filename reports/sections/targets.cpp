@@ -93,7 +93,7 @@ std::string printed_text(const Target& target, const Results& results) {
 Data row_of(const Target& target, const CaseInfo& info, const Results& results) {
   const Check& check = *target.check;
   Data row = object();
-  const Quantity quantity = parse_quantity(check.quantity);
+  const QuantityLabel quantity = parse_quantity(check.quantity);
   row.set("quantity", axis_label(to_text(quantity), quantity.unit));
   std::string of_what =
       target.run->variant == "base" ? "" : info.variant_title(target.run->variant);

@@ -92,8 +92,8 @@ std::string display_unit(const std::string& unit) {
   return people;
 }
 
-Quantity parse_quantity(const std::string& name) {
-  Quantity quantity;
+QuantityLabel parse_quantity(const std::string& name) {
+  QuantityLabel quantity;
   const std::size_t colon = name.find(':');
   std::string base = name.substr(0, colon);
   if (colon != std::string::npos) quantity.subject = name.substr(colon + 1);
@@ -114,7 +114,7 @@ Quantity parse_quantity(const std::string& name) {
   return quantity;
 }
 
-std::string to_text(const Quantity& quantity) {
+std::string to_text(const QuantityLabel& quantity) {
   return quantity.subject.empty() ? quantity.label : quantity.label + " of " + quantity.subject;
 }
 

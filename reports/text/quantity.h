@@ -7,14 +7,14 @@ namespace trammel::reports {
 /// A quantity's name taken apart: displacement_x_m:P is the "x displacement" of "P" in "m",
 /// frequency_Hz:1 the "frequency" of "mode 1", peak_time_s:displacement_y_m:M the "peak time" of
 /// the "y displacement of M".
-struct Quantity {
+struct QuantityLabel {
   std::string label, subject, unit;  ///< unit for people: N·m, rad/s; empty if dimensionless
 };
 
-[[nodiscard]] Quantity parse_quantity(const std::string& name);
+[[nodiscard]] QuantityLabel parse_quantity(const std::string& name);
 
 /// "x displacement of P".
-[[nodiscard]] std::string to_text(const Quantity& quantity);
+[[nodiscard]] std::string to_text(const QuantityLabel& quantity);
 
 /// A unit as written in key names (N_m, kg_m2, rad_per_s) for people (N·m, kg·m², rad/s).
 [[nodiscard]] std::string display_unit(const std::string& unit);

@@ -48,7 +48,7 @@ class Assembler {
   Assembler(Model model, Effects active) : active_(active) {
     validate(model);
     Discretisation discretisation = discretise(model);
-    system_.constraints = constrain(model, discretisation);
+    system_.constraints = build_constraints(model, discretisation);
     system_.mesh = std::move(discretisation.mesh);
     system_.coordinates = std::move(discretisation.coordinates);
     system_.springs = spring_elements(model, system_.coordinates);

@@ -257,7 +257,7 @@ void build_T(const Elimination& elimination, Constraints& constraints, Index siz
 
 }  // namespace
 
-Constraints constrain(const Model& model, const Discretisation& discretisation) {
+Constraints build_constraints(const Model& model, const Discretisation& discretisation) {
   const Coordinates& coordinates = discretisation.coordinates;
   Constraints constraints;
   constraints.rows = support_rows(model, coordinates);

@@ -34,6 +34,7 @@ struct Constraints {
 };
 
 /// @throws ModelError  where a constraint names a coordinate that does not exist.
-[[nodiscard]] Constraints constrain(const Model& model, const Discretisation& discretisation);
+[[nodiscard]] Constraints build_constraints(const Model& model,
+                                            const Discretisation& discretisation);
 
 }  // namespace trammel::solver

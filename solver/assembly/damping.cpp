@@ -5,15 +5,6 @@
 
 namespace trammel::solver {
 
-RayleighDamping rayleigh_through(double omega_1, double ratio_1, double omega_2, double ratio_2) {
-  if (!(omega_1 > 0 && omega_2 > 0 && omega_1 != omega_2)) {
-    throw ModelError("Rayleigh damping is set at two different positive frequencies");
-  }
-  const double gap = (omega_2 - omega_1) * (omega_2 + omega_1);
-  return {.mass = 2 * omega_1 * omega_2 * (ratio_1 * omega_2 - ratio_2 * omega_1) / gap,
-          .stiffness = 2 * (ratio_2 * omega_2 - ratio_1 * omega_1) / gap};
-}
-
 double damping_ratio(const RayleighDamping& damping, double omega) {
   return (damping.mass / omega + damping.stiffness * omega) / 2;
 }

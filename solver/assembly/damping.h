@@ -13,11 +13,6 @@ struct RayleighDamping {
   double stiffness = 0;  ///< >= 0 [s]
 };
 
-/// The two factors with given damping ratios at two angular frequencies [rad/s].
-/// @throws ModelError  for frequencies that are not positive and distinct.
-[[nodiscard]] RayleighDamping rayleigh_through(double omega_1, double ratio_1, double omega_2,
-                                               double ratio_2);
-
 /// ratio(w) = (mass / w + stiffness * w) / 2.   @param omega  > 0 [rad/s]
 [[nodiscard]] double damping_ratio(const RayleighDamping& damping, double omega);
 

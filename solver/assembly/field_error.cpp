@@ -79,7 +79,7 @@ class FrameField {
     const Vector6d world = detail::gather(element.coordinates, u);
     local_ = frame_rotation(element.direction) * world;
     forces_ = frame_rigidity(element.section, theory_, length_)
-                  .cwiseProduct(frame_deformation(element.direction, length_) * world);
+                  .cwiseProduct(frame_deformation_matrix(element.direction, length_) * world);
   }
 
   [[nodiscard]] BeamFieldPoint at(double xi) const {

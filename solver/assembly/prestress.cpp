@@ -124,7 +124,7 @@ Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
     const Material& material = model.plates[static_cast<std::size_t>(triangle.plate)].material;
     Vector3d d;
     if (triangle.quadratic()) {
-      d = triangle6_deformation(model, triangle, Vector3d::Constant(1 / 3.0)) *
+      d = triangle6_deformation_matrix(model, triangle, Vector3d::Constant(1 / 3.0)) *
           detail::gather(system.coordinates.of_triangle<12>(triangle), u);
     } else {
       d = triangle_deformation(corners(model, triangle)) *
@@ -140,7 +140,7 @@ Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
 FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction, double length) {
   const double c = direction.x() / length;
   const double s = direction.y() / length;
-  FrameDeformation B = frame_deformation(direction, length);
+  FrameDeformation B = frame_deformation_matrix(direction, length);
   B.row(0) << s, -c, 0, -s, c, 0;
   return B;
 }

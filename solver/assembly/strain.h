@@ -36,7 +36,7 @@ void for_each_deformation(const System& system, Visit&& visit) {
     const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
     Vector3d c = frame_rigidity(e.section, member.theory, e.length);
     if (!member.axially_flexible) c[0] = 0;
-    visit(e.coordinates, frame_deformation(e.direction, e.length), c);
+    visit(e.coordinates, frame_deformation_matrix(e.direction, e.length), c);
   }
   for (const Triangle& triangle : system.model.triangles) {
     if (triangle.quadratic()) {

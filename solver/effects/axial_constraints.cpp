@@ -7,7 +7,7 @@ namespace trammel::solver {
 
 bool is_axially_overconstrained(const Model& model) {
   const Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
-  const Constraints constraints = constrain(stiff, discretise(stiff));
+  const Constraints constraints = build_constraints(stiff, discretise(stiff));
   for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
     const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;
     if (along && constraints.pivot[i] < 0) return true;

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-void add(Change& to, const Change& other) {
+void add(StateChange& to, const StateChange& other) {
   to.u += other.u;
   for (std::size_t e = 0; e < to.force.size(); ++e) to.force[e] += other.force[e];
 }
@@ -83,7 +83,7 @@ Prestress without_forces(Prestress forces) {
 
 /// Section forces turn with their sections.
 /// @returns the largest rotation [rad]
-double turn_section_forces(const LinearState& state, Change& change) {
+double turn_section_forces(const LinearState& state, StateChange& change) {
   const auto& frame = state.system.mesh.frame;
   double largest_rotation = 0;
   for (std::size_t e = 0; e < frame.size(); ++e) {
@@ -99,8 +99,8 @@ double turn_section_forces(const LinearState& state, Change& change) {
 
 }  // namespace
 
-Change change_by_geometric_stiffness(LinearState& state, const Prestress& forces) {
-  Change change{-state.solve(geometric_stiffness_forces(state.system, forces, state.u)), {}};
+StateChange change_by_geometric_stiffness(LinearState& state, const Prestress& forces) {
+  StateChange change{-state.solve(geometric_stiffness_forces(state.system, forces, state.u)), {}};
   change.force = state.elastic(change.u);
   for (std::size_t e = 0; e < change.force.size(); ++e) {
     const auto i = static_cast<Index>(e);
@@ -110,13 +110,13 @@ Change change_by_geometric_stiffness(LinearState& state, const Prestress& forces
   return change;
 }
 
-Change change_by_large_displacement(LinearState& state, double& largest_rotation) {
+StateChange change_by_large_displacement(LinearState& state, double& largest_rotation) {
   const auto& frame = state.system.mesh.frame;
   VectorXd strained = VectorXd::Zero(state.u.size());
   VectorXd force(static_cast<Index>(frame.size()));
   for (std::size_t e = 0; e < frame.size(); ++e) {
     force[static_cast<Index>(e)] = state.rigidity(frame[e])[0] * chord_shortening(state, frame[e]);
-    const auto B = frame_deformation(frame[e].direction, frame[e].length);
+    const auto B = frame_deformation_matrix(frame[e].direction, frame[e].length);
     const Vector6d f = B.row(0).transpose() * force[static_cast<Index>(e)];
     for (std::size_t k = 0; k < 6; ++k) {
       const Index coordinate = frame[e].coordinates[k];
@@ -124,7 +124,7 @@ Change change_by_large_displacement(LinearState& state, double& largest_rotation
     }
   }
   add_plate_strains(state, strained);
-  Change change{-state.solve(strained), {}};
+  StateChange change{-state.solve(strained), {}};
   change.force = state.elastic(change.u);
   Prestress induced = without_forces(state.forces);
   for (std::size_t e = 0; e < frame.size(); ++e) {

@@ -51,21 +51,22 @@ std::vector<Vector6d> LinearState::elastic(const VectorXd& motion) const {
   force.reserve(system.mesh.frame.size());
   for (const FrameElement& e : system.mesh.frame) {
     const Vector3d d =
-        frame_deformation(e.direction, e.length) * detail::gather(e.coordinates, motion);
+        frame_deformation_matrix(e.direction, e.length) * detail::gather(e.coordinates, motion);
     force.emplace_back(end_forces(e, rigidity(e).cwiseProduct(d)));
   }
   return force;
 }
 
 Vector6d end_forces(const FrameElement& e, const Vector3d& of_deformations) {
-  return frame_deformation<double>(Vector2d::UnitX(), e.length).transpose() * of_deformations;
+  return frame_deformation_matrix<double>(Vector2d::UnitX(), e.length).transpose() *
+         of_deformations;
 }
 
 Vector6d local_load(const FrameElement& e, const Vector2d& load) {
   return frame_rotation(e.direction) * element_load(e, load);
 }
 
-double LinearState::energy() const {
+double LinearState::twice_strain_energy() const {
   return u.dot(internal_forces(system, u));
 }
 

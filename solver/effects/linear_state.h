@@ -30,7 +30,7 @@ struct StateResults {
 };
 
 /// A change of the state: displacements and the forces on the elements' ends, in their axes.
-struct Change {
+struct StateChange {
   Eigen::VectorXd u;
   std::vector<Vector6d> force;
   double undirected_displacement = 0;  ///< a further displacement, of unknown direction [m]
@@ -55,7 +55,7 @@ class LinearState {
   /// End forces of displacements.
   [[nodiscard]] std::vector<Vector6d> elastic(const Eigen::VectorXd& motion) const;
   /// u^T K u [J].
-  [[nodiscard]] double energy() const;
+  [[nodiscard]] double twice_strain_energy() const;
   /// At the nodes that have names and the ends of the members.
   [[nodiscard]] StateResults results_of(const Eigen::VectorXd& motion,
                                         const std::vector<Vector6d>& force) const;

@@ -15,15 +15,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-Change change_without_flexibility(LinearState& state, Effect effect, double& share) {
-  const VectorXd part = EnergyShares(state.system, state.solution.q, state.energy()).forces(effect);
-  const double energy = state.energy();
+StateChange change_without_flexibility(LinearState& state, Effect effect, double& share) {
+  const VectorXd part =
+      EnergyShares(state.system, state.solution.q, state.twice_strain_energy()).forces(effect);
+  const double energy = state.twice_strain_energy();
   share = energy > 0 ? part.dot(state.u) / energy : 0;
-  Change change{-state.solve(part), {}};
+  StateChange change{-state.solve(part), {}};
   change.force = state.elastic(change.u);
   for (std::size_t e = 0; e < change.force.size(); ++e) {
     const FrameElement& element = state.system.mesh.frame[e];
-    const Vector3d d = frame_deformation(element.direction, element.length) *
+    const Vector3d d = frame_deformation_matrix(element.direction, element.length) *
                        detail::gather(element.coordinates, state.u);
     const Vector3d w = deformation_share(state.system, element, effect);
     change.force[e] += end_forces(element, state.rigidity(element).cwiseProduct(w).cwiseProduct(d));
@@ -31,13 +32,13 @@ Change change_without_flexibility(LinearState& state, Effect effect, double& sha
   return change;
 }
 
-void negate(Change& change) {
+void negate(StateChange& change) {
   change.u = -change.u;
   for (Vector6d& force : change.force) force = -force;
 }
 
 /// Weights of the members, and of everything else.
-Change change_without_weight(LinearState& state, bool of_members, double& share) {
+StateChange change_without_weight(LinearState& state, bool of_members, double& share) {
   const System& system = state.system;
   VectorXd load = VectorXd::Zero(state.u.size());
   std::vector<Vector6d> own(system.mesh.frame.size(), Vector6d::Zero());
@@ -57,8 +58,8 @@ Change change_without_weight(LinearState& state, bool of_members, double& share)
     state.counters += without.counters;
     load = system.load - without.load - load;
   }
-  Change change{-state.solve(load), {}};
-  const double all = state.energy();
+  StateChange change{-state.solve(load), {}};
+  const double all = state.twice_strain_energy();
   share = all > 0 ? std::sqrt(std::abs(load.dot(change.u)) / all) : 0;
   change.force = state.elastic(change.u);
   for (std::size_t e = 0; e < own.size(); ++e) change.force[e] += own[e];
@@ -92,12 +93,12 @@ double largest_shear_ratio(const LinearState& state) {
   return largest_value;
 }
 
-Change change_without(LinearState& state, Effect effect, double& number) {
-  Change change;
+StateChange change_without(LinearState& state, Effect effect, double& number) {
+  StateChange change;
   switch (effect) {
     case Effect::geometric_stiffening: {
       change = change_by_geometric_stiffness(state, state.forces);
-      const double energy = state.energy();
+      const double energy = state.twice_strain_energy();
       number = energy > 0
                    ? geometric_stiffness_forces(state.system, state.forces, state.u).dot(state.u) /
                          energy
@@ -157,7 +158,7 @@ struct Sum {
   double number = 0, undirected_displacement = 0, indeterminate_force = 0;
   StateResults change;
 
-  void add(const LinearState& state, const Change& at_pose, double number_at_pose) {
+  void add(const LinearState& state, const StateChange& at_pose, double number_at_pose) {
     change.append(state.results_of(at_pose.u, at_pose.force));
     undirected_displacement = std::max(undirected_displacement, at_pose.undirected_displacement);
     indeterminate_force = std::max(indeterminate_force, at_pose.indeterminate_force);
@@ -180,7 +181,7 @@ EffectEstimates estimate_static_effects(const std::vector<Model>& poses, Effects
     base.append(state.results_of(state.u, state.base));
     for (const Effect effect : applicable.list()) {
       double number = 0;
-      const Change change = change_without(state, effect, number);
+      const StateChange change = change_without(state, effect, number);
       sums[effect].add(state, change, number);
     }
     estimates.counters += state.counters;

@@ -34,7 +34,7 @@ void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& 
   VectorXd q;
   const VectorXd still = VectorXd::Zero(follower.system().K().rows());
   for (const double time : times) {
-    if (!follower.advance_to(time)) return;
+    if (!follower.update_to(time)) return;
     if (!follower.solve_statically(follower.load(), q)) {
       solution.outcome = {Status::singular,
                           "the stiffness is singular: free joints have no quasi-static position"};
@@ -107,7 +107,7 @@ void integrate(const ElastodynamicsOptions& options, PathFollower& follower,
   follower.matrices(equation.M, equation.C, equation.K);
   // Where there is no pose the numbers end, and with them the integration.
   equation.load = [&follower](double time, VectorXd& f) {
-    if (follower.advance_to(time)) {
+    if (follower.update_to(time)) {
       f = follower.load();
     } else {
       f.setConstant(kNaN);
@@ -115,7 +115,7 @@ void integrate(const ElastodynamicsOptions& options, PathFollower& follower,
   };
   if (!follower.stands_still()) {
     equation.update = [&follower](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
-      if (follower.advance_to(time)) follower.matrices(M, C, K);
+      if (follower.update_to(time)) follower.matrices(M, C, K);
     };
   }
   solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
@@ -134,7 +134,7 @@ ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options
   ElastodynamicsSolution solution;
   PathFollower follower(options, options.time.start);
   ElastodynamicsRecorder recorder(options, follower, solution);
-  if (!follower.advance_to(options.time.start)) {
+  if (!follower.update_to(options.time.start)) {
     solution.outcome = follower.outcome();
     return solution;
   }

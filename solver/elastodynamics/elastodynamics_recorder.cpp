@@ -24,7 +24,7 @@ void stack(const std::vector<Vector>& samples, Matrix& rows) {
 
 void ElastodynamicsRecorder::record(double time, const VectorXd& q, const VectorXd& v,
                                     const VectorXd& a, const MotionEnergy& energy) {
-  if (!follower_.advance_to(time)) return;
+  if (!follower_.update_to(time)) return;
   const MovingSystem& moving = follower_.system();
   const MovingSystem::Forces forces = moving.forces(
       q, v, a, options_.damping.mass, options_.damping.stiffness, options_.nominal_inertia);

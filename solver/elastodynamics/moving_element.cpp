@@ -63,7 +63,7 @@ void add_frames(const System& system, std::vector<MovingElement>& elements) {
     element.part_index = static_cast<std::size_t>(e.member);
     Vector3d c = frame_rigidity(e.section, member.theory, e.length);
     if (!member.axially_flexible) c[0] = 0;
-    const FrameDeformation B = frame_deformation(e.direction, e.length);
+    const FrameDeformation B = frame_deformation_matrix(e.direction, e.length);
     element.k = B.transpose() * c.asDiagonal() * B;
     element.m = world_mass(e, member);
     const RotationDerivatives derivatives = rotation_derivatives(e, member);

@@ -31,7 +31,7 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
   start_ = inverse_dynamics(rigid_, at(options.path, built_at), options.wrench).q;
 }
 
-bool PathFollower::advance_to(double time) {
+bool PathFollower::update_to(double time) {
   if (time == time_) return outcome_.solved();
   if (stands_still_ && !std::isnan(time_)) {
     point_.time = time;
@@ -87,7 +87,8 @@ bool PathFollower::solve_statically(const VectorXd& f, VectorXd& q) {
   if (!factored_) {
     factored_ = true;
     ++counters_.factorizations;
-    regular_ = stiffness_.factorize(moving_.K()) && stiffness_.pivot_ratio() > kSingularPivotRatio;
+    regular_ = stiffness_.factorize(moving_.K()) &&
+               stiffness_.smallest_to_largest_pivot() > kSingularPivotRatio;
   }
   if (!regular_) return false;
   ++counters_.solves;

@@ -19,7 +19,7 @@ class PathFollower {
 
   /// A time is evaluated once, and only one for a platform that stands still.
   /// @returns false: `outcome` names the time and the reason.
-  bool advance_to(double time);
+  bool update_to(double time);
   /// The same at any time under any gravity [m/s^2], each time anew.
   [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity);
 

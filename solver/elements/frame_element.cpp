@@ -57,8 +57,8 @@ T shear_ratio(const SectionOf<T>& section, BeamTheory theory,
 }
 
 template <Real T>
-Matrix36<T> frame_deformation(const Eigen::Vector2<T>& direction,
-                              const std::type_identity_t<T>& length) {
+Matrix36<T> frame_deformation_matrix(const Eigen::Vector2<T>& direction,
+                                     const std::type_identity_t<T>& length) {
   const T c = direction.x();
   const T s = direction.y();
   const T rs = 2.0 / length * s;
@@ -86,7 +86,7 @@ Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
 }
 
 Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length) {
-  const FrameDeformation B = frame_deformation<double>(Vector2d::UnitX(), length);
+  const FrameDeformation B = frame_deformation_matrix<double>(Vector2d::UnitX(), length);
   return B.transpose() * frame_rigidity(section, theory, length).asDiagonal() * B;
 }
 
@@ -166,9 +166,9 @@ Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
 template double shear_ratio(const SectionOf<double>&, BeamTheory, const double&);
 template Dual shear_ratio(const SectionOf<Dual>&, BeamTheory, const Dual&);
 template Complex shear_ratio(const SectionOf<Complex>&, BeamTheory, const Complex&);
-template Matrix36<double> frame_deformation(const Eigen::Vector2<double>&, const double&);
-template Matrix36<Dual> frame_deformation(const Eigen::Vector2<Dual>&, const Dual&);
-template Matrix36<Complex> frame_deformation(const Eigen::Vector2<Complex>&, const Complex&);
+template Matrix36<double> frame_deformation_matrix(const Eigen::Vector2<double>&, const double&);
+template Matrix36<Dual> frame_deformation_matrix(const Eigen::Vector2<Dual>&, const Dual&);
+template Matrix36<Complex> frame_deformation_matrix(const Eigen::Vector2<Complex>&, const Complex&);
 template Eigen::Vector3<double> frame_rigidity(const SectionOf<double>&, BeamTheory, const double&);
 template Eigen::Vector3<Dual> frame_rigidity(const SectionOf<Dual>&, BeamTheory, const Dual&);
 template Eigen::Vector3<Complex> frame_rigidity(const SectionOf<Complex>&, BeamTheory,

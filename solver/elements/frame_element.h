@@ -45,8 +45,8 @@ template <Real T>
 
 /// B of the element along `direction` (unit vector, world axes): world dofs -> d [m, rad, rad].
 template <Real T = double>
-[[nodiscard]] Matrix36<T> frame_deformation(const Eigen::Vector2<T>& direction,
-                                            const std::type_identity_t<T>& length);
+[[nodiscard]] Matrix36<T> frame_deformation_matrix(const Eigen::Vector2<T>& direction,
+                                                   const std::type_identity_t<T>& length);
 
 /// Diagonal stiffness of the three deformations [N/m, N m, N m].
 template <Real T>

@@ -75,8 +75,9 @@ Matrix12d triangle6_mass(const Model& model, const Triangle& triangle) {
   return M;
 }
 
-Eigen::Matrix<double, 3, 12> triangle6_deformation(const Model& model, const Triangle& triangle,
-                                                   const Eigen::Vector3d& at) {
+Eigen::Matrix<double, 3, 12> triangle6_deformation_matrix(const Model& model,
+                                                          const Triangle& triangle,
+                                                          const Eigen::Vector3d& at) {
   return deformation_of(interpolate(model, triangle, at));
 }
 

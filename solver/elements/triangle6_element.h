@@ -27,8 +27,8 @@ struct Triangle6Stiffness {
 
 /// (exx + eyy, exx - eyy, gxy) of the dofs at a point.
 /// @param at  area coordinates of the corners, sum 1
-[[nodiscard]] Eigen::Matrix<double, 3, 12> triangle6_deformation(const Model& model,
-                                                                 const Triangle& triangle,
-                                                                 const Eigen::Vector3d& at);
+[[nodiscard]] Eigen::Matrix<double, 3, 12> triangle6_deformation_matrix(const Model& model,
+                                                                        const Triangle& triangle,
+                                                                        const Eigen::Vector3d& at);
 
 }  // namespace trammel::solver

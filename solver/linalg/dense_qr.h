@@ -17,7 +17,8 @@ struct ThinQr {
 
 struct PivotedSolution {
   Eigen::Vector3d x;
-  double pivot_ratio = 0;  ///< |R_33| / |R_11|: near zero where A is singular, and x is nothing
+  double smallest_to_largest_pivot =
+      0;  ///< |R_33| / |R_11|: near zero where A is singular, and x is nothing
 };
 /// A x = b by column-pivoted QR.
 [[nodiscard]] PivotedSolution pivoted_solve(const Eigen::Matrix3d& A, const Eigen::Vector3d& b);

@@ -121,7 +121,7 @@ Index SparseLdlt::negative_pivots() const {
   return (factors_->ldlt.vectorD().array() < 0).count();
 }
 
-double SparseLdlt::pivot_ratio() const {
+double SparseLdlt::smallest_to_largest_pivot() const {
   const VectorXd D = pivots();
   double smallest = 1;
   for (Index j = 0; j < D.size(); ++j) {

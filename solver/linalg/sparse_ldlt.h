@@ -40,7 +40,7 @@ class SparseLdlt {
   /// Sylvester: the number of negative eigenvalues.
   [[nodiscard]] Index negative_pivots() const;
   /// Smallest |pivot| over its diagonal entry: near zero where A is singular.
-  [[nodiscard]] double pivot_ratio() const;
+  [[nodiscard]] double smallest_to_largest_pivot() const;
   /// Largest |L|.
   [[nodiscard]] double element_growth() const;
 

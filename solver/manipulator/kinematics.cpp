@@ -198,7 +198,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     }
     if (!residual.allFinite()) break;
     const PivotedSolution correction = pivoted_solve(J, residual);
-    if (!(correction.pivot_ratio > kSingularRatio)) {
+    if (!(correction.smallest_to_largest_pivot > kSingularRatio)) {
       result.outcome = {Status::singular,
                         "a parallel singularity: the actuators do not determine the platform"};
       return result;

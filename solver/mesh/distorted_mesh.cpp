@@ -89,7 +89,7 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   return Rectangle(mesh, plate).build();
 }
 
-Model mesh_line(const LineMesh& mesh, const Member& member) {
+Model mesh_line(const DistortedLine& mesh, const Member& member) {
   if (!(mesh.distortion >= 0 && mesh.distortion < 1)) {
     throw ModelError("the distortion of a line's mesh must lie between 0 and 1");
   }

@@ -18,7 +18,7 @@ struct RectangleMesh {
 /// @throws ModelError  for a distortion that could turn a triangle over.
 [[nodiscard]] Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate);
 
-struct LineMesh {
+struct DistortedLine {
   Vector2d start = Vector2d::Zero();  ///< [m]
   Vector2d end = Vector2d::Zero();    ///< [m]
   Index cells = 1;
@@ -28,6 +28,6 @@ struct LineMesh {
 /// A model with one member a cell, its first node at the start.
 /// @param member  its nodes and number of elements do not matter
 /// @throws ModelError  for a distortion that could turn a member over.
-[[nodiscard]] Model mesh_line(const LineMesh& mesh, const Member& member);
+[[nodiscard]] Model mesh_line(const DistortedLine& mesh, const Member& member);
 
 }  // namespace trammel::solver

@@ -4,41 +4,40 @@
 
 namespace trammel::solver {
 
-using Quantity = DesignParameter::Quantity;
+using Kind = trammel::solver::DesignParameter::Kind;
 
 namespace {
 
 /// Calls visit(number) for each number of the design that the parameter names.
 template <class Visit>
 void for_each_number(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
-  const Quantity quantity = parameter.quantity;
-  const bool length = quantity == Quantity::length;
+  const Kind kind = parameter.kind;
+  const bool length = kind == Kind::length;
   const auto meet = [&visit](double* x) {
     if (x != nullptr) visit(*x);
   };
   for (std::size_t i = 0; i < 3; ++i) {
     if (parameter.proximal[i]) {
-      meet(length ? &design.geometry.proximal[i]
-                  : detail::link_number(design.proximal[i], quantity));
+      meet(length ? &design.geometry.proximal[i] : detail::link_number(design.proximal[i], kind));
     }
     if (parameter.distal[i]) {
-      meet(length ? &design.geometry.distal[i] : detail::link_number(design.distal[i], quantity));
+      meet(length ? &design.geometry.distal[i] : detail::link_number(design.distal[i], kind));
     }
   }
-  if (parameter.platform) meet(detail::number(design.platform, quantity));
+  if (parameter.platform) meet(detail::number(design.platform, kind));
 }
 
 }  // namespace
 
-const char* unit(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::E:
+const char* unit(Kind kind) {
+  switch (kind) {
+    case Kind::E:
       return "Pa";
-    case Quantity::density:
+    case Kind::density:
       return "kg/m^3";
-    case Quantity::length:
-    case Quantity::thickness:
-    case Quantity::width:
+    case Kind::length:
+    case Kind::thickness:
+    case Kind::width:
       break;
   }
   return "m";

@@ -43,7 +43,7 @@ SteppedSystem stepped(const System& system, const SeededDesign<Complex>& design,
     const SeededLink<Complex>& link = design.link(e.member);
     const Complex length = link.length / static_cast<double>(member.elements);
     const Eigen::Vector3cd c = frame_rigidity(link.section, member.theory, length);
-    const Matrix36<Complex> B = frame_deformation(link.direction, length);
+    const Matrix36<Complex> B = frame_deformation_matrix(link.direction, length);
     const Matrix6<Complex> R = frame_rotation(link.direction);
     const Matrix6<Complex> m = frame_mass(link.section, member.theory, member.mass, length);
     const Matrix6<Complex> k = B.transpose() * c.asDiagonal() * B;
@@ -54,15 +54,15 @@ SteppedSystem stepped(const System& system, const SeededDesign<Complex>& design,
   }
   for (const PointMass& lump : system.model.masses) {
     const Eigen::Matrix3cd m =
-        point_inertia(design.mass().mass, design.mass().inertia, lump.offset);
+        point_inertia(design.platform_mass().mass, design.platform_mass().inertia, lump.offset);
     into_M.add(system.coordinates.node[static_cast<std::size_t>(lump.node)], derivatives(m));
   }
   for (const Triangle& triangle : system.model.triangles) {
     const TrianglePoints points = corners(system.model, triangle);
     const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
     const auto coordinates = system.coordinates.of_triangle<6>(triangle);
-    const Matrix6d k = design.stiffness_rate() * triangle_stiffness(points, plate);
-    const Matrix6d m = design.mass_rate() * triangle_mass(points, plate);
+    const Matrix6d k = design.log_stiffness_derivative() * triangle_stiffness(points, plate);
+    const Matrix6d m = design.log_mass_derivative() * triangle_mass(points, plate);
     into_K.add(coordinates, k);
     into_M.add(coordinates, m);
   }

@@ -65,14 +65,14 @@ class SeededDesign {
                const DesignParameter& parameter)
       : platform_(detail::lifted<T>(design.platform)) {
     const ManipulatorGeometry& g = design.geometry;
-    if (parameter.platform) detail::seed(detail::number(platform_, parameter.quantity));
-    platform_mass_ = platform_mass(platform_, g.platform);
-    const bool length = parameter.quantity == DesignParameter::Quantity::length;
+    if (parameter.platform) detail::seed(detail::number(platform_, parameter.kind));
+    platform_mass_ = trammel::solver::platform_mass(platform_, g.platform);
+    const bool length = parameter.kind == DesignParameter::Kind::length;
     for (std::size_t i = 0; i < 3; ++i) {
       LinkDesignOf<T> proximal = detail::lifted<T>(design.proximal[i]);
       LinkDesignOf<T> distal = detail::lifted<T>(design.distal[i]);
-      if (parameter.proximal[i]) detail::seed(detail::link_number(proximal, parameter.quantity));
-      if (parameter.distal[i]) detail::seed(detail::link_number(distal, parameter.quantity));
+      if (parameter.proximal[i]) detail::seed(detail::link_number(proximal, parameter.kind));
+      if (parameter.distal[i]) detail::seed(detail::link_number(distal, parameter.kind));
       const T a = with_derivative<T>(g.proximal[i], length && parameter.proximal[i] ? 1 : 0);
       const T b = with_derivative<T>(g.distal[i], length && parameter.distal[i] ? 1 : 0);
       const Eigen::Vector2<T> A = g.base[i].cast<T>();
@@ -91,13 +91,13 @@ class SeededDesign {
   [[nodiscard]] const SeededLink<T>& link(Index member) const {
     return links_[static_cast<std::size_t>(member)];
   }
-  [[nodiscard]] const PlatformMassOf<T>& mass() const { return platform_mass_; }
+  [[nodiscard]] const PlatformMassOf<T>& platform_mass() const { return platform_mass_; }
   /// The triangles' stiffness is in proportion to E t and their mass to the total: d ln / dp.
-  [[nodiscard]] double stiffness_rate() const {
+  [[nodiscard]] double log_stiffness_derivative() const {
     const T product = platform_.material.E * platform_.thickness;
     return derivative(product) == 0 ? 0 : derivative(product) / value(product);
   }
-  [[nodiscard]] double mass_rate() const {
+  [[nodiscard]] double log_mass_derivative() const {
     return derivative(platform_mass_.mass) == 0
                ? 0
                : derivative(platform_mass_.mass) / value(platform_mass_.mass);

@@ -50,7 +50,7 @@ void SetDerivative::add_element(const FrameElement& e, const SeededLink<Dual>& l
   const Dual length = link.length / static_cast<double>(member.elements);
   Eigen::Vector3<Dual> c = frame_rigidity(link.section, member.theory, length);
   if (!member.axially_flexible) c[0] = 0;
-  const Matrix36<Dual> B = frame_deformation(link.direction, length);
+  const Matrix36<Dual> B = frame_deformation_matrix(link.direction, length);
   const Matrix6<Dual> R = frame_rotation(link.direction);
   const Matrix6<Dual> m = frame_mass(link.section, member.theory, member.mass, length);
   const Index k = U_.cols();
@@ -90,12 +90,12 @@ void SetDerivative::add_constraints(const SeededDesign<Dual>& design, MatrixXd& 
 }
 
 void SetDerivative::add_platform(const SeededDesign<Dual>& design, MatrixXd& sum) const {
-  const double stiffness = design.stiffness_rate();
-  const double mass = design.mass_rate();
+  const double stiffness = design.log_stiffness_derivative();
+  const double mass = design.log_mass_derivative();
   if (stiffness == 0 && mass == 0) return;
   for (const PointMass& lump : system_.model.masses) {
     const Eigen::Matrix3<Dual> m =
-        point_inertia(design.mass().mass, design.mass().inertia, lump.offset);
+        point_inertia(design.platform_mass().mass, design.platform_mass().inertia, lump.offset);
     Eigen::Matrix3d dm;
     for (Index i = 0; i < 9; ++i) dm(i) = derivative(m(i));
     const auto u = gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);

@@ -137,9 +137,10 @@ class Postprocessor {
     const Member& member = model_.members[static_cast<std::size_t>(e.member)];
     const Vector6d u = detail::gather(e.coordinates, u_);
     Vector3d s = frame_rigidity(e.section, member.theory, e.length)
-                     .cwiseProduct(frame_deformation(e.direction, e.length) * u);
+                     .cwiseProduct(frame_deformation_matrix(e.direction, e.length) * u);
     s[0] = axial_[index];
-    Vector6d force = frame_deformation(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
+    Vector6d force =
+        frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
     if (state_.prestress) {
       const Prestress& state = *state_.prestress;
       force += geometric_stiffness_forces(e, member.theory, state.axial[index],
@@ -218,7 +219,7 @@ class Postprocessor {
     const Material& material = model_.plates[static_cast<std::size_t>(triangle.plate)].material;
     if (triangle.quadratic()) {
       return membrane_stress(material,
-                             triangle6_deformation(model_, triangle, at) *
+                             triangle6_deformation_matrix(model_, triangle, at) *
                                  detail::gather(system_.coordinates.of_triangle<12>(triangle), u_));
     }
     return membrane_stress(material,

@@ -48,7 +48,7 @@ VectorXcd solve_direct(const System& system, const RayleighDamping& damping, dou
 
 }  // namespace
 
-HarmonicResponse::HarmonicResponse(const System& system, const HarmonicDamping& damping)
+HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damping)
     : system_(system), damping_(damping), unsuperposed_load_(system.f), counters_(system.counters) {
   for (const double ratio : damping.modal_ratio) {
     if (!(std::isfinite(ratio) && ratio >= 0)) {
@@ -69,7 +69,7 @@ HarmonicResponse::HarmonicResponse(const System& system, const HarmonicDamping& 
   unsuperposed_load_ -= system.M * (modes_.shape * participation_);
 }
 
-VectorXcd HarmonicResponse::at(double frequency) const {
+VectorXcd HarmonicSolver::at(double frequency) const {
   const double omega = kTwoPi * frequency;
   VectorXcd q = solve_direct(system_, damping_.rayleigh, omega, unsuperposed_load_);
   ++counters_.factorizations;
@@ -131,7 +131,7 @@ HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q,
   return result;
 }
 
-HarmonicPeak harmonic_peak(const HarmonicResponse& response, double low, double high,
+HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double high,
                            const std::function<double(const VectorXcd&, double)>& amplitude) {
   constexpr int kScan = 64;
   std::vector<double> places;

@@ -20,10 +20,10 @@ struct HarmonicDamping {
 ///   (K + i w C - w^2 M) q = f.
 /// Modes with a damping ratio are superposed; what they leave of the load is solved for directly,
 /// so that no mode is cut off.
-class HarmonicResponse {
+class HarmonicSolver {
  public:
   /// @throws ModelError  for a negative or infinite ratio, or fewer modes than ratios.
-  HarmonicResponse(const System& system, const HarmonicDamping& damping);
+  HarmonicSolver(const System& system, const HarmonicDamping& damping);
 
   /// singular: a mechanism; not_converged: the modes are not all found
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
@@ -67,7 +67,7 @@ struct HarmonicPeak {
 /// frequencies, then closed in on by golden section to about 1e-9 of the frequency.
 /// @param amplitude  of a response at a frequency [Hz]
 [[nodiscard]] HarmonicPeak harmonic_peak(
-    const HarmonicResponse& response, double low, double high,
+    const HarmonicSolver& response, double low, double high,
     const std::function<double(const Eigen::VectorXcd&, double)>& amplitude);
 
 }  // namespace trammel::solver

@@ -138,8 +138,8 @@ class TransientIntegrator {
     if (!mass_factor_) mass_factor_ = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
     if (!matrices_.constant() || !mass_is_factored_) {
       ++summary_.counters.factorizations;
-      mass_is_singular_ =
-          !mass_factor_->factorize(matrices_.M()) || mass_factor_->pivot_ratio() < kSingularMass;
+      mass_is_singular_ = !mass_factor_->factorize(matrices_.M()) ||
+                          mass_factor_->smallest_to_largest_pivot() < kSingularMass;
       mass_is_factored_ = true;
     }
     start_factor_ = mass_factor_.get();

@@ -41,7 +41,7 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
     matrices.update(time);
     if (i == 4 || !matrices.constant()) {
       ++counters.factorizations;
-      if (!factor.factorize(matrices.K()) || factor.pivot_ratio() < kSingularMass) {
+      if (!factor.factorize(matrices.K()) || factor.smallest_to_largest_pivot() < kSingularMass) {
         return {Status::singular, "the stiffness is singular: there is no quasi-static start"};
       }
     }
@@ -60,7 +60,7 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
   if (!std::isfinite(limit) || matrices.M().rows() == 0) return {};
   SparseLdlt factor(SparseLdlt::Triangle::mean);
   ++counters.factorizations;
-  if (!factor.factorize(matrices.M()) || factor.pivot_ratio() < kSingularMass) {
+  if (!factor.factorize(matrices.M()) || factor.smallest_to_largest_pivot() < kSingularMass) {
     return {Status::singular,
             "the mass is singular: a conditionally stable scheme has no stable step"};
   }

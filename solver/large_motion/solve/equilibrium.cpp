@@ -110,7 +110,8 @@ NewtonResult Equilibrium::solve(State& state, double load) {
   return fail(Status::not_converged, message.str());
 }
 
-std::string describe_motion(const GeometricallyExactSystem& system, const VectorXd& shape) {
+std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
+                                        const VectorXd& shape) {
   const Layout& layout = system.layout();
   static constexpr std::array<const char*, 3> names = {"motion along x", "motion along y",
                                                        "rotation"};

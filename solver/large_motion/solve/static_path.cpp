@@ -75,7 +75,8 @@ class PathFollower {
     const double response = weighted_rms_norm(system_, direction_.step.head(system_.coordinates()));
     // A rigid-body motion leaves a pivot of pure round-off: a response beyond every scale.
     if (!std::isfinite(eigenvalue) || !std::isfinite(response) || response > 1e11) {
-      return stop({Status::singular, "free motion: " + describe_motion(system_, shape)});
+      return stop(
+          {Status::singular, "free motion: " + describe_largest_coordinate(system_, shape)});
     }
     displacement_weight_ = 1 / std::pow(std::max(response, 1e-6), 2);
     direction_.load = 1;

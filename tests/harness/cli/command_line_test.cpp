@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_run_in_any_folder_writes_results_that_obey_their_schema) 
   const Outcome outcome = run(folder, "run mine/cantilever.json --out here/results");
   BOOST_TEST(outcome.status == 0, outcome.err);
   const Json results = read_json(folder.path() / "here/results/results.json");
-  const auto fault = find_schema_error(results, "results");
+  const auto fault = find_schema_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST(results["runs"][0]["checks"][0]["verdict"] == "pass");
   BOOST_TEST(results["runs"][0]["quantities"]["displacement_y_m:B"].size() == 1U);
@@ -339,7 +339,7 @@ BOOST_AUTO_TEST_CASE(the_sweep_of_one_s_own_case_is_measured_and_written) {
   BOOST_TEST(outcome.status == 0, outcome.err);
   BOOST_TEST(contains(outcome.out, "elements 2"));
   const Json results = read_json(folder.path() / "mine/results.json");
-  const auto fault = find_schema_error(results, "results");
+  const auto fault = find_schema_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST(results["cost"]["sweep"] == "full");
   BOOST_TEST(results["cost"]["studies"][0]["settings"].size() == 3U);

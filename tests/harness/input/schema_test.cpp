@@ -22,7 +22,7 @@ namespace {
 /// "pointer: message" of the case with one place changed.
 std::string fault(Json json, const std::string& pointer, const Json& value) {
   json[JsonPointer(pointer)] = value;
-  const auto found = find_schema_error(json, "case");
+  const auto found = find_schema_fault(json, "case");
   return found ? found->pointer + ": " + found->message : "";
 }
 
@@ -35,8 +35,8 @@ std::string robot_fault(const std::string& pointer, const Json& value) {
 BOOST_AUTO_TEST_SUITE(schema)
 
 BOOST_AUTO_TEST_CASE(good_cases_obey_the_schema) {
-  BOOST_TEST(!find_schema_error(testing::manipulator(), "case").has_value());
-  BOOST_TEST(!find_schema_error(testing::cantilever(), "case").has_value());
+  BOOST_TEST(!find_schema_fault(testing::manipulator(), "case").has_value());
+  BOOST_TEST(!find_schema_fault(testing::cantilever(), "case").has_value());
 }
 
 BOOST_AUTO_TEST_CASE(a_misspelt_key_is_answered_with_the_nearest_right_one) {
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(a_former_key_is_answered_with_the_present_one) {
   BOOST_TEST(contains(robot_fault("/analysis/modes/path", "dense"), "did you mean 'eigensolver'?"));
   Json claims = {{"title", "t"}, {"source", "s"}, {"claims", {{"1", Json::object()}}}};
   claims["claims"]["1"]["interpretations"]["r"]["take"] = "ratio";
-  BOOST_TEST(contains(find_schema_error(claims, "claims").value().message, "'metric'?"));
+  BOOST_TEST(contains(find_schema_fault(claims, "claims").value().message, "'metric'?"));
 }
 
 BOOST_AUTO_TEST_CASE(the_names_of_quantities_within_others_are_renamed_too) {
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(alternatives_are_all_named) {
 BOOST_AUTO_TEST_CASE(a_missing_key_is_named_where_it_is_missing) {
   Json json = testing::manipulator();
   json["model"]["manipulator"]["material"].erase("E_Pa");
-  const auto found = find_schema_error(json, "case");
+  const auto found = find_schema_fault(json, "case");
   BOOST_REQUIRE(found.has_value());
   BOOST_TEST(found->pointer == "/model/manipulator/material");
   BOOST_TEST(found->message == "expected the key 'E_Pa' (got 'nu' and 'rho_kg_m3')");
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(the_schemas_use_only_what_is_checked) {
 BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
   int seen = 0;
   for (const auto& [id, file] : reference_files(data_root() / "references" / "values")) {
-    const auto found = find_schema_error(read_json(file), "reference");
+    const auto found = find_schema_fault(read_json(file), "reference");
     BOOST_TEST(!found.has_value(), id << (found ? ": " + found->pointer + found->message : ""));
     ++seen;
   }

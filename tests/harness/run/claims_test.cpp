@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(what_results_say_of_the_claims_obeys_their_schema) {
   BOOST_TEST(json["claims"][0]["verdict"] == "confirmed in part");
   BOOST_TEST(json["as_recorded"] == false);
   Json results = {{"format", 1}, {"claims", json}};
-  const auto fault = find_schema_error(results, "results");
+  const auto fault = find_schema_fault(results, "results");
   // Only what is missing around it is at fault.
   BOOST_REQUIRE(fault.has_value());
   BOOST_TEST(contains(fault->message, "expected the key"));

@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(results_obey_their_schema) {
   const std::vector<Case> cases = {testing::read(folder, json)};
   const References references;
   const Json results = to_json(results_of(run_cases(cases, references, {}), cases, references));
-  const auto fault = find_schema_error(results, "results");
+  const auto fault = find_schema_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST(results["references"].contains("exact"));
 }

@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(the_results_obey_their_schema_and_give_the_front_back) {
   results::Results filled = results_of({}, {}, references);
   filled.cost = cost_results({study}, SweepExtent::full, {});
   const Json results = to_json(filled);
-  const auto fault = find_schema_error(results, "results");
+  const auto fault = find_schema_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   const Json& written = results["cost"]["studies"][0];
   BOOST_TEST(written["settings"].size() == 5U);

@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(results_with_uncertainty_obey_the_schema_and_do_not_depend_
   };
   const Json one = results(1);
   const Json two = results(2);
-  const auto fault = find_schema_error(one, "results");
+  const auto fault = find_schema_fault(one, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST((one["runs"][1]["uncertainty"] == two["runs"][1]["uncertainty"]));
   BOOST_TEST(one["runs"][1]["uncertainty"]["comparisons"].size() == 2U);

@@ -200,8 +200,8 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
   BOOST_TEST(loops[0].size() + loops[1].size() == 4U * n + 1 + 5);
   // One polygon: 4 + 1 corners of the square, 4 + 1 of the hole, and back to where it began.
   BOOST_TEST(filled_triangles(drawing, nodes).size() == 11U);
-  BOOST_TEST(inner_edges(drawing).size() == (3U * 48 - 24) / 2);
-  BOOST_TEST(inner_edges(drawing, 20).empty());
+  BOOST_TEST(triangle_edges_inside(drawing).size() == (3U * 48 - 24) / 2);
+  BOOST_TEST(triangle_edges_inside(drawing, 20).empty());
 }
 
 BOOST_AUTO_TEST_CASE(a_discrepancy_that_could_not_be_computed_is_not_given_a_number) {

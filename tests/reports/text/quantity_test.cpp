@@ -7,7 +7,7 @@ using namespace trammel::reports;
 BOOST_AUTO_TEST_SUITE(quantity)
 
 BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
-  const Quantity moment = parse_quantity("reaction_moment_N_m:A1");
+  const QuantityLabel moment = parse_quantity("reaction_moment_N_m:A1");
   BOOST_TEST(moment.label == "reaction moment");
   BOOST_TEST(moment.subject == "A1");
   BOOST_TEST(moment.unit == "N·m");

@@ -40,13 +40,6 @@ BOOST_AUTO_TEST_CASE(the_overdamped_range_has_its_limits) {
   BOOST_TEST(overdamped_range({.mass = 3, .stiffness = 1}).above == 1);
 }
 
-BOOST_AUTO_TEST_CASE(rayleigh_damping_passes_through_the_two_ratios_it_is_given) {
-  const RayleighDamping damping = rayleigh_through(20, 0.02, 300, 0.05);
-  BOOST_TEST(std::abs(damping_ratio(damping, 20) - 0.02) < 1e-15);
-  BOOST_TEST(std::abs(damping_ratio(damping, 300) - 0.05) < 1e-15);
-  BOOST_CHECK_THROW(static_cast<void>(rayleigh_through(20, 0.1, 20, 0.1)), ModelError);
-}
-
 BOOST_AUTO_TEST_CASE(modes_decouple_under_both_dampings) {
   const SparseMatrix M = sparse((Eigen::Matrix3d() << 2, .5, 0, .5, 3, .2, 0, .2, 1).finished());
   const SparseMatrix K =

@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(a_plate_strip_buckles_as_the_column_it_is) {
   for (const Index node : mesh.sides[0][3]) {
     model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, true, false}});
   }
-  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {-50, 0}, 0);  // 1 N in all
+  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {-50, 0}, 0);  // 1 N in all
   BOOST_TEST(first_factor(model) == kPi * kPi / 4, tolerance(2e-3));
 }
 

@@ -114,7 +114,8 @@ BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
 BOOST_AUTO_TEST_CASE(the_deformations_rebuild_the_rotated_stiffness_of_equation_10) {
   for (const BeamTheory theory : kTheories) {
     const double angle = 2.1;
-    const FrameDeformation B = frame_deformation({std::cos(angle), std::sin(angle)}, kLength);
+    const FrameDeformation B =
+        frame_deformation_matrix({std::cos(angle), std::sin(angle)}, kLength);
     const Matrix6d k = B.transpose() * frame_rigidity(kSection, theory, kLength).asDiagonal() * B;
     BOOST_TEST(largest_difference(k, world(frame_stiffness(kSection, theory, kLength), angle)) <
                1e-15);

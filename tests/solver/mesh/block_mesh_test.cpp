@@ -64,7 +64,7 @@ StaticSolution elliptic_membrane(Index cells, Index& D) {
     model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {false, true, false}});
   for (const Index node : mesh.sides[0][2])
     model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, false, false}});
-  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
+  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
   return solve_statics(assemble(model));
 }
 
@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_adds_up_to_its_projection) {
   Model model;
   model.plates = {{"membrane", {210e9, 1, 0.3}, 0.1}};
   const std::vector<Index> nodes = append(model, 0, mesh);
-  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
+  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
   const System system = assemble(model);
   Vector2d sum = Vector2d::Zero();
   for (const auto& node : system.coordinates.node) {
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(cooks_membrane_converges_to_the_extrapolated_value) {
   const std::vector<Index> nodes = append(model, 0, mesh);
   for (const Index node : mesh.sides[0][3])
     model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, true, false}});
-  model.edge_loads = load_side(mesh, nodes, 0, 0, 1, {0, 1 / 16.0}, 0);
+  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 1 / 16.0}, 0);
   const StaticSolution r = solve_statics(assemble(model));
   const auto& side = mesh.sides[0][1];
   const Index middle = nodes[static_cast<std::size_t>(side[(side.size() - 1) / 2])];

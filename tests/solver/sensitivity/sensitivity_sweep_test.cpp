@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_SUITE(sensitivity_sweep)
 // Modes 1 to 6, the worst error over the largest |df/dL| of the mode.
 BOOST_AUTO_TEST_CASE(five_hundred_poses_agree_with_differences) {
   for (const bool total : {false, true}) {
-    const Comparison c = compare(design_with(total), all(Quantity::length), 500, 5e-3, 35);
+    const Comparison c = compare(design_with(total), all(Kind::length), 500, 5e-3, 35);
     tell(total ? "all links, mass held" : "all links, density held", c);
     BOOST_TEST(c.compared == 500);
     BOOST_TEST(c.worst < 1e-8);

@@ -18,7 +18,7 @@ BOOST_AUTO_TEST_CASE(frequencies_grow_with_the_root_of_E_and_fall_with_that_of_d
     ManipulatorDesign design = coarse_design();
     design.platform.kind = kind;
     const FrequencySensitivity s =
-        frequency_sensitivity(design, pose, {all(Quantity::E), all(Quantity::density)}, 8);
+        frequency_sensitivity(design, pose, {all(Kind::E), all(Kind::density)}, 8);
     BOOST_TEST_REQUIRE(s.outcome.solved());
     for (Index n = 0; n < 8; ++n) {
       const double f = s.frequency[n];
@@ -36,10 +36,10 @@ BOOST_AUTO_TEST_CASE(bending_frequencies_of_massive_links_grow_with_their_thickn
   for (std::size_t i = 0; i < 3; ++i) {
     design.proximal[i].axially_flexible = design.distal[i].axially_flexible = false;
   }
-  DesignParameter links = all(Quantity::thickness);
+  DesignParameter links = all(Kind::thickness);
   links.platform = false;
   const FrequencySensitivity s =
-      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {links, all(Quantity::width)}, 6);
+      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {links, all(Kind::width)}, 6);
   for (Index n = 0; n < 6; ++n) {
     BOOST_TEST(std::abs(s.derivative(n, 0) * 0.0015 / s.frequency[n] - 1) < 1e-10);
     BOOST_TEST(std::abs(s.derivative(n, 1) * 0.03 / s.frequency[n]) < 1e-10);  // as wide, as heavy
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(bending_frequencies_of_massive_links_grow_with_their_thickn
 }
 
 BOOST_AUTO_TEST_CASE(what_every_link_does_alone_adds_up_to_what_they_do_together) {
-  std::vector<DesignParameter> parameters = {all(Quantity::length)};
+  std::vector<DesignParameter> parameters = {all(Kind::length)};
   for (std::size_t limb = 0; limb < 3; ++limb) {
     parameters.push_back(one_length(limb, true));
     parameters.push_back(one_length(limb, false));
@@ -91,9 +91,9 @@ BOOST_AUTO_TEST_CASE(every_variant_of_the_model_agrees_with_differences) {
     designs.back().distal[i].mass_matrix = MassMatrix::lumped;
   }
   for (const ManipulatorDesign& design : designs) {
-    const Comparison length = compare(design, all(Quantity::length), 2, 5e-3, 1);
+    const Comparison length = compare(design, all(Kind::length), 2, 5e-3, 1);
     BOOST_TEST(length.worst < 1e-8);
-    const Comparison thickness = compare(design, all(Quantity::thickness), 1, 2e-2, 2);
+    const Comparison thickness = compare(design, all(Kind::thickness), 1, 2e-2, 2);
     BOOST_TEST(thickness.worst < 1e-8);
     const Comparison single = compare(design, one_length(1, false), 1, 5e-3, 3);
     BOOST_TEST(single.worst < 1e-8);
@@ -107,8 +107,8 @@ BOOST_AUTO_TEST_CASE(complex_steps_of_the_eigenvalue_problem_agree_with_its_ener
   for (LinkDesign& link : designs[1].proximal) link.theory = BeamTheory::timoshenko;
   designs[2].active.fill({ActiveKind::sprung, 5});
   for (LinkDesign& link : designs[2].distal) link.mass_matrix = MassMatrix::lumped;
-  const std::vector<DesignParameter> parameters = {all(Quantity::length), all(Quantity::thickness),
-                                                   all(Quantity::E), all(Quantity::density),
+  const std::vector<DesignParameter> parameters = {all(Kind::length), all(Kind::thickness),
+                                                   all(Kind::E), all(Kind::density),
                                                    one_length(1, false)};
   const Pose pose{0.26, 0.15, 0.1};
   for (const ManipulatorDesign& design : designs) {
@@ -127,18 +127,18 @@ BOOST_AUTO_TEST_CASE(complex_steps_of_the_eigenvalue_problem_agree_with_its_ener
 BOOST_AUTO_TEST_CASE(complex_steps_say_where_they_cannot_tell) {
   ManipulatorDesign design = coarse_design();
   const FrequencyComplexStep repeated =
-      differentiate_by_complex_step(design, centred_pose(0.1), {all(Quantity::length)}, 6);
+      differentiate_by_complex_step(design, centred_pose(0.1), {all(Kind::length)}, 6);
   BOOST_TEST(static_cast<int>(repeated.outcome.status) == static_cast<int>(Status::singular));
   design.proximal[0].axially_flexible = false;
   BOOST_CHECK_THROW(
-      (void)differentiate_by_complex_step(design, {0.26, 0.15, 0.1}, {all(Quantity::length)}, 6),
+      (void)differentiate_by_complex_step(design, {0.26, 0.15, 0.1}, {all(Kind::length)}, 6),
       ModelError);
 }
 
 BOOST_AUTO_TEST_CASE(difference_quotients_are_of_first_and_second_order) {
   const ManipulatorDesign design = coarse_design();
   const Pose pose{0.26, 0.15, 0.1};
-  const DesignParameter thickness = all(Quantity::thickness);
+  const DesignParameter thickness = all(Kind::thickness);
   const VectorXd exact = frequency_sensitivity(design, pose, {thickness}, 4).derivative.col(0);
   const auto error = [&](double step, bool central) {
     const FrequencyDifferences found =
@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(holding_the_total_mass_is_not_holding_the_density) {
     by_total.proximal[i].mass = by_total.distal[i].mass = mass;
   }
   const Pose pose{0.26, 0.15, 0.1};
-  const auto lengths = {all(Quantity::length), all(Quantity::density)};
+  const auto lengths = {all(Kind::length), all(Kind::density)};
   const FrequencySensitivity a = frequency_sensitivity(by_density, pose, lengths, 6);
   const FrequencySensitivity b = frequency_sensitivity(by_total, pose, lengths, 6);
   for (Index n = 0; n < 6; ++n) {
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(at_the_symmetric_pose_each_limb_matters_alike) {
   for (const double phi : {0.0, 0.3}) {
     std::vector<DesignParameter> parameters;
     for (std::size_t limb = 0; limb < 3; ++limb) parameters.push_back(one_length(limb, true));
-    parameters.push_back(all(Quantity::length));
+    parameters.push_back(all(Kind::length));
     const FrequencySensitivity s =
         frequency_sensitivity(coarse_design(), centred_pose(phi), parameters, 6);
     BOOST_TEST_REQUIRE(s.outcome.solved());
@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(rigid_motions_stay_at_zero_whatever_the_lengths) {
   design.active.fill({ActiveKind::free});
   design.elbow.fill({ElbowKind::hinged});
   const FrequencySensitivity s =
-      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {all(Quantity::length)}, 6);
+      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {all(Kind::length)}, 6);
   BOOST_TEST_REQUIRE(s.outcome.solved());
   BOOST_TEST(s.frequency.head(3).norm() == 0);
   BOOST_TEST(s.derivative.topRows(3).norm() == 0);
@@ -253,7 +253,7 @@ BOOST_AUTO_TEST_CASE(at_a_straight_limb_only_its_own_lengths_change_frequencies_
   const double r = (posture.C[0] - design.geometry.base[0]).norm();
   design.geometry.proximal[0] = design.geometry.distal[0] = r / 2;
   const FrequencySensitivity s =
-      frequency_sensitivity(design, pose, {all(Quantity::E), one_length(1, true)}, 4);
+      frequency_sensitivity(design, pose, {all(Kind::E), one_length(1, true)}, 4);
   BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
   const VectorXd differences =
       differentiate_frequencies(design, pose, one_length(1, true), 4).derivative;
@@ -271,14 +271,14 @@ BOOST_AUTO_TEST_CASE(modes_that_round_off_has_eaten_are_none_and_not_a_crash) {
   design.active.fill({ActiveKind::free});
   const PoseGrid grid = reachable_grid(design.geometry, std::acos(-1.0) / 6, 41);
   const Pose pose{grid.x0 + 11 * grid.dx, grid.y0 + 30 * grid.dy, grid.phi};
-  const FirstFrequency first = first_frequency(design, all(Quantity::length), pose);
+  const FirstFrequency first = first_frequency(design, all(Kind::length), pose);
   BOOST_TEST(first.outcome.solved() == std::isfinite(first.frequency));
 }
 
 BOOST_AUTO_TEST_CASE(the_map_covers_the_reach_and_agrees_with_single_poses) {
   const ManipulatorDesign design = coarse_design(1);
   const PoseGrid grid = reachable_grid(design.geometry, 0.1, 15);
-  const SensitivityMap map = map_first_frequency(design, all(Quantity::length), grid);
+  const SensitivityMap map = map_first_frequency(design, all(Kind::length), grid);
   BOOST_TEST(map.frequency.rows() == grid.rows);
   Index reachable = 0;
   for (Index j = 0; j < grid.rows; ++j) {
@@ -290,8 +290,7 @@ BOOST_AUTO_TEST_CASE(the_map_covers_the_reach_and_agrees_with_single_poses) {
       BOOST_TEST(std::isfinite(map.frequency(j, i)) == inside);
       reachable += inside ? 1 : 0;
       if (!inside || (i + j) % 5 != 0) continue;
-      const FrequencySensitivity s =
-          frequency_sensitivity(design, pose, {all(Quantity::length)}, 1);
+      const FrequencySensitivity s = frequency_sensitivity(design, pose, {all(Kind::length)}, 1);
       BOOST_TEST(map.frequency(j, i) == s.frequency[0]);
       BOOST_TEST(map.derivative(j, i) == s.derivative(0, 0));
     }

@@ -52,11 +52,11 @@ BOOST_AUTO_TEST_CASE(an_oscillator_answers_as_its_formula_with_either_damping) {
     const double w = kTurn * f;
     const std::complex<double> modal =
         3.0 / (2.0 * std::complex<double>(w0 * w0 - w * w, 2 * ratio * w0 * w));
-    const HarmonicResponse a(system, {{}, {ratio}});
+    const HarmonicSolver a(system, {{}, {ratio}});
     BOOST_TEST(std::abs(a.at(f)[0] - modal) < 1e-12 * std::abs(modal));
-    const HarmonicResponse b(system, {rayleigh, {}});
+    const HarmonicSolver b(system, {rayleigh, {}});
     BOOST_TEST(std::abs(b.at(f)[0] - modal) < 1e-12 * std::abs(modal));
-    const HarmonicResponse c(system, {rayleigh, {0, 0}});  // modes that add no damping
+    const HarmonicSolver c(system, {rayleigh, {0, 0}});  // modes that add no damping
     BOOST_TEST(std::abs(c.at(f)[0] - modal) < 1e-12 * std::abs(modal));
   }
 }
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(at_rest_it_is_statics) {
   const System system = assemble(test_5h(4));
   const StaticSolution statics = solve_statics(system);
   for (const std::size_t damped : {0, 3}) {
-    const HarmonicResponse response(system, {{}, std::vector<double>(damped, 0.02)});
+    const HarmonicSolver response(system, {{}, std::vector<double>(damped, 0.02)});
     const Eigen::VectorXcd q = response.at(0);
     BOOST_TEST((q.real() - statics.q).norm() < 1e-9 * statics.q.norm());
     const HarmonicAmplitudes a = harmonic_amplitudes(system, q, 0);
@@ -77,8 +77,8 @@ BOOST_AUTO_TEST_CASE(at_rest_it_is_statics) {
 BOOST_AUTO_TEST_CASE(damping_more_modes_changes_only_what_is_damped) {
   // Rayleigh damping on all and none: superposing modes or solving directly is the same.
   const System system = assemble(test_5h(4));
-  const HarmonicResponse direct(system, {{1.0, 1e-4}, {}});
-  const HarmonicResponse superposed(system, {{1.0, 1e-4}, std::vector<double>(6, 0.0)});
+  const HarmonicSolver direct(system, {{1.0, 1e-4}, {}});
+  const HarmonicSolver superposed(system, {{1.0, 1e-4}, std::vector<double>(6, 0.0)});
   for (const double f : {10.0, 42.6, 100.0}) {
     BOOST_TEST((direct.at(f) - superposed.at(f)).norm() < 1e-9 * direct.at(f).norm());
   }
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(damping_more_modes_changes_only_what_is_damped) {
 
 BOOST_AUTO_TEST_CASE(the_deep_beam_of_test_5h_peaks_as_beam_theory_says) {
   const System system = assemble(test_5h(20));
-  const HarmonicResponse response(system, {{}, std::vector<double>(16, 0.02)});
+  const HarmonicSolver response(system, {{}, std::vector<double>(16, 0.02)});
   BOOST_REQUIRE(response.outcome().solved());
   const HarmonicPeak peak =
       harmonic_peak(response, 40, 45, [&](const Eigen::VectorXcd& q, double f) {
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(the_deep_beam_of_test_5h_peaks_as_beam_theory_says) {
 
 BOOST_AUTO_TEST_CASE(rayleigh_damping_of_test_5h_is_close_to_two_per_cent) {
   const System system = assemble(test_5h(10));
-  const HarmonicResponse response(system, {{5.36, 7.46e-5}, {}});
+  const HarmonicSolver response(system, {{5.36, 7.46e-5}, {}});
   const HarmonicPeak peak =
       harmonic_peak(response, 40, 45, [&](const Eigen::VectorXcd& q, double f) {
         return harmonic_amplitudes(system, q, f).displacement(1, 1);
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
   const auto answer = [&](Index loaded, Index seen) {
     model.loads = {{loaded, {1, 0, 0}}};
     const System system = assemble(model);
-    const HarmonicResponse response(system, {{0.2, 0.001}, {0.01, 0.02}});
+    const HarmonicSolver response(system, {{0.2, 0.001}, {0.01, 0.02}});
     const Eigen::VectorXcd q = response.at(0.7);
     const Eigen::VectorXcd u = system.T.cast<std::complex<double>>() * q;
     return u[system.coordinates.node[static_cast<std::size_t>(seen)][0]];
@@ -126,8 +126,8 @@ BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
 
 BOOST_AUTO_TEST_CASE(a_negative_damping_ratio_is_an_error) {
   const System system = assemble(oscillator());
-  BOOST_CHECK_THROW(HarmonicResponse(system, {{}, {-0.1}}), ModelError);
-  BOOST_CHECK_THROW(HarmonicResponse(system, {{}, {0.1, 0.1, 0.1}}), ModelError);
+  BOOST_CHECK_THROW(HarmonicSolver(system, {{}, {-0.1}}), ModelError);
+  BOOST_CHECK_THROW(HarmonicSolver(system, {{}, {0.1, 0.1, 0.1}}), ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -12,14 +12,14 @@
 namespace trammel::solver {
 
 using Eigen::VectorXd;
-using Quantity = DesignParameter::Quantity;
+using Kind = trammel::solver::DesignParameter::Kind;
 
-inline DesignParameter all(Quantity quantity) {
-  return {.quantity = quantity, .platform = quantity != Quantity::length};
+inline DesignParameter all(Kind kind) {
+  return {.kind = kind, .platform = kind != Kind::length};
 }
 
 inline DesignParameter one_length(std::size_t limb, bool is_proximal) {
-  DesignParameter p{.quantity = Quantity::length, .proximal = {}, .distal = {}};
+  DesignParameter p{.kind = Kind::length, .proximal = {}, .distal = {}};
   (is_proximal ? p.proximal : p.distal)[limb] = true;
   return p;
 }

@@ -1,4 +1,4 @@
-#include "reports/data/counters_text.h"
+#include "reports/data/work_counters_text.h"
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ std::string grouped(std::size_t n) {
 
 }  // namespace
 
-std::string counters_text(const Counters& counters) {
+std::string work_counters_text(const Counters& counters) {
   std::string text;
   for (const auto& [name, n] : counters) {
     if (n == 0 && name == "steps") continue;  // most computations have none

@@ -7,6 +7,6 @@
 namespace trammel::reports {
 
 /// "192 element evaluations, 2 factorizations".
-[[nodiscard]] std::string counters_text(const Counters& counters);
+[[nodiscard]] std::string work_counters_text(const Counters& counters);
 
 }  // namespace trammel::reports
