@@ -1,5 +1,8 @@
 #pragma once
 
+#include <boost/preprocessor/seq/enum.hpp>
+#include <boost/preprocessor/seq/transform.hpp>
+#include <boost/preprocessor/variadic/to_seq.hpp>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,7 +19,7 @@
 /// A struct and its JSON object, both ways, from one list of keys and members:
 ///
 ///   template <> inline constexpr auto kFields<Pose> =
-///       std::tuple{required("label", &Pose::label), required("nodes_m", &Pose::nodes)};
+///       std::tuple{required("nodes_m", &Pose::nodes), TRAMMEL_REQUIRED(Pose, label)};
 namespace trammel::results {
 
 using Json = nlohmann::ordered_json;
@@ -48,6 +51,14 @@ template <class Struct, class Member>
 constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member) {
   return {key, member, false};
 }
+
+/// Fields whose keys are the names of the members: TRAMMEL_REQUIRED(Check, name, quantity).
+#define TRAMMEL_REQUIRED(Struct, ...) TRAMMEL_EACH(TRAMMEL_ONE_REQUIRED, Struct, __VA_ARGS__)
+#define TRAMMEL_OPTIONAL(Struct, ...) TRAMMEL_EACH(TRAMMEL_ONE_OPTIONAL, Struct, __VA_ARGS__)
+#define TRAMMEL_EACH(one, Struct, ...) \
+  BOOST_PP_SEQ_ENUM(BOOST_PP_SEQ_TRANSFORM(one, Struct, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
+#define TRAMMEL_ONE_REQUIRED(_, Struct, member) required(#member, &Struct::member)
+#define TRAMMEL_ONE_OPTIONAL(_, Struct, member) optional(#member, &Struct::member)
 
 struct None {};
 /// The fields of a struct, in the order of the document.

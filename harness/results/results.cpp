@@ -46,334 +46,164 @@ void from_json(const Json& json, const Place& place, Tolerance& tolerance) {
 
 template <>
 inline constexpr auto kFields<TwoTermLaw> =
-    std::tuple{required("coefficients", &TwoTermLaw::coefficients),
-               required("max_relative_misfit", &TwoTermLaw::max_relative_misfit),
-               required("used", &TwoTermLaw::used)};
+    std::tuple{TRAMMEL_REQUIRED(TwoTermLaw, coefficients, max_relative_misfit, used)};
 template <>
-inline constexpr auto kFields<Check> =
-    std::tuple{required("name", &Check::name),
-               optional("title", &Check::title),
-               required("quantity", &Check::quantity),
-               required("index", &Check::index),
-               optional("statistic", &Check::statistic),
-               required("computed", &Check::computed),
-               required("expected", &Check::expected),
-               required("unit", &Check::unit),
-               optional("reference", &Check::reference),
-               optional("against_variant", &Check::against_variant),
-               optional("against_quantity", &Check::against_quantity),
-               required("role", &Check::role),
-               required("measure", &Check::measure),
-               required("difference", &Check::difference),
-               required("tolerance", &Check::tolerance),
-               required("why", &Check::why),
-               required("expectation", &Check::expectation),
-               required("verdict", &Check::verdict),
-               required("message", &Check::message)};
+inline constexpr auto kFields<Check> = std::tuple{
+    TRAMMEL_REQUIRED(Check, name, quantity, index, computed, expected, unit, role, measure,
+                     difference, tolerance, why, expectation, verdict, message),
+    TRAMMEL_OPTIONAL(Check, title, statistic, reference, against_variant, against_quantity)};
 template <>
 inline constexpr auto kFields<Convergence> =
-    std::tuple{required("sweep", &Convergence::sweep),
-               required("parameter", &Convergence::parameter),
-               required("quantity", &Convergence::quantity),
-               required("index", &Convergence::index),
-               optional("statistic", &Convergence::statistic),
-               required("values", &Convergence::values),
-               optional("reference", &Convergence::reference),
-               required("exact", &Convergence::exact),
-               required("error", &Convergence::error),
-               required("roundoff", &Convergence::roundoff),
-               required("order", &Convergence::order),
-               required("in_asymptotic_range", &Convergence::in_asymptotic_range),
-               required("at_roundoff_floor", &Convergence::at_roundoff_floor),
-               required("theory_order", &Convergence::theory_order),
-               optional("lower_order", &Convergence::lower_order),
-               optional("two_term", &Convergence::two_term),
-               required("fitted_order", &Convergence::fitted_order),
-               required("richardson", &Convergence::richardson),
-               required("gci", &Convergence::gci),
-               required("safety_factor", &Convergence::safety_factor)};
+    std::tuple{TRAMMEL_REQUIRED(Convergence, sweep, parameter, quantity, index, values, exact,
+                                error, roundoff, order, in_asymptotic_range, at_roundoff_floor,
+                                theory_order, fitted_order, richardson, gci, safety_factor),
+               TRAMMEL_OPTIONAL(Convergence, statistic, reference, lower_order, two_term)};
 template <>
-inline constexpr auto kFields<UncertainInput> = std::tuple{
-    required("name", &UncertainInput::name), required("pointers", &UncertainInput::pointers),
-    required("half_width", &UncertainInput::half_width),
-    required("nominal", &UncertainInput::nominal), required("why", &UncertainInput::why)};
+inline constexpr auto kFields<UncertainInput> =
+    std::tuple{TRAMMEL_REQUIRED(UncertainInput, name, pointers, half_width, nominal, why)};
 template <>
 inline constexpr auto kFields<NumericalEstimate> =
-    std::tuple{required("refinement", &NumericalEstimate::refinement),
-               required("quantity", &NumericalEstimate::quantity),
-               required("index", &NumericalEstimate::index),
-               required("parameter", &NumericalEstimate::parameter),
-               required("values", &NumericalEstimate::values),
-               required("order", &NumericalEstimate::order),
-               required("safety_factor", &NumericalEstimate::safety_factor),
-               required("half_width", &NumericalEstimate::half_width)};
+    std::tuple{TRAMMEL_REQUIRED(NumericalEstimate, refinement, quantity, index, parameter, values,
+                                order, safety_factor, half_width)};
 template <>
-inline constexpr auto kFields<AllInputsComparison> =
-    std::tuple{required("u_input", &AllInputsComparison::u_input),
-               required("u_input_sampled", &AllInputsComparison::u_input_sampled),
-               required("u_val", &AllInputsComparison::u_val),
-               required("interval", &AllInputsComparison::interval),
-               required("verdict", &AllInputsComparison::verdict),
-               required("conclusion", &AllInputsComparison::conclusion)};
+inline constexpr auto kFields<AllInputsComparison> = std::tuple{TRAMMEL_REQUIRED(
+    AllInputsComparison, u_input, u_input_sampled, u_val, interval, verdict, conclusion)};
 template <>
-inline constexpr auto kFields<Comparison> =
-    std::tuple{required("check", &Comparison::check),
-               required("quantity", &Comparison::quantity),
-               required("index", &Comparison::index),
-               required("unit", &Comparison::unit),
-               required("reference", &Comparison::reference),
-               required("simulation", &Comparison::simulation),
-               required("expected", &Comparison::expected),
-               required("u_num", &Comparison::u_num),
-               required("u_input", &Comparison::u_input),
-               required("u_input_sampled", &Comparison::u_input_sampled),
-               required("u_reference", &Comparison::u_reference),
-               required("contributions", &Comparison::contributions),
-               required("dominant_input", &Comparison::dominant_input),
-               required("dominant_share", &Comparison::dominant_share),
-               required("spread", &Comparison::spread),
-               required("difference", &Comparison::difference),
-               required("u_val", &Comparison::u_val),
-               required("interval", &Comparison::interval),
-               required("verdict", &Comparison::verdict),
-               required("conclusion", &Comparison::conclusion),
-               required("all_inputs", &Comparison::all_inputs)};
+inline constexpr auto kFields<Comparison> = std::tuple{TRAMMEL_REQUIRED(
+    Comparison, check, quantity, index, unit, reference, simulation, expected, u_num, u_input,
+    u_input_sampled, u_reference, contributions, dominant_input, dominant_share, spread, difference,
+    u_val, interval, verdict, conclusion, all_inputs)};
 template <>
 inline constexpr auto kFields<Uncertainty> =
-    std::tuple{required("inputs", &Uncertainty::inputs),
-               required("samples", &Uncertainty::samples),
-               required("failed", &Uncertainty::failed),
-               required("samples_all_inputs", &Uncertainty::samples_all_inputs),
-               required("failed_all_inputs", &Uncertainty::failed_all_inputs),
-               required("numerical", &Uncertainty::numerical),
-               required("comparisons", &Uncertainty::comparisons)};
+    std::tuple{TRAMMEL_REQUIRED(Uncertainty, inputs, samples, failed, samples_all_inputs,
+                                failed_all_inputs, numerical, comparisons)};
 template <>
-inline constexpr auto kFields<Joint> = std::tuple{
-    required("node", &Joint::node), required("kind", &Joint::kind), required("name", &Joint::name)};
+inline constexpr auto kFields<Joint> = std::tuple{TRAMMEL_REQUIRED(Joint, node, kind, name)};
 template <>
 inline constexpr auto kFields<Shape> =
-    std::tuple{required("label", &Shape::label), required("displacement_m", &Shape::displacement)};
+    std::tuple{required("displacement_m", &Shape::displacement), TRAMMEL_REQUIRED(Shape, label)};
 template <>
 inline constexpr auto kFields<Pose> =
-    std::tuple{required("label", &Pose::label), required("nodes_m", &Pose::nodes)};
+    std::tuple{required("nodes_m", &Pose::nodes), TRAMMEL_REQUIRED(Pose, label)};
 template <>
 inline constexpr auto kFields<Drawing> =
-    std::tuple{required("nodes_m", &Drawing::nodes),       required("members", &Drawing::members),
-               required("triangles", &Drawing::triangles), required("joints", &Drawing::joints),
-               required("shapes", &Drawing::shapes),       optional("poses", &Drawing::poses)};
+    std::tuple{required("nodes_m", &Drawing::nodes),
+               TRAMMEL_REQUIRED(Drawing, members, triangles, joints, shapes),
+               TRAMMEL_OPTIONAL(Drawing, poses)};
 template <>
 inline constexpr auto kKeyMember<EvaluationTiming> = &EvaluationTiming::name;
 template <>
 inline constexpr auto kFields<EvaluationTiming> =
-    std::tuple{required("per_evaluation_s", &EvaluationTiming::per_evaluation_s),
-               required("evaluations", &EvaluationTiming::evaluations)};
+    std::tuple{TRAMMEL_REQUIRED(EvaluationTiming, per_evaluation_s, evaluations)};
 template <>
-inline constexpr auto kFields<Cost> = std::tuple{
-    required("wall_s", &Cost::wall_s), required("cpu_s", &Cost::cpu_s),
-    required("counters", &Cost::counters),
-    optional("uncertainty_wall_s", &Cost::uncertainty_wall_s), optional("timings", &Cost::timings)};
+inline constexpr auto kFields<Cost> =
+    std::tuple{TRAMMEL_REQUIRED(Cost, wall_s, cpu_s, counters),
+               TRAMMEL_OPTIONAL(Cost, uncertainty_wall_s, timings)};
 template <>
-inline constexpr auto kFields<EffectRow> =
-    std::tuple{required("effect", &EffectRow::name),
-               required("applicable", &EffectRow::applicable),
-               required("active", &EffectRow::active),
-               required("why", &EffectRow::why),
-               required("evaluations", &EffectRow::evaluations),
-               optional("dimensionless_number", &EffectRow::dimensionless_number),
-               optional("number_definition", &EffectRow::number_definition),
-               optional("estimated_change", &EffectRow::estimated_change)};
+inline constexpr auto kFields<EffectRow> = std::tuple{
+    required("effect", &EffectRow::name),
+    TRAMMEL_REQUIRED(EffectRow, applicable, active, why, evaluations),
+    TRAMMEL_OPTIONAL(EffectRow, dimensionless_number, number_definition, estimated_change)};
 template <>
-inline constexpr auto kFields<Run> = std::tuple{required("case", &Run::case_id),
-                                                required("variant", &Run::variant),
-                                                required("status", &Run::status),
-                                                required("reason", &Run::reason),
-                                                required("quantities", &Run::quantities),
-                                                required("checks", &Run::checks),
-                                                required("convergence", &Run::convergence),
-                                                optional("uncertainty", &Run::uncertainty),
-                                                optional("effects", &Run::effects),
-                                                optional("drawing", &Run::drawing),
-                                                required("cost", &Run::cost)};
+inline constexpr auto kFields<Run> = std::tuple{
+    required("case", &Run::case_id),
+    TRAMMEL_REQUIRED(Run, variant, status, reason, quantities, checks, convergence, cost),
+    TRAMMEL_OPTIONAL(Run, uncertainty, effects, drawing)};
 template <>
 inline constexpr auto kFields<ErrorNorms> =
-    std::tuple{required("max", &ErrorNorms::max), required("rms", &ErrorNorms::rms),
-               required("mean", &ErrorNorms::mean)};
+    std::tuple{TRAMMEL_REQUIRED(ErrorNorms, max, rms, mean)};
 template <>
 inline constexpr auto kFields<SettingTime> =
-    std::tuple{required("cpu_s", &SettingTime::cpu_s),
-               required("lower_quartile_s", &SettingTime::lower_quartile_s),
-               required("upper_quartile_s", &SettingTime::upper_quartile_s),
-               required("spread", &SettingTime::spread),
-               required("wall_median_s", &SettingTime::wall_median_s),
-               required("runs_per_measurement", &SettingTime::runs_per_measurement)};
+    std::tuple{TRAMMEL_REQUIRED(SettingTime, cpu_s, lower_quartile_s, upper_quartile_s, spread,
+                                wall_median_s, runs_per_measurement)};
 template <>
-inline constexpr auto kFields<CostSetting> =
-    std::tuple{required("curve", &CostSetting::curve),
-               required("curve_title", &CostSetting::curve_title),
-               required("title", &CostSetting::title),
-               required("value", &CostSetting::value),
-               required("status", &CostSetting::status),
-               required("reason", &CostSetting::reason),
-               required("error", &CostSetting::errors),
-               required("cpu_s", &CostSetting::cpu_s),
-               required("relative_time", &CostSetting::relative),
-               required("time", &CostSetting::time),
-               required("counters", &CostSetting::counters),
-               required("pareto_optimal", &CostSetting::pareto_optimal)};
+inline constexpr auto kFields<CostSetting> = std::tuple{
+    required("error", &CostSetting::errors), required("relative_time", &CostSetting::relative),
+    TRAMMEL_REQUIRED(CostSetting, curve, curve_title, title, value, status, reason, cpu_s, time,
+                     counters, pareto_optimal)};
 template <>
-inline constexpr auto kFields<CheapestSetting> = std::tuple{
-    required("error", &CheapestSetting::error), required("setting", &CheapestSetting::setting)};
+inline constexpr auto kFields<CheapestSetting> =
+    std::tuple{TRAMMEL_REQUIRED(CheapestSetting, error, setting)};
 template <>
 inline constexpr auto kFields<Repeatability> =
-    std::tuple{required("on_both_fronts", &Repeatability::on_both_fronts),
-               required("on_either_front", &Repeatability::on_either_front),
-               required("same_cheapest", &Repeatability::same_cheapest),
-               required("target_errors", &Repeatability::target_errors),
-               required("median_difference", &Repeatability::median_difference),
-               required("largest_difference", &Repeatability::largest_difference)};
+    std::tuple{TRAMMEL_REQUIRED(Repeatability, on_both_fronts, on_either_front, same_cheapest,
+                                target_errors, median_difference, largest_difference)};
 template <>
 inline constexpr auto kFields<CostStudy> =
-    std::tuple{required("id", &CostStudy::id),
-               required("family", &CostStudy::family),
-               required("title", &CostStudy::title),
-               optional("description", &CostStudy::description),
-               required("reference_solution", &CostStudy::reference_solution),
-               required("scale", &CostStudy::scale),
-               required("norm", &CostStudy::norm),
-               required("baseline", &CostStudy::baseline),
-               required("wall_s", &CostStudy::wall_s),
-               required("settings", &CostStudy::settings),
-               required("cheapest", &CostStudy::cheapest),
-               required("repeatability", &CostStudy::repeatability),
-               required("conclusion", &CostStudy::conclusion)};
+    std::tuple{TRAMMEL_REQUIRED(CostStudy, id, family, title, reference_solution, scale, norm,
+                                baseline, wall_s, settings, cheapest, repeatability, conclusion),
+               TRAMMEL_OPTIONAL(CostStudy, description)};
 template <>
-inline constexpr auto kFields<CostStudies> =
-    std::tuple{required("sweep", &CostStudies::sweep),
-               required("seed", &CostStudies::seed),
-               required("repeats", &CostStudies::repeats),
-               required("max_spread", &CostStudies::max_spread),
-               required("equal_within", &CostStudies::equal_within),
-               required("diverged_above", &CostStudies::diverged_above),
-               required("studies", &CostStudies::studies)};
+inline constexpr auto kFields<CostStudies> = std::tuple{TRAMMEL_REQUIRED(
+    CostStudies, sweep, seed, repeats, max_spread, equal_within, diverged_above, studies)};
 template <>
 inline constexpr auto kFields<Environment> =
-    std::tuple{required("trammel", &Environment::trammel),
-               required("commit", &Environment::commit),
-               required("date", &Environment::date),
-               required("compiler", &Environment::compiler),
-               required("flags", &Environment::flags),
-               required("build_type", &Environment::build_type),
-               required("libraries", &Environment::libraries),
-               required("processor", &Environment::processor),
-               required("cores", &Environment::cores),
-               required("system", &Environment::system)};
+    std::tuple{TRAMMEL_REQUIRED(Environment, trammel, commit, date, compiler, flags, build_type,
+                                libraries, processor, cores, system)};
 template <>
 inline constexpr auto kKeyMember<PlotRequest::Line> = &PlotRequest::Line::title;
 template <>
 inline constexpr auto kFields<PlotRequest::Line> =
-    std::tuple{required("x", &PlotRequest::Line::x), required("y", &PlotRequest::Line::y)};
+    std::tuple{TRAMMEL_REQUIRED(PlotRequest::Line, x, y)};
 template <>
 inline constexpr auto kKeyMember<PlotRequest> = &PlotRequest::id;
 template <>
 inline constexpr auto kFields<PlotRequest> =
-    std::tuple{optional("title", &PlotRequest::title), optional("x", &PlotRequest::x),
-               required("y", &PlotRequest::y),         optional("variants", &PlotRequest::variants),
-               optional("log", &PlotRequest::log),     optional("value", &PlotRequest::value),
-               optional("lines", &PlotRequest::lines), optional("caption", &PlotRequest::caption)};
+    std::tuple{TRAMMEL_REQUIRED(PlotRequest, y),
+               TRAMMEL_OPTIONAL(PlotRequest, title, x, variants, log, value, lines, caption)};
 template <>
 inline constexpr auto kKeyMember<ColumnRequest> = &ColumnRequest::id;
 template <>
-inline constexpr auto kFields<ColumnRequest> = std::tuple{
-    required("title", &ColumnRequest::title), optional("quantity", &ColumnRequest::quantity),
-    optional("statistic", &ColumnRequest::statistic), optional("timing", &ColumnRequest::timing),
-    optional("over_timing", &ColumnRequest::over_timing)};
+inline constexpr auto kFields<ColumnRequest> =
+    std::tuple{TRAMMEL_REQUIRED(ColumnRequest, title),
+               TRAMMEL_OPTIONAL(ColumnRequest, quantity, statistic, timing, over_timing)};
 template <>
 inline constexpr auto kKeyMember<TableRequest> = &TableRequest::id;
 template <>
-inline constexpr auto kFields<TableRequest> = std::tuple{
-    optional("title", &TableRequest::title), required("columns", &TableRequest::columns),
-    optional("variants", &TableRequest::variants), optional("caption", &TableRequest::caption)};
+inline constexpr auto kFields<TableRequest> =
+    std::tuple{TRAMMEL_REQUIRED(TableRequest, columns),
+               TRAMMEL_OPTIONAL(TableRequest, title, variants, caption)};
 template <>
 inline constexpr auto kFields<StressSuiteEntry> =
-    std::tuple{required("item", &StressSuiteEntry::item),
-               required("indicators", &StressSuiteEntry::indicators)};
+    std::tuple{TRAMMEL_REQUIRED(StressSuiteEntry, item, indicators)};
 template <>
 inline constexpr auto kKeyMember<Variant> = &Variant::id;
 template <>
-inline constexpr auto kFields<Variant> = std::tuple{required("title", &Variant::title)};
+inline constexpr auto kFields<Variant> = std::tuple{TRAMMEL_REQUIRED(Variant, title)};
 template <>
 inline constexpr auto kKeyMember<CaseInfo> = &CaseInfo::id;
 template <>
 inline constexpr auto kFields<CaseInfo> =
-    std::tuple{required("title", &CaseInfo::title),
-               optional("description", &CaseInfo::description),
-               optional("family", &CaseInfo::family),
-               optional("labels", &CaseInfo::labels),
-               optional("stress_suite", &CaseInfo::stress_suite),
-               optional("figures", &CaseInfo::figures),
-               optional("tables", &CaseInfo::tables),
-               optional("analysis", &CaseInfo::analysis),
-               required("variants", &CaseInfo::variants)};
+    std::tuple{TRAMMEL_REQUIRED(CaseInfo, title, variants),
+               TRAMMEL_OPTIONAL(CaseInfo, description, family, labels, stress_suite, figures,
+                                tables, analysis)};
 template <>
 inline constexpr auto kKeyMember<Reference> = &Reference::id;
 template <>
 inline constexpr auto kFields<Reference> =
-    std::tuple{required("title", &Reference::title),
-               required("kind", &Reference::kind),
-               required("unit", &Reference::unit),
-               required("values", &Reference::values),
-               required("uncertainty", &Reference::uncertainty),
-               required("citation", &Reference::citation),
-               required("place", &Reference::place),
-               optional("doi", &Reference::doi),
-               optional("printed", &Reference::printed),
-               optional("derivation", &Reference::derivation),
-               optional("errata", &Reference::errata),
-               optional("notes", &Reference::notes)};
+    std::tuple{TRAMMEL_REQUIRED(Reference, title, kind, unit, values, uncertainty, citation, place),
+               TRAMMEL_OPTIONAL(Reference, doi, printed, derivation, errata, notes)};
 template <>
 inline constexpr auto kFields<UncertaintyCoverage> =
-    std::tuple{required("levels", &UncertaintyCoverage::levels),
-               required("covered", &UncertaintyCoverage::covered),
-               required("coverage", &UncertaintyCoverage::coverage),
-               required("min_coverage", &UncertaintyCoverage::min_coverage),
-               required("median_ratio", &UncertaintyCoverage::median_ratio),
-               required("max_median_ratio", &UncertaintyCoverage::max_median_ratio),
-               required("min_levels", &UncertaintyCoverage::min_levels),
-               required("passes", &UncertaintyCoverage::passes)};
+    std::tuple{TRAMMEL_REQUIRED(UncertaintyCoverage, levels, covered, coverage, min_coverage,
+                                median_ratio, max_median_ratio, min_levels, passes)};
 template <>
-inline constexpr auto kFields<ClaimEntry> =
-    std::tuple{required("case", &ClaimEntry::case_id), required("variant", &ClaimEntry::variant),
-               required("name", &ClaimEntry::name), required("value", &ClaimEntry::value)};
+inline constexpr auto kFields<ClaimEntry> = std::tuple{
+    required("case", &ClaimEntry::case_id), TRAMMEL_REQUIRED(ClaimEntry, variant, name, value)};
 template <>
-inline constexpr auto kFields<ClaimInterpretation> = std::tuple{
-    required("description", &ClaimInterpretation::description),
-    required("metric", &ClaimInterpretation::metric), required("unit", &ClaimInterpretation::unit),
-    required("verdict", &ClaimInterpretation::verdict),
-    required("entries", &ClaimInterpretation::entries)};
+inline constexpr auto kFields<ClaimInterpretation> =
+    std::tuple{TRAMMEL_REQUIRED(ClaimInterpretation, description, metric, unit, verdict, entries)};
 template <>
-inline constexpr auto kFields<Claim> =
-    std::tuple{required("id", &Claim::id),
-               required("claim", &Claim::claim),
-               required("place", &Claim::place),
-               required("verdict", &Claim::verdict),
-               required("expected", &Claim::expected),
-               required("conclusion", &Claim::conclusion),
-               required("undecidable", &Claim::undecidable),
-               required("interpretations", &Claim::interpretations)};
+inline constexpr auto kFields<Claim> = std::tuple{TRAMMEL_REQUIRED(
+    Claim, id, claim, place, verdict, expected, conclusion, undecidable, interpretations)};
 template <>
 inline constexpr auto kFields<Claims> =
-    std::tuple{required("title", &Claims::title), required("as_recorded", &Claims::as_recorded),
-               required("claims", &Claims::claims)};
+    std::tuple{TRAMMEL_REQUIRED(Claims, title, as_recorded, claims)};
 template <>
 inline constexpr auto kFields<Results> =
-    std::tuple{required("format", &Results::format),
-               required("environment", &Results::environment),
-               required("cases", &Results::cases),
-               required("references", &Results::references),
-               optional("numerical_uncertainty", &Results::uncertainty_coverage),
-               required("runs", &Results::runs),
-               optional("cost", &Results::cost),
-               optional("claims", &Results::claims)};
+    std::tuple{optional("numerical_uncertainty", &Results::uncertainty_coverage),
+               TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
+               TRAMMEL_OPTIONAL(Results, cost, claims)};
 
 namespace {
 
