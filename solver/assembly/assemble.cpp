@@ -1,6 +1,3 @@
-#include <cmath>
-#include <limits>
-
 #include "solver/assembly/element_mass.h"
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/projection.h"
@@ -14,11 +11,6 @@
 
 namespace trammel::solver {
 namespace {
-
-/// Free coordinates that carry nothing keep their place on the diagonal.
-void reserve_diagonal(SymmetricBuilder& builder, Index size) {
-  for (Index i = 0; i < size; ++i) builder.add(i, i, 0.0);
-}
 
 std::vector<SpringElement> spring_elements(const Model& model, const Coordinates& coordinates) {
   std::vector<SpringElement> springs;
@@ -71,10 +63,16 @@ class Assembler {
     return 21 * system_.mesh.frame.size() + (quadratic ? 78 : 21) * triangles.size();
   }
 
-  void stiffness() {
+  [[nodiscard]] SymmetricBuilder empty_builder() const {
     SymmetricBuilder builder(free_count());
     builder.reserve(entries() + static_cast<std::size_t>(free_count()));
-    reserve_diagonal(builder, free_count());
+    // Free coordinates that carry nothing keep their place on the diagonal.
+    for (Index i = 0; i < free_count(); ++i) builder.add(i, i, 0.0);
+    return builder;
+  }
+
+  void stiffness() {
+    SymmetricBuilder builder = empty_builder();
     Projection projection(system_.constraints, builder);
     for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
       projection.add(coordinates, (B.transpose() * c.asDiagonal() * B).eval());
@@ -102,9 +100,7 @@ class Assembler {
   }
 
   void mass() {
-    SymmetricBuilder builder(free_count());
-    builder.reserve(entries() + static_cast<std::size_t>(free_count()));
-    reserve_diagonal(builder, free_count());
+    SymmetricBuilder builder = empty_builder();
     Projection projection(system_.constraints, builder);
     for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
       projection.add(coordinates, m);
@@ -127,9 +123,7 @@ class Assembler {
 
   template <std::size_t n, class Vector>
   void add_load(const std::array<Index, n>& coordinates, const Vector& force) {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (coordinates[i] >= 0) system_.load[coordinates[i]] += force[static_cast<Index>(i)];
-    }
+    detail::scatter(coordinates, force, system_.load);
   }
 
   void loads() {
@@ -207,11 +201,8 @@ Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {
   const Eigen::VectorXd u = system.T * q;
   Eigen::MatrixX3d motion(static_cast<Index>(system.mesh.positions.size()), 3);
   for (Index node = 0; node < motion.rows(); ++node) {
-    const auto& coordinates = system.coordinates.node[static_cast<std::size_t>(node)];
-    motion(node, 0) = u[coordinates[0]];
-    motion(node, 1) = u[coordinates[1]];
-    motion(node, 2) =
-        coordinates[2] < 0 ? std::numeric_limits<double>::quiet_NaN() : u[coordinates[2]];
+    const auto& c = system.coordinates.node[to_size(node)];
+    motion.row(node) << u[c[0]], u[c[1]], c[2] < 0 ? kNaN : u[c[2]];
   }
   return motion;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/assembly/strain.h"
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_interpolation.h"
 #include "solver/model/quadrature.h"
@@ -117,10 +118,7 @@ void add_line_load(System& system, const LineLoad& load) {
       force +=
           point.weight * e.length * frame_interpolation(phi, e.length, point.xi).transpose() * q;
     }
-    force = R.transpose() * force;
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (e.coordinates[i] >= 0) system.load[e.coordinates[i]] += force[static_cast<Index>(i)];
-    }
+    detail::scatter(e.coordinates, (R.transpose() * force).eval(), system.load);
   }
   project(system);
 }

@@ -119,18 +119,10 @@ VectorXd arm_moments(const System& system, const VectorXd& multipliers) {
 Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
   const Model& model = system.model;
   Eigen::MatrixX3d stress(static_cast<Index>(model.triangles.size()), 3);
-  for (std::size_t i = 0; i < model.triangles.size(); ++i) {
-    const Triangle& triangle = model.triangles[i];
-    const Material& material = model.plates[static_cast<std::size_t>(triangle.plate)].material;
-    Vector3d d;
-    if (triangle.quadratic()) {
-      d = triangle6_deformation_matrix(model, triangle, Vector3d::Constant(1 / 3.0)) *
-          detail::gather(system.coordinates.of_triangle<12>(triangle), u);
-    } else {
-      d = triangle_deformation(corners(model, triangle)) *
-          detail::gather(system.coordinates.of_triangle<6>(triangle), u);
-    }
-    stress.row(static_cast<Index>(i)) = membrane_stress(material, d);
+  for (Index i = 0; i < stress.rows(); ++i) {
+    const Triangle& triangle = model.triangles[to_size(i)];
+    stress.row(i) =
+        plate_stress(system, triangle, corners(model, triangle), Vector3d::Constant(1 / 3.0), u);
   }
   return stress;
 }
@@ -210,9 +202,7 @@ VectorXd geometric_stiffness_forces(const System& system, const Prestress& state
   for_each_geometric_stiffness(
       system, state, [&](const auto& coordinates, const auto& B, const auto& H) {
         const auto local = (B.transpose() * (H * (B * detail::gather(coordinates, u)))).eval();
-        for (std::size_t i = 0; i < coordinates.size(); ++i) {
-          if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
-        }
+        detail::scatter(coordinates, local, force);
       });
   return force;
 }

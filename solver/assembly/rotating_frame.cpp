@@ -26,55 +26,25 @@ Eigen::Matrix<double, 2, 3> centre_of_mass_interpolation(const PointMass& point_
   return B;
 }
 
-/// integral rho N^T J N of a frame element in its axes.
-Matrix6d frame_gyroscopic(const FrameElement& e, const Member& member) {
-  const double m = e.section.mass_per_length * e.length;
-  Matrix6d G = Matrix6d::Zero();
-  const auto add = [&G](const Eigen::Matrix<double, 2, 6>& N, double mass) {
-    G += mass * N.transpose() * perpendicular_matrix() * N;
-  };
+/// integral rho N^T A N of a frame element in its axes; lumped mass turns nothing.
+Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
+  Matrix6d integral = Matrix6d::Zero();
   if (member.mass == MassMatrix::lumped || e.is_bar()) {
     const Matrix6d M = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
                                   : frame_mass(e.section, BeamTheory::euler_bernoulli,
                                                MassMatrix::lumped, e.length);
     for (const Index i : {0, 3}) {
-      for (const Index j : {0, 3}) {
-        G(i, j + 1) = -M(i, j);
-        G(i + 1, j) = M(i, j);
-      }
+      for (const Index j : {0, 3}) integral.block<2, 2>(i, j) = M(i, j) * A;
     }
-    return G;
-  }
-  const double phi = shear_ratio(e.section, member.theory, e.length);
-  for (const LineQuadraturePoint& point : line_quadrature()) {
-    add(frame_interpolation(phi, e.length, point.xi).topRows<2>(), point.weight * m);
-  }
-  return G;
-}
-
-/// integral rho N^T P N of a frame element, P the projection away from an axis in the plane. World
-/// axes; lumped mass turns nothing.
-Matrix6d frame_centrifugal(const FrameElement& e, const Member& member, const Eigen::Matrix2d& P) {
-  const Matrix6d R = frame_rotation(e.direction);
-  const Eigen::Matrix2d P_element =
-      R.topLeftCorner<2, 2>() * P * R.topLeftCorner<2, 2>().transpose();
-  Matrix6d S = Matrix6d::Zero();
-  if (member.mass == MassMatrix::lumped || e.is_bar()) {
-    const Matrix6d M = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
-                                  : frame_mass(e.section, BeamTheory::euler_bernoulli,
-                                               MassMatrix::lumped, e.length);
-    for (const Index i : {0, 3}) {
-      for (const Index j : {0, 3}) S.block<2, 2>(i, j) = M(i, j) * P_element;
-    }
-    return R.transpose() * S * R;
+    return integral;
   }
   const double m = e.section.mass_per_length * e.length;
   const double phi = shear_ratio(e.section, member.theory, e.length);
   for (const LineQuadraturePoint& point : line_quadrature()) {
     const Eigen::Matrix<double, 2, 6> N = frame_interpolation(phi, e.length, point.xi).topRows<2>();
-    S += point.weight * m * N.transpose() * P_element * N;
+    integral += point.weight * m * N.transpose() * A * N;
   }
-  return R.transpose() * S * R;
+  return integral;
 }
 
 /// Calls visit(coordinates, S, G) for everything that has mass, in world axes.
@@ -88,9 +58,13 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
     FrameElement light = e;
     light.section.inertia_per_length = 0;
     const Matrix6d R = frame_rotation(e.direction);
-    const Matrix6d S = axis == RotationAxis::normal ? world_mass(light, member)
-                                                    : frame_centrifugal(light, member, P);
-    visit(e.coordinates, S, (R.transpose() * frame_gyroscopic(e, member) * R).eval());
+    const auto world = [&](const Eigen::Matrix2d& A) -> Matrix6d {
+      return R.transpose() * frame_mass_with(A, e, member) * R;
+    };
+    const auto r = R.topLeftCorner<2, 2>();
+    const Matrix6d S =
+        axis == RotationAxis::normal ? world_mass(light, member) : world(r * P * r.transpose());
+    visit(e.coordinates, S, world(perpendicular_matrix()));
   }
   for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
     auto S = m;
@@ -157,20 +131,17 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
   const double w2 = frame.speed * frame.speed;
   const Eigen::Matrix2d P = distance_projector(frame.axis);
   VectorXd force = VectorXd::Zero(u.size());
-  const auto add = [&force](const auto& coordinates, const auto& local) {
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
-    }
-  };
   for_each_rotating_mass(
       system, frame.axis, [&](const auto& coordinates, const auto& S, const auto&) {
-        add(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval());
+        detail::scatter(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval(),
+                        force);
       });
   for (const PointMass& point_mass : system.model.masses) {  // but for the offset itself
-    add(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
-        (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() * P *
-         point_mass.offset)
-            .eval());
+    detail::scatter(system.coordinates.node[to_size(point_mass.node)],
+                    (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() *
+                     P * point_mass.offset)
+                        .eval(),
+                    force);
   }
   return force;
 }

@@ -8,9 +8,7 @@ Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) 
   Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto local = (B.transpose() * c.cwiseProduct(B * detail::gather(coordinates, u))).eval();
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      if (coordinates[i] >= 0) force[coordinates[i]] += local[static_cast<Index>(i)];
-    }
+    detail::scatter(coordinates, local, force);
   });
   return force;
 }
@@ -50,6 +48,19 @@ double strain_magnitude(const System& system, const Eigen::VectorXd& u) {
     sum += size.cwiseProduct(c).dot(size);
   });
   return sum;
+}
+
+Vector3d plate_stress(const System& system, const Triangle& triangle, const TrianglePoints& corners,
+                      const Vector3d& at, const Eigen::VectorXd& u) {
+  const Material& material = system.model.plates[to_size(triangle.plate)].material;
+  if (triangle.quadratic()) {
+    return membrane_stress(material,
+                           triangle6_deformation_matrix(system.model, triangle, at) *
+                               detail::gather(system.coordinates.of_triangle<12>(triangle), u));
+  }
+  return membrane_stress(material,
+                         triangle_deformation(corners) *
+                             detail::gather(system.coordinates.of_triangle<6>(triangle), u));
 }
 
 Operator stiffness_operator(const System& system) {

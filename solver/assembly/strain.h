@@ -26,6 +26,14 @@ auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
   return local;
 }
 
+/// Adds an element's values to those of its coordinates.
+template <std::size_t n, class Vector>
+void scatter(const std::array<Index, n>& coordinates, const Vector& local, Eigen::VectorXd& u) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (coordinates[i] >= 0) u[coordinates[i]] += local[static_cast<Index>(i)];
+  }
+}
+
 }  // namespace detail
 
 /// Calls visit(coordinates, B, c) for every element: coordinates (array of n indices into u, -1
@@ -71,6 +79,12 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// Rounding level of the deformation energy: sum over elements of (|B| |u|)^T C (|B| |u|). A motion
 /// whose u^T K u is below about eps^2 times this does not deform anything.
 [[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
+
+/// (sxx, syy, sxy) of a triangle [Pa] at a point in area coordinates.
+/// @param corners  where they are; of a six-node triangle those of the model
+[[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
+                                    const TrianglePoints& corners, const Vector3d& at,
+                                    const Eigen::VectorXd& u);
 
 /// K x from the elements' deformations.
 [[nodiscard]] Operator stiffness_operator(const System& system);

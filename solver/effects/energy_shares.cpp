@@ -41,10 +41,7 @@ VectorXd EnergyShares::forces(Effect effect) const {
       const bool joint = i >= plates + own_springs && effect == Effect::joint_compliance;
       if (!plate && !joint) return;
     }
-    const auto local = (B.transpose() * part).eval();
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      if (coordinates[k] >= 0) force[coordinates[k]] += local[static_cast<Index>(k)];
-    }
+    detail::scatter(coordinates, (B.transpose() * part).eval(), force);
   });
   return force;
 }

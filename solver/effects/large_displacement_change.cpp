@@ -44,7 +44,7 @@ void add_plate_strains(const LinearState& state, VectorXd& force) {
     const Vector3d c =
         membrane_rigidity(plate.material, plate.thickness * std::abs(signed_area(points)));
     const Vector6d f = triangle_deformation(points).transpose() * c.cwiseProduct(strain);
-    for (std::size_t k = 0; k < 6; ++k) force[coordinates[k]] += f[static_cast<Index>(k)];
+    detail::scatter(coordinates, f, force);
   }
 }
 
@@ -118,10 +118,7 @@ StateChange change_by_large_displacement(LinearState& state, double& largest_rot
     force[static_cast<Index>(e)] = state.rigidity(frame[e])[0] * chord_shortening(state, frame[e]);
     const auto B = frame_deformation_matrix(frame[e].direction, frame[e].length);
     const Vector6d f = B.row(0).transpose() * force[static_cast<Index>(e)];
-    for (std::size_t k = 0; k < 6; ++k) {
-      const Index coordinate = frame[e].coordinates[k];
-      if (coordinate >= 0) strained[coordinate] += f[static_cast<Index>(k)];
-    }
+    detail::scatter(frame[e].coordinates, f, strained);
   }
   add_plate_strains(state, strained);
   StateChange change{-state.solve(strained), {}};

@@ -45,10 +45,7 @@ StateChange change_without_weight(LinearState& state, bool of_members, double& s
   for (std::size_t e = 0; e < system.mesh.frame.size(); ++e) {
     const FrameElement& element = system.mesh.frame[e];
     const Vector2d weight = element.section.mass_per_length * system.model.gravity;
-    const Vector6d f = element_load(element, weight);
-    for (std::size_t k = 0; k < 6; ++k) {
-      if (element.coordinates[k] >= 0) load[element.coordinates[k]] += f[static_cast<Index>(k)];
-    }
+    detail::scatter(element.coordinates, element_load(element, weight), load);
     if (of_members) own[e] = local_load(element, weight);
   }
   if (!of_members) {
@@ -72,25 +69,21 @@ double span(const Model& model, const Member& member) {
       .norm();
 }
 
-double axial_slenderness(const LinearState& state) {
-  double largest_value = 0;
-  for (const Member& member : state.system.model.members) {
-    const double length = span(state.system.model, member);
-    largest_value =
-        std::max(largest_value, member.section.EI / (member.section.EA * length * length));
-  }
-  return largest_value;
+/// The largest over the members of a number that belongs to a member and its length.
+template <class NumberOf>
+double largest_over_members(const Model& model, const NumberOf& number_of) {
+  double largest = 0;
+  for (const Member& member : model.members)
+    largest = std::max(largest, number_of(member, span(model, member)));
+  return largest;
 }
 
-double largest_shear_ratio(const LinearState& state) {
-  double largest_value = 0;
-  for (const Member& member : state.system.model.members) {
-    const double length = span(state.system.model, member);
-    if (member.section.EI > 0) {
-      largest_value = std::max(largest_value, shear_ratio(member.section, member.theory, length));
-    }
-  }
-  return largest_value;
+double axial_slenderness(const Member& member, double length) {
+  return member.section.EI / (member.section.EA * length * length);
+}
+
+double own_shear_ratio(const Member& member, double length) {
+  return member.section.EI > 0 ? shear_ratio(member.section, member.theory, length) : 0;
 }
 
 StateChange change_without(LinearState& state, Effect effect, double& number) {
@@ -117,11 +110,12 @@ StateChange change_without(LinearState& state, Effect effect, double& number) {
     default:
       change = change_without_flexibility(state, effect, number);
       if (effect == Effect::axial_flexibility) {
-        number = axial_slenderness(state);
+        number = largest_over_members(state.system.model, axial_slenderness);
         const bool lost = is_axially_overconstrained(state.system.model);
         if (lost) change.indeterminate_force = state.forces.axial.cwiseAbs().maxCoeff();
       }
-      if (effect == Effect::shear) number = largest_shear_ratio(state);
+      if (effect == Effect::shear)
+        number = largest_over_members(state.system.model, own_shear_ratio);
       return change;
   }
 }

@@ -38,47 +38,13 @@ bool has_area(const std::array<Vector2d, 3>& c) {
   return platform_area(c) > 1e-12 * size * size;
 }
 
-MemberEnd sprung_end(double stiffness, const std::string& joint) {
-  require(positive(stiffness), "the spring stiffness of the " + joint + " must be positive");
-  return {EndFixity::sprung, stiffness, 0};
-}
-
-MemberEnd active_end(const ActiveJoint& joint, std::size_t i) {
-  switch (joint.kind) {
-    case ActiveKind::locked:
-      return {EndFixity::welded, 0, 0};
-    case ActiveKind::free:
-      return {EndFixity::hinged, 0, 0};
-    case ActiveKind::sprung:
-      break;
-  }
-  return sprung_end(joint.stiffness, "active joint " + numbered('A', i));
-}
-
-MemberEnd elbow_end(const ElbowJoint& joint, std::size_t i) {
-  switch (joint.kind) {
-    case ElbowKind::welded:
-      return {EndFixity::welded, 0, 0};
-    case ElbowKind::hinged:
-      return {EndFixity::hinged, 0, 0};
-    case ElbowKind::sprung:
-      break;
-  }
-  return sprung_end(joint.stiffness, "elbow joint " + numbered('B', i));
-}
-
-MemberEnd platform_end(const PlatformJoint& joint, std::size_t i) {
-  switch (joint.kind) {
-    case PlatformJointKind::welded:
-      return {EndFixity::welded, 0, 0};
-    case PlatformJointKind::hinged:
-    case PlatformJointKind::eq25_mean:
-    case PlatformJointKind::eq25_sum:
-      return {EndFixity::hinged, 0, 0};
-    case PlatformJointKind::sprung:
-      break;
-  }
-  return sprung_end(joint.stiffness, "platform joint " + numbered('C', i));
+/// The end of a link at a joint: sprung, welded where the kind is `rigid`, else hinged.
+template <class Kind>
+MemberEnd end_at(const Joint<Kind>& joint, Kind rigid, const std::string& name) {
+  if (joint.kind != Kind::sprung)
+    return {joint.kind == rigid ? EndFixity::welded : EndFixity::hinged, 0, 0};
+  require(positive(joint.stiffness), "the spring stiffness of the " + name + " must be positive");
+  return {EndFixity::sprung, joint.stiffness, 0};
 }
 
 bool is_eq25(PlatformJointKind kind) {
@@ -133,9 +99,11 @@ void add_limb(const ManipulatorDesign& design, std::size_t i, Model& model) {
                                 numbered('A', i) + "-" + numbered('B', i), kA + k, kB + k);
   Member distal = make_member(design.distal[i], g.distal[i],
                               numbered('B', i) + "-" + numbered('C', i), kB + k, kC + k);
-  proximal.ends[0] = active_end(design.active[i], i);
-  distal.ends[0] = elbow_end(design.elbow[i], i);
-  distal.ends[1] = platform_end(design.platform_joint[i], i);
+  proximal.ends[0] =
+      end_at(design.active[i], ActiveKind::locked, "active joint " + numbered('A', i));
+  distal.ends[0] = end_at(design.elbow[i], ElbowKind::welded, "elbow joint " + numbered('B', i));
+  distal.ends[1] = end_at(design.platform_joint[i], PlatformJointKind::welded,
+                          "platform joint " + numbered('C', i));
   for (MemberEnd& end : proximal.ends) end.inertia = design.proximal[i].inertia.value_or(0) / 2;
   for (MemberEnd& end : distal.ends) end.inertia = design.distal[i].inertia.value_or(0) / 2;
   model.members.push_back(std::move(proximal));
