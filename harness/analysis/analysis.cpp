@@ -13,6 +13,7 @@ StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
     record_path(case_model, step, record);
     StepResult found = analyse_step(analysis, case_model, step, draw && step == 0, record);
     all.counters += found.counters;
+    all.evidence.add(found.evidence);
     if (found.drawing) all.drawing = std::move(found.drawing);
     if (found.outcome.solved()) continue;
     all.outcome = outcome_at_path_point(case_model, step, found.outcome);
@@ -28,10 +29,14 @@ StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
   return analyse_steps(std::get<StepAnalysis>(kind.of_scene), analysis, case_model, draw, record);
 }
 
-/// What was recorded counts where a solution was found.
-AnalysisResult result_of(StepResult found, Recorder& record) {
+/// What was recorded counts where a solution was found and its residuals speak for it.
+AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
   AnalysisResult result;
-  result.outcome = std::move(found.outcome);
+  result.analysis = kind.name;
+  result.outcome = kind.evidence.empty()
+                       ? std::move(found.outcome)
+                       : solver::outcome_by_evidence(found.outcome, found.evidence, kind.evidence);
+  result.evidence = found.evidence;
   result.drawing = std::move(found.drawing);
   result.counters = found.counters;
   result.timings = std::move(found.timings);
@@ -50,7 +55,7 @@ AnalysisResult analyse(const Document& document, const References& references,
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
   Recorder record;
   if (!kind.needs_model(document)) {
-    return result_of(kind.of_case(document, references, options.drawing, record), record);
+    return result_of(kind, kind.of_case(document, references, options.drawing, record), record);
   }
   const JsonView place = JsonView(document)["analysis"][kind.name];
   CaseModel case_model = read_case_model(document);
@@ -61,8 +66,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
     AnalysisResult result =
-        result_of(analyse_scene(kind, place, case_model, options.drawing, record), record);
-    result.analysis = kind.name;
+        result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
     return result;
   } catch (const solver::ModelError& error) {

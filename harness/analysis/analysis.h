@@ -10,6 +10,7 @@
 #include "harness/input/reference_library.h"
 #include "harness/scene/drawing.h"
 #include "solver/assembly/system.h"
+#include "solver/model/evidence.h"
 
 /// One computation: a case with its patches in, numbers out.
 namespace trammel::harness {
@@ -21,6 +22,7 @@ struct AnalysisOptions {
 
 struct AnalysisResult {
   solver::Outcome outcome;
+  solver::Evidence evidence;
   Quantities quantities;
   std::optional<Drawing> drawing;
   solver::Counters counters;

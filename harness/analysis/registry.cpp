@@ -25,6 +25,13 @@
 #include "harness/statics_modes/analyse_statics.h"
 
 namespace trammel::harness {
+namespace {
+
+using solver::Residual;
+
+const std::vector<Residual> kModes = {Residual::eigenvalue_equation, Residual::mode_count};
+
+}  // namespace
 
 bool AnalysisKind::needs_model(const Document& document) const {
   return of_case == nullptr || (of_scene.index() != 0 && document.value().contains("model"));
@@ -33,15 +40,27 @@ bool AnalysisKind::needs_model(const Document& document) const {
 const std::vector<AnalysisKind>& analysis_kinds() {
   static const std::vector<AnalysisKind> kinds = {
       {"properties", analyse_properties},
-      {"kinematics", analyse_kinematics, true},
-      {"statics", analyse_statics, false, &statics_effects()},
-      {"buckling", analyse_buckling},
-      {"modes", analyse_modes, false, &modes_effects()},
-      {"large-statics", analyse_large_statics},
+      {"kinematics", analyse_kinematics, true, nullptr, nullptr, "", {Residual::constraints}},
+      {"statics", analyse_statics, false, &statics_effects(), nullptr, "", {Residual::equilibrium}},
+      {"buckling", analyse_buckling, false, nullptr, nullptr, "", kModes},
+      {"modes", analyse_modes, false, &modes_effects(), nullptr, "", kModes},
+      {"large-statics",
+       analyse_large_statics,
+       false,
+       nullptr,
+       nullptr,
+       "",
+       {Residual::equilibrium}},
       {"large-motion", analyse_large_motion},
-      {"harmonic", analyse_harmonic},
+      {"harmonic", analyse_harmonic, false, nullptr, nullptr, "", {Residual::equation_of_motion}},
       {"transient", analyse_transient},
-      {"inverse-dynamics", analyse_inverse_dynamics, true},
+      {"inverse-dynamics",
+       analyse_inverse_dynamics,
+       true,
+       nullptr,
+       nullptr,
+       "",
+       {Residual::energy}},
       {"forward-dynamics", analyse_forward_dynamics, true},
       {"elastodynamics", analyse_elastodynamics, true, &elastodynamics_effects()},
       {"sensitivity", analyse_sensitivity, true},
@@ -52,7 +71,8 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        false,
        nullptr,
        analyse_manufactured,
-       "made by the analysis: a mesh, and the loads of a closed form"},
+       "made by the analysis: a mesh, and the loads of a closed form",
+       {Residual::equilibrium}},
       {"comparison",
        {},
        false,

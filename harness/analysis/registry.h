@@ -29,6 +29,8 @@ struct AnalysisKind {
   /// In the place of `of_scene`, where that is empty or the case has no "model".
   CaseAnalysis of_case = nullptr;
   const char* without_model = "";  ///< what stands for the model then, in words
+  /// What a result must show before it counts as solved; empty: it solves no equation of its own.
+  std::vector<solver::Residual> evidence = {};
 
   [[nodiscard]] bool needs_model(const Document& document) const;
 };

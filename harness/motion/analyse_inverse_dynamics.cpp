@@ -1,5 +1,6 @@
 #include "harness/motion/analyse_inverse_dynamics.h"
 
+#include <cmath>
 #include <numbers>
 
 #include "harness/scene/rigid_case_model.h"
@@ -54,7 +55,8 @@ double power_scale(const solver::InverseDynamics& found) {
          std::abs(found.gravity_power) + std::abs(found.kinetic_power);
 }
 
-void record_energy(const solver::InverseDynamics& found, Recorder& record) {
+/// @returns the residual of the power balance, relative to all powers
+double record_energy(const solver::InverseDynamics& found, Recorder& record) {
   record.add("kinetic_energy_J", "", found.kinetic_energy);
   record.add("kinetic_power_W", "", found.kinetic_power);
   record.add("actuator_power_W", "", found.actuator_power);
@@ -62,7 +64,9 @@ void record_energy(const solver::InverseDynamics& found, Recorder& record) {
   record.add("gravity_power_W", "", found.gravity_power);
   const double fed = found.actuator_power + found.load_power + found.gravity_power;
   const double scale = power_scale(found);
-  record.add("power_residual", "", scale > 0 ? (found.kinetic_power - fed) / scale : 0);
+  const double residual = scale > 0 ? (found.kinetic_power - fed) / scale : 0;
+  record.add("power_residual", "", residual);
+  return residual;
 }
 
 void record_properties(const solver::RigidManipulator& manipulator,
@@ -112,7 +116,7 @@ StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& c
       return result;
     }
     record_joints(found, record);
-    record_energy(found, record);
+    result.evidence.add(solver::Residual::energy, std::abs(record_energy(found, record)));
     record_properties(manipulator, point, record);
     if (bodies) record_bodies(found, record);
   }

@@ -1,5 +1,7 @@
 #include "harness/motion/analyse_kinematics.h"
 
+#include <algorithm>
+
 #include "harness/scene/rigid_case_model.h"
 
 namespace trammel::harness {
@@ -27,6 +29,9 @@ StepResult analyse_kinematics(const JsonView&, const CaseModel& case_model, std:
     record.add("holding_torque_N_m", active[i], holding.torque[row]);
     record.add("distal_tension_N", distal[i], holding.tension[row]);
   }
+  const double reach = *std::max_element(geometry.proximal.begin(), geometry.proximal.end()) +
+                       *std::max_element(geometry.distal.begin(), geometry.distal.end());
+  result.evidence.add(solver::Residual::constraints, posture.closure_error / reach);
   record.add("closure_error_m", "", posture.closure_error);
   record.add("parallel_singularity_distance", "", at.parallel_distance);
   record.add("serial_singularity_distance", "", at.serial_distance);

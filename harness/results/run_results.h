@@ -149,6 +149,8 @@ struct EffectRow {
 struct Run {
   std::string case_id, variant, reason;
   Status status = Status::error;
+  /// What decided that it is solved, each over the magnitude of its terms.
+  std::vector<std::pair<std::string, Number>> residuals;
   std::vector<std::pair<std::string, Numbers>> quantities;
   std::vector<Check> checks;
   std::vector<Convergence> convergence;

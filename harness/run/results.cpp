@@ -228,6 +228,11 @@ results::Run run_results(const Run& run) {
   out.variant = run.variant;
   out.status = status(run.status);
   out.reason = run.reason;
+  for (const solver::Residual kind : solver::kResiduals) {
+    if (run.result.evidence.has(kind))
+      out.residuals.emplace_back(solver::rule_of(kind).name,
+                                 number(run.result.evidence.largest(kind)));
+  }
   for (const auto& [name, quantity] : run.result.quantities)
     out.quantities.emplace_back(name, numbers(quantity.values));
   for (const CheckResult& found : run.check_results) out.checks.push_back(check(found));

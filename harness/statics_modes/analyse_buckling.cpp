@@ -33,7 +33,7 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
   const solver::System system = solver::assemble(build_model(case_model, step));
   const solver::BucklingSolution buckling =
       solver::solve_buckling(system, read_buckling_options(analysis));
-  StepResult result{buckling.outcome, buckling.counters, std::nullopt};
+  StepResult result{buckling.outcome, buckling.counters, std::nullopt, {}, buckling.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
   for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {

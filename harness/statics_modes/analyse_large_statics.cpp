@@ -101,6 +101,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     result.counters.solves += path.counters.solves;
     result.counters.steps += path.counters.steps;
     result.outcome = path.outcome;
+    result.evidence.add(path.evidence);
     if (!path.outcome.solved()) return result;
     recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
   }

@@ -87,7 +87,7 @@ class NormRecorder {
 };
 
 StepResult finish(const ManufacturedSolution& solution, bool draw) {
-  StepResult result{solution.outcome, solution.counters, std::nullopt};
+  StepResult result{solution.outcome, solution.counters, std::nullopt, {}, solution.evidence};
   if (draw) result.drawing = draw_model(solution.system, false);
   if (result.drawing && solution.outcome.solved()) {
     result.drawing->shapes.push_back(

@@ -58,7 +58,7 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
   const solver::System system = condensed(
       analysis, case_model, solver::assemble(build_model(case_model, step), case_model.effects));
   const solver::ModalSolution modes = modes_of(analysis, case_model, system);
-  StepResult result{modes.outcome, modes.counters, std::nullopt};
+  StepResult result{modes.outcome, modes.counters, std::nullopt, {}, modes.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!modes.outcome.solved()) return result;
   for (solver::Index i = 0; i < modes.frequency.size(); ++i) {

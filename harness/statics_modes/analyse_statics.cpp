@@ -118,7 +118,7 @@ StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool d
   const solver::Model model = build_bare_model(case_model, step);
   const solver::StaticSolution solution =
       solver::solve_large_statics(model, case_model.joint_elements);
-  StepResult result{solution.outcome, solution.counters, std::nullopt};
+  StepResult result{solution.outcome, solution.counters, std::nullopt, {}, solution.evidence};
   if (draw) {
     result.drawing = draw_model(solver::assemble(build_model(case_model, step)),
                                 case_model.manipulator.has_value());
@@ -145,7 +145,7 @@ StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::si
   const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
   const solver::StaticSolution solution = solver::solve_statics(
       system, {.second_order = case_model.effects.has(solver::Effect::geometric_stiffening)});
-  StepResult result{solution.outcome, solution.counters, std::nullopt};
+  StepResult result{solution.outcome, solution.counters, std::nullopt, {}, solution.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!solution.outcome.solved()) return result;
   const double roundoff = std::pow(10.0, -solution.estimated_correct_digits);

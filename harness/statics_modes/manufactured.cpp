@@ -1,6 +1,7 @@
 #include "harness/statics_modes/manufactured.h"
 
 #include "solver/assembly/consistent_load.h"
+#include "solver/assembly/equation_rows.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/refinement.h"
@@ -8,6 +9,18 @@
 
 namespace trammel::harness {
 namespace {
+
+/// Residuals of (K - omega^2 M) q = f with the matrices formed afresh.
+void judge(const solver::System& system, double omega, ManufacturedSolution& solution) {
+  const Eigen::VectorXd u = system.T * solution.q;
+  solver::EquationRows rows(system);
+  rows.add_stiffness(u);
+  if (omega != 0) rows.add_inertia(u, -omega * omega);
+  rows.add_load(system.load, -1);
+  solution.evidence.add(solver::Residual::equilibrium, rows.backward_error());
+  solution.evidence.add(solver::Residual::load, rows.residual_over(system.f));
+  solution.outcome = solver::outcome_by_evidence(solution.outcome, solution.evidence);
+}
 
 /// (K - omega^2 M) q = f
 ManufacturedSolution solve(solver::System system, double omega) {
@@ -28,6 +41,7 @@ ManufacturedSolution solve(solver::System system, double omega) {
     if (!refined.converged()) {
       solution.outcome = {solver::Status::singular, "the condition number has eaten all digits"};
     }
+    judge(system, omega, solution);
   } else {
     solution.outcome = {solver::Status::singular, "the model is free, or at a resonance"};
   }

@@ -3,6 +3,7 @@
 #include "references/data/manufactured.h"
 #include "solver/assembly/field_error.h"
 #include "solver/assembly/system.h"
+#include "solver/model/evidence.h"
 #include "solver/model/outcome.h"
 
 /// Manufactured solutions on a mesh: loads from the closed form, solve, errors against the closed
@@ -22,6 +23,7 @@ struct ManufacturedSolution {
   solver::Outcome outcome;
   solver::System system;
   Eigen::VectorXd q;  ///< free coordinates
+  solver::Evidence evidence;
   solver::Counters counters;
 };
 

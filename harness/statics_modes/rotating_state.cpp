@@ -81,6 +81,7 @@ StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
       step_counters.effects[i] -= system.counters.effects[i];
     result.counters += step_counters;
     result.outcome = found.outcome;
+    result.evidence.add(found.evidence);
     if (!found.outcome.solved()) return result;
     record.add("angular_speed_rad_s", "", speed);
     record_modes(found, several, record);

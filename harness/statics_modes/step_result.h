@@ -9,6 +9,7 @@
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
 #include "solver/assembly/system.h"
+#include "solver/model/evidence.h"
 
 namespace trammel::harness {
 
@@ -19,6 +20,7 @@ struct StepResult {
   solver::Counters counters;
   std::optional<Drawing> drawing;  ///< on the first step, when asked for
   std::vector<EvaluationTime> timings = {};
+  solver::Evidence evidence = {};  ///< residuals that decide whether it counts as solved
 };
 
 inline constexpr solver::Index kMaxDrawnShapes = 12;

@@ -1,5 +1,7 @@
 #include "solver/linalg/refinement.h"
 
+#include <limits>
+
 namespace trammel::solver {
 
 RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
@@ -15,7 +17,7 @@ RefinedSolution refined_solve(const Operator& A, const Factorization& factorizat
   constexpr int kMaxSteps = 8;
   constexpr double kSmall = 1e-10;  // a correction whose own error no longer counts
   RefinedSolution result{guess, 0};
-  double last = guess.norm();
+  double last = std::numeric_limits<double>::infinity();  // of a guess nothing is known
   for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::VectorXd correction = factorization.solve(b - A(result.x));
     ++counters.solves;

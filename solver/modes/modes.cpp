@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/assembly/equation_rows.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/eigenvalue_count.h"
 #include "solver/linalg/start_vectors.h"
 #include "solver/statics/zero_energy_modes.h"
 
@@ -90,7 +92,10 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   ModalSolution solution;
   solution.counters = system.counters;
   Counters& counters = solution.counters;
-  if (system.K.rows() == 0) return solution;  // nothing can move
+  if (system.K.rows() == 0) {  // nothing can move
+    judge_modes(system, nullptr, solution);
+    return solution;
+  }
   Factorization factorization;
   factorization.compute(shifted(system.K, system.M, 0));
   ++counters.factorizations;
@@ -105,6 +110,7 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   if (free.count() > 0 && !has_elastic_inertia(system.M, free.basis)) {
     solution.inertia_count = free.count();
     fill(system, {}, free.basis, options.count, solution);
+    judge_modes(system, nullptr, solution);
     return solution;
   }
   Pencil pencil;
@@ -125,7 +131,21 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   solution.outcome = pairs.outcome;
   solution.inertia_count = pairs.inertia_count;
   fill(system, pairs, free.basis, options.count, solution);
+  judge_modes(system, nullptr, solution);
   return solution;
+}
+
+void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution) {
+  if (!solution.outcome.solved()) return;
+  const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
+  for (Index j = 0; j < w2.size(); ++j) {
+    solution.evidence.add(Residual::eigenvalue_equation,
+                          mode_backward_error(system, K_G, solution.shape.col(j), w2[j]));
+  }
+  const double missed = K_G ? miscounted_eigenvalues(system.K + *K_G, system.M, w2)
+                            : miscounted_eigenvalues(system.K, system.M, w2);
+  solution.evidence.add(Residual::mode_count, missed);
+  solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
 }
 
 std::optional<Index> sturm_count(const System& system, double frequency) {

@@ -6,7 +6,7 @@
 
 #include "solver/assembly/system.h"
 #include "solver/linalg/eigenpairs.h"
-#include "solver/model/outcome.h"
+#include "solver/model/evidence.h"
 
 namespace trammel::solver {
 
@@ -36,10 +36,16 @@ struct ModalSolution {
   Index zero_energy_mode_count = 0;   ///< how many leading frequencies are zero
   std::string zero_energy_mode_text;  ///< what they are, in words
   Index inertia_count = 0;            ///< eigenvalues below the check shift, by sparse LDL^T
+  Evidence evidence;
   Counters counters;
 };
 
 [[nodiscard]] ModalSolution solve_modes(const System& system, const ModesOptions& options);
+
+/// Takes the residuals of what is claimed, (K + K_G) x = w^2 M x for every mode and their number,
+/// and lets them decide.
+/// @param K_G  null: none
+void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution);
 
 /// Natural frequencies below `frequency` [Hz], copies of repeated ones and rigid motions included,
 /// by the negative pivots of K - (2 pi f)^2 M (Sylvester); nothing where the factorization loses

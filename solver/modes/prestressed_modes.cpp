@@ -16,7 +16,10 @@ ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
                                const ModesOptions& options) {
   ModalSolution solution;
   solution.counters = system.counters;
-  if (system.K.rows() == 0) return solution;
+  if (system.K.rows() == 0) {
+    judge_modes(system, &K_G, solution);
+    return solution;
+  }
   const SparseMatrix K = system.K + K_G;
   Factorization factorization;
   factorization.compute(shifted(K, system.M, 0));
@@ -50,6 +53,7 @@ ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
     solution.roundoff[j] = 0.5 * (rounding / pairs.value[j] + pairs.error[j]) +
                            4 * std::numeric_limits<double>::epsilon();
   }
+  judge_modes(system, &K_G, solution);
   return solution;
 }
 
@@ -70,6 +74,7 @@ PrestressedModes solve_prestressed_modes(const System& system, const ModesOption
   const Prestress settled = prestress(system, state.u, second, body_forces(system));
   result.modes = solve_modes_with(system, geometric_stiffness(system, settled), options);
   const auto solved = result.modes.counters;
+  result.modes.evidence.add(result.state.evidence);
   result.modes.counters = result.state.counters;
   result.modes.counters.factorizations += solved.factorizations;
   result.modes.counters.solves += solved.solves;

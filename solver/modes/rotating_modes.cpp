@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/assembly/equation_rows.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/gyroscopic.h"
 #include "solver/linalg/refinement.h"
@@ -58,6 +59,9 @@ class SteadyState {
   /// K + K_G - W^2 S.
   [[nodiscard]] SparseMatrix tangent() const { return system_.K + added_; }
 
+  /// K_G - W^2 S.
+  [[nodiscard]] const SparseMatrix& added() const { return added_; }
+
   /// x^T (K + K_G - W^2 S) x, the elastic part from the elements' deformations.
   [[nodiscard]] double energy(const VectorXd& x) const {
     return strain_products(system_, system_.T * x)(0, 0) + x.dot(added_ * x);
@@ -101,6 +105,49 @@ class SteadyState {
   Factorization factorization;
 };
 
+/// Equilibrium of the steady state: (K + K_G - W^2 S) q = f + W^2 f_c.
+double steady_backward_error(const System& system, const SteadyState& steady,
+                             const RotatingFrame& frame) {
+  EquationRows rows(system);
+  rows.add_stiffness(system.T * steady.q);
+  rows.add(steady.added(), steady.q);
+  rows.add_load(system.load, -1);
+  rows.add_load(centrifugal_forces(system, frame, VectorXd::Zero(system.T.rows())), -1);
+  return rows.backward_error();
+}
+
+/// (K + K_G - W^2 S + s 2 W G + s^2 M) x = 0, s = growth rate + i w.
+double mode_backward_error(const System& system, const SteadyState& steady, const SparseMatrix& C,
+                           const Eigen::VectorXcd& x, std::complex<double> s) {
+  const Eigen::VectorXcd u = system.T * x;
+  EquationRows rows(system);
+  rows.add_stiffness(u);
+  rows.add_inertia(u, s * s);
+  rows.add(steady.added(), x);
+  rows.add(C, x, s);
+  return rows.backward_error();
+}
+
+/// Modes missed or too many: of a stable state those below the last clear gap, of an unstable one
+/// all, as many as the mass matrix has ranks.
+double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
+  const VectorXd& w = modes.omega;
+  if (!stable) {
+    const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
+    Factorization beyond;
+    beyond.compute(shifted(pencil.K, pencil.M, 1e4 * last));
+    return beyond.is_reliable() ? std::abs(static_cast<double>(beyond.negative_pivots() - w.size()))
+                                : kNaN;
+  }
+  for (Index below = w.size() - 1; below >= 0; --below) {
+    const double low = below > 0 ? w[below - 1] : 0;
+    if (!(w[below] - low > 1e-6 * w[below])) continue;
+    const Index counted = gyroscopic_sturm_count(pencil, (low + w[below]) / 2);
+    return counted < 0 ? kNaN : std::abs(static_cast<double>(counted - below));
+  }
+  return w.size() == 0 ? 0 : kNaN;
+}
+
 }  // namespace
 
 RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& options) {
@@ -124,6 +171,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
     return result;
   }
   result.q = steady.q;
+  result.evidence.add(Residual::equilibrium, steady_backward_error(system, steady, options.frame));
   const bool has_gyroscopic_forces =
       options.gyroscopic && options.frame.axis == RotationAxis::normal;
   SparseMatrix C(system.K.rows(), system.K.cols());
@@ -152,6 +200,15 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   result.growth_rate = modes.growth_rate.head(kept);
   result.shape = modes.shape.leftCols(kept);
   result.stable = modes.growth_rate.size() == 0 || modes.growth_rate.maxCoeff() <= 0;
+  if (!result.outcome.solved()) return result;
+  for (Index j = 0; j < kept; ++j) {
+    result.evidence.add(Residual::eigenvalue_equation,
+                        mode_backward_error(system, steady, C, result.shape.col(j),
+                                            {modes.growth_rate[j], modes.omega[j]}));
+  }
+  const bool definite = steady.factorization.smallest_pivot() > 0;
+  result.evidence.add(Residual::mode_count, miscounted_modes(pencil, modes, definite));
+  result.outcome = outcome_by_evidence(result.outcome, result.evidence);
   return result;
 }
 

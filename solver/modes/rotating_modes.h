@@ -5,7 +5,7 @@
 #include "solver/assembly/rotating_frame.h"
 #include "solver/assembly/system.h"
 #include "solver/linalg/eigenpairs.h"
-#include "solver/model/outcome.h"
+#include "solver/model/evidence.h"
 
 namespace trammel::solver {
 
@@ -37,6 +37,7 @@ struct RotatingModes {
   Eigen::VectorXd growth_rate;  ///< of each [1/s]; 0 in a stable state
   Eigen::MatrixXcd shape;       ///< free coordinate x mode, q(t) = Re(x e^{i w t}), |x| = 1
   Index inertia_count = 0;      ///< frequencies below the check, by Hermitian LDL^T; 0 if unstable
+  Evidence evidence;
   Counters counters;
 };
 

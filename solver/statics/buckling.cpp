@@ -2,7 +2,9 @@
 
 #include <limits>
 
+#include "solver/assembly/equation_rows.h"
 #include "solver/assembly/strain.h"
+#include "solver/linalg/eigenvalue_count.h"
 #include "solver/linalg/refinement.h"
 #include "solver/model/numbers.h"
 #include "solver/statics/postprocessing.h"
@@ -15,6 +17,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   const StaticSolution statics = solve_statics(system);
   solution.counters = statics.counters;
   solution.outcome = statics.outcome;
+  solution.evidence = statics.evidence;
   if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
   ElasticState state;
   state.u = system.T * statics.q;
@@ -46,7 +49,15 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
     const double elastic = strain_roundoff(system, system.T * x) / pairs.value[j];
     const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs());
     solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
+    EquationRows rows(system);
+    rows.add_stiffness(system.T * x);
+    rows.add(softening, x, -pairs.value[j]);
+    solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
+  if (!solution.outcome.solved()) return solution;
+  solution.evidence.add(Residual::mode_count,
+                        miscounted_eigenvalues(system.K, softening, solution.load_factor));
+  solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
   return solution;
 }
 

@@ -4,7 +4,7 @@
 
 #include "solver/assembly/system.h"
 #include "solver/linalg/eigenpairs.h"
-#include "solver/model/outcome.h"
+#include "solver/model/evidence.h"
 
 namespace trammel::solver {
 
@@ -22,6 +22,7 @@ struct BucklingSolution {
   Eigen::VectorXd roundoff;
   Eigen::MatrixXd shape;    ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
   Index inertia_count = 0;  ///< factors below the check shift, by sparse LDL^T
+  Evidence evidence;
   Counters counters;
 };
 

@@ -249,21 +249,26 @@ class Postprocessor {
     for (Index node = 0; node < nodes; ++node) solution_.node_stress.row(node) /= area[node];
   }
 
-  /// All that the outside does to the model: loads, reactions, springs to the ground.
+  /// All that the outside does to the model: loads, reactions, springs to the ground; equilibrium
+  /// is that of the theory solved.
   void equilibrium() {
     Wrench sum;
     const auto position = [&](Index node) -> const Vector2d& {
       return system_.mesh.positions[static_cast<std::size_t>(node)];
     };
-    for (Index i = 0; i < system_.load.size(); ++i) {
+    VectorXd load = state_.load_factor * system_.load;
+    if (state_.prestress) {  // second-order theory: the forces turn with what they act on
+      load -= geometric_stiffness_forces(system_, *state_.prestress, u_);
+    }
+    for (Index i = 0; i < load.size(); ++i) {
       const auto c = static_cast<std::size_t>(i);
       const Index node = system_.coordinates.node_of[c];
       const bool x = system_.coordinates.node[static_cast<std::size_t>(node)][0] == i;
       const Vector2d axis = x ? Vector2d::UnitX() : Vector2d::UnitY();
       if (system_.coordinates.is_rotation[c]) {
-        sum.moment += state_.load_factor * system_.load[i];
+        sum.moment += load[i];
       } else {
-        sum.add(position(node), state_.load_factor * system_.load[i] * axis);
+        sum.add(position(node), load[i] * axis);
       }
     }
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/assembly/equation_rows.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/refinement.h"
 #include "solver/statics/postprocessing.h"
+#include "solver/statics/second_order.h"
+#include "solver/statics/unbalanced_forces.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
@@ -40,44 +43,16 @@ void solve_linear(const System& system, StaticSolution& solution) {
   solution.estimated_correct_digits = std::max(0.0, -std::log10(lost));
 }
 
-/// Goes on from the linear solution: K + K_G of the latest forces, until they repeat.
-Prestress solve_second_order(const System& system, StaticSolution& solution) {
-  constexpr int kSteps = 50;
-  const BodyForces weights = body_forces(system);
-  ElasticState state;
-  state.u = system.T * solution.q;
-  Prestress latest = prestress(system, state.u, constraint_forces(system, state), weights);
-  Factorization factorization;
-  const Operator elastic = stiffness_operator(system);
-  double last_change = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kSteps; ++step) {
-    const SparseMatrix K_G = geometric_stiffness(system, latest);
-    solution.counters.count(Effect::geometric_stiffening,
-                            static_cast<std::int64_t>(system.mesh.frame.size()) +
-                                static_cast<std::int64_t>(system.model.triangles.size()));
-    factorization.compute(system.K + K_G);
-    ++solution.counters.factorizations;
-    if (!factorization.exists() || factorization.smallest_pivot() <= 0) {
-      solution.outcome = {Status::singular, "the loads reach or exceed the buckling load"};
-      return latest;
-    }
-    const Operator tangent = [&](const VectorXd& q) -> VectorXd { return elastic(q) + K_G * q; };
-    const VectorXd q =
-        refined_solve(tangent, factorization, system.f, solution.q, solution.counters).x;
-    const double change = (q - solution.q).norm();
-    solution.q = q;
-    state.u = system.T * q;
-    state.prestress = &latest;
-    const Prestress next = prestress(system, state.u, constraint_forces(system, state), weights);
-    const bool rounding = change <= 1e-8 * q.norm() && change >= 0.5 * last_change;
-    if (change <= 1e-13 * q.norm() || rounding) return latest;
-    last_change = change;
-    latest = next;
-  }
-  solution.outcome = {Status::not_converged,
-                      "the forces of second-order theory do not settle; the loads may be close to "
-                      "the buckling load"};
-  return latest;
+/// The claimed state's equation with K and K_G formed afresh, and the equilibrium of its forces.
+void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
+  EquationRows rows(system);
+  rows.add_stiffness(state.u);
+  rows.add_load(system.load, -1);
+  if (state.prestress) rows.add(geometric_stiffness(system, *state.prestress), solution.q);
+  solution.evidence.add(Residual::equilibrium, rows.backward_error());
+  solution.evidence.add(Residual::load, rows.residual_over(system.f));
+  solution.evidence.add(Residual::recovered_forces,
+                        unbalanced_forces(system, state, solution, rows.terms()));
 }
 
 }  // namespace
@@ -88,11 +63,13 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   solution.q.setZero(system.K.rows());
   solution.estimated_correct_digits = -std::log10(std::numeric_limits<double>::epsilon());
   if (solution.q.size() > 0) solve_linear(system, solution);
+  SecondOrderState second;
   ElasticState state;
-  Prestress forces;
   if (options.second_order && solution.outcome.solved() && solution.q.size() > 0) {
-    forces = solve_second_order(system, solution);
-    state.prestress = &forces;
+    second = solve_second_order(system, solution.q, solution.counters);
+    solution.outcome = second.outcome;
+    solution.q = second.q;
+    state.prestress = &second.forces;
   }
   if (!solution.outcome.solved()) {
     solution.q.resize(0);
@@ -100,6 +77,8 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   }
   state.u = system.T * solution.q;
   postprocess(system, state, solution);
+  take_residuals(system, state, solution);
+  solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
   return solution;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/assembly/system.h"
-#include "solver/model/outcome.h"
+#include "solver/model/evidence.h"
 
 namespace trammel::solver {
 
@@ -36,6 +36,7 @@ struct StaticSolution {
   Eigen::MatrixX3d node_stress;
   double equilibrium_residual = 0;  ///< norm of reactions + loads [N]; the same for moments below
   double moment_residual = 0;       ///< about the world origin [N m]
+  Evidence evidence;                ///< residuals of the state, in the theory solved
   Counters counters;
 };
 

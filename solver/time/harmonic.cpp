@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/assembly/equation_rows.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/sparse_lu.h"
 #include "solver/statics/postprocessing.h"
@@ -87,6 +88,23 @@ VectorXcd HarmonicSolver::at(double frequency) const {
     q += amplitude * modes_.shape.col(j).cast<Complex>();
   }
   return q;
+}
+
+double HarmonicSolver::backward_error(const VectorXcd& q, double frequency) const {
+  const double omega = kTwoPi * frequency;
+  const Complex i(0, 1);
+  const VectorXcd u = system_.T * q;
+  EquationRows rows(system_);
+  rows.add_stiffness(u, 1.0 + i * omega * damping_.rayleigh.stiffness);
+  rows.add_inertia(u, i * omega * damping_.rayleigh.mass - omega * omega);
+  rows.add_load(system_.load, -1);
+  for (Index j = 0; j < participation_.size(); ++j) {  // modal damping: M phi 2 zeta w phi^T M
+    const double wj = kTwoPi * modes_.frequency[j];
+    const double ratio = damping_.modal_ratio[static_cast<std::size_t>(j)];
+    const VectorXd phi = modes_.shape.col(j);
+    rows.add_inertia(system_.T * phi, 2 * ratio * wj * i * omega * (system_.M * phi).dot(q));
+  }
+  return rows.backward_error();
 }
 
 HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q, double frequency) {

@@ -34,6 +34,10 @@ class HarmonicSolver {
   /// @return  empty where the undamped rest resonates exactly
   [[nodiscard]] Eigen::VectorXcd at(double frequency) const;
 
+  /// Backward error of (K + i w C - w^2 M) q = f with the matrices formed afresh, C with the modes'
+  /// damping.
+  [[nodiscard]] double backward_error(const Eigen::VectorXcd& q, double frequency) const;
+
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <numeric>
 
 #include "solver/linalg/sparse_ldlt.h"
@@ -168,6 +169,16 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
     y = solution_[permutation_[static_cast<std::size_t>(coordinates_ + r)]] +
         multiplier_scaling_[r] * y;
   }
+}
+
+VectorXd KktMatrix::term_magnitudes(const VectorXd& x) const {
+  VectorXd permuted(x.size()), magnitudes(x.size());
+  for (Index i = 0; i < x.size(); ++i)
+    permuted[permutation_[static_cast<std::size_t>(i)]] = std::abs(x[i]);
+  permuted = matrix_.cwiseAbs() * permuted;
+  for (Index i = 0; i < x.size(); ++i)
+    magnitudes[i] = permuted[permutation_[static_cast<std::size_t>(i)]];
+  return magnitudes;
 }
 
 Index KktMatrix::negative_pivots() const {

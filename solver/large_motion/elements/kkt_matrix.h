@@ -79,6 +79,9 @@ class KktMatrix {
   /// Solves in place: (b, d) becomes (dq, dlambda).
   void solve(Eigen::Ref<VectorXd> right_hand_side) const;
 
+  /// Of each equation, the sum of the magnitudes of its terms with the unknowns x = (q, lambda).
+  [[nodiscard]] VectorXd term_magnitudes(const VectorXd& x) const;
+
   /// Unstable directions: negative pivots beyond those of the constraints; -1 without LDL^T.
   [[nodiscard]] Index negative_pivots() const;
 

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <utility>
 
+#include "solver/linalg/backward_error.h"
+
 namespace trammel::solver::large_motion {
 
 void apply_correction(State& state, const VectorXd& step, double factor) {
@@ -58,6 +60,21 @@ void Equilibrium::load_direction(const State& state, VectorXd& direction) {
   direction.tail(m) = constraint_rate_;
   direction = -direction;
   matrix_.solve(direction);
+}
+
+double Equilibrium::backward_error(const State& state) {
+  const Index n = system_.coordinates(), m = system_.constraints();
+  VectorXd x(n + m), residual(n + m), load(n);
+  x << state.q.head(n), state.lambda;
+  matrix_.clear();
+  system_.tangent(state, TangentCoefficients{}, matrix_);
+  VectorXd terms = matrix_.term_magnitudes(x);
+  system_.load_derivative(state, load);
+  terms.head(n) += std::abs(state.load) * load.cwiseAbs();
+  system_.force_residual(state, residual.head(n));
+  system_.constraint_residual(state, constraint_residual_, constraint_rate_);
+  residual.tail(m) = constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+  return largest_ratio(residual, terms);
 }
 
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {

@@ -37,6 +37,9 @@ class Equilibrium {
   void load_direction(const State& state, VectorXd& direction);
   /// One corrector: solution of the tangent equation for minus the residual.
   void correction(const State& state, VectorXd& step, NewtonResult& history);
+  /// Equilibrium and constraints of a state that is claimed, row by row, with the tangent formed
+  /// afresh: |r| over (|K| |x| + |load|).
+  [[nodiscard]] double backward_error(const State& state);
   /// Smallest eigenvalue (absolute) of the tangent over the squared scale, and its shape (by
   /// inverse iteration with the tangent factored last) [N m].
   double smallest_eigenpair(VectorXd& shape);

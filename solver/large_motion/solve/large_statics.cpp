@@ -57,6 +57,7 @@ StaticSolution solve_large_statics(const Model& model,
   StaticSolution solution;
   if (path.outcome.solved()) solution = static_solution(system, path.points.back().state);
   solution.outcome = path.outcome;
+  solution.evidence = path.evidence;
   solution.counters = path.counters;
   count_tangents(system, path.counters.factorizations, solution.counters);
   return solution;

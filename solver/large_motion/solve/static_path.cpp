@@ -56,6 +56,7 @@ class PathFollower {
       while (next()) {
       }
     }
+    path_.outcome = outcome_by_evidence(path_.outcome, path_.evidence);
     path_.counters.factorizations = equilibrium_.matrix().factorizations();
     path_.counters.solves = equilibrium_.matrix().solves();
     return std::move(path_);
@@ -83,6 +84,7 @@ class PathFollower {
     normalize(direction_);
     point.unstable_directions = equilibrium_.matrix().negative_pivots();
     arc_step_ = options_.first_step / direction_.load;
+    path_.evidence.add(Residual::equilibrium, equilibrium_.backward_error(point.state));
     path_.points.push_back(std::move(point));
     return true;
   }
@@ -191,6 +193,7 @@ class PathFollower {
 
   void append(PathPoint point) {
     ++path_.counters.steps;
+    path_.evidence.add(Residual::equilibrium, equilibrium_.backward_error(point.state));
     if (!options_.keep_points) path_.points.clear();
     path_.points.push_back(std::move(point));
   }

@@ -6,6 +6,7 @@
 #include "solver/assembly/system.h"
 #include "solver/large_motion/solve/equilibrium.h"
 #include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/model/evidence.h"
 
 namespace trammel::solver::large_motion {
 
@@ -38,6 +39,7 @@ struct StaticPath {
   Outcome outcome;  ///< not_converged names the load factor, the step and the residual
   std::vector<PathPoint> points;
   std::vector<PathEvent> events;
+  Evidence evidence;  ///< of every point passed
   Counters counters;
 };
 

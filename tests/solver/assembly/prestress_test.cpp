@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(a_load_past_buckling_has_no_stable_state) {
   model.loads[0].force *= 3;  // pi^2 / 4 = 2.47
   const PrestressedModes r = solve_prestressed_modes(assemble(model), {3, EigenMethod::dense});
   BOOST_TEST((r.modes.outcome.status == Status::singular));
-  BOOST_TEST(r.modes.outcome.reason == "the loads reach or exceed the buckling load");
+  BOOST_TEST(r.modes.outcome.reason.starts_with("the loads reach or exceed the buckling load"));
   BOOST_TEST(r.modes.frequency.size() == 0);
 }
 

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/assembly/prestress.h"
+#include "solver/assembly/system.h"
+#include "solver/model/evidence.h"
+
+namespace trammel::solver {
+
+/// The rows of an equation of a system, summed element by element from matrices formed afresh, each
+/// with the sum of its terms' magnitudes. Complex, for vibration with damping. A coordinate counts
+/// with at least a thousandth of the largest motion (rotations times the model's size): where
+/// nothing moves but rounding, a row has no digits to be judged by.
+class EquationRows {
+ public:
+  explicit EquationRows(const System& system);
+
+  /// @param u  unconstrained coordinates
+  void add_stiffness(const Eigen::VectorXcd& u, std::complex<double> factor = 1);
+  void add_inertia(const Eigen::VectorXcd& u, std::complex<double> factor = 1);
+  /// @param load  on the unconstrained coordinates [N, N m]
+  void add_load(const Eigen::VectorXcd& load, std::complex<double> factor = 1);
+  /// @param A  on the free coordinates, as q is
+  void add(const SparseMatrix& A, const Eigen::VectorXcd& q, std::complex<double> factor = 1);
+
+  /// Largest |row| over its terms, in the free coordinates: the least relative change of matrices
+  /// and loads for which the solution is exact. Source: Oettli and Prager (1964).
+  [[nodiscard]] double backward_error() const;
+  /// |rows| over |load|, in the free coordinates, forces and moments made alike by the stiffness.
+  [[nodiscard]] double residual_over(const Eigen::VectorXd& load) const;
+
+  /// Sums of the terms' magnitudes on the unconstrained coordinates.
+  [[nodiscard]] const Eigen::VectorXd& terms() const { return terms_; }
+
+ private:
+  template <class Coordinates, class Matrix>
+  void add_element(const Coordinates& coordinates, const Matrix& k, const Eigen::VectorXcd& u,
+                   const Eigen::VectorXd& size, std::complex<double> factor);
+  [[nodiscard]] Eigen::VectorXd sizes_of(const Eigen::VectorXcd& u) const;
+
+  const System& system_;
+  double model_size_ = 0;
+  Eigen::VectorXcd sum_, free_sum_;
+  Eigen::VectorXd terms_, free_terms_;
+};
+
+/// Backward error of (K + K_G) q = w^2 M q; no K_G where it is null.
+[[nodiscard]] double mode_backward_error(const System& system, const SparseMatrix* K_G,
+                                         const Eigen::VectorXd& q, double w2);
+
+}  // namespace trammel::solver

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace trammel::solver {
+
+/// Backward error of equations, row by row: the largest |residual| over the sum of the magnitudes
+/// of its terms; 0 / 0 counts as 0, what is not a number as infinite.
+/// Source: Oettli and Prager (1964).
+[[nodiscard]] double largest_ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& terms);
+
+}  // namespace trammel::solver

@@ -1,0 +1,29 @@
+#include "solver/linalg/eigenvalue_count.h"
+
+#include <cmath>
+#include <limits>
+
+#include "solver/linalg/eigenpairs.h"
+#include "solver/linalg/factorization.h"
+
+namespace trammel::solver {
+
+double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
+                              const Eigen::VectorXd& found) {
+  constexpr double kClearGap = 1e-6;  // of repeated values rounding leaves much less
+  Factorization factorization;
+  for (Index below = found.size() - 1; below >= 0; --below) {
+    const double low = below > 0 ? found[below - 1] : 0;
+    const double gap = found[below] - low;
+    if (!(gap > kClearGap * found[below])) continue;
+    for (const double fraction : {0.5, 0.37, 0.61, 0.83}) {
+      factorization.compute(shifted(A, B, low + fraction * gap));
+      if (!factorization.is_reliable()) continue;
+      return static_cast<double>(std::abs(factorization.negative_pivots() - below));
+    }
+  }
+  const bool nothing_swings = found.size() == 0 || found[found.size() - 1] == 0;
+  return nothing_swings ? 0 : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/model/counters.h"
+
+namespace trammel::solver {
+
+/// How many eigenvalues of A x = t B x, A positive semidefinite, are missing or too many among
+/// those found: their number below a shift in the last clear gap less the negative pivots of A -
+/// shift B (Sylvester). Infinite where no shift leaves the factorization its digits.
+/// @param found  ascending, >= 0; 0 of free motions
+[[nodiscard]] double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
+                                            const Eigen::VectorXd& found);
+
+}  // namespace trammel::solver

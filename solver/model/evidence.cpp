@@ -1,0 +1,88 @@
+#include "solver/model/evidence.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace trammel::solver {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A row has at most some thousand terms (a rigid body with all that is joined to it), each rounded
+/// to eps: 1e3 eps = 2e-13; where Newton's method ends on a critical point, whose tangent is
+/// singular, a hundred times that. A wrong factor of one part in a million leaves 1e-6.
+constexpr double kRowLimit = 1e-10;
+
+/// Below it the loads themselves are met to what engineers measure; above it the condition number
+/// has eaten the digits of the forces, which is said, not refused.
+constexpr double kLoadWarning = 1e-6;
+
+constexpr std::array<ResidualRule, kResiduals.size()> kRules = {{
+    {"equilibrium", kRowLimit, "rounding of a row's terms"},
+    {"recovered_forces", kRowLimit, "rounding of a row's terms"},
+    {"eigenvalue_equation", kRowLimit, "rounding of a row's terms"},
+    {"mode_count", 0, "a count is exact"},
+    {"equation_of_motion", kRowLimit, "rounding of a row's terms"},
+    {"constraints", 1e-9, "a billionth of the size of the model"},
+    {"energy", 1e-6, "the sum of rounding over the steps"},
+    {"load", kInfinity, "ill-conditioned models are neither refused nor excused: see the warning"},
+}};
+
+std::string in_words(const char* name) {
+  std::string words = name;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+}  // namespace
+
+const ResidualRule& rule_of(Residual kind) {
+  return kRules[static_cast<std::size_t>(kind)];
+}
+
+void Evidence::add(Residual kind, double value) {
+  taken_[index(kind)] = true;
+  double& largest = largest_[index(kind)];
+  largest = value >= 0 ? std::max(largest, value) : kInfinity;
+}
+
+void Evidence::add(const Evidence& other) {
+  for (const Residual kind : kResiduals) {
+    if (other.has(kind)) add(kind, other.largest(kind));
+  }
+}
+
+bool Evidence::empty() const {
+  return std::none_of(taken_.begin(), taken_.end(), [](bool taken) { return taken; });
+}
+
+Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
+                            const std::vector<Residual>& needed) {
+  if (!claimed.solved()) return claimed;
+  if (evidence.empty()) return {Status::not_converged, "no residual speaks for the solution"};
+  for (const Residual kind : needed) {
+    if (!evidence.has(kind))
+      return {Status::not_converged,
+              "nothing was taken of the residual '" + in_words(rule_of(kind).name) + "'"};
+  }
+  for (const Residual kind : kResiduals) {
+    const ResidualRule& rule = rule_of(kind);
+    if (!evidence.has(kind) || evidence.largest(kind) <= rule.limit) continue;
+    std::ostringstream reason;
+    reason << "the residual '" << in_words(rule.name) << "' is " << evidence.largest(kind)
+           << ", above its limit of " << rule.limit;
+    return {Status::not_converged, reason.str()};
+  }
+  return claimed;
+}
+
+std::vector<std::string> warnings_of(const Evidence& evidence) {
+  if (!evidence.has(Residual::load) || evidence.largest(Residual::load) <= kLoadWarning) return {};
+  std::ostringstream text;
+  text << "the loads are met to " << evidence.largest(Residual::load)
+       << " of their size only: the model is ill-conditioned, and its forces have few digits";
+  return {text.str()};
+}
+
+}  // namespace trammel::solver

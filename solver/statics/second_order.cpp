@@ -1,0 +1,129 @@
+#include "solver/statics/second_order.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "solver/linalg/factorization.h"
+#include "solver/linalg/refinement.h"
+#include "solver/statics/postprocessing.h"
+
+namespace trammel::solver {
+namespace {
+
+using Eigen::VectorXd;
+
+class SecondOrderTheory {
+ public:
+  SecondOrderTheory(const System& system, const VectorXd& linear, Counters& counters)
+      : system_(system),
+        linear_(linear),
+        counters_(counters),
+        elastic_(stiffness_operator(system)) {}
+
+  SecondOrderState run() {
+    SecondOrderState reached;
+    double load = 0;
+    double step = 1;
+    while (load < 1) {
+      const double target = std::min(1.0, load + step);
+      SecondOrderState next = load > 0 ? reached : first_order(target);
+      iterate(target, next);
+      if (next.outcome.solved()) {
+        reached = std::move(next);
+        load = target;
+        step *= 2;
+        continue;
+      }
+      if (load == 0 && step == 1) whole_ = next.outcome;
+      step /= step >= 1 ? 8 : 2;
+      if (step < kSmallestStep) return failed(load);
+    }
+    return reached;
+  }
+
+ private:
+  static constexpr double kSmallestStep = 1e-4;
+
+  [[nodiscard]] SecondOrderState failed(double load) const {
+    std::ostringstream reason;
+    reason.precision(4);
+    reason << (whole_.status == Status::singular ? "the loads reach or exceed the buckling load"
+                                                 : "the forces of the state do not settle")
+           << ": second-order theory has no stable equilibrium beyond " << load << " of them";
+    return {{whole_.status, reason.str()}, {}, {}};
+  }
+
+  /// Forces of q under a share of the loads; those of the constraints with the second-order terms
+  /// of `before`, where given.
+  [[nodiscard]] Prestress forces_of(const VectorXd& q, double load, const Prestress* before) const {
+    ElasticState state;
+    state.u = system_.T * q;
+    state.load_factor = load;
+    state.prestress = before;
+    BodyForces weights = body_forces(system_);
+    for (Vector2d& weight : weights.element) weight *= load;
+    for (Vector2d& weight : weights.point_mass) weight *= load;
+    return prestress(system_, state.u, constraint_forces(system_, state), weights);
+  }
+
+  [[nodiscard]] SecondOrderState first_order(double load) const {
+    const VectorXd q = load * linear_;
+    return {{}, q, forces_of(q, load, nullptr)};
+  }
+
+  /// K + K_G of the latest forces until they repeat, from a state nearby.
+  void iterate(double load, SecondOrderState& state) {
+    constexpr int kIterations = 60;
+    const VectorXd f = load * system_.f;
+    double last_change = std::numeric_limits<double>::infinity();
+    int growing = 0;
+    for (int k = 0; k < kIterations && growing < 4; ++k) {
+      const VectorXd before = state.q;
+      if (!solve(f, state)) return;
+      state.forces = forces_of(state.q, load, &state.forces);
+      const double size = state.q.norm();
+      const double change = (state.q - before).norm();
+      const bool rounding = change <= 1e-8 * size && change >= 0.5 * last_change;
+      if (change <= 1e-14 * size || rounding) return;
+      growing = change < last_change ? 0 : growing + 1;
+      last_change = change;
+    }
+    state.outcome = {Status::not_converged, "its forces do not settle"};
+  }
+
+  /// (K + K_G) q = f; false with the outcome where there is no stable solution.
+  bool solve(const VectorXd& f, SecondOrderState& state) {
+    const SparseMatrix K_G = geometric_stiffness(system_, state.forces);
+    const std::size_t elements = system_.mesh.frame.size() + system_.model.triangles.size();
+    counters_.count(Effect::geometric_stiffening, static_cast<std::int64_t>(elements));
+    factorization_.compute(system_.K + K_G);
+    ++counters_.factorizations;
+    if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) {
+      state.outcome = {Status::singular, "a motion buckles"};
+      return false;
+    }
+    const Operator tangent = [&](const VectorXd& q) -> VectorXd { return elastic_(q) + K_G * q; };
+    const RefinedSolution refined = refined_solve(tangent, factorization_, f, counters_);
+    state.q = refined.x;
+    if (refined.converged()) return true;
+    state.outcome = {Status::not_converged, "its stiffness is too ill-conditioned"};
+    return false;
+  }
+
+  const System& system_;
+  const VectorXd& linear_;
+  Counters& counters_;
+  Operator elastic_;
+  Factorization factorization_;
+  Outcome whole_;  // of the first attempt, under the whole load
+};
+
+}  // namespace
+
+SecondOrderState solve_second_order(const System& system, const VectorXd& linear,
+                                    Counters& counters) {
+  return SecondOrderTheory(system, linear, counters).run();
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,104 @@
+#include "solver/statics/unbalanced_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/assembly/strain.h"
+#include "solver/linalg/backward_error.h"
+
+namespace trammel::solver {
+namespace {
+
+using Eigen::VectorXd;
+
+template <class Coordinates, class Vector>
+void add_forces(const Coordinates& coordinates, const Vector& force, VectorXd& sum) {
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (coordinates[i] >= 0) sum[coordinates[i]] += force[static_cast<Index>(i)];
+  }
+}
+
+/// Forces that the nodes exert on the members by their section forces, less the members' loads.
+void add_members(const System& system, const ElasticState& state, const StaticSolution& solution,
+                 VectorXd& sum) {
+  const auto resultants = element_resultants(system, state);
+  const auto& frame = system.mesh.frame;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const FrameElement& e = frame[i];
+    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+    const bool first = i == 0 || frame[i - 1].member != e.member;
+    const bool last = i + 1 == frame.size() || frame[i + 1].member != e.member;
+    Vector6d force = resultants.row(static_cast<Index>(i)).transpose();
+    if (first) force.head<3>() = solution.resultant_start.row(e.member).transpose();
+    if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
+    force.head<3>() *= -1;
+    force = frame_rotation(e.direction).transpose() * force;
+    const Vector2d load = member.load + e.section.mass_per_length * system.model.gravity;
+    // A bar's section forces hold its loads already; a beam's are those at its very ends.
+    add_forces(e.coordinates, (force + state.load_factor * element_load(e, load)).eval(), sum);
+  }
+}
+
+/// Of springs and triangles.
+void add_other_elements(const System& system, const VectorXd& u, VectorXd& sum) {
+  std::size_t left_out = system.mesh.frame.size();
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    if (left_out > 0) {
+      --left_out;
+      return;
+    }
+    add_forces(coordinates,
+               (B.transpose() * c.cwiseProduct(B * detail::gather(coordinates, u))).eval(), sum);
+  });
+}
+
+/// Second-order forces of all but the members, whose section forces hold theirs.
+void add_geometric(const System& system, const ElasticState& state, VectorXd& sum) {
+  if (!state.prestress) return;
+  Prestress rest = *state.prestress;
+  rest.axial.setZero();
+  rest.axial_variation.setZero();
+  sum += geometric_stiffness_forces(system, rest, state.u);
+}
+
+/// Adds what supports and other constraints exert, with its magnitudes: a constraint carries the
+/// rounding of the terms at each of its coordinates to all of them.
+void add_constraints(const System& system, const ElasticState& state,
+                     const StaticSolution& solution, VectorXd& sum, VectorXd& magnitudes) {
+  const VectorXd terms = magnitudes;
+  const VectorXd multipliers = constraint_forces(system, state);
+  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
+    const ConstraintRow& row = system.constraints.rows[i];
+    if (row.source == ConstraintRow::Source::inextensible) continue;  // an axial force
+    double force = multipliers[static_cast<Index>(i)];
+    if (row.source == ConstraintRow::Source::support) {
+      const Index u = row.terms.front().first;
+      const auto& node = system.coordinates.node[static_cast<std::size_t>(
+          system.model.supports[static_cast<std::size_t>(row.index)].node)];
+      force = solution.reaction(row.index, u == node[0] ? 0 : u == node[1] ? 1 : 2);
+    }
+    double size = std::abs(force);
+    for (const auto& [coordinate, coefficient] : row.terms) {
+      if (coefficient != 0) size = std::max(size, terms[coordinate] / std::abs(coefficient));
+    }
+    for (const auto& [coordinate, coefficient] : row.terms) {
+      sum[coordinate] -= coefficient * force;
+      magnitudes[coordinate] += std::abs(coefficient) * size;
+    }
+  }
+}
+
+}  // namespace
+
+double unbalanced_forces(const System& system, const ElasticState& state,
+                         const StaticSolution& solution, const VectorXd& terms) {
+  VectorXd sum = -state.load_factor * system.load;
+  VectorXd magnitudes = terms;
+  add_members(system, state, solution, sum);
+  add_other_elements(system, state.u, sum);
+  add_geometric(system, state, sum);
+  add_constraints(system, state, solution, sum, magnitudes);
+  return largest_ratio(sum, magnitudes);
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,75 @@
+#include "solver/statics/unbalanced_forces.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "solver/assembly/equation_rows.h"
+#include "solver/manipulator/manipulator.h"
+#include "solver/statics/statics.h"
+#include "tests/support/solver/frames.h"
+#include "tests/support/solver/table_1.h"
+
+using namespace trammel::solver;
+using namespace trammel::testing;
+
+namespace {
+
+struct Solved {
+  System system;
+  StaticSolution solution;
+  ElasticState state;
+
+  [[nodiscard]] double unbalanced() const {
+    EquationRows rows(system);
+    rows.add_stiffness(state.u);
+    rows.add_load(system.load, -1);
+    return unbalanced_forces(system, state, solution, rows.terms());
+  }
+};
+
+/// The Table 1 manipulator with welded elbows, gravity and a force at P.
+Solved manipulator() {
+  Model model = build_manipulator(table_1_design(), centred_pose(0.1));
+  model.gravity = {0.5, -9.81};
+  model.loads = {{0, {3, -2, 0}}};
+  Solved s{assemble(model), {}, {}};
+  s.solution = solve_statics(s.system);
+  BOOST_REQUIRE(s.solution.outcome.solved());
+  s.state.u = s.system.T * s.solution.q;
+  return s;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(unbalanced_forces)
+
+BOOST_AUTO_TEST_CASE(what_is_reported_balances_at_every_node) {
+  BOOST_TEST(manipulator().unbalanced() < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(a_wrong_sign_or_place_at_recovery_is_seen) {
+  for (const Index column : {0, 1, 2}) {
+    Solved sign = manipulator();
+    sign.solution.resultant_start.col(column) *= -1;
+    BOOST_TEST(sign.unbalanced() > 1e-9);
+    Solved end = manipulator();
+    end.solution.resultant_end.col(column) *= -1;
+    BOOST_TEST(end.unbalanced() > 1e-9);
+  }
+  Solved swapped = manipulator();
+  std::swap(swapped.solution.resultant_start, swapped.solution.resultant_end);
+  BOOST_TEST(swapped.unbalanced() > 1e-9);
+  Solved reaction = manipulator();
+  reaction.solution.reaction *= -1;
+  BOOST_TEST(reaction.unbalanced() > 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(a_stale_load_leaves_rows_unbalanced) {
+  Solved s = manipulator();
+  s.system.load *= 1.0001;
+  EquationRows rows(s.system);
+  rows.add_stiffness(s.state.u);
+  rows.add_load(s.system.load, -1);
+  BOOST_TEST(rows.backward_error() > 1e-9);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
