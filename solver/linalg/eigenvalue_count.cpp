@@ -12,6 +12,12 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
                               const Eigen::VectorXd& found) {
   constexpr double kClearGap = 1e-6;  // of repeated values rounding leaves much less
   Factorization factorization;
+  if (found.size() == 0) {  // none at all, however large the shift
+    const double size = B.coeffs().cwiseAbs().maxCoeff();
+    factorization.compute(shifted(A, B, size > 0 ? A.coeffs().cwiseAbs().maxCoeff() / size : 0));
+    return factorization.is_reliable() ? static_cast<double>(factorization.negative_pivots())
+                                       : std::numeric_limits<double>::infinity();
+  }
   for (Index below = found.size() - 1; below >= 0; --below) {
     const double low = below > 0 ? found[below - 1] : 0;
     const double gap = found[below] - low;
@@ -22,7 +28,7 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
       return static_cast<double>(std::abs(factorization.negative_pivots() - below));
     }
   }
-  const bool nothing_swings = found.size() == 0 || found[found.size() - 1] == 0;
+  const bool nothing_swings = found[found.size() - 1] == 0;
   return nothing_swings ? 0 : std::numeric_limits<double>::infinity();
 }
 

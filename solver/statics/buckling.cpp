@@ -24,7 +24,10 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   const Prestress forces =
       prestress(system, state.u, constraint_forces(system, state), body_forces(system));
   const SparseMatrix softening = -geometric_stiffness(system, forces);
-  if (softening.nonZeros() == 0 || softening.coeffs().isZero(0)) return solution;
+  if (softening.nonZeros() == 0 || softening.coeffs().isZero(0)) {
+    solution.evidence.add(Residual::mode_count, 0);  // K + factor 0 stays what it is
+    return solution;
+  }
   Pencil pencil;
   pencil.K = &system.K;
   pencil.B = &softening;

@@ -56,7 +56,8 @@ class PathFollower {
       while (next()) {
       }
     }
-    path_.outcome = outcome_by_evidence(path_.outcome, path_.evidence);
+    const Outcome judged = outcome_by_evidence(path_.outcome, path_.evidence);
+    if (path_.outcome.solved() && !judged.solved()) not_converged(judged.reason);
     path_.counters.factorizations = equilibrium_.matrix().factorizations();
     path_.counters.solves = equilibrium_.matrix().solves();
     return std::move(path_);
