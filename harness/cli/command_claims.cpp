@@ -19,7 +19,7 @@ std::string measured(const Interpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [smallest, greatest] = std::minmax_element(
       interpretation.entries.begin(), interpretation.entries.end(),
-      [](const InterpretationEntry& a, const InterpretationEntry& b) { return a.value < b.value; });
+      [](const results::ClaimEntry& a, const results::ClaimEntry& b) { return a.value < b.value; });
   std::string text = rounded(smallest->value, 5);
   if (greatest->value != smallest->value) text += " ... " + rounded(greatest->value, 5);
   if (interpretation.unit != "1") text += " " + interpretation.unit;

@@ -192,14 +192,16 @@ void print_summary(const std::vector<Run>& runs) {
   std::map<std::string, std::size_t> verdicts;
   std::size_t checks = 0;
   for (const Run& run : runs) {
-    for (const CheckResult& check_result : run.check_results) {
-      ++checks;
+    checks += run.check_results.size();
+    for (const CheckResult& check_result : run.check_results)
       ++verdicts[verdict_text(check_result)];
-    }
   }
   std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks
-            << (checks == 1 ? " check" : " checks");
-  for (const auto& [word, count] : verdicts) std::cout << ", " << count << " " << word;
+            << (checks == 1 ? " check: " : " checks: ") << verdicts["pass"] << " pass, "
+            << verdicts["does not agree"] << " do not agree (as recorded), " << verdicts["fail"]
+            << " fail";
+  for (const char* rare : {"error", "not-run", "recorded"})
+    if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
   std::cout << '\n';
   print_numerical_uncertainty(numerical_uncertainty_of(runs), std::cout);
   print_validation_summary(runs, std::cout);

@@ -6,16 +6,19 @@
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
+#include "references/data/json_files.h"
 
 namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Rooms that hold something else than cases.
-bool holds_no_cases(const fs::path& folder) {
-  const std::string name = folder.filename().string();
-  return name == "schema" || name == "cost" || name == "claims";
+constexpr const char* kOtherRooms[] = {"/schema/", "/cost/", "/claims/"};
+
+/// Whether a file below the catalogue's folder lies in a room that holds something else than cases.
+bool is_no_case(const std::string& path_below) {
+  return std::any_of(std::begin(kOtherRooms), std::end(kOtherRooms),
+                     [&](const char* room) { return path_below.find(room) != std::string::npos; });
 }
 
 /// Nothing a user types as a name may leave the catalogue's folder.
@@ -28,16 +31,13 @@ bool is_name(const std::string& text) {
 Catalogue::Catalogue() : Catalogue(data_root() / "cases") {}
 
 Catalogue::Catalogue(const fs::path& folder) {
-  for (auto entry = fs::recursive_directory_iterator(folder);
-       entry != fs::recursive_directory_iterator(); ++entry) {
-    const fs::path& file = entry->path();
-    if (entry->is_directory() && holds_no_cases(file)) entry.disable_recursion_pending();
-    if (file.extension() != ".json") continue;
-    const auto [known, is_new] = files_.try_emplace(file.stem().string(), file);
+  for (const auto& [name, file] : references::json_files(folder.string())) {
+    if (is_no_case(file.substr(folder.string().size()))) continue;
+    const auto [known, is_new] = files_.try_emplace(name, file);
     if (is_new) continue;
-    throw InputError(std::max(known->second, file).string(), "/id",
+    throw InputError(std::max(known->second, file), "/id",
                      "expected a name that no other case has (got that of " +
-                         std::min(known->second, file).string() + ")");
+                         std::min(known->second, file) + ")");
   }
 }
 
@@ -53,7 +53,7 @@ fs::path Catalogue::by_name(const std::string& name) const {
   if (!is_name(name)) return {};
   const fs::path wanted(name);
   const auto found = files_.find((wanted.extension() == ".json" ? wanted.stem() : wanted).string());
-  return found == files_.end() ? fs::path() : found->second;
+  return found == files_.end() ? fs::path() : fs::path(found->second);
 }
 
 std::string Catalogue::nearest_name(const std::string& name) const {

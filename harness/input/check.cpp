@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <map>
 
 #include "harness/base/text.h"
 
@@ -291,41 +292,18 @@ std::vector<Check> read_checks(const Document& document, const std::string& vari
 }
 
 const char* to_string(Role role) {
-  switch (role) {
-    case Role::verification:
-      return "verification";
-    case Role::validation:
-      return "validation";
-    case Role::regression:
-      return "regression";
-  }
-  return "";
+  static const std::map<Role, const char*> names = {{Role::verification, "verification"},
+                                                    {Role::validation, "validation"},
+                                                    {Role::regression, "regression"}};
+  return names.at(role);
 }
 
 const char* to_string(Measure measure) {
-  switch (measure) {
-    case Measure::relative:
-      return "relative";
-    case Measure::absolute:
-      return "absolute";
-    case Measure::ratio:
-      return "ratio";
-    case Measure::value:
-      return "bound";
-  }
-  return "";
-}
-
-const char* to_string(Expectation expectation) {
-  switch (expectation) {
-    case Expectation::none:
-      return "none";
-    case Expectation::agrees:
-      return "agrees";
-    case Expectation::known_discrepancy:
-      return "known-discrepancy";
-  }
-  return "";
+  static const std::map<Measure, const char*> names = {{Measure::relative, "relative"},
+                                                       {Measure::absolute, "absolute"},
+                                                       {Measure::ratio, "ratio"},
+                                                       {Measure::value, "bound"}};
+  return names.at(measure);
 }
 
 }  // namespace trammel::harness

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
+#include "harness/results/run_results.h"
 
 /// What a case asks to be judged, as read from "checks".
 namespace trammel::harness {
@@ -15,7 +16,7 @@ enum class Role { verification, validation, regression };
 /// difference itself, their ratio, or the value.
 enum class Measure { relative, absolute, ratio, value };
 
-enum class Expectation { none, agrees, known_discrepancy };
+using results::Expectation;
 
 /// Where the measure must lie; infinite where a side is open.
 struct Window {
@@ -72,6 +73,5 @@ struct Check {
 
 [[nodiscard]] const char* to_string(Role role);
 [[nodiscard]] const char* to_string(Measure measure);
-[[nodiscard]] const char* to_string(Expectation expectation);
 
 }  // namespace trammel::harness

@@ -29,7 +29,21 @@ std::vector<fs::path> places_beside(const std::string& id, const fs::path& case_
   return {folder / name, folder / "references" / name};
 }
 
-CitedReference read(const fs::path& file) {
+}  // namespace
+
+references::Source References::source(const std::string& key, const fs::path& file) const {
+  for (const fs::path& folder : {file.parent_path(), stored().parent_path()}) {
+    const fs::path place = folder / "bibliography.json";
+    auto sources = bibliographies_.find(place);
+    if (sources == bibliographies_.end())
+      sources = bibliographies_.emplace(place, references::load_bibliography(place)).first;
+    if (const auto found = sources->second.find(key); found != sources->second.end())
+      return found->second;
+  }
+  return {key, ""};
+}
+
+CitedReference References::read(const fs::path& file) const {
   const Json json = read_json(file);
   if (const auto schema_error = find_schema_fault(json, "reference")) {
     throw InputError(file.string(), schema_error->pointer, schema_error->message);
@@ -40,29 +54,19 @@ CitedReference read(const fs::path& file) {
       throw InputError(file.string(), "/id",
                        "expected the file's name, '" + file.stem().string() + "'");
     }
-    cited.source.text = cited.reference.source;
-    for (const fs::path& folder : {file.parent_path(), stored().parent_path()}) {
-      const references::Bibliography sources =
-          references::load_bibliography(folder / "bibliography.json");
-      const auto found = sources.find(cited.reference.source);
-      if (found == sources.end()) continue;
-      cited.source = found->second;
-      break;
-    }
+    cited.source = source(cited.reference.source, file);
     return cited;
   } catch (const references::ReferenceError& error) {
     throw InputError(error.what());
   }
 }
 
-}  // namespace
-
 const references::Reference& References::get(const JsonView& id) const {
   const auto name = id.get<std::string>();
   const std::lock_guard<std::mutex> guard(lock_);
-  if (stored_.empty()) stored_ = references::reference_files(stored());
+  if (stored_.empty()) stored_ = references::reference_files(stored().string());
   std::vector<fs::path> files = places_beside(name, id.document().origin(id.pointer()).file);
-  if (const auto file = stored_.find(name); file != stored_.end()) files.push_back(file->second);
+  if (const auto file = stored_.find(name); file != stored_.end()) files.emplace_back(file->second);
   for (const fs::path& file : files) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) continue;

@@ -30,8 +30,14 @@ class References {
   [[nodiscard]] std::map<std::string, CitedReference> used() const;
 
  private:
+  [[nodiscard]] CitedReference read(const std::filesystem::path& file) const;
+  /// The source of a key: of the bibliography beside the reference's file, else of the catalogue's.
+  [[nodiscard]] references::Source source(const std::string& key,
+                                          const std::filesystem::path& file) const;
+
   mutable std::mutex lock_;
-  mutable std::map<std::string, std::filesystem::path> stored_;  // by id, listed once
+  mutable std::map<std::string, std::string> stored_;  // by id, listed once
+  mutable std::map<std::filesystem::path, references::Bibliography> bibliographies_;
   mutable std::map<std::filesystem::path, CitedReference> read_;
 };
 

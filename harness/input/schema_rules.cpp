@@ -19,16 +19,17 @@ const SchemaRule* keyword(const SchemaRule& rule, const char* name) {
 
 const SchemaRule& load_schema(const std::string& name) {
   static std::mutex lock;
-  static std::map<std::string, rapidjson::Document> loaded;
+  static std::map<std::string, std::pair<std::string, rapidjson::Document>> loaded;
   const std::lock_guard<std::mutex> guard(lock);
   const auto [entry, fresh] = loaded.try_emplace(name);
   if (fresh) {
     const auto file = data_root() / "cases" / "schema" / (name + ".schema.json");
-    if (entry->second.Parse(read_text(file).c_str()).HasParseError()) {
+    auto& [text, document] = entry->second;  // whose strings point into the text
+    text = read_text(file);
+    if (document.ParseInsitu(text.data()).HasParseError())
       throw InputError(file.string() + ": expected JSON");
-    }
   }
-  return entry->second;
+  return entry->second.second;
 }
 
 const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule) {

@@ -16,7 +16,7 @@ CheckResult start_check_result(const Check& check) {
   entry.reference = check.reference;
   entry.against_variant = check.against_variant;
   entry.against_quantity = check.against_quantity;
-  entry.role = check.role;
+  entry.role = to_string(check.role);
   entry.measure = to_string(check.measure);
   entry.symmetric = check.symmetric;
   entry.expectation = check.expectation;
@@ -38,22 +38,6 @@ const references::Reference& find_reference(const CheckContext& context,
   std::for_each(tokens.rbegin(), tokens.rend(),
                 [&](const std::string& token) { place = place[token]; });
   return context.references.get(place);
-}
-
-const char* to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass:
-      return "pass";
-    case Verdict::fail:
-      return "fail";
-    case Verdict::error:
-      return "error";
-    case Verdict::not_run:
-      return "not-run";
-    case Verdict::recorded:
-      return "recorded";
-  }
-  return "";
 }
 
 bool fails_gate(Verdict verdict) {

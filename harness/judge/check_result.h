@@ -13,22 +13,12 @@
 /// What a check comes to, and what it is judged with.
 namespace trammel::harness {
 
-/// recorded: a validation without an expectation, which does not gate.
-enum class Verdict { pass, fail, error, not_run, recorded };
+using results::Verdict;
 
 /// The judgement of one entry of a check, or of the check as a whole where it has no single one.
-struct CheckResult {
-  std::string name, title, quantity, unit, statistic, reference, against_variant, against_quantity;
-  std::optional<std::size_t> index;
-  std::optional<double> computed, expected, difference;
-  Role role = Role::verification;
-  std::string measure;  ///< relative, absolute, ratio, bound, order, two-term,
-                        ///< leading-term, status
-  std::optional<Window> window;
+struct CheckResult : results::Check {
+  std::optional<Window> window;  ///< the tolerance with infinite ends
   bool symmetric = false;
-  Expectation expectation = Expectation::none;
-  Verdict verdict = Verdict::error;
-  std::string why, message;
 };
 
 /// What a run's checks are judged with.
@@ -48,8 +38,6 @@ struct CheckContext {
 /// A place in the document that holds the name of a reference: the check's own, or one inside it.
 [[nodiscard]] const references::Reference& find_reference(const CheckContext& context,
                                                           const std::string& pointer);
-
-[[nodiscard]] const char* to_string(Verdict verdict);
 
 /// A gate that does not hold: everything but a pass and what is only recorded.
 [[nodiscard]] bool fails_gate(Verdict verdict);

@@ -13,6 +13,7 @@ namespace trammel::results {
 using Number = std::optional<double>;  ///< null in the file where it is empty
 using Numbers = std::vector<Number>;
 
+/// recorded: a validation without an expectation, which does not gate.
 enum class Verdict { pass, fail, error, not_run, recorded };
 enum class Expectation { agrees, known_discrepancy, none };
 enum class Status { solved, singular, not_converged, error, not_run };

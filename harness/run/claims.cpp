@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -89,7 +90,7 @@ void add_checks(const JsonView& interpretation, const Run& run, Interpretation& 
                          check_result.reference == interpretation.text("reference");
     if (!named && !against) continue;
     if (interpretation.has("index")) {
-      const auto index = interpretation["index"].get<std::vector<std::size_t>>();
+      const auto index = interpretation["index"].get<std::vector<int>>();
       const bool chosen = check_result.index &&
                           std::find(index.begin(), index.end(), *check_result.index) != index.end();
       if (!chosen) continue;
@@ -143,10 +144,10 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
 /// One verdict for each entry, or for each check: it confirms where all its entries do, and
 /// contradicts where one does.
 std::vector<InterpretationVerdict> verdicts_of(const Rule& rule,
-                                               const std::vector<InterpretationEntry>& entries) {
+                                               const std::vector<results::ClaimEntry>& entries) {
   std::vector<InterpretationVerdict> verdicts;
-  const InterpretationEntry* before = nullptr;
-  for (const InterpretationEntry& entry : entries) {
+  const results::ClaimEntry* before = nullptr;
+  for (const results::ClaimEntry& entry : entries) {
     const InterpretationVerdict verdict = rule.verdict_of_value(entry.value);
     const bool same = rule.jointly && before && before->case_id == entry.case_id &&
                       before->variant == entry.variant && before->name == entry.name;
@@ -162,7 +163,7 @@ std::vector<InterpretationVerdict> verdicts_of(const Rule& rule,
 }
 
 InterpretationVerdict verdict_of(const Rule& rule,
-                                 const std::vector<InterpretationEntry>& entries) {
+                                 const std::vector<results::ClaimEntry>& entries) {
   const std::vector<InterpretationVerdict> each = verdicts_of(rule, entries);
   const std::set<InterpretationVerdict> verdicts(each.begin(), each.end());
   if (verdicts.empty()) return InterpretationVerdict::not_measured;
@@ -308,35 +309,23 @@ ClaimSet evaluate_claims(const Document& document, const std::vector<Run>& runs)
 }
 
 std::string to_text(ClaimVerdict verdict) {
-  switch (verdict) {
-    case ClaimVerdict::confirmed:
-      return "confirmed";
-    case ClaimVerdict::confirmed_in_part:
-      return "confirmed in part";
-    case ClaimVerdict::contradicted:
-      return "contradicted";
-    case ClaimVerdict::cannot_be_decided:
-      return "cannot be decided";
-    case ClaimVerdict::not_measured:
-      return "not measured";
-  }
-  return "";
+  const std::map<ClaimVerdict, const char*> texts = {
+      {ClaimVerdict::confirmed, "confirmed"},
+      {ClaimVerdict::confirmed_in_part, "confirmed in part"},
+      {ClaimVerdict::contradicted, "contradicted"},
+      {ClaimVerdict::cannot_be_decided, "cannot be decided"},
+      {ClaimVerdict::not_measured, "not measured"}};
+  return texts.at(verdict);
 }
 
 std::string to_text(InterpretationVerdict verdict) {
-  switch (verdict) {
-    case InterpretationVerdict::confirms:
-      return "confirms";
-    case InterpretationVerdict::contradicts:
-      return "contradicts";
-    case InterpretationVerdict::in_part:
-      return "confirms in part";
-    case InterpretationVerdict::undecided:
-      return "inconclusive";
-    case InterpretationVerdict::not_measured:
-      return "not measured";
-  }
-  return "";
+  const std::map<InterpretationVerdict, const char*> texts = {
+      {InterpretationVerdict::confirms, "confirms"},
+      {InterpretationVerdict::contradicts, "contradicts"},
+      {InterpretationVerdict::in_part, "confirms in part"},
+      {InterpretationVerdict::undecided, "inconclusive"},
+      {InterpretationVerdict::not_measured, "not measured"}};
+  return texts.at(verdict);
 }
 
 results::Claims claim_results(const ClaimSet& claim_set) {
@@ -350,13 +339,9 @@ results::Claims claim_results(const ClaimSet& claim_set) {
                           claim.conclusion,
                           claim.undecidable,
                           {}});
-    for (const Interpretation& found : claim.interpretations) {
-      results::ClaimInterpretation interpretation{
-          found.what, found.metric, found.unit, to_text(found.verdict), {}};
-      for (const InterpretationEntry& entry : found.entries)
-        interpretation.entries.push_back({entry.case_id, entry.variant, entry.name, entry.value});
-      out.claims.back().interpretations.push_back(std::move(interpretation));
-    }
+    for (const Interpretation& found : claim.interpretations)
+      out.claims.back().interpretations.push_back(
+          {found.what, found.metric, found.unit, to_text(found.verdict), found.entries});
   }
   return out;
 }

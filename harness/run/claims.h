@@ -21,17 +21,10 @@ enum class ClaimVerdict {
   not_measured
 };
 
-/// One number that a reading rests on.
-struct InterpretationEntry {
-  std::string case_id, variant;
-  std::string name;  ///< of the check, or of the quantity
-  double value = 0;
-};
-
 struct Interpretation {
   std::string name, what, metric;
   std::string unit;  ///< of the values: 1 for ratios
-  std::vector<InterpretationEntry> entries;
+  std::vector<results::ClaimEntry> entries;
   bool incomplete = false;  ///< a run or a number that it asks for is not there
   InterpretationVerdict verdict = InterpretationVerdict::not_measured;
 };

@@ -43,55 +43,9 @@ std::optional<results::Tolerance> tolerance(const CheckResult& check_result) {
                             check_result.symmetric};
 }
 
-results::Expectation expectation(Expectation expectation) {
-  switch (expectation) {
-    case Expectation::agrees:
-      return results::Expectation::agrees;
-    case Expectation::known_discrepancy:
-      return results::Expectation::known_discrepancy;
-    case Expectation::none:
-      break;
-  }
-  return results::Expectation::none;
-}
-
-results::Verdict verdict(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::pass:
-      return results::Verdict::pass;
-    case Verdict::fail:
-      return results::Verdict::fail;
-    case Verdict::not_run:
-      return results::Verdict::not_run;
-    case Verdict::recorded:
-      return results::Verdict::recorded;
-    case Verdict::error:
-      break;
-  }
-  return results::Verdict::error;
-}
-
 results::Check check(const CheckResult& found) {
-  results::Check check;
-  check.name = found.name;
-  check.title = found.title;
-  check.quantity = found.quantity;
-  if (found.index) check.index = static_cast<int>(*found.index);
-  check.statistic = found.statistic;
-  check.computed = number(found.computed);
-  check.expected = number(found.expected);
-  check.unit = found.unit;
-  check.reference = found.reference;
-  check.against_variant = found.against_variant;
-  check.against_quantity = found.against_quantity;
-  check.role = to_string(found.role);
-  check.measure = found.measure;
-  check.difference = number(found.difference);
+  results::Check check = found;
   check.tolerance = tolerance(found);
-  check.why = found.why;
-  check.expectation = expectation(found.expectation);
-  check.verdict = verdict(found.verdict);
-  check.message = found.message;
   return check;
 }
 

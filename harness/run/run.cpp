@@ -148,8 +148,8 @@ bool evaluate_status_check(const Task& task, Run& run) {
   check_result.name = "status";
   check_result.quantity = "status";
   check_result.unit = "1";
+  check_result.role = to_string(Role::verification);
   check_result.measure = "status";
-  check_result.expectation = Expectation::agrees;
   check_result.why = "the case expects it to be " + expected;
   check_result.verdict = run.status == expected ? Verdict::pass : Verdict::fail;
   check_result.message = run.status + (run.reason.empty() ? "" : ": " + run.reason);

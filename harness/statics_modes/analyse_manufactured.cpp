@@ -1,6 +1,7 @@
 #include "harness/statics_modes/analyse_manufactured.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "harness/readers/material_reader.h"
@@ -69,62 +70,57 @@ BeamTest read_beam(const JsonView& place) {
   return test;
 }
 
-/// Records norms that are errors already: what rounding leaves of them grows with each derivative,
-/// by the number of cells.
-class NormRecorder {
- public:
-  NormRecorder(Recorder& record, solver::Index cells)
-      : record_(record), cells_(static_cast<double>(cells)) {}
-
-  void add(const std::string& name, double error, int derivative) {
-    const double rounding = std::numeric_limits<double>::epsilon() * std::pow(cells_, derivative);
-    record_.add(name, "", error, rounding / error);
-  }
-
- private:
-  Recorder& record_;
-  double cells_;
+/// An error in some norm, of the solution or of what `derivative` derivatives make of it.
+struct ErrorNorm {
+  const char* name;
+  double error;
+  int derivative;
 };
 
-StepResult finish(const ManufacturedSolution& solution, bool draw) {
+/// Records norms that are errors already: what rounding leaves of them grows with each derivative,
+/// by the number of cells.
+StepResult record_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
+                        std::initializer_list<ErrorNorm> norms, Recorder& record) {
   StepResult result{solution.outcome, solution.counters, std::nullopt, {}, solution.evidence};
   if (draw) result.drawing = draw_model(solution.system, false);
-  if (result.drawing && solution.outcome.solved()) {
+  if (!solution.outcome.solved()) return result;
+  if (result.drawing) {
     result.drawing->shapes.push_back(
         draw_shape(solution.system, solution.q, "manufactured displacement"));
+  }
+  for (const auto& [name, error, derivative] : norms) {
+    const double rounding =
+        std::numeric_limits<double>::epsilon() * std::pow(static_cast<double>(cells), derivative);
+    record.add(name, "", error, rounding / error);
   }
   return result;
 }
 
 StepResult run_membrane(const JsonView& place, bool draw, Recorder& record) {
   const MembraneTest test = read_membrane(place);
-  const MembraneTestResult found = run_membrane_test(test);
-  StepResult result = finish(found.solution, draw);
-  if (!result.outcome.solved()) return result;
-  NormRecorder norms(record, test.cells);
-  norms.add("displacement_error", found.errors.displacement, 1);
-  norms.add("rotation_error", found.errors.rotation, 1);
-  norms.add("stress_error", found.errors.stress, 1);
-  norms.add("energy_error", found.errors.energy, 1);
-  return result;
+  const auto [solution, errors] = run_membrane_test(test);
+  return record_norms(solution, test.cells, draw,
+                      {{"displacement_error", errors.displacement, 1},
+                       {"rotation_error", errors.rotation, 1},
+                       {"stress_error", errors.stress, 1},
+                       {"energy_error", errors.energy, 1}},
+                      record);
 }
 
 StepResult run_beam(const JsonView& place, bool draw, Recorder& record) {
   const BeamTest test = read_beam(place);
-  const BeamTestResult found = run_beam_test(test);
-  StepResult result = finish(found.solution, draw);
-  if (!result.outcome.solved()) return result;
-  NormRecorder norms(record, test.cells);
-  norms.add("axial_displacement_error", found.errors.axial_displacement, 1);
-  norms.add("axial_force_error", found.errors.axial_force, 1);
-  norms.add("deflection_error", found.errors.deflection, 1);
-  norms.add("rotation_error", found.errors.rotation, 1);
-  norms.add("bending_moment_error", found.errors.bending_moment, 2);
-  norms.add("shear_force_error", found.errors.shear_force, 3);
-  norms.add("energy_error", found.errors.energy, 2);
-  norms.add("nodal_deflection_error", found.errors.nodal_deflection, 1);
-  norms.add("nodal_rotation_error", found.errors.nodal_rotation, 1);
-  return result;
+  const auto [solution, errors] = run_beam_test(test);
+  return record_norms(solution, test.cells, draw,
+                      {{"axial_displacement_error", errors.axial_displacement, 1},
+                       {"axial_force_error", errors.axial_force, 1},
+                       {"deflection_error", errors.deflection, 1},
+                       {"rotation_error", errors.rotation, 1},
+                       {"bending_moment_error", errors.bending_moment, 2},
+                       {"shear_force_error", errors.shear_force, 3},
+                       {"energy_error", errors.energy, 2},
+                       {"nodal_deflection_error", errors.nodal_deflection, 1},
+                       {"nodal_rotation_error", errors.nodal_rotation, 1}},
+                      record);
 }
 
 }  // namespace

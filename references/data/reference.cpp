@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <system_error>
+#include <utility>
+
+#include "references/data/json_files.h"
 
 namespace trammel::references {
 namespace {
@@ -104,17 +107,11 @@ std::string describe_derivation(const Json& derivation) {
 }  // namespace
 
 const char* to_string(ReferenceKind kind) {
-  switch (kind) {
-    case ReferenceKind::exact:
-      return "exact";
-    case ReferenceKind::computed:
-      return "computed";
-    case ReferenceKind::paper:
-      return "paper";
-    case ReferenceKind::code:
-      return "code";
-  }
-  return "";
+  static const std::map<ReferenceKind, const char*> names = {{ReferenceKind::exact, "exact"},
+                                                             {ReferenceKind::computed, "computed"},
+                                                             {ReferenceKind::paper, "paper"},
+                                                             {ReferenceKind::code, "code"}};
+  return names.at(kind);
 }
 
 double half_unit_in_last_place(const std::string& printed) {
@@ -163,12 +160,9 @@ Reference read_reference(const Json& json, const std::string& name) {
   return read;
 }
 
-std::map<std::string, std::filesystem::path> reference_files(const std::filesystem::path& folder) {
-  std::map<std::string, std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".json") files.emplace(entry.path().stem(), entry.path());
-  }
+std::map<std::string, std::string> reference_files(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (auto& [name, file] : json_files(folder)) files.emplace(std::move(name), std::move(file));
   return files;
 }
 

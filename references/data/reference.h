@@ -36,8 +36,7 @@ class ReferenceError : public std::runtime_error {
 };
 
 /// The files of all rooms below a folder, by the ids that are their names.
-[[nodiscard]] std::map<std::string, std::filesystem::path> reference_files(
-    const std::filesystem::path& folder);
+[[nodiscard]] std::map<std::string, std::string> reference_files(const std::string& folder);
 
 /// @throws ReferenceError
 [[nodiscard]] Reference load_reference(const std::filesystem::path& file);

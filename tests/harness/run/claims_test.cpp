@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(
   const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == ClaimVerdict::not_measured));
   BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);
-  for (const InterpretationEntry& entry : found.claims[0].interpretations[0].entries) {
+  for (const results::ClaimEntry& entry : found.claims[0].interpretations[0].entries) {
     BOOST_TEST(std::isfinite(entry.value));
   }
 }
