@@ -12,9 +12,10 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
                               const Eigen::VectorXd& found) {
   constexpr double kClearGap = 1e-6;  // of repeated values rounding leaves much less
   Factorization factorization;
+  if (A.rows() == 0) return static_cast<double>(found.size());
   if (found.size() == 0) {  // none at all, however large the shift
-    const double size = B.coeffs().cwiseAbs().maxCoeff();
-    factorization.compute(shifted(A, B, size > 0 ? A.coeffs().cwiseAbs().maxCoeff() / size : 0));
+    const double size = B.norm();
+    factorization.compute(shifted(A, B, size > 0 ? A.norm() / size : 0));
     return factorization.is_reliable() ? static_cast<double>(factorization.negative_pivots())
                                        : std::numeric_limits<double>::infinity();
   }
