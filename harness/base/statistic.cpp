@@ -24,6 +24,11 @@ double statistic_of(const std::string& name, const std::vector<double>& values) 
   }
   if (name == "sum") return std::accumulate(values.begin(), values.end(), 0.0);
   if (name == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / count;
+  if (name == "median") {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
+  }
   if (name == "first") return values.front();
   if (name == "last") return values.back();
   if (name == "range") return *most - *least;

@@ -1,5 +1,6 @@
 #include "harness/statics_modes/analyse_statics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -7,10 +8,16 @@
 
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/model/numbers.h"
+#include "solver/statics/linear_solution.h"
 #include "solver/statics/statics.h"
 
 namespace trammel::harness {
 namespace {
+
+/// Relative; negative: not known.
+struct Roundoff {
+  double displacement, force;
+};
 
 void record_nodes(const solver::Model& model, const solver::StaticSolution& solution,
                   double roundoff, Recorder& record) {
@@ -42,7 +49,7 @@ void record_bending_stress(const solver::Model& model, const solver::StaticSolut
 }
 
 void record_members(const solver::Model& model, const solver::StaticSolution& solution,
-                    double roundoff, Recorder& record) {
+                    Roundoff roundoff, Recorder& record) {
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const auto row = static_cast<solver::Index>(i);
     const std::string& name = model.members[i].name;
@@ -51,14 +58,15 @@ void record_members(const solver::Model& model, const solver::StaticSolution& so
     for (std::size_t end = 0; end < 2; ++end) {
       const std::string item = name + (end == 0 ? ".start" : ".end");
       const double rotation = solution.end_rotation(row, static_cast<solver::Index>(end));
-      if (!std::isnan(rotation)) record.add("end_rotation_rad", item, rotation, roundoff);
-      record.add("axial_force_N", item, resultants[end][0], roundoff);
-      record.add("shear_force_N", item, resultants[end][1], roundoff);
-      record.add("bending_moment_N_m", item, resultants[end][2], roundoff);
+      if (!std::isnan(rotation))
+        record.add("end_rotation_rad", item, rotation, roundoff.displacement);
+      record.add("axial_force_N", item, resultants[end][0], roundoff.force);
+      record.add("shear_force_N", item, resultants[end][1], roundoff.force);
+      record.add("bending_moment_N_m", item, resultants[end][2], roundoff.force);
     }
     // Not finite where the section does not say how far its outermost fibre is.
     if (row < solution.member_stress.size() && std::isfinite(solution.member_stress[row])) {
-      record.add("stress_Pa", name, solution.member_stress[row], roundoff);
+      record.add("stress_Pa", name, solution.member_stress[row], roundoff.force);
     }
   }
 }
@@ -127,14 +135,19 @@ StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool d
   return result;
 }
 
+void record_all(const solver::Model& model, const solver::StaticSolution& solution,
+                Roundoff roundoff, Recorder& record) {
+  record_nodes(model, solution, roundoff.displacement, record);
+  record_members(model, solution, roundoff, record);
+  record_reactions(model, solution, roundoff.force, record);
+  record_plates(model, solution, roundoff.force, record);
+}
+
 }  // namespace
 
 void record_solution(const solver::Model& model, const solver::StaticSolution& solution,
                      double roundoff, Recorder& record) {
-  record_nodes(model, solution, roundoff, record);
-  record_members(model, solution, roundoff, record);
-  record_reactions(model, solution, roundoff, record);
-  record_plates(model, solution, roundoff, record);
+  record_all(model, solution, {roundoff, roundoff}, record);
 }
 
 StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::size_t step,
@@ -149,11 +162,12 @@ StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::si
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!solution.outcome.solved()) return result;
   const double roundoff = std::pow(10.0, -solution.estimated_correct_digits);
+  const double of_forces = std::min(1.0, roundoff + solver::force_roundoff(system, solution.q));
   const solver::Model& model = system.model;
-  record_solution(model, solution, roundoff, record);
-  if (!case_model.path) record_bending_stress(model, solution, roundoff, record);
+  record_all(model, solution, {roundoff, of_forces}, record);
+  if (!case_model.path) record_bending_stress(model, solution, of_forces, record);
   // The pins of a platform are points that no mesh resolves.
-  if (!case_model.manipulator) record_node_stresses(model, solution, roundoff, record);
+  if (!case_model.manipulator) record_node_stresses(model, solution, of_forces, record);
   // Loads times displacements: twice the strain energy.
   record.add("compliance_J", "", system.f.dot(solution.q), roundoff);
   record.add("equilibrium_residual_N", "", solution.equilibrium_residual);

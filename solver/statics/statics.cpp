@@ -2,45 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "solver/assembly/equation_rows.h"
-#include "solver/assembly/strain.h"
-#include "solver/linalg/factorization.h"
-#include "solver/linalg/refinement.h"
+#include "solver/model/numbers.h"
+#include "solver/statics/linear_solution.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/statics/second_order.h"
 #include "solver/statics/unbalanced_forces.h"
-#include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
 
-/// q and estimated_correct_digits of K q = f, or the outcome that keeps them from being.
+/// Digits that a relative error leaves, no more than a double has.
+double digits(double error) {
+  return -std::log10(std::clamp(error, kEps, 1.0));
+}
+
+/// q and its digits, or the outcome that keeps them from being.
 void solve_linear(const System& system, StaticSolution& solution) {
-  Factorization factorization;
-  factorization.compute(system.K);
-  ++solution.counters.factorizations;
-  const ZeroEnergyModes free = find_zero_energy_modes(system, factorization, solution.counters);
-  if (free.count() > 0) {
-    solution.outcome = {Status::singular, describe_mechanism(system, free)};
-    return;
-  }
-  const bool definite = factorization.exists() && factorization.smallest_pivot() > 0;
-  const RefinedSolution refined =
-      definite
-          ? refined_solve(stiffness_operator(system), factorization, system.f, solution.counters)
-          : RefinedSolution{solution.q, 1};
-  if (!refined.converged()) {
-    solution.outcome = {Status::not_converged,
-                        "the stiffness matrix is too ill-conditioned for double precision"};
-    return;
-  }
-  solution.q = refined.x;
-  const double lost = factorization.condition() * std::numeric_limits<double>::epsilon();
-  solution.estimated_correct_digits = std::max(0.0, -std::log10(lost));
+  const LinearSolution linear = solve_linear_statics(system, solution.counters);
+  solution.outcome = linear.outcome;
+  if (!linear.outcome.solved()) return;
+  solution.q = linear.q;
+  solution.estimated_correct_digits = digits(linear.error);
 }
 
 /// The claimed state's equation with K and K_G formed afresh, and the equilibrium of its forces.
@@ -61,7 +47,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   StaticSolution solution;
   solution.counters = system.counters;
   solution.q.setZero(system.K.rows());
-  solution.estimated_correct_digits = -std::log10(std::numeric_limits<double>::epsilon());
+  solution.estimated_correct_digits = digits(0);
   if (solution.q.size() > 0) solve_linear(system, solution);
   SecondOrderState second;
   ElasticState state;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kShift = 1e-12;        // of the diagonal
 constexpr double kSmallPivot = 1e-9;    // pivots below it make us look
-constexpr double kDeformation = 1e-25;  // of the rounding level: below it, nothing deforms
+constexpr double kDeformation = 1e-28;  // of the magnitude, (45 eps)^2: below it, nothing deforms
 constexpr Index kMaxModes = 48;
 
 /// Inverse iteration with K + t D on a block, D the diagonal of K; columns stay orthonormal in D.

@@ -1,0 +1,69 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <random>
+
+#include "solver/linalg/forward_error.h"
+
+using namespace trammel::solver;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+StiffnessFactors factors(const MatrixXd& A) {
+  return {A.sparseView(), A.cwiseAbs().sparseView(), VectorXd::Ones(A.rows())};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(forward_error_bound)
+
+BOOST_AUTO_TEST_CASE(the_estimated_norm_is_no_larger_than_the_norm_and_close_to_it) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> entry(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    const MatrixXd B = MatrixXd::NullaryExpr(9, 6, [&] { return std::pow(entry(random), 5); });
+    const double norm = B.cwiseAbs().colwise().sum().maxCoeff();
+    const double estimate = estimate_norm(
+        6, [&](const VectorXd& x) -> VectorXd { return B * x; },
+        [&](const VectorXd& y) -> VectorXd { return B.transpose() * y; });
+    BOOST_TEST(estimate <= norm * (1 + 1e-15));
+    BOOST_TEST(estimate >= norm / 3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(beside_a_singularity_the_condition_of_A_counts_and_not_that_of_K) {
+  // q = (1 - 1/phi, 1/phi) exactly; K = A^T A has a condition number of about 16/phi^2.
+  for (int power = 4; power <= 40; power += 4) {
+    const double phi = std::ldexp(1.0, -power);
+    const StiffnessFactors K = factors(MatrixXd{{1, 1}, {1, 1 + phi}});
+    const VectorXd f = Eigen::Vector2d(3, 3 + 2 * phi);
+    const AugmentedSystem augmented(K);
+    BOOST_TEST_REQUIRE(augmented.exists());
+    const Operator solve = [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; };
+    const VectorXd q = solve(f);
+    SparseMatrix R(2, 2);
+    R.setIdentity();
+    const double bound = forward_error(K, R, q, f, solve);
+    BOOST_TEST(std::abs(q[1] * phi - 1) <= bound);
+    BOOST_TEST(bound >= kEps / phi);
+    BOOST_TEST(bound <= 30 * kEps / phi);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_stiff_part_costs_no_digits) {
+  for (const double stiff : {1.0, 1e6, 1e12}) {  // two springs in a row, the first one stiff
+    StiffnessFactors K = factors(MatrixXd{{1, 0}, {-1, 1}});
+    K.C = Eigen::Vector2d(stiff, 1);
+    const VectorXd f = Eigen::Vector2d(0, 1);
+    const AugmentedSystem augmented(K);
+    const Operator solve = [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; };
+    const VectorXd q = solve(f);
+    SparseMatrix R(2, 2);
+    R.setIdentity();
+    BOOST_TEST(q[1] == 1 + 1 / stiff, boost::test_tools::tolerance(1e-15));
+    BOOST_TEST(forward_error(K, R, q, f, solve) < 20 * kEps);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
