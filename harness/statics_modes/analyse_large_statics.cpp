@@ -5,6 +5,7 @@
 #include "harness/base/text.h"
 #include "harness/readers/joint_reader.h"
 #include "harness/scene/draw_large.h"
+#include "harness/scene/tracking.h"
 #include "harness/statics_modes/analyse_statics.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
@@ -85,9 +86,10 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   if (options.keep_points && (case_model.path || factors.size() > 1)) {
     throw analysis["whole_path"].error("expected one pose and one load factor beside it");
   }
-  const solver::Model model = build_bare_model(case_model, step);
+  solver::Model model = build_bare_model(case_model, step);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);
+  release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
