@@ -13,6 +13,7 @@ StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
     record_path(case_model, step, record);
     StepResult found = analyse_step(analysis, case_model, step, draw && step == 0, record);
     all.counters += found.counters;
+    add_warnings(all.warnings, found.warnings);
     if (found.drawing) all.drawing = std::move(found.drawing);
     if (found.outcome.solved()) continue;
     all.outcome = outcome_at_path_point(case_model, step, found.outcome);
@@ -35,6 +36,7 @@ AnalysisResult result_of(StepResult found, Recorder& record) {
   result.drawing = std::move(found.drawing);
   result.counters = found.counters;
   result.timings = std::move(found.timings);
+  result.warnings = std::move(found.warnings);
   if (result.outcome.solved()) result.quantities = record.take_quantities();
   return result;
 }

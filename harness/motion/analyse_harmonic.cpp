@@ -5,6 +5,7 @@
 #include "harness/base/numbers.h"
 #include "harness/readers/damping_reader.h"
 #include "harness/scene/outputs.h"
+#include "harness/statics_modes/range_warnings.h"
 
 namespace trammel::harness {
 namespace {
@@ -17,7 +18,8 @@ class Response {
 
   [[nodiscard]] const solver::HarmonicSolver& of_system() const { return response_; }
 
-  void record_at(double frequency, const std::vector<Output>& outputs, Recorder& record) const {
+  void record_at(double frequency, const std::vector<Output>& outputs, Recorder& record,
+                 std::vector<Warning>& warnings) const {
     const Eigen::VectorXcd q = response_.at(frequency);
     record.add("frequency_Hz", "", frequency);
     solver::HarmonicAmplitudes amplitudes;
@@ -26,6 +28,9 @@ class Response {
       record.add(output.name, "",
                  q.size() > 0 ? amplitude_of(output, system_.model, amplitudes, frequency) : kNaN);
     }
+    if (q.size() == 0) return;
+    for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})
+      warn_of_rotation(largest_rotation(system_, system_.T * part), warnings);
   }
 
   /// @returns its frequency
@@ -76,7 +81,7 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
     const auto points = analysis.get<solver::Index>("points", 101);
     for (solver::Index i = 0; i < points; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(points - 1);
-      response.record_at(low + (high - low) * share, outputs, record);
+      response.record_at(low + (high - low) * share, outputs, record, result.warnings);
     }
     for (const Output& output : outputs) {
       const double at = response.record_peak(low, high, output, record);

@@ -149,6 +149,7 @@ struct EffectRow {
 struct Run {
   std::string case_id, variant, reason;
   Status status = Status::error;
+  std::vector<std::string> warnings;
   std::vector<std::pair<std::string, Numbers>> quantities;
   std::vector<Check> checks;
   std::vector<Convergence> convergence;
