@@ -145,6 +145,7 @@ StepResult analyse_study(const Document& document, const References& references,
                                                : KeptQuantity{});
     }
     result.counters += found.counters;
+    add_warnings(result.warnings, found.warnings);
     if (found.drawing) result.drawing = std::move(found.drawing);
   }
   for (std::size_t k = 0; k < keep.size(); ++k) {

@@ -5,6 +5,8 @@
 namespace trammel::harness {
 namespace {
 
+using solver::Residual;
+
 /// Step by step along the path; ends where a step has no solution.
 StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
                          const CaseModel& case_model, bool draw, Recorder& record) {
@@ -14,6 +16,7 @@ StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
     StepResult found = analyse_step(analysis, case_model, step, draw && step == 0, record);
     all.counters += found.counters;
     all.evidence.add(found.evidence);
+    add_warnings(all.warnings, found.warnings);
     if (found.drawing) all.drawing = std::move(found.drawing);
     if (found.outcome.solved()) continue;
     all.outcome = outcome_at_path_point(case_model, step, found.outcome);
@@ -40,7 +43,15 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   result.drawing = std::move(found.drawing);
   result.counters = found.counters;
   result.timings = std::move(found.timings);
-  if (result.outcome.solved()) result.quantities = record.take_quantities();
+  result.warnings = std::move(found.warnings);
+  if (!result.outcome.solved()) return result;
+  result.quantities = record.take_quantities();
+  const double of_load =
+      result.evidence.has(Residual::load) ? result.evidence.largest(Residual::load) : 0;
+  if (of_load > solver::kLoadWarning) {
+    result.warnings.push_back({"the residual over the loads", of_load, "",
+                               "the model is ill-conditioned and its forces have few digits"});
+  }
   return result;
 }
 

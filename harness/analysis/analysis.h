@@ -6,6 +6,7 @@
 #include "harness/analysis/case_effects.h"
 #include "harness/base/quantity.h"
 #include "harness/base/timing.h"
+#include "harness/base/warning.h"
 #include "harness/input/document.h"
 #include "harness/input/reference_library.h"
 #include "harness/scene/drawing.h"
@@ -27,6 +28,7 @@ struct AnalysisResult {
   std::optional<Drawing> drawing;
   solver::Counters counters;
   std::vector<EvaluationTime> timings = {};
+  std::vector<Warning> warnings = {};
   std::string analysis;               ///< its kind
   std::vector<EffectReason> effects;  ///< what the computation had, and why
 };

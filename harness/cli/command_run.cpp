@@ -163,6 +163,8 @@ void print_run(const Run& run) {
   std::cout << run.case_id << (run.variant == kBaseVariant ? "" : ":" + run.variant) << "  "
             << run.status << ", " << rounded(run.wall_s, 2) << " s\n";
   if (!run.reason.empty()) std::cout << wrapped(run.reason, "  ");
+  for (const Warning& warning : run.result.warnings)
+    std::cout << wrapped("warning: " + warning.text(), "  ");
   Table table(
       {"verdict", "check", "quantity", ">computed", ">expected", ">difference", ">allowed"});
   std::vector<std::string> messages;

@@ -7,6 +7,7 @@
 #include "harness/readers/time_reader.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/analyse_statics.h"
+#include "harness/statics_modes/range_warnings.h"
 #include "solver/elastodynamics/elastodynamics.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"
@@ -180,6 +181,8 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
   for (std::size_t i = 0; i < solution.state.size(); ++i) {
     record_path(case_model, i, record);
     record_solution(start.model, solution.state[i], -1, record);
+    warn_of_rotation(largest_rotation(solution.state[i]), result.warnings);
+    warn_of_extension(start.model, solution.state[i], result.warnings);
     record.add("equilibrium_residual_N", "", solution.state[i].equilibrium_residual);
     record.add("moment_residual_N_m", "", solution.state[i].moment_residual);
   }

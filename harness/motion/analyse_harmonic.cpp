@@ -5,6 +5,7 @@
 #include "harness/base/numbers.h"
 #include "harness/readers/damping_reader.h"
 #include "harness/scene/outputs.h"
+#include "harness/statics_modes/range_warnings.h"
 
 namespace trammel::harness {
 namespace {
@@ -18,18 +19,22 @@ class Response {
   [[nodiscard]] const solver::HarmonicSolver& of_system() const { return response_; }
 
   void record_at(double frequency, const std::vector<Output>& outputs, Recorder& record,
-                 solver::Evidence& evidence) const {
+                 StepResult& result) const {
     const Eigen::VectorXcd q = response_.at(frequency);
     record.add("frequency_Hz", "", frequency);
     solver::HarmonicAmplitudes amplitudes;
     if (q.size() > 0) {
       amplitudes = solver::harmonic_amplitudes(system_, q, frequency);
-      evidence.add(solver::Residual::equation_of_motion, response_.backward_error(q, frequency));
+      result.evidence.add(solver::Residual::equation_of_motion,
+                          response_.backward_error(q, frequency));
     }
     for (const Output& output : outputs) {
       record.add(output.name, "",
                  q.size() > 0 ? amplitude_of(output, system_.model, amplitudes, frequency) : kNaN);
     }
+    if (q.size() == 0) return;
+    for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})
+      warn_of_rotation(largest_rotation(system_, system_.T * part), result.warnings);
   }
 
   /// @returns its frequency
@@ -80,7 +85,7 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
     const auto points = analysis.get<solver::Index>("points", 101);
     for (solver::Index i = 0; i < points; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(points - 1);
-      response.record_at(low + (high - low) * share, outputs, record, result.evidence);
+      response.record_at(low + (high - low) * share, outputs, record, result);
     }
     for (const Output& output : outputs) {
       const double at = response.record_peak(low, high, output, record);

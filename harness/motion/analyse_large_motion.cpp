@@ -231,7 +231,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   const bool extrapolated = analysis.get("extrapolated", false);
   const bool tracking = analysis.get("track", false);
   if (tracking) {
-    add_tracking_drives(analysis["track"], case_model, model, large_motion);
+    add_tracking_drives(analysis, case_model, model, large_motion);
     for (const char* key : {"extrapolated", "initial_velocities"}) {
       if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
     }
@@ -239,6 +239,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
       throw analysis["integrator"].error("expected generalized-alpha beside 'track'");
     }
   }
+  release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
   const solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
   StepResult result;

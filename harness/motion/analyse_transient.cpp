@@ -6,6 +6,7 @@
 
 #include "harness/motion/motion_history.h"
 #include "harness/scene/outputs.h"
+#include "harness/statics_modes/range_warnings.h"
 
 namespace trammel::harness {
 namespace {
@@ -88,6 +89,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
       record.add(output.name, "", values(i, sample));
     }
     record_energy(system, motion, sample, drift, record);
+    warn_of_rotation(largest_rotation(system, system.T * motion.q.col(sample)), result.warnings);
   }
   record_peaks(motion, outputs, values, record);
   if (system.load.isZero(0) && !analysis.has("rotating_frame")) drift.record(record);

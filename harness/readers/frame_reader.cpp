@@ -71,6 +71,20 @@ solver::MemberEnd read_end(const JsonView& end) {
       0};
 }
 
+solver::Taper read_taper(const JsonView& place, const SymbolTable& symbols) {
+  const auto name = place.get<std::string>("taper", "linear-depth-and-width");
+  if (name == "exponential") return solver::Taper::exponential;
+  if (name == "linear-area-and-inertia") return solver::Taper::linear_area_and_inertia;
+  const std::string& first = symbols.section_shape.at(place.text("section"));
+  const std::string& second = symbols.section_shape.at(place.text("end_section"));
+  if (first != second || first.empty()) {
+    throw place["end_section"].error(
+        "expected two rectangles or two circles, or 'taper' as 'linear-area-and-inertia' or "
+        "'exponential' beside it: no depth and width are known that could vary");
+  }
+  return solver::Taper::linear_depth_and_width;
+}
+
 solver::Member read_member(const std::string& name, const JsonView& place,
                            const SymbolTable& symbols, const std::vector<solver::Node>& nodes,
                            solver::Index elements) {
@@ -83,9 +97,14 @@ solver::Member read_member(const std::string& name, const JsonView& place,
     throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
   }
   member.section = look_up(symbols.section, place["section"], "a section");
-  member.end_section = place.has("end_section")
-                           ? look_up(symbols.section, place["end_section"], "a section")
-                           : member.section;
+  member.end_section = member.section;
+  if (place.has("taper") && !place.has("end_section")) {
+    throw place["taper"].error("expected an 'end_section' beside it");
+  }
+  if (place.has("end_section")) {
+    member.end_section = look_up(symbols.section, place["end_section"], "a section");
+    member.taper = read_taper(place, symbols);
+  }
   member.theory = read_beam_theory(place);
   member.mass = read_mass_matrix(place);
   member.elements = place.get<solver::Index>("elements", elements);
@@ -104,17 +123,10 @@ std::array<bool, 3> read_motions(const JsonView& place) {
   return fixed;
 }
 
-bool tapers(const JsonView& place) {
-  if (!place.has("taper")) return false;
-  if (!place.has("end_section")) throw place["taper"].error("expected an 'end_section' beside it");
-  return place.text("taper") == "exponential";
-}
-
 MemberChain read_chain(const JsonView& place) {
   MemberChain chain;
   if (const auto center = place.find("arc_center_m")) chain.arc_center = read_point(*center);
   if (const auto held = place.find("restrained_motions")) chain.held = read_motions(*held);
-  chain.exponential = tapers(place);
   return chain;
 }
 
@@ -260,6 +272,9 @@ SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
   });
   each(model, "sections", [&](const std::string& name, const JsonView& place) {
     symbols.section.emplace(name, read_section(place, symbols));
+    symbols.section_shape[name] = place.has("rectangle") ? "rectangle"
+                                  : place.has("circle")  ? "circle"
+                                                         : "";
   });
   return symbols;
 }

@@ -45,11 +45,7 @@ class ChainPath {
 void add_chain(const solver::Member& member, const MemberChain& chain, const Eigen::Vector2d& start,
                const Eigen::Vector2d& end, solver::Index first_node, solver::Model& structure) {
   const ChainPath path(chain, start, end);
-  const auto section = [&](double s) {
-    return chain.exponential ? solver::interpolate_geometric(member.section, member.end_section, s)
-                             : solver::interpolate(member.section, member.end_section, s);
-  };
-  const bool is_bar = section(0.5).EI == 0;
+  const bool is_bar = solver::section_at(member, 0.5).EI == 0;
   const solver::MemberEnd inner{is_bar ? solver::EndFixity::hinged : solver::EndFixity::welded, 0,
                                 0};
   const bool holds = chain.held[0] || chain.held[1] || chain.held[2];
@@ -62,8 +58,8 @@ void add_chain(const solver::Member& member, const MemberChain& chain, const Eig
     link.name = member.name + "." + std::to_string(i + 1);
     link.nodes[0] = link.nodes[1];
     link.nodes[1] = last ? member.nodes[1] : first_node + i;
-    link.section = section(static_cast<double>(i) / count);
-    link.end_section = section(static_cast<double>(i + 1) / count);
+    link.section = solver::section_at(member, static_cast<double>(i) / count);
+    link.end_section = solver::section_at(member, static_cast<double>(i + 1) / count);
     link.ends = {i == 0 ? member.ends[0] : inner, last ? member.ends[1] : inner};
     structure.members.push_back(link);
     if (last) break;

@@ -11,11 +11,8 @@ namespace trammel::harness {
 struct MemberChain {
   std::optional<Eigen::Vector2d> arc_center;  ///< chords of a circle, counterclockwise [m]
   std::array<bool, 3> held{};                 ///< x, y, rotation of every node between the ends
-  bool exponential = false;                   ///< sections vary by equal factors over equal lengths
 
-  [[nodiscard]] bool needed() const {
-    return arc_center || exponential || held[0] || held[1] || held[2];
-  }
+  [[nodiscard]] bool needed() const { return arc_center || held[0] || held[1] || held[2]; }
 };
 
 /// Adds the chain of `member.elements` members that stands for `member`, the nodes between them

@@ -51,6 +51,7 @@ struct SymbolTable {
   std::map<std::string, solver::Index> node;
   std::map<std::string, solver::Material> material;
   std::map<std::string, solver::Section> section;
+  std::map<std::string, std::string> section_shape;  ///< section -> "rectangle", "circle" or ""
   std::map<std::string, Edge> edge;
 
   [[nodiscard]] solver::Index find_node(const JsonView& name) const {

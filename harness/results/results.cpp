@@ -108,7 +108,7 @@ template <>
 inline constexpr auto kFields<Run> = std::tuple{
     required("case", &Run::case_id),
     TRAMMEL_REQUIRED(Run, variant, status, reason, quantities, checks, convergence, cost),
-    TRAMMEL_OPTIONAL(Run, residuals, uncertainty, effects, drawing)};
+    TRAMMEL_OPTIONAL(Run, residuals, warnings, uncertainty, effects, drawing)};
 template <>
 inline constexpr auto kFields<ErrorNorms> =
     std::tuple{TRAMMEL_REQUIRED(ErrorNorms, max, rms, mean)};

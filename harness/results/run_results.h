@@ -152,6 +152,7 @@ struct Run {
   Status status = Status::error;
   /// What decided that it is solved, each over the magnitude of its terms.
   std::vector<std::pair<std::string, Number>> residuals;
+  std::vector<std::string> warnings;
   std::vector<std::pair<std::string, Numbers>> quantities;
   std::vector<Check> checks;
   std::vector<Convergence> convergence;

@@ -187,6 +187,7 @@ results::Run run_results(const Run& run) {
       out.residuals.emplace_back(solver::rule_of(kind).name,
                                  number(run.result.evidence.largest(kind)));
   }
+  for (const Warning& warning : run.result.warnings) out.warnings.push_back(warning.text());
   for (const auto& [name, quantity] : run.result.quantities)
     out.quantities.emplace_back(name, numbers(quantity.values));
   for (const CheckResult& found : run.check_results) out.checks.push_back(check(found));

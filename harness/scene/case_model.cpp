@@ -90,7 +90,14 @@ solver::Model build_bare_model(const CaseModel& case_model, std::size_t step) {
 
 InputError model_error(const Document& document, const solver::ModelError& error) {
   const std::string text = error.what();
-  const JsonView model = JsonView(document)["model"];
+  const JsonView root(document);
+  if (const auto drives = root["analysis"].entries().front().second.find("drives")) {
+    for (const auto& [name, drive] : drives->entries()) {
+      if (text.starts_with("drive " + name + ' '))
+        return drive.error("expected a drive that has a meaning: " + text);
+    }
+  }
+  const JsonView model = root["model"];
   for (const char* kind :
        {"members", "rigid_bodies", "supports", "plates", "springs", "nodes", "edges"}) {
     const auto parts = model.find(kind);

@@ -1,7 +1,9 @@
 #include "harness/scene/tracking.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/inverse_dynamics.h"
@@ -21,16 +23,34 @@ void require_joints(const JsonView& place, const solver::ManipulatorDesign& desi
   }
 }
 
+/// The law goes on beyond the ends of its table, with the acceleration and its rate there: the
+/// solver takes differences about the first instant and the last.
+solver::large_motion::TimeFunction extended(const solver::large_motion::TimeFunction& law,
+                                            const solver::Path& path) {
+  const auto* spline = std::get_if<solver::Spline>(&path);
+  if (spline == nullptr) return law;
+  const double first = spline->times.front(), last = spline->times.back();
+  return [law, first, last](double t) {
+    const double end = std::clamp(t, first, last), d = t - end;
+    std::array<double, 3> motion = law(end);
+    if (d == 0) return motion;
+    const double a = motion[2], beyond = 2 * a - law(end - d)[2];
+    return std::array<double, 3>{motion[0] + d * motion[1] + d * d * (2 * a + beyond) / 6,
+                                 motion[1] + d * (a + beyond) / 2, beyond};
+  };
+}
+
 /// Angle, rate and acceleration of one actuator along the path, from where it starts.
 solver::large_motion::TimeFunction actuator(const solver::RigidManipulator& rigid,
                                             const solver::Path& path, std::size_t limb) {
   const auto i = static_cast<solver::Index>(limb);
   const double start = solver::inverse_dynamics(rigid, solver::at(path, 0)).q[i];
-  return [rigid, path, i, start](double t) {
+  const auto law = [rigid, path, i, start](double t) {
     const solver::InverseDynamics motion = solver::inverse_dynamics(rigid, solver::at(path, t));
     return std::array<double, 3>{std::remainder(motion.q[i] - start, 2 * std::numbers::pi),
                                  motion.q_dot[i], motion.q_ddot[i]};
   };
+  return extended(law, path);
 }
 
 solver::Index member_between(const solver::Model& model, solver::Index first,
@@ -44,21 +64,39 @@ solver::Index member_between(const solver::Model& model, solver::Index first,
 
 }  // namespace
 
-void add_tracking_drives(const JsonView& place, const CaseModel& case_model, solver::Model& model,
+void add_tracking_drives(const JsonView& analysis, const CaseModel& case_model,
+                         const solver::Model& model,
                          solver::large_motion::LargeMotionModel& large_motion) {
+  const JsonView place = analysis["track"];
   if (!case_model.manipulator || !case_model.path) {
     throw place.error("expected a manipulator with a trajectory");
   }
   require_joints(place, *case_model.manipulator);
   const solver::Path& path = *case_model.path;
+  try {
+    (void)solver::at(path, analysis.number("end_time_s"));
+  } catch (const solver::ModelError& error) {
+    throw analysis["end_time_s"].error(std::string("expected a time on the path: ") + error.what());
+  }
   const solver::RigidManipulator rigid = solver::rigid_manipulator(*case_model.manipulator);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = "A" + std::to_string(i + 1);
-    const solver::Index node = model.find_node(name);
-    for (solver::Support& support : model.supports) {
-      if (support.node == node) support.fixed[2] = false;
+    large_motion.drives.push_back({name, model.find_node(name), 2, actuator(rigid, path, i)});
+  }
+}
+
+void release_driven_actuators(const JsonView& analysis, const CaseModel& case_model,
+                              const solver::large_motion::LargeMotionModel& large_motion,
+                              solver::Model& model) {
+  for (const solver::large_motion::Drive& drive : large_motion.drives) {
+    // The builder's first three supports and nodes are those of the actuators, in their order.
+    if (!case_model.manipulator || drive.direction != 2 || drive.node > 2) continue;
+    const auto limb = static_cast<std::size_t>(drive.node);
+    if (case_model.manipulator->active[limb].kind == solver::ActiveKind::free) {
+      throw analysis["drives"][drive.name].error(
+          "expected an actuator that is locked or sprung: the link turns freely about a free one");
     }
-    large_motion.drives.push_back({name, node, 2, actuator(rigid, path, i)});
+    model.supports[limb].fixed[2] = false;
   }
 }
 

@@ -8,11 +8,18 @@
 /// The manipulator in large motion, its actuators driven as its rigid twin would follow the path.
 namespace trammel::harness {
 
-/// Releases the locked actuators of the model and drives them.
-/// @param place  "track", for messages
-/// @throws InputError  without a trajectory, locked actuators and hinged elbows.
-void add_tracking_drives(const JsonView& place, const CaseModel& case_model, solver::Model& model,
+/// Drives the actuators along the trajectory.
+/// @throws InputError  without a trajectory that lasts to the end, locked actuators and hinged
+///                     elbows.
+void add_tracking_drives(const JsonView& analysis, const CaseModel& case_model,
+                         const solver::Model& model,
                          solver::large_motion::LargeMotionModel& large_motion);
+
+/// Takes away what holds the actuators that are driven.
+/// @throws InputError  where one is free: no link is joined to it.
+void release_driven_actuators(const JsonView& analysis, const CaseModel& case_model,
+                              const solver::large_motion::LargeMotionModel& large_motion,
+                              solver::Model& model);
 
 /// Velocities at the start, those of the rigid twin.
 [[nodiscard]] solver::large_motion::PrescribedVelocities tracking_start(

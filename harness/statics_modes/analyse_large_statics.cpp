@@ -5,7 +5,9 @@
 #include "harness/base/text.h"
 #include "harness/readers/joint_reader.h"
 #include "harness/scene/draw_large.h"
+#include "harness/scene/tracking.h"
 #include "harness/statics_modes/analyse_statics.h"
+#include "harness/statics_modes/range_warnings.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
@@ -29,10 +31,12 @@ solver::large_motion::StaticPathOptions read_large_statics_options(const JsonVie
   return options;
 }
 
-void record_point(const GeometricallyExactSystem& system, const PathPoint& point,
-                  Recorder& record) {
+void record_point(const GeometricallyExactSystem& system, const PathPoint& point, Recorder& record,
+                  std::vector<Warning>& warnings) {
   record.add("load_factor", "", point.state.load);
-  record_solution(system.model(), solver::static_solution(system, point.state), -1, record);
+  const solver::StaticSolution solution = solver::static_solution(system, point.state);
+  record_solution(system.model(), solution, -1, record);
+  warn_of_extension(system.model(), solution, warnings);
   for (std::size_t i = 0; i < system.large_motion().drives.size(); ++i) {
     const solver::large_motion::Drive& drive = system.large_motion().drives[i];
     record.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
@@ -85,9 +89,10 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   if (options.keep_points && (case_model.path || factors.size() > 1)) {
     throw analysis["whole_path"].error("expected one pose and one load factor beside it");
   }
-  const solver::Model model = build_bare_model(case_model, step);
+  solver::Model model = build_bare_model(case_model, step);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);
+  release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
@@ -105,7 +110,8 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     if (!path.outcome.solved()) return result;
     recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
   }
-  for (const PathPoint& point : recorded_points) record_point(system, point, record);
+  for (const PathPoint& point : recorded_points)
+    record_point(system, point, record, result.warnings);
   if (!case_model.path) {
     record_events(path, record);
     record_newton(recorded_points.back().newton, record);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/elements/frame_element.h"
 #include "solver/model/plane.h"
 
 namespace trammel::harness {
@@ -36,13 +37,10 @@ Body body_of(const solver::Model& model, const solver::Member& member) {
   Body whole;
   for (solver::Index e = 0; e < member.elements; ++e) {
     const double s = (static_cast<double>(e) + 0.5) / count;
-    const auto between = [s](double a, double b) { return a + s * (b - a); };
-    const double mu = between(member.section.mass_per_length, member.end_section.mass_per_length);
-    const double j =
-        between(member.section.inertia_per_length, member.end_section.inertia_per_length);
-    const double mass = mu * length;
-    whole = join(whole, {mass, start + s * (end - start),
-                         mass * length * length / 12 + (rotary ? j * length : 0)});
+    const solver::Section section = solver::section_at(member, s);
+    const double mass = section.mass_per_length * length;
+    const double j = rotary ? section.inertia_per_length * length : 0;
+    whole = join(whole, {mass, start + s * (end - start), mass * length * length / 12 + j});
   }
   whole.inertia += member.ends[0].inertia + member.ends[1].inertia;
   return whole;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "harness/statics_modes/range_warnings.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/model/numbers.h"
 #include "solver/statics/linear_solution.h"
@@ -131,7 +132,9 @@ StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool d
     result.drawing = draw_model(solver::assemble(build_model(case_model, step)),
                                 case_model.manipulator.has_value());
   }
-  if (solution.outcome.solved()) record_solution(model, solution, -1, record);
+  if (!solution.outcome.solved()) return result;
+  record_solution(model, solution, -1, record);
+  warn_of_extension(model, solution, result.warnings);
   return result;
 }
 
@@ -166,6 +169,8 @@ StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::si
   const solver::Model& model = system.model;
   record_all(model, solution, {roundoff, of_forces}, record);
   if (!case_model.path) record_bending_stress(model, solution, of_forces, record);
+  warn_of_rotation(largest_rotation(system, system.T * solution.q), result.warnings);
+  warn_of_extension(model, solution, result.warnings);
   // The pins of a platform are points that no mesh resolves.
   if (!case_model.manipulator) record_node_stresses(model, solution, of_forces, record);
   // Loads times displacements: twice the strain energy.

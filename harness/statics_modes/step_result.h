@@ -6,6 +6,7 @@
 
 #include "harness/base/recorder.h"
 #include "harness/base/timing.h"
+#include "harness/base/warning.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
 #include "solver/assembly/system.h"
@@ -21,6 +22,7 @@ struct StepResult {
   std::optional<Drawing> drawing;  ///< on the first step, when asked for
   std::vector<EvaluationTime> timings = {};
   solver::Evidence evidence = {};  ///< residuals that decide whether it counts as solved
+  std::vector<Warning> warnings = {};
 };
 
 inline constexpr solver::Index kMaxDrawnShapes = 12;

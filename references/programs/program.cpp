@@ -10,6 +10,7 @@
 #include "references/beams/parallelogram_chain.h"
 #include "references/beams/pendulum.h"
 #include "references/beams/rotating_beam.h"
+#include "references/beams/tapered_beam.h"
 #include "references/frames/frame_buckling.h"
 #include "references/frames/frame_sensitivity.h"
 #include "references/frames/frame_statics.h"
@@ -68,6 +69,10 @@ const std::map<std::string, Program>& programs() {
       {"rotating-beam-roots",
        {"the same without dimension: w sqrt(rho A L^4/EI)",
         "eta, hub_ratio, plane, count, axial_ratio", rotating_beam_roots_program}},
+      {"tapered-beam",
+       {"bending frequencies of a clamped-free strip of linear depth and width [Hz] by Ritz",
+        "length_m, E_Pa, rho_kg_m3, thickness_m and width_m (each [clamped, free end]), count",
+        tapered_beam_program}},
       {"beam-frequencies",
        {"frequencies of one uniform Euler-Bernoulli beam [Hz] (Blevins 1979, Table 8-1)",
         "ends, count, length_m, E_Pa, rho_kg_m3, thickness_m (in the plane), width_m; clamped-free "

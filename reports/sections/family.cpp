@@ -67,6 +67,19 @@ Data endings(const CaseInfo& info, const std::vector<const Run*>& runs) {
   return out;
 }
 
+Data warnings(const CaseInfo& info, const std::vector<const Run*>& runs) {
+  Data out = list();
+  for (const Run* run : runs) {
+    for (const std::string& text : run->warnings) {
+      Data data = object();
+      data.set("variant", info.variant_title(run->variant));
+      data.set("text", text);
+      out.push_back(data);
+    }
+  }
+  return out;
+}
+
 Data texts(const std::vector<std::string>& strings) {
   Data out = list();
   for (const std::string& text : strings) {
@@ -91,6 +104,7 @@ Data case_data(const CaseInfo& info, const Family& family, const Results& result
   data.set("counts", counts_list(counts_of(runs)));
   set_check_status(data, overall(runs));
   data.set("endings", endings(info, runs));
+  data.set("warnings", warnings(info, runs));
   set_effects(data, runs);
   data.set("problems", texts(gallery.problems));
   set_flag(data, "has_figures", !gallery.shown.empty());

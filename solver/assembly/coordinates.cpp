@@ -82,7 +82,7 @@ class Discretiser {
     const auto count = static_cast<double>(member.elements);
     const Vector2d start = model_.nodes[static_cast<std::size_t>(member.nodes[0])].position;
     const Vector2d span = model_.nodes[static_cast<std::size_t>(member.nodes[1])].position - start;
-    const bool bends = interpolate(member.section, member.end_section, 0.5).EI > 0;
+    const bool bends = section_at(member, 0.5).EI > 0;
     const Index first_rotation = end_rotation(member, 0, bends);
     FrameElement element;
     element.member = index;
@@ -91,8 +91,7 @@ class Discretiser {
     element.nodes[1] = member.nodes[0];
     for (Index i = 0; i < member.elements; ++i) {
       const bool last = i + 1 == member.elements;
-      element.section =
-          interpolate(member.section, member.end_section, (static_cast<double>(i) + 0.5) / count);
+      element.section = section_at(member, (static_cast<double>(i) + 0.5) / count);
       element.nodes[0] = element.nodes[1];
       element.nodes[1] = last ? member.nodes[1]
                               : add_node(start + span * (static_cast<double>(i + 1) / count), true);

@@ -8,7 +8,7 @@ namespace trammel::solver {
 namespace {
 
 bool bends(const Member& member) {
-  return interpolate(member.section, member.end_section, 0.5).EI > 0;
+  return section_at(member, 0.5).EI > 0;
 }
 
 bool has_mass(const Member& member) {

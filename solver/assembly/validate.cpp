@@ -83,14 +83,8 @@ class Validator {
       require(is_amount(end.stiffness), part, "has an end spring of negative stiffness");
       require(is_amount(end.inertia), part, "has an end of negative inertia");
     }
-    section(
-        member,
-        interpolate(member.section, member.end_section, 0.5 / static_cast<double>(member.elements)),
-        part);
-    section(member,
-            interpolate(member.section, member.end_section,
-                        1 - 0.5 / static_cast<double>(member.elements)),
-            part);
+    const double middle = 0.5 / static_cast<double>(member.elements);
+    for (const double at : {middle, 1 - middle}) section(member, section_at(member, at), part);
   }
 
   static void section(const Member& member, const Section& section, const std::string& part) {

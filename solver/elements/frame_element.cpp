@@ -24,29 +24,45 @@ T rotary_inertia(const SectionOf<T>& section, BeamTheory theory) {
   return has_rotary_inertia(theory) ? section.inertia_per_length : T(0);
 }
 
-/// A section with `mix` of each property of two.
+/// A section with mix(a, b, n) of each property of two, which goes with depth^n width.
 template <class Mix>
 Section mixed(const Section& first, const Section& second, const Mix& mix) {
   Section section;
-  section.EA = mix(first.EA, second.EA);
-  section.EI = mix(first.EI, second.EI);
-  section.kappa_GA = mix(first.kappa_GA, second.kappa_GA);
-  section.mass_per_length = mix(first.mass_per_length, second.mass_per_length);
-  section.inertia_per_length = mix(first.inertia_per_length, second.inertia_per_length);
-  section.area = mix(first.area, second.area);
-  section.section_modulus = mix(first.section_modulus, second.section_modulus);
+  section.EA = mix(first.EA, second.EA, 1);
+  section.EI = mix(first.EI, second.EI, 3);
+  section.kappa_GA = mix(first.kappa_GA, second.kappa_GA, 1);
+  section.mass_per_length = mix(first.mass_per_length, second.mass_per_length, 1);
+  section.inertia_per_length = mix(first.inertia_per_length, second.inertia_per_length, 3);
+  section.area = mix(first.area, second.area, 1);
+  section.section_modulus = mix(first.section_modulus, second.section_modulus, 2);
   return section;
+}
+
+/// The depth is in proportion to the radius of gyration.
+Section with_linear_dimensions(const Section& first, const Section& second, double at) {
+  const double depth_ratio = std::sqrt(second.EI / second.EA / (first.EI / first.EA));
+  const double width_ratio = second.area / first.area / depth_ratio;
+  const double depth = 1 + at * (depth_ratio - 1), width = 1 + at * (width_ratio - 1);
+  return mixed(first, second, [&](double a, double b, int n) {
+    const double modulus = (1 - at) * a + at * b / (std::pow(depth_ratio, n) * width_ratio);
+    return modulus * std::pow(depth, n) * width;
+  });
 }
 
 }  // namespace
 
-Section interpolate(const Section& first, const Section& second, double at) {
-  return mixed(first, second, [at](double a, double b) { return (1 - at) * a + at * b; });
-}
-
-Section interpolate_geometric(const Section& first, const Section& second, double at) {
-  return mixed(first, second,
-               [at](double a, double b) { return std::pow(a, 1 - at) * std::pow(b, at); });
+Section section_at(const Member& member, double at) {
+  const Section &first = member.section, &second = member.end_section;
+  switch (member.taper) {
+    case Taper::linear_depth_and_width:
+      return with_linear_dimensions(first, second, at);
+    case Taper::exponential:
+      return mixed(first, second,
+                   [at](double a, double b, int) { return std::pow(a, 1 - at) * std::pow(b, at); });
+    case Taper::linear_area_and_inertia:
+      break;
+  }
+  return mixed(first, second, [at](double a, double b, int) { return (1 - at) * a + at * b; });
 }
 
 template <Real T>

@@ -32,11 +32,8 @@ using Matrix36 = Eigen::Matrix<T, 3, 6>;
 using FrameDeformation = Matrix36<double>;
 using FrameInterpolation = Matrix36<double>;
 
-/// Section at the fraction 0 <= at <= 1 between two others, each property linear.
-[[nodiscard]] Section interpolate(const Section& first, const Section& second, double at);
-
-/// The same with each property a^(1 - at) b^at: exponential along a member.
-[[nodiscard]] Section interpolate_geometric(const Section& first, const Section& second, double at);
+/// Section of a member at the fraction 0 <= at <= 1 of its length, by its taper.
+[[nodiscard]] Section section_at(const Member& member, double at);
 
 /// Phi = 12 EI / (kappa GA L^2) [-]; 0 for a theory without shear.
 template <Real T>

@@ -14,10 +14,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// singular, a hundred times that. A wrong factor of one part in a million leaves 1e-6.
 constexpr double kRowLimit = 1e-10;
 
-/// Below it the loads themselves are met to what engineers measure; above it the condition number
-/// has eaten the digits of the forces, which is said, not refused.
-constexpr double kLoadWarning = 1e-6;
-
 constexpr std::array<ResidualRule, kResiduals.size()> kRules = {{
     {"equilibrium", kRowLimit, "rounding of a row's terms"},
     {"recovered_forces", kRowLimit, "rounding of a row's terms"},
@@ -75,14 +71,6 @@ Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
     return {Status::not_converged, reason.str()};
   }
   return claimed;
-}
-
-std::vector<std::string> warnings_of(const Evidence& evidence) {
-  if (!evidence.has(Residual::load) || evidence.largest(Residual::load) <= kLoadWarning) return {};
-  std::ostringstream text;
-  text << "the loads are met to " << evidence.largest(Residual::load)
-       << " of their size only: the model is ill-conditioned, and its forces have few digits";
-  return {text.str()};
 }
 
 }  // namespace trammel::solver

@@ -38,6 +38,10 @@ struct ResidualRule {
 };
 [[nodiscard]] const ResidualRule& rule_of(Residual kind);
 
+/// Residual::load above it is said, not refused: the condition number has eaten the digits of the
+/// forces; below it the loads are met to what is ever measured of them.
+inline constexpr double kLoadWarning = 1e-6;
+
 /// The largest residual of each kind that was taken.
 class Evidence {
  public:
@@ -60,8 +64,5 @@ class Evidence {
 /// and all are within their limits; otherwise it has not converged.
 [[nodiscard]] Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
                                           const std::vector<Residual>& needed = {});
-
-/// What a user should know of a solution that counts as solved; empty: nothing.
-[[nodiscard]] std::vector<std::string> warnings_of(const Evidence& evidence);
 
 }  // namespace trammel::solver

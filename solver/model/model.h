@@ -64,12 +64,20 @@ struct MemberEnd {
   double inertia = 0;    ///< rotary inertia that turns with the member's end [kg m^2]
 };
 
+/// What lies between the sections at a member's ends.
+enum class Taper {
+  linear_area_and_inertia,  ///< every property linear
+  linear_depth_and_width,   ///< A of second, I of fourth degree; E, kappa G and rho linear
+  exponential               ///< every property by equal factors over equal lengths
+};
+
 /// A straight frame member, cut into equal elements by `assemble`.
 struct Member {
   std::string name;
   std::array<Index, 2> nodes{};
   Section section;      ///< at the first node
-  Section end_section;  ///< at the second node; each element takes its mid-point between the two
+  Section end_section;  ///< at the second node; each element takes what `taper` has at its middle
+  Taper taper = Taper::linear_area_and_inertia;
   BeamTheory theory = BeamTheory::euler_bernoulli;
   MassMatrix mass = MassMatrix::consistent;
   Index elements = 1;

@@ -85,6 +85,7 @@ GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel
     group->set_compliance(compliance_);
     group->set_penalty_scales(scales);
   }
+  require_driven_parts(model_, large_motion_, layout_, blocks_, mass_.diagonal());
 }
 
 void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<VectorXd> r) const {

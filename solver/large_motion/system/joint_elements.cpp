@@ -1,8 +1,10 @@
 #include "solver/large_motion/system/joint_elements.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/large_motion/elements/joints.h"
+#include "solver/model/labels.h"
 
 namespace trammel::solver::large_motion {
 
@@ -83,6 +85,23 @@ void add_drives(const LargeMotionModel& large_motion, const Layout& layout, Syst
     group->add(driven, {layout.node[to_size(drive.node)][to_size(drive.direction)]});
   }
   parts.add(std::move(group));
+}
+
+void require_driven_parts(const Model& model, const LargeMotionModel& large_motion,
+                          const Layout& layout, const std::vector<std::vector<Index>>& blocks,
+                          const VectorXd& mass) {
+  for (const Drive& drive : large_motion.drives) {
+    const Index driven = layout.node[to_size(drive.node)][to_size(drive.direction)];
+    const auto couples = [driven](const std::vector<Index>& block) {
+      return std::find(block.begin(), block.end(), driven) != block.end();
+    };
+    // One of the blocks is the drive's own.
+    if (mass[driven] != 0 || std::count_if(blocks.begin(), blocks.end(), couples) > 1) continue;
+    throw ModelError(part_label("drive", drive.name, 0) + " moves nothing: no member end, body, " +
+                     "spring or mass is joined to " +
+                     (drive.direction == 2 ? "the rotation of " : "") +
+                     node_label(model, drive.node));
+  }
 }
 
 }  // namespace trammel::solver::large_motion

@@ -20,4 +20,11 @@ void add_line_springs(const Model& model, const LargeMotionModel& large_motion,
 /// Adds one row a drive, in their order.
 void add_drives(const LargeMotionModel& large_motion, const Layout& layout, SystemParts& parts);
 
+/// @param blocks  coordinates and rows that each element couples, the drives' own among them
+/// @param mass    of each coordinate
+/// @throws ModelError  where a drive moves a coordinate to which nothing is joined.
+void require_driven_parts(const Model& model, const LargeMotionModel& large_motion,
+                          const Layout& layout, const std::vector<std::vector<Index>>& blocks,
+                          const VectorXd& mass);
+
 }  // namespace trammel::solver::large_motion

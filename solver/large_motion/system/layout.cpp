@@ -113,7 +113,7 @@ class Numbering {
   void number_member(Index m) {
     const Member& member = model_.members[to_size(m)];
     layout_.first_element.push_back(static_cast<Index>(layout_.elements.size()));
-    const bool bends = interpolate(member.section, member.end_section, 0.5).EI > 0;
+    const bool bends = section_at(member, 0.5).EI > 0;
     const std::array<Index, 2> rotation = number_end_rotations(member, bends);
     layout_.end_rotation.push_back(rotation);
     const auto& first = layout_.node[to_size(member.nodes[0])];
@@ -150,8 +150,7 @@ class Numbering {
     element.member = m;
     element.start = from + static_cast<double>(e) / count * span;
     element.end = from + static_cast<double>(e + 1) / count * span;
-    element.section =
-        interpolate(member.section, member.end_section, (static_cast<double>(e) + 0.5) / count);
+    element.section = section_at(member, (static_cast<double>(e) + 0.5) / count);
     return element;
   }
 

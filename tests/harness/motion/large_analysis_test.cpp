@@ -8,6 +8,7 @@ using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;
+using boost::test_tools::tolerance;
 using testing::complaint;
 using testing::contains;
 using testing::only;
@@ -39,6 +40,30 @@ Json slider_crank() {
   })");
 }
 
+/// The paper's manipulator with hinged elbows and a rigid platform, one element a link.
+Json hinged_manipulator() {
+  return Json::parse(R"({
+    "id": "hinged", "title": "Hinged elbows", "extends": "table-1.json",
+    "model": {"manipulator": {"joints": {"elbow": "hinged"}, "platform": {"kind": "rigid"},
+                              "links": {"elements": 1}}},
+    "analysis": {"large-motion": {"end_time_s": 0.1, "step_s": 0.005, "nodes": ["A1", "B1", "P"]}}
+  })");
+}
+
+/// From a pose on, at constant speed for 0.1 s.
+Json tracking(const char* trajectory) {
+  Json json = hinged_manipulator();
+  json["model"]["pose"] = nullptr;
+  json["model"]["trajectory"] = Json::parse(trajectory);
+  json["analysis"]["large-motion"]["track"] = true;
+  return json;
+}
+
+constexpr const char* kStraightSpline = R"({"spline": {"points": 2, "step_s": 0.1, "knots": [
+  {"time_s": 0, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
+  {"time_s": 0.05, "x_m": 0.255, "y_m": 0.149, "phi_rad": 0.01},
+  {"time_s": 0.1, "x_m": 0.26, "y_m": 0.154, "phi_rad": 0.02}]}})";
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(large_analysis)
@@ -51,7 +76,7 @@ BOOST_AUTO_TEST_CASE(small_loads_give_what_linear_statics_gives) {
   const AnalysisResult exact = result_of(json);
   for (const char* name : {"displacement_y_m:B", "rotation_rad:B", "reaction_y_N:A",
                            "reaction_moment_N_m:A", "bending_moment_N_m:AB.start"}) {
-    BOOST_TEST(only(exact, name) == only(linear, name), boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(only(exact, name) == only(linear, name), tolerance(1e-9));
   }
 }
 
@@ -89,8 +114,7 @@ BOOST_AUTO_TEST_CASE(linear_statics_knows_sliders_and_pins) {
   json["model"]["loads"]["push"]["force_N"] = {-1, 0};
   const double moved = only(result_of(json), "displacement_x_m:S");
   json["analysis"] = {{"large-statics", Json::object()}};
-  BOOST_TEST(only(result_of(json), "displacement_x_m:S") == moved,
-             boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(only(result_of(json), "displacement_x_m:S") == moved, tolerance(1e-6));
 }
 
 BOOST_AUTO_TEST_CASE(linear_analyses_refuse_what_only_large_motion_has) {
@@ -118,6 +142,56 @@ BOOST_AUTO_TEST_CASE(steps_that_do_not_converge_name_the_step_and_the_time) {
   const AnalysisResult result = result_of(json);
   BOOST_TEST((result.outcome.status == Status::not_converged));
   BOOST_TEST(contains(result.outcome.reason, "step 4 at time 0.03 s"), result.outcome.reason);
+}
+
+// Differences about the first instant looked for poses before the table.
+BOOST_AUTO_TEST_CASE(a_spline_is_tracked_from_its_first_instant_to_its_last) {
+  const AnalysisResult spline = result_of(tracking(kStraightSpline));
+  BOOST_REQUIRE_MESSAGE(spline.outcome.solved(), spline.outcome.reason);
+  const AnalysisResult line = result_of(tracking(R"({"line": {
+    "from": {"x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
+    "to": {"x_m": 0.26, "y_m": 0.154, "phi_rad": 0.02},
+    "duration_s": 0.1, "points": 2, "step_s": 0.1}})"));
+  for (const char* name : {"deflection_x_m:P", "deflection_y_m:P"}) {
+    const std::vector<double>& on_line = testing::values(line, name);
+    for (std::size_t i = 0; i < on_line.size(); ++i)
+      BOOST_TEST(std::abs(testing::values(spline, name)[i] - on_line[i]) < 1e-12);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tracking_ends_no_later_than_its_spline) {
+  Json json = tracking(kStraightSpline);
+  json["analysis"]["large-motion"]["end_time_s"] = 0.11;
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }),
+                      "/analysis/large-motion/end_time_s: expected a time on the path"));
+}
+
+BOOST_AUTO_TEST_CASE(a_drive_replaces_the_lock_of_an_actuator) {
+  Json json = hinged_manipulator();
+  json["model"]["manipulator"]["material"]["E_Pa"] = 6.9e14;  // the link turns as one
+  const Json law = {{"rest_to_rest", {{"travel", 0.05}, {"duration_s", 0.1}}}};
+  json["analysis"]["large-motion"]["drives"] = {
+      {"motor", {{"node", "A1"}, {"motion", "rotation"}, {"law", law}}}};
+  const AnalysisResult result = result_of(json);
+  BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
+  BOOST_TEST(testing::values(result, "rotation_rad:A1").back() == 0.05, tolerance(1e-9));
+  BOOST_TEST(testing::values(result, "rotation_rad:B1").back() == 0.05, tolerance(1e-3));
+}
+
+// It turned a node to which no link is joined, and nothing else moved.
+BOOST_AUTO_TEST_CASE(a_drive_that_moves_nothing_is_refused) {
+  Json json = hinged_manipulator();
+  const Json law = {{"constant_speed", {{"speed_per_s", 1}}}};
+  json["model"]["manipulator"]["joints"]["active"] = "free";
+  json["analysis"]["large-motion"]["drives"] = {
+      {"motor", {{"node", "A1"}, {"motion", "rotation"}, {"law", law}}}};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }),
+                      "/analysis/large-motion/drives/motor: expected an actuator that is locked"));
+  json = slider_crank();
+  json["model"]["members"]["crank"]["ends"] = {"hinged", "hinged"};
+  const std::string nothing = complaint([&] { (void)result_of(json); });
+  BOOST_TEST(contains(nothing, "/analysis/large-motion/drives/motor: "), nothing);
+  BOOST_TEST(contains(nothing, "moves nothing"), nothing);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -245,6 +245,18 @@ BOOST_AUTO_TEST_CASE(a_taper_takes_each_elements_middle) {
   BOOST_TEST(fine < coarse / 8);
 }
 
+// With one element only its ends were looked at.
+BOOST_AUTO_TEST_CASE(the_stress_along_a_taper_is_largest_between_its_ends) {
+  // Depth 1 -> 3 under a force at the thin end: 6 P x / t^2 is largest where t = 2.
+  const Material material{30e6, 0, 0};
+  Model model = beam(rectangle(material, 1, 1), 20, 1);
+  model.members[0].end_section = rectangle(material, 3, 1);
+  model.members[0].taper = Taper::linear_depth_and_width;
+  model.supports = {clamp(1)};
+  model.loads = {{0, {0, 1, 0}}};
+  BOOST_TEST(solve_statics(assemble(model)).member_stress[0] == 6 * 10 / 4.0, tolerance(1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(reactions_and_load_balance_on_thin_links_of_any_mesh) {
   const Section link = rectangle({6.9e10, 2700, 0.33}, 0.0015, 0.03);
   for (const Index elements : {1, 2, 4, 8, 16}) {

@@ -1,0 +1,83 @@
+#include "harness/statics_modes/range_warnings.h"
+
+#include <cmath>
+
+#include "solver/model/plane.h"
+
+namespace trammel::harness {
+namespace {
+
+using Eigen::Vector2d;
+
+/// That turns the corners about their centre nearest to how they move.
+double rotation_of(const solver::System& system, const solver::Triangle& triangle,
+                   const Eigen::VectorXd& u) {
+  Vector2d center = Vector2d::Zero(), shift = Vector2d::Zero();
+  std::array<Vector2d, 3> place, motion;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto node = static_cast<std::size_t>(triangle.nodes[i]);
+    place[i] = system.mesh.positions[node];
+    motion[i] = {u[system.coordinates.node[node][0]], u[system.coordinates.node[node][1]]};
+    center += place[i] / 3;
+    shift += motion[i] / 3;
+  }
+  double turned = 0, size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    turned += solver::cross(place[i] - center, motion[i] - shift);
+    size += (place[i] - center).squaredNorm();
+  }
+  return turned / size;
+}
+
+}  // namespace
+
+double largest_rotation(const solver::System& system, const Eigen::VectorXd& u) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    if (system.coordinates.is_rotation[static_cast<std::size_t>(i)])
+      largest = std::max(largest, std::abs(u[i]));
+  }
+  for (const solver::FrameElement& e : system.mesh.frame) {
+    const Vector2d shift(u[e.coordinates[3]] - u[e.coordinates[0]],
+                         u[e.coordinates[4]] - u[e.coordinates[1]]);
+    largest = std::max(largest, std::abs(solver::cross(e.direction, shift)) / e.length);
+  }
+  for (const solver::Triangle& triangle : system.model.triangles)
+    largest = std::max(largest, std::abs(rotation_of(system, triangle, u)));
+  return largest;
+}
+
+double largest_rotation(const solver::StaticSolution& solution) {
+  double largest = 0;  // NaN, where a node has no rotation, is never the larger
+  for (const double angle : solution.displacement.col(2).eval())
+    largest = std::max(largest, std::abs(angle));
+  for (const double angle : solution.end_rotation.reshaped().eval())
+    largest = std::max(largest, std::abs(angle));
+  return largest;
+}
+
+void warn_of_rotation(double rotation, std::vector<Warning>& warnings) {
+  if (!(rotation > kMaxLinearRotation)) return;
+  add_warning(warnings, {"the largest rotation", rotation, " rad",
+                         "linear theory holds up to " + rounded(kMaxLinearRotation) +
+                             " rad, where it neglects theta^2 / 2 = 0.5 %; large-statics and "
+                             "large-motion hold beyond"});
+}
+
+void warn_of_extension(const solver::Model& model, const solver::StaticSolution& solution,
+                       std::vector<Warning>& warnings) {
+  double largest = 0;
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    const solver::Member& member = model.members[i];
+    if (!member.axially_flexible) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    largest = std::max({largest, std::abs(solution.resultant_start(row, 0)) / member.section.EA,
+                        std::abs(solution.resultant_end(row, 0)) / member.end_section.EA});
+  }
+  if (!(largest > kMaxExtension)) return;
+  add_warning(warnings, {"the largest extension of a member", largest, "",
+                         "N = EA times the extension holds up to " + rounded(kMaxExtension) +
+                             ", where the measures of strain differ by 5 %"});
+}
+
+}  // namespace trammel::harness

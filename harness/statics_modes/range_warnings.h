@@ -1,0 +1,32 @@
+#pragma once
+
+#include "harness/base/warning.h"
+#include "solver/assembly/system.h"
+#include "solver/statics/statics.h"
+
+/// How far the theories hold, and warnings of solutions that went farther.
+namespace trammel::harness {
+
+/// Linear theory takes cos(theta) as 1 and sin(theta) as theta: up to here [rad] it neglects
+/// theta^2 / 2 = 0.5 %.
+inline constexpr double kMaxLinearRotation = 0.1;
+
+/// N = EA times the extension takes the section as it was: up to here the measures of strain
+/// (engineering, logarithmic, Green's) differ by 5 %, and so do the stresses on the section.
+inline constexpr double kMaxExtension = 0.1;
+
+/// Largest rotation of a node, a member's end or a chord, or a triangle [rad].
+/// @param u  unconstrained coordinates
+[[nodiscard]] double largest_rotation(const solver::System& system, const Eigen::VectorXd& u);
+
+/// The same of what is stated at nodes and members' ends alone.
+[[nodiscard]] double largest_rotation(const solver::StaticSolution& solution);
+
+/// @param rotation  [rad]
+void warn_of_rotation(double rotation, std::vector<Warning>& warnings);
+
+/// Of |N| / EA at the ends of the members.
+void warn_of_extension(const solver::Model& model, const solver::StaticSolution& solution,
+                       std::vector<Warning>& warnings);
+
+}  // namespace trammel::harness

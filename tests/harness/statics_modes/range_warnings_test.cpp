@@ -1,0 +1,70 @@
+#include "harness/statics_modes/range_warnings.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/support/harness/analysing.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::contains;
+using testing::result_of;
+
+namespace {
+
+AnalysisResult of_cantilever(double force_x, double force_y, const char* analysis) {
+  Json json = testing::cantilever();
+  json["model"]["loads"]["tip"]["force_N"] = {force_x, force_y};
+  json["analysis"] = {{analysis, Json::object()}};
+  AnalysisResult result = result_of(json);
+  BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(range_warnings)
+
+// The tip turns by F L^2 / 2 EI = 2.4e-6 rad a newton.
+BOOST_AUTO_TEST_CASE(a_linear_rotation_beyond_its_range_is_solved_with_a_warning) {
+  BOOST_TEST(of_cantilever(0, 40000, "statics").warnings.empty());
+  const AnalysisResult beyond = of_cantilever(0, 50000, "statics");
+  BOOST_REQUIRE(beyond.warnings.size() == 1U);
+  BOOST_TEST(contains(beyond.warnings[0].text(), "the largest rotation is 0.12 rad: linear theory"),
+             beyond.warnings[0].text());
+  BOOST_TEST(of_cantilever(0, 50000, "large-statics").warnings.empty());
+}
+
+// A strip of 0.2 m ended at -64 m without a word. N / EA = 1e-9 a newton.
+BOOST_AUTO_TEST_CASE(an_extension_beyond_what_the_section_means_is_solved_with_a_warning) {
+  for (const char* analysis : {"statics", "large-statics"}) {
+    BOOST_TEST(of_cantilever(9e7, 0, analysis).warnings.empty());
+    const AnalysisResult beyond = of_cantilever(3e8, 0, analysis);
+    BOOST_REQUIRE(beyond.warnings.size() == 1U);
+    BOOST_TEST(contains(beyond.warnings[0].text(), "the largest extension of a member is 0.3: "),
+               beyond.warnings[0].text());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_path_has_one_warning_with_its_largest_rotation) {
+  const AnalysisResult result = result_of(Json::parse(R"({
+    "id": "across", "title": "Across a singularity", "extends": "table-1.json",
+    "model": {
+      "manipulator": {"joints": {"elbow": "hinged"}, "platform": {"kind": "rigid"}},
+      "pose": null,
+      "trajectory": {"line": {"from": {"x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
+                              "to": {"x_m": 0.25, "y_m": 0.144, "phi_rad": 0.9},
+                              "duration_s": 1, "points": 41, "step_s": 0.025}},
+      "loads": {"P": {"node": "P", "force_N": [100, 0], "moment_N_m": 0.1}}
+    },
+    "analysis": {"statics": {}}
+  })"));
+  BOOST_REQUIRE(result.outcome.solved());
+  BOOST_REQUIRE(result.warnings.size() == 1U);
+  double largest = 0;
+  for (const double angle : testing::values(result, "rotation_rad:P"))
+    largest = std::max(largest, std::abs(angle));
+  BOOST_TEST(largest > kMaxLinearRotation);
+  BOOST_TEST(result.warnings[0].value >= largest);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
