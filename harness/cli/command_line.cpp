@@ -15,6 +15,7 @@
 #include "harness/cli/command_cost.h"
 #include "harness/cli/command_effects.h"
 #include "harness/cli/command_list.h"
+#include "harness/cli/command_quantities.h"
 #include "harness/cli/command_run.h"
 #include "harness/input/former_names.h"
 #include "trammel_build.h"
@@ -32,6 +33,7 @@ constexpr const char* kFooter = R"(
 Examples:
   trammel list                              what there is
   trammel describe manipulator-modes        what a case models, checks and compares with
+  trammel quantities                        what each analysis computes, with units
   trammel run manipulator-modes             all its variants, with verdicts
   trammel run -L verification --jobs 4      every case with that label
   trammel run ~/my-robot.json               a case file of your own
@@ -55,6 +57,7 @@ class CommandLine {
     app_.require_subcommand(1);
     define_list();
     define_describe();
+    define_quantities();
     define_run();
     define_compare();
     define_converge();
@@ -121,6 +124,14 @@ class CommandLine {
     sub->add_option("case", name_, "Name or file of a case")->required();
     sub->add_flag("--json", json_, "As JSON: the case with all that it extends");
     sub->callback([this] { command_ = [this] { return describe_case(name_, json_); }; });
+  }
+  void define_quantities() {
+    CLI::App* sub = add("quantities", "What each analysis computes, or a case: unit and meaning",
+                        "\nExamples:\n  trammel quantities\n  trammel quantities beam-cantilever");
+    sub->add_option("case", name_,
+                    "Name or file of a case, which is computed; all analyses by "
+                    "default");
+    sub->callback([this] { command_ = [this] { return quantities_command(name_); }; });
   }
   void define_run() {
     CLI::App* sub = add("run", "Compute cases and evaluate their checks",

@@ -194,6 +194,100 @@ BOOST_AUTO_TEST_CASE(two_variants_and_two_result_files_are_compared) {
   BOOST_TEST(run(folder, "compare a/results.json cantilever.json").status == 2);
 }
 
+BOOST_AUTO_TEST_CASE(percent_of_a_comparison_is_of_the_first_side_and_not_of_round_off) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["model"]["nodes"]["B"] = {1.2, 1.6};
+  json["model"]["loads"]["tip"]["force_N"] = {-80, 60};
+  json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 0.8e11;
+  (void)folder.write(json);
+  std::istringstream table(run(folder, "compare cantilever.json cantilever.json:soft").out);
+  std::size_t found = 0;
+  for (std::string line; std::getline(table, line);) {
+    const bool moves = contains(line, "displacement_y_m:B");
+    if (moves) BOOST_TEST(contains(line, "+150"), line);  // not 60
+    const bool is_zero = contains(line, "axial_force_N:AB.start");
+    if (is_zero) BOOST_TEST(!contains(line, "+") && !contains(line, " -1"), line);
+    found += moves || is_zero ? 1 : 0;
+  }
+  BOOST_TEST(found == 2U);
+}
+
+BOOST_AUTO_TEST_CASE(a_model_that_the_solver_refuses_is_bad_input_of_every_command) {
+  const Folder folder;
+  Json json = testing::manipulator();
+  json["model"]["manipulator"]["platform"]["kind"] = "triangles";
+  json["model"]["loads"]["P"]["moment_N_m"] = 1;
+  json["analysis"] = {{"statics", Json::object()}};
+  (void)folder.write(json);
+  for (const char* words :
+       {"run robot.json", "effects robot.json", "describe robot.json", "quantities robot.json"}) {
+    const Outcome outcome = run(folder, words);
+    BOOST_TEST(outcome.status == 2, words);
+    BOOST_TEST(lines(outcome.err) == 1, words << ": " << outcome.err);
+    BOOST_TEST(contains(outcome.err, "robot.json: /model/manipulator: "), outcome.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_refused_drive_and_a_path_that_ends_too_soon_are_told_by_their_own_place) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["analysis"] = Json::parse(R"({"large-motion": {"end_time_s": 1, "step_s": 0.1, "drives": {
+      "motor": {"node": "A", "motion": "rotation", "law": {"constant_speed": {"speed_per_s": 1}}}}}})");
+  (void)folder.write(json);
+  const std::string drive = run(folder, "run cantilever.json").err;
+  BOOST_TEST(contains(drive, ": /analysis/large-motion/drives/motor: "), drive);
+  json = testing::manipulator();
+  json["model"].erase("pose");
+  json["model"]["manipulator"]["joints"]["elbow"] = "hinged";
+  json["model"]["trajectory"] = Json::parse(R"({"spline": {"points": 2, "step_s": 0.1, "knots": [
+      {"time_s": 0, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
+      {"time_s": 0.1, "x_m": 0.26, "y_m": 0.144, "phi_rad": 0},
+      {"time_s": 0.2, "x_m": 0.27, "y_m": 0.144, "phi_rad": 0}]}})");
+  json["analysis"] = {{"large-motion", {{"track", true}, {"end_time_s", 1}, {"step_s", 0.05}}}};
+  (void)folder.write(json);
+  const std::string path = run(folder, "run robot.json").err;
+  BOOST_TEST(contains(path, ": /model/trajectory: "), path);
+}
+
+BOOST_AUTO_TEST_CASE(a_tolerance_of_two_kinds_and_a_lost_reference_are_told_as_they_are_read) {
+  const Folder folder;
+  Json json = judged(101);
+  json["checks"]["c"].erase("bound");
+  json["checks"]["c"]["reference"] = "nowhere";
+  json["checks"]["c"]["tolerance"] = {{"absolute", 1}, {"relative", 0.1}, {"why", "x"}};
+  (void)folder.write(json);
+  BOOST_TEST(contains(run(folder, "describe cantilever.json").err,
+                      "/checks/c/tolerance: expected exactly one of 'absolute' or 'relative'"));
+  json["checks"]["c"]["tolerance"].erase("absolute");
+  (void)folder.write(json);
+  const std::string lost = run(folder, "run cantilever.json").out;
+  BOOST_TEST(contains(lost, "looked for in"), lost);
+  BOOST_TEST(contains(lost, "references/values"), lost);
+}
+
+BOOST_AUTO_TEST_CASE(a_column_is_told_how_near_its_load_is_to_the_buckling_load) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  const double critical = 0.25 * 9.8696044 * 2e11 * 0.05 * 1e-3 / 12 / 4;  // pi^2 E I / (2 L)^2
+  json["model"]["loads"]["tip"]["force_N"] = {-0.95 * critical, 1};
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "effects cantilever.json --repeats 0");
+  BOOST_TEST(contains(outcome.out, "% of the buckling load"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "Loads     95"), outcome.out);
+  BOOST_TEST(!contains(outcome.out, "load over buckling load"));
+}
+
+BOOST_AUTO_TEST_CASE(quantities_are_told_with_unit_and_meaning) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  const Outcome all = run(folder, "quantities"), own = run(folder, "quantities cantilever.json");
+  BOOST_TEST(contains(all.out, "estimated_correct_digits"));
+  BOOST_TEST(contains(all.out, "peak_displacement_y_m:NODE"));
+  BOOST_TEST(contains(own.out, "displacement_y_m:B"));
+  BOOST_TEST(contains(own.out, "displacement along y"));
+}
+
 BOOST_AUTO_TEST_CASE(what_is_no_results_file_is_said_so_beside_one) {
   const Folder folder;
   (void)folder.write(judged(101));
