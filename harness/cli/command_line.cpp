@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "harness/base/errors.h"
+#include "harness/base/one_line.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_claims.h"
 #include "harness/cli/command_compare.h"
@@ -17,6 +18,7 @@
 #include "harness/cli/command_list.h"
 #include "harness/cli/command_quantities.h"
 #include "harness/cli/command_run.h"
+#include "harness/cli/printable_stream.h"
 #include "harness/input/former_names.h"
 #include "trammel_build.h"
 
@@ -45,7 +47,8 @@ Examples:
   trammel report                            the whole catalogue as a page
   trammel report ~/my-robot.json            a page of your own case
 
-Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
+Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
+folder of --out that another call writes, 3 a fault of trammel.)";
 
 /// All words of the command line, and what to do with them.
 class CommandLine {
@@ -268,14 +271,20 @@ class CommandLine {
 
 }  // namespace
 
+void require_drawing(const Renderers& renderers) {
+  if (!renderers.can_draw())
+    throw InputError("PATH: expected a folder with gnuplot, which draws the report");
+}
+
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
+  const PrintableStream out(std::cout), err(std::cerr);
   try {
     return CommandLine(renderers).run(arguments);
   } catch (const InputError& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << one_line(error.what()) << '\n';
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << "trammel: a fault of its own: " << error.what() << '\n';
+    std::cerr << "trammel: a fault of its own: " << one_line(error.what()) << '\n';
     return 3;
   }
 }

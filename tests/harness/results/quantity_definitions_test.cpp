@@ -92,10 +92,11 @@ std::vector<Json> further_cases() {
       strip,
       with_analysis(buckled, R"({"buckling": {"count": 1}})"),
       with_analysis(strip, R"({"modes": {"count": 2, "rotating": {"angular_speed_rad_s": 3}}})"),
-      with_analysis(strip, (R"({"transient": {"duration_s": 0.01, "step_s": 0.001, "outputs": )" +
-                            kOutputs + "}}"),
-      with_analysis(strip, (R"({"harmonic": {"from_Hz": 1, "to_Hz": 20, "points": 2, "outputs": )" +
-                            kOutputs + R"(, "damping": {"modal": {"ratio": 0.02, "modes": 2}}}})"),
+      with_analysis(strip, R"({"transient": {"duration_s": 0.01, "step_s": 0.001, "outputs": )" +
+                               kOutputs + "}}"),
+      with_analysis(strip, R"({"harmonic": {"from_Hz": 1, "to_Hz": 20, "points": 2, "outputs": )" +
+                               kOutputs +
+                               R"(, "damping": {"modal": {"ratio": 0.02, "modes": 2}}}})"),
       with_analysis(strip, R"({"large-statics": {"drives": {"push": {"node": "B", "motion": "x",
           "law": {"constant_speed": {"speed_per_s": 0.001}}}}}})"),
       with_analysis(strip, R"({"large-motion": {"end_time_s": 0.01, "step_s": 0.001,
@@ -115,12 +116,15 @@ std::vector<Json> further_cases() {
       with_analysis(hinged, R"({"properties": {}})"),
       with_analysis(hinged, R"({"kinematics": {}})"),
       with_analysis(hinged, R"({"forward-dynamics": {}})"),
-      with_analysis(hinged, R"({"inverse-dynamics": {"bodies": true, "points_per_revolution": 16}})"),
-      with_analysis(hinged, R"({"large-motion": {"track": true, "end_time_s": 0.02, "step_s": 0.01}})"),
-      with_analysis(long_way, R"({"grnn": {"train": 16, "search": {"from": 0.01, "to": 1, "count": 5}}})"),
-      with_analysis(soft, ("{\"elastodynamics\": {" + motion + "}}"),
-      with_analysis(still, ("{\"elastodynamics\": {" + motion +
-          R"(, "step_errors": true, "damping": {"stiffness_s": 1e-4}}})")};
+      with_analysis(hinged,
+                    R"({"inverse-dynamics": {"bodies": true, "points_per_revolution": 16}})"),
+      with_analysis(hinged,
+                    R"({"large-motion": {"track": true, "end_time_s": 0.02, "step_s": 0.01}})"),
+      with_analysis(long_way,
+                    R"({"grnn": {"train": 16, "search": {"from": 0.01, "to": 1, "count": 5}}})"),
+      with_analysis(soft, "{\"elastodynamics\": {" + motion + "}}"),
+      with_analysis(still, "{\"elastodynamics\": {" + motion +
+                               R"(, "step_errors": true, "damping": {"stiffness_s": 1e-4}}})")};
 }
 
 }  // namespace
