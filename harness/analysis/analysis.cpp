@@ -1,6 +1,7 @@
 #include "harness/analysis/analysis.h"
 
 #include "harness/analysis/registry.h"
+#include "harness/scene/with_model_errors.h"
 
 namespace trammel::harness {
 namespace {
@@ -73,16 +74,14 @@ AnalysisResult analyse(const Document& document, const References& references,
   if (kind.needs_manipulator && !case_model.manipulator) {
     throw place.error("expected a model with a manipulator");
   }
-  try {
+  return with_model_errors(document, [&] {
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
     return result;
-  } catch (const solver::ModelError& error) {
-    throw model_error(document, error);
-  }
+  });
 }
 
 }  // namespace trammel::harness

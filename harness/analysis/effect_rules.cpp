@@ -62,7 +62,7 @@ const EffectWords& words_of(solver::Effect effect) {
       {{kStiffness, kStiffness, "twice the fastest turning over the first frequency"},
        {kAtRest, "the frame does not turn", "the frame does not turn"}},
       /* geometric stiffening */
-      {{"load over buckling load, tension positive", kStiffness, kStiffness},
+      {{"geometric over elastic strain energy, tension positive", kStiffness, kStiffness},
        {kLarge, "there are no loads", kLarge}},
       /* large displacement */
       {all("largest rotation [rad]"), {kLarge, "modes are small motions", kLarge}},

@@ -1,6 +1,9 @@
 #include "harness/base/json_file.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <sstream>
 
@@ -157,17 +160,17 @@ std::string pretty(const Json& json) {
 }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) throw InputError(file.string() + ": expected a place that can be written");
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error) throw InputError(file.string() + ": expected a place that can be written");
+  static std::atomic<unsigned> count{0};
+  std::filesystem::path part = file;
+  part += ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+  std::ofstream out(part, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error, ignored;
+  if (out) std::filesystem::rename(part, file, error);
+  if (out && !error) return;
+  std::filesystem::remove(part, ignored);
+  throw InputError(file.string() + ": expected a place that can be written");
 }
 
 }  // namespace trammel::harness

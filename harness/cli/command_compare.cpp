@@ -1,5 +1,7 @@
 #include "harness/cli/command_compare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -53,14 +55,38 @@ Named numbers_of(const Quantities& quantities) {
   return named;
 }
 
-double relative(double a, double b) {
-  const double scale = std::max(std::abs(a), std::abs(b));
-  return scale == 0 ? 0 : (b - a) / scale;
+/// Values below this share of the largest of their series are zeros but for round-off.
+constexpr double kRoundoff = 1e-9;
+
+/// By how much b differs from a, relative to a; nothing where a is zero.
+/// @param scale  the largest value of the series
+std::string percent_change(double a, double b, double scale) {
+  if (!(std::abs(a) > kRoundoff * scale) || !std::isfinite(b)) return "";
+  return fmt::format("{:+.3g}", 100 * ((b - a) / std::abs(a)));
 }
 
-/// The row of a quantity: where it differs most, and how.
-void add_row(const std::string& name, const std::vector<double>& a, const std::vector<double>& b,
-             Table& table) {
+/// What a quantity's values are compared with: all of its unit, but poses with poses, and numbers
+/// without a unit with themselves.
+std::string series_of(const std::string& name) {
+  const std::string unit = unit_of(name), head = name.substr(0, name.find(':'));
+  return unit == "1" || head.rfind("pose_", 0) == 0 ? head : unit;
+}
+
+/// The largest magnitude of each series on either side.
+std::map<std::string, double> series_scales(const Named& a, const Named& b) {
+  std::map<std::string, double> scales;
+  for (const Named* side : {&a, &b})
+    for (const auto& [name, values] : *side) {
+      double& scale = scales[series_of(name)];
+      for (const double value : values)
+        if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+    }
+  return scales;
+}
+
+/// The rows of a quantity: all of a few values, of many the one that differs most.
+void add_rows(const std::string& name, const std::vector<double>& a, const std::vector<double>& b,
+              double scale, Table& table) {
   if (a.size() != b.size()) {
     table.add({name, "", std::to_string(a.size()) + " entries",
                std::to_string(b.size()) + " entries", "", ""});
@@ -71,16 +97,17 @@ void add_row(const std::string& name, const std::vector<double>& a, const std::v
   const std::size_t last = a.size() <= 6 ? a.size() : std::min(a.size(), worst + 1);
   for (std::size_t i = first; i < last; ++i) {
     table.add({i == first ? name : "", a.size() > 1 ? std::to_string(i) : "", rounded(a[i], 10),
-               rounded(b[i], 10), rounded(b[i] - a[i], 3), rounded(100 * relative(a[i], b[i]), 3)});
+               rounded(b[i], 10), rounded(b[i] - a[i], 3), percent_change(a[i], b[i], scale)});
   }
 }
 
 void print_quantities(const Named& a, const Named& b, const std::string& label_a,
                       const std::string& label_b) {
   Table table({"quantity", ">index", ">" + label_a, ">" + label_b, ">difference", ">percent"});
+  const std::map<std::string, double> scales = series_scales(a, b);
   for (const auto& [name, values] : a) {
     const auto other = b.find(name);
-    if (other != b.end()) add_row(name, values, other->second, table);
+    if (other != b.end()) add_rows(name, values, other->second, scales.at(series_of(name)), table);
   }
   table.print(std::cout);
   for (const auto& [one, other, label] :
@@ -118,7 +145,7 @@ void print_modes(const Side& a, const Side& b) {
     const bool parted = last - fb > 1e-6 * last;
     table.add({mode_numbers(match.a), rounded(fa, 8), mode_numbers(match.b),
                rounded(fb, 8) + (parted ? " to " + rounded(last, 8) : ""),
-               rounded(100 * relative(fa, fb), 3), rounded(match.overlap, 4)});
+               percent_change(fa, fb, modes_a.frequency.back()), rounded(match.overlap, 4)});
   }
   table.print(std::cout);
   std::cout << "alike: 1 for the same shape (modal assurance criterion; of repeated modes the\n"

@@ -12,7 +12,9 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
+#include "harness/results/unfinished_folder.h"
 #include "harness/run/cost_results.h"
+#include "harness/run/output_lock.h"
 #include "harness/run/results.h"
 #include "harness/studies/cost_study_of_sweeps.h"
 
@@ -151,7 +153,8 @@ TimingOptions timing_of(const CostCommand& command) {
 }  // namespace
 
 int cost_command(const CostCommand& command, const Renderers& renderers) {
-  require_writable(command.out);
+  require_drawing(renderers);
+  const OutputLock lock(command.out);
   const References references;
   const SweepExtent extent = command.quick ? SweepExtent::quick : SweepExtent::full;
   std::vector<CostStudy> studies = read_studies(command, extent, references);
@@ -167,9 +170,11 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   }
   results::Results results = results_of({}, {}, references);
   results.cost = cost_results(measured, extent, options.timing);
-  const fs::path file = write_results(results, command.out);
-  const fs::path page = renderers.report ? renderers.report(file, command.out) : file;
-  std::cout << "results in " << file.string() << "\npage in " << page.string() << std::endl;
+  const fs::path unfinished = fs::path(command.out) / results::kUnfinishedFolder;
+  fs::create_directories(unfinished);
+  const fs::path page = renderers.report(write_results(results, unfinished), command.out);
+  std::cout << "results in " << (fs::path(command.out) / "results.json").string() << "\npage in "
+            << page.string() << std::endl;
   const bool any_lost =
       std::any_of(measured.begin(), measured.end(),
                   [](const MeasuredStudy& study) { return study.points.empty(); });

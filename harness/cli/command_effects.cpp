@@ -164,6 +164,9 @@ int effects_command(const EffectsCommand& command) {
             << '\n';
   if (random) std::cout << pretty(json);
   print_effects(study.choice, analysis_kind(document));
+  if (study.load_over_buckling_load)
+    std::cout << "\nLoads     " << percent(*study.load_over_buckling_load)
+              << " of the buckling load (linear buckling, first pose)\n";
   if (!study.full.outcome.solved()) {
     throw InputError(json.at("id").get<std::string>() + ": expected a solution with all effects (" +
                      study.full.outcome.reason + ")");

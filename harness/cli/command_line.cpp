@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "harness/base/errors.h"
+#include "harness/base/one_line.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_claims.h"
 #include "harness/cli/command_compare.h"
@@ -15,7 +16,9 @@
 #include "harness/cli/command_cost.h"
 #include "harness/cli/command_effects.h"
 #include "harness/cli/command_list.h"
+#include "harness/cli/command_quantities.h"
 #include "harness/cli/command_run.h"
+#include "harness/cli/printable_stream.h"
 #include "harness/input/former_names.h"
 #include "trammel_build.h"
 
@@ -32,6 +35,7 @@ constexpr const char* kFooter = R"(
 Examples:
   trammel list                              what there is
   trammel describe manipulator-modes        what a case models, checks and compares with
+  trammel quantities                        what each analysis computes, with units
   trammel run manipulator-modes             all its variants, with verdicts
   trammel run -L verification --jobs 4      every case with that label
   trammel run ~/my-robot.json               a case file of your own
@@ -43,7 +47,8 @@ Examples:
   trammel report                            the whole catalogue as a page
   trammel report ~/my-robot.json            a page of your own case
 
-Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, 3 a fault of trammel.)";
+Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
+folder of --out that another call writes, 3 a fault of trammel.)";
 
 /// All words of the command line, and what to do with them.
 class CommandLine {
@@ -55,6 +60,7 @@ class CommandLine {
     app_.require_subcommand(1);
     define_list();
     define_describe();
+    define_quantities();
     define_run();
     define_compare();
     define_converge();
@@ -121,6 +127,14 @@ class CommandLine {
     sub->add_option("case", name_, "Name or file of a case")->required();
     sub->add_flag("--json", json_, "As JSON: the case with all that it extends");
     sub->callback([this] { command_ = [this] { return describe_case(name_, json_); }; });
+  }
+  void define_quantities() {
+    CLI::App* sub = add("quantities", "What each analysis computes, or a case: unit and meaning",
+                        "\nExamples:\n  trammel quantities\n  trammel quantities beam-cantilever");
+    sub->add_option("case", name_,
+                    "Name or file of a case, which is computed; all analyses by "
+                    "default");
+    sub->callback([this] { command_ = [this] { return quantities_command(name_); }; });
   }
   void define_run() {
     CLI::App* sub = add("run", "Compute cases and evaluate their checks",
@@ -257,14 +271,20 @@ class CommandLine {
 
 }  // namespace
 
+void require_drawing(const Renderers& renderers) {
+  if (!renderers.can_draw())
+    throw InputError("PATH: expected a folder with gnuplot, which draws the report");
+}
+
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
+  const PrintableStream out(std::cout), err(std::cerr);
   try {
     return CommandLine(renderers).run(arguments);
   } catch (const InputError& error) {
-    std::cerr << error.what() << '\n';
+    std::cerr << one_line(error.what()) << '\n';
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << "trammel: a fault of its own: " << error.what() << '\n';
+    std::cerr << "trammel: a fault of its own: " << one_line(error.what()) << '\n';
     return 3;
   }
 }

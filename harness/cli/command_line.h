@@ -14,7 +14,11 @@ struct Renderers {
       report;
   std::function<void(const std::filesystem::path& results, const std::filesystem::path& junit)>
       junit;
+  std::function<bool()> can_draw;  ///< whether there is what a report is drawn with
 };
+
+/// @throws InputError  where a report could not be drawn: before any work is done.
+void require_drawing(const Renderers& renderers);
 
 /// Runs the program. @returns 0: every gate holds, 1: a check failed, 2: bad usage or input, 3: our
 /// own fault.

@@ -13,6 +13,7 @@
 #include "harness/input/json_view.h"
 #include "harness/input/reference_library.h"
 #include "harness/scene/case_model.h"
+#include "harness/scene/with_model_errors.h"
 #include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
@@ -115,7 +116,9 @@ std::string describe_check(const Check& check) {
 void describe_effects(const Case& given) {
   const Document base = patched(given, kBaseVariant);
   if (!knows_effects(base)) return;
-  print_effects(choose_effects(base, read_case_model(base)), analysis_kind(base));
+  const EffectChoice choice =
+      with_model_errors(base, [&] { return choose_effects(base, read_case_model(base)); });
+  print_effects(choice, analysis_kind(base));
 }
 
 void describe_checks(const Case& given, const References& references) {

@@ -6,6 +6,7 @@
 
 #include "harness/base/diagnostic.h"
 #include "harness/base/errors.h"
+#include "harness/base/one_line.h"
 #include "harness/base/progress.h"
 #include "harness/base/statistic.h"
 #include "harness/base/table.h"
@@ -14,7 +15,9 @@
 #include "harness/cli/print_uncertainty.h"
 #include "harness/input/catalogue.h"
 #include "harness/judge/evaluate_check.h"
+#include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
+#include "harness/run/output_lock.h"
 #include "harness/run/results.h"
 
 namespace trammel::harness {
@@ -38,7 +41,7 @@ Selection load(const std::vector<std::filesystem::path>& files, const Catalogue&
       run.case_id = file.stem().string();
       run.variant = kBaseVariant;
       run.status = "error";
-      run.reason = error.what();
+      run.reason = one_line(error.what());
       run.error = Run::RunError::input;
       selection.broken.push_back(std::move(run));
     }
@@ -220,10 +223,10 @@ void print_run_errors(const std::vector<Run>& runs) {
   }
 }
 
-std::filesystem::path write_all(const results::Results& found, const std::string& out,
+std::filesystem::path write_all(const results::Results& found, const std::filesystem::path& out,
                                 const Renderers& renderers) {
   auto file = write_results(found, out);
-  if (renderers.junit) renderers.junit(file, std::filesystem::path(out) / "junit.xml");
+  if (renderers.junit) renderers.junit(file, out / "junit.xml");
   return file;
 }
 
@@ -256,10 +259,11 @@ void print_failed_runs(const std::vector<Run>& runs) {
 }
 
 /// The page of these results, and where it is.
-void write_page(const results::Results& results, const std::vector<Run>& runs,
-                const std::string& out, const Renderers& renderers) {
-  const auto file = write_all(results, out, renderers);
-  const auto page = renderers.report ? renderers.report(file, out) : file;
+void write_page(const results::Results& found, const std::vector<Run>& runs, const std::string& out,
+                const Renderers& renderers) {
+  const auto unfinished = std::filesystem::path(out) / results::kUnfinishedFolder;
+  std::filesystem::create_directories(unfinished);
+  const auto page = renderers.report(write_all(found, unfinished, renderers), out);
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
   print_run_errors(runs);
@@ -268,7 +272,7 @@ void write_page(const results::Results& results, const std::vector<Run>& runs,
 /// The page of some cases: without the cost studies and the claims, which rest on the catalogue.
 int report_cases(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
-  require_writable(command.out);
+  const OutputLock lock(command.out);
   const References references;
   const std::vector<Run> runs =
       compute(selection, references, {command.variant, command.jobs, TrackedQuantities::named, {}});
@@ -281,7 +285,7 @@ int report_cases(const RunCommand& command, const Renderers& renderers) {
 
 int run_command(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
-  require_writable(command.out);
+  const OutputLock lock(command.out);
   const References references;
   const std::vector<Run> runs =
       compute(selection, references, {command.variant, command.jobs, TrackedQuantities::named, {}});
@@ -299,8 +303,9 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
 }
 
 int report_command(const RunCommand& command, const Renderers& renderers) {
+  require_drawing(renderers);
   if (!command.cases.empty() || !command.labels.empty()) return report_cases(command, renderers);
-  require_writable(command.out);
+  const OutputLock lock(command.out);
   const Catalogue catalogue;
   const Selection selection = load(catalogue.runnable_files(), catalogue);
   const References references;

@@ -1,9 +1,11 @@
 #include "harness/cli/command_line.h"
+#include "reports/drawing/figure.h"
 #include "reports/page/junit.h"
 #include "reports/page/report.h"
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return trammel::harness::run_command_line(
-      arguments, {trammel::reports::write_report, trammel::reports::write_junit});
+      arguments,
+      {trammel::reports::write_report, trammel::reports::write_junit, trammel::reports::can_draw});
 }

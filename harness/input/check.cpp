@@ -44,9 +44,9 @@ std::string exactly_one(const JsonView& place, const std::vector<std::string>& k
 }
 
 void read_tolerance(const JsonView& place, Check& check) {
-  const std::string key = exactly_one(place, {"relative", "absolute"});
-  const double limit = place.number(key);
-  check.measure = key == "relative" ? Measure::relative : Measure::absolute;
+  const bool relative = place.has("relative");  // the schema allows one of the two
+  const double limit = place.number(relative ? "relative" : "absolute");
+  check.measure = relative ? Measure::relative : Measure::absolute;
   check.windows = {{-limit, limit}};
   check.symmetric = true;
   check.why = place.text("why");

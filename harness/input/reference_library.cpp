@@ -76,8 +76,11 @@ const references::Reference& References::get(const JsonView& id) const {
   }
   std::vector<std::string> names;
   for (const auto& item : stored_) names.push_back(item.first);
-  throw id.error("expected the name of a reference (got '" + printable(name) + "')" +
-                 did_you_mean(name, names));
+  std::vector<std::string> places = {stored().string()};
+  for (const fs::path& file : places_beside(name, id.document().origin(id.pointer()).file))
+    places.insert(places.end() - 1, file.parent_path().string());
+  throw id.error("expected the name of a reference (got '" + printable(name) + "', looked for in " +
+                 join(places, "and") + ")" + did_you_mean(name, names));
 }
 
 std::map<std::string, CitedReference> References::used() const {

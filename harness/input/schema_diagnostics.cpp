@@ -162,8 +162,13 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
     }
     const std::size_t max_count = count_of(*rule, "maxProperties", object.size());
     if (object.size() < count_of(*rule, "minProperties", 0) || object.size() > max_count) {
-      const std::string count = max_count == 1 ? "exactly one of " : "at least one of ";
-      wanted = (allowed.empty() ? "at least one key" : count + all_quoted(allowed, "or")) +
+      const std::vector<std::string> needed = needed_keys(object, *rule);
+      std::vector<std::string> others;
+      std::set_difference(allowed.begin(), allowed.end(), needed.begin(), needed.end(),
+                          std::back_inserter(others));
+      const bool one = max_count == needed.size() + 1;
+      const std::string count = one ? "exactly one of " : "at least one of ";
+      wanted = (allowed.empty() ? "at least one key" : count + all_quoted(others, "or")) +
                got_keys(object);
     }
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "harness/base/environment.h"
 #include "harness/base/json_file.h"
@@ -283,16 +282,6 @@ fs::path write_results(const results::Results& results, const fs::path& folder) 
   fs::path file = folder / "results.json";
   write_file(file, pretty(to_json(results)));
   return file;
-}
-
-void require_writable(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  const fs::path probe = folder / ".trammel-probe";
-  const bool written = static_cast<bool>(std::ofstream(probe) << ' ');
-  fs::remove(probe, error);
-  if (!written)
-    throw InputError("--out " + folder.string() + ": expected a folder that can be written");
 }
 
 }  // namespace trammel::harness

@@ -20,8 +20,4 @@ namespace trammel::harness {
 std::filesystem::path write_results(const results::Results& results,
                                     const std::filesystem::path& folder);
 
-/// Makes the folder and finds out whether files can be written there, before hours are spent.
-/// @throws InputError
-void require_writable(const std::filesystem::path& folder);
-
 }  // namespace trammel::harness

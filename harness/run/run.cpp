@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "harness/base/one_line.h"
 #include "harness/base/stopwatch.h"
 #include "harness/studies/run_sweeps.h"
 
@@ -37,7 +38,7 @@ const char* status_name(solver::Status status) {
 
 void mark_failed(Run& run, const std::string& reason, Run::RunError error) {
   run.status = "error";
-  run.reason = reason;
+  run.reason = one_line(reason);
   run.error = error;
 }
 

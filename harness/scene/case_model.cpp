@@ -1,11 +1,16 @@
 #include "harness/scene/case_model.h"
 
+#include <cstring>
+
 #include "harness/readers/frame_reader.h"
 #include "harness/readers/joint_reader.h"
 #include "harness/readers/manipulator_reader.h"
+#include "harness/scene/with_model_errors.h"
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/large_motion/elements/linear_joints.h"
+#include "solver/manipulator/path_error.h"
 #include "solver/manipulator/restrict_design_effects.h"
+#include "solver/model/labels.h"
 
 namespace trammel::harness {
 namespace {
@@ -13,6 +18,15 @@ namespace {
 template <class T>
 void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Whether the text has the label of a part, and not as the start of a longer one.
+bool mentions(const std::string& text, const std::string& label) {
+  for (auto at = text.find(label); at != std::string::npos; at = text.find(label, at + 1)) {
+    const std::size_t end = at + label.size();
+    if (end == text.size() || std::strchr(" ,:;)", text[end]) != nullptr) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -35,16 +49,14 @@ CaseModel read_case_model(const Document& document) {
       throw model.error("expected a manipulator or nodes");
     }
   }
-  try {
+  with_model_errors(document, [&] {
     const solver::Model bare =
         case_model.manipulator
             ? solver::build_manipulator(*case_model.manipulator, case_model.motion.front().pose)
             : solver::Model();
     case_model.structure = read_structure(model, bare.nodes);
     case_model.joint_elements = read_joint_elements(model, build_bare_model(case_model, 0));
-  } catch (const solver::ModelError& error) {
-    throw model_error(document, error);
-  }
+  });
   return case_model;
 }
 
@@ -89,29 +101,28 @@ solver::Model build_bare_model(const CaseModel& case_model, std::size_t step) {
 }
 
 InputError model_error(const Document& document, const solver::ModelError& error) {
-  const std::string text = error.what();
-  const JsonView root(document);
-  if (const auto drives = root["analysis"].entries().front().second.find("drives")) {
-    for (const auto& [name, drive] : drives->entries()) {
-      if (text.starts_with("drive " + name + ' '))
-        return drive.error("expected a drive that has a meaning: " + text);
-    }
-  }
-  const JsonView model = root["model"];
-  for (const char* kind :
-       {"members", "rigid_bodies", "supports", "plates", "springs", "nodes", "edges"}) {
-    const auto parts = model.find(kind);
+  const std::string text = error.what(), message = "expected a model that has a meaning: " + text;
+  const JsonView model = JsonView(document)["model"];
+  const JsonView analysis = JsonView(document)["analysis"].entries().front().second;
+  for (const auto& [kind, parts] : {std::pair("drive", analysis.find("drives")),
+                                    {"line spring", model.find("axial_springs")},
+                                    {"slider", model.find("sliders")},
+                                    {"rigid body", model.find("rigid_bodies")},
+                                    {"member", model.find("members")},
+                                    {"support", model.find("supports")},
+                                    {"plate", model.find("plates")},
+                                    {"spring", model.find("springs")},
+                                    {"node", model.find("nodes")}}) {
     if (!parts) continue;
-    for (const auto& [name, part] : parts->entries()) {
-      for (const char* quote : {"'", "\""}) {
-        if (text.find(quote + name + quote) != std::string::npos) {
-          return part.error("expected a model that has a meaning: " + text);
-        }
-      }
-    }
+    for (const auto& [name, part] : parts->entries())
+      if (mentions(text, solver::part_label(kind, name, 0))) return part.error(message);
   }
-  const JsonView place = model.has("manipulator") ? model["manipulator"] : model;
-  return place.error("expected a model that has a meaning: " + text);
+  if (text.rfind("drive ", 0) == 0 && analysis.has("track"))
+    return analysis["track"].error(message);
+  const bool of_path = dynamic_cast<const solver::PathError*>(&error) != nullptr;
+  for (const char* key : {"trajectory", "pose"})
+    if (of_path && model.has(key)) return model[key].error(message);
+  return (model.has("manipulator") ? model["manipulator"] : model).error(message);
 }
 
 }  // namespace trammel::harness

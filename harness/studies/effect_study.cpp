@@ -10,6 +10,8 @@
 #include "harness/base/stopwatch.h"
 #include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
+#include "harness/scene/with_model_errors.h"
+#include "solver/statics/buckling.h"
 
 namespace trammel::harness {
 namespace {
@@ -74,6 +76,12 @@ class Study {
     const CaseModel case_model = read_case_model(document_);
     size_ = size_of(case_model);
     study_.scope = effect_scope(document_, case_model);
+    if (analysis_kind(document_) == "statics") {
+      const solver::BucklingSolution buckling =
+          solver::solve_buckling(solver::assemble(build_model(case_model, 0)), {1});
+      if (buckling.outcome.solved() && buckling.load_factor.size() > 0)
+        study_.load_over_buckling_load = 1 / buckling.load_factor[0];
+    }
   }
 
   EffectStudy run() {
@@ -198,7 +206,7 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
     throw JsonView(document)["analysis"].error("expected an analysis that knows effects: " +
                                                analyses_with_effects());
   }
-  return Study(document, options).run();
+  return with_model_errors(document, [&] { return Study(document, options).run(); });
 }
 
 }  // namespace trammel::harness

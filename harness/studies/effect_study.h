@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct EffectStudy {
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
+  /// Of statics, by linear buckling at the first pose; empty where the loads compress nothing.
+  std::optional<double> load_over_buckling_load = {};
   double choice_cpu_s = 0;               ///< what "auto" took to decide
   std::vector<Ablation> singles, pairs;  ///< from the whole scene
   std::vector<Ablation> from_chosen;     ///< each chosen effect left out of the chosen set

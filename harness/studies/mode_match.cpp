@@ -7,6 +7,7 @@
 #include "harness/analysis/case_effects.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
+#include "harness/scene/with_model_errors.h"
 #include "solver/linalg/dense_qr.h"
 #include "solver/modes/modes.h"
 
@@ -94,8 +95,11 @@ Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>&
 }  // namespace
 
 std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Document& b) {
-  const auto [frequency_a, places_a] = solve_and_sample(a);
-  const auto [frequency_b, places_b] = solve_and_sample(b);
+  const auto located = [](const Document& document) {
+    return with_model_errors(document, [&] { return solve_and_sample(document); });
+  };
+  const auto [frequency_a, places_a] = located(a);
+  const auto [frequency_b, places_b] = located(b);
   std::vector<std::string> common;
   for (const auto& item : places_a) {
     if (places_b.count(item.first) > 0) common.push_back(item.first);

@@ -1,6 +1,11 @@
 #include <gnuplot-iostream.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
@@ -28,13 +33,6 @@ class NoBrokenPipe {
   void (*previous_)(int);
 };
 
-/// A path may hold an apostrophe, which is doubled; it never starts with one.
-std::string quoted_path(const fs::path& path) {
-  std::string out = "'";
-  for (const char c : fs::absolute(path).string()) out += c == '\'' ? "''" : std::string(1, c);
-  return out + '\'';
-}
-
 /// What all figures have in common. Nothing is marked up in texts (noenhanced).
 std::string preamble(const Figure& figure, const fs::path& svg) {
   std::ostringstream out;
@@ -43,7 +41,7 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
       << "set terminal svg size " << figure.width << ',' << figure.height
       << " dynamic noenhanced font 'Helvetica,15' linewidth 1 rounded background '"
       << palette::kPaper << "'\n"
-      << "set output " << quoted_path(svg) << '\n'
+      << "set output " << gnuplot_path(svg) << '\n'
       << "set border 3" << lc(palette::kStructure) << '\n'
       << "set tics nomirror out scale 0.5 textcolor rgb '" << palette::kMuted << "'\n"
       << "set grid" << lc(palette::kGrid) << " lw 1 lt 1," << lc(palette::kGrid) << " lw 1 lt 1\n"
@@ -60,8 +58,11 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
 }  // namespace
 
 std::string slug(const std::string& text) {
+  constexpr std::size_t kMaxLength = 100, kHashLength = 9;
   std::string out;
+  std::uint32_t hash = 2166136261U;  // FNV-1a
   for (const char c : text) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) {
       out += c;
     } else if (c >= 'A' && c <= 'Z') {
@@ -71,7 +72,15 @@ std::string slug(const std::string& text) {
     }
   }
   while (!out.empty() && out.back() == '-') out.pop_back();
-  return out.empty() ? "x" : out;
+  if (out == text && text.size() <= kMaxLength && !text.empty()) return out;
+  out.resize(std::min(out.size(), kMaxLength - kHashLength));
+  std::array<char, kHashLength + 1> suffix{};
+  std::snprintf(suffix.data(), suffix.size(), "-%08x", static_cast<unsigned>(hash));
+  return (out.empty() ? "x" : out) + suffix.data();
+}
+
+bool can_draw() {
+  return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
 }
 
 void draw(const std::vector<Figure*>& figures, const fs::path& folder) {

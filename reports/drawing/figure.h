@@ -21,8 +21,12 @@ struct Figure {
   std::string svg;  ///< the drawing, once drawn: an element for inlining, with ids of its own
 };
 
-/// Lower-case letters, digits and single hyphens.
+/// Lower-case letters, digits and single hyphens, at most 100; with a hash at the end where that is
+/// not the text itself, so that two texts have two slugs.
 [[nodiscard]] std::string slug(const std::string& text);
+
+/// Whether there is a gnuplot.
+[[nodiscard]] bool can_draw();
 
 /// Draws all figures with one gnuplot process: sets `svg`, and writes <id>.svg and <id>.csv for
 /// each into `folder`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -44,10 +45,24 @@ std::string gnuplot_string(const std::string& text) {
     if (c == '\'') {
       out += "’";
     } else {
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      out += is_control(c) ? ' ' : c;
     }
   }
   return out + '\'';
+}
+
+std::string gnuplot_path(const std::filesystem::path& path) {
+  std::string out = "\"";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '.' || c == '-') {
+      out += c;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(c);
+    out += {'\\', static_cast<char>('0' + byte / 64), static_cast<char>('0' + byte / 8 % 8),
+            static_cast<char>('0' + byte % 8)};
+  }
+  return out + '"';
 }
 
 std::string tic(const std::string& text, double at) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,10 @@ namespace trammel::reports {
 /// Text for gnuplot in single quotes, where nothing is expanded or marked up. Its own apostrophes
 /// become typographic ones: gnuplot misreads a doubled one at the start of a string.
 [[nodiscard]] std::string gnuplot_string(const std::string& text);
+
+/// A file for gnuplot: all but letters, digits and "/.-" as octal escapes in double quotes, so that
+/// nothing of it can end the string, be expanded or be a command.
+[[nodiscard]] std::string gnuplot_path(const std::filesystem::path& path);
 
 /// A label of an axis with its place, for `set xtics (...)`.
 [[nodiscard]] std::string tic(const std::string& text, double at);

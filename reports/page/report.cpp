@@ -1,7 +1,9 @@
 #include "reports/page/report.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "harness/results/unfinished_folder.h"
 #include "reports/figures/gallery.h"
 #include "reports/sections/claims.h"
 #include "reports/sections/cost.h"
@@ -16,6 +18,7 @@
 #include "reports/sections/validation_uncertainty.h"
 #include "reports/text/files.h"
 #include "reports/text/html.h"
+#include "reports/text/number.h"
 #include "reports/text/templates.h"
 
 namespace trammel::reports {
@@ -81,23 +84,29 @@ std::string render(const Data& data) {
   kainjow::mustache::mustache page(template_text("page.mustache"));
   std::string html = page.render(data);
   if (!page.is_valid()) throw std::logic_error("page.mustache: " + page.error_message());
+  // What HTML cannot hold.
+  std::replace_if(
+      html.begin(), html.end(), [](char c) { return is_control(c) && c != '\n' && c != '\t'; },
+      ' ');
   return html;
 }
 
-/// Takes away what an earlier report in the same folder has written and links to.
-void remove_earlier(const fs::path& out) {
+/// What an earlier report in the same folder has written and links to.
+std::vector<fs::path> earlier_files(const fs::path& out) {
+  std::vector<fs::path> files;
   const fs::path page = out / "index.html";
-  if (!fs::exists(page)) return;
+  if (!fs::is_regular_file(page)) return files;
   const std::string html = read_file(page);
-  if (html.find(kGenerator) == std::string::npos) return;
+  if (html.find(kGenerator) == std::string::npos) return files;
   for (const std::string folder : {"figures/", "checks/"}) {
     const std::string link = "href=\"" + folder;
     for (std::size_t at = html.find(link); at != std::string::npos; at = html.find(link, at + 1)) {
       const std::size_t from = at + link.size();
       const std::string name = html.substr(from, html.find('"', from) - from);
-      if (name.find('/') == std::string::npos) fs::remove(out / folder / name);
+      if (name.find('/') == std::string::npos) files.push_back(fs::path(folder) / name);
     }
   }
+  return files;
 }
 
 void write_checks(const std::vector<Family>& families, const fs::path& folder) {
@@ -111,19 +120,26 @@ void write_checks(const std::vector<Family>& families, const fs::path& folder) {
 }  // namespace
 
 fs::path write_report(const fs::path& results_json, const fs::path& out) {
-  const Results results = read_results(results_json);
-  std::vector<Family> families = plan_families(results);
-  remove_earlier(out);
-  std::vector<CostPanel> panels = plan_cost(results);
-  std::vector<Figure*> figures;
-  for (CostPanel& panel : panels) figures.push_back(&panel.figure);
-  for (Figure* figure : all_figures(families)) figures.push_back(figure);
-  number_figures(figures);
-  draw(figures, fs::absolute(out) / "figures");
-  write_checks(families, out / "checks");
-  const fs::path page = out / "index.html";
-  write_file(page, render(page_data(results, families, panels)));
-  return page;
+  const fs::path part = out / kUnfinishedFolder;
+  if (results_json.parent_path() != part) fs::remove_all(part);
+  try {
+    const Results results = read_results(results_json);
+    std::vector<Family> families = plan_families(results);
+    std::vector<CostPanel> panels = plan_cost(results);
+    std::vector<Figure*> figures;
+    for (CostPanel& panel : panels) figures.push_back(&panel.figure);
+    for (Figure* figure : all_figures(families)) figures.push_back(figure);
+    number_figures(figures);
+    draw(figures, part / "figures");
+    write_checks(families, part / "checks");
+    write_file(part / "index.html", render(page_data(results, families, panels)));
+    replace_files(part, out, "index.html", earlier_files(out));
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(part, ignored);
+    throw;
+  }
+  return out / "index.html";
 }
 
 }  // namespace trammel::reports

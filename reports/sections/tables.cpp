@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/results/quantity_definitions.h"
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/sections/check_status_data.h"
@@ -47,6 +48,8 @@ Data group_of(const Check& check, const Results& results, const Data& rows, std:
   group.set("rowspan", std::to_string(n));
   group.set("name", check_title(check));
   group.set("quantity", quantity_text(check));
+  const QuantityDefinition* definition = find_quantity_definition(check.quantity, "");
+  set_text(group, "meaning", definition == nullptr ? "" : definition->meaning);
   group.set("role", check.role);
   set_flag(group, "shared", true);
   set_text(group, "range", range_text(check));

@@ -17,7 +17,8 @@ struct Table {
 
 [[nodiscard]] Table::Cell cell(const std::optional<double>& number);
 
-/// Doubles in their shortest text that reads back the same; what is missing is left empty.
+/// Doubles in their shortest text that reads back the same; what is missing is left empty. Texts
+/// that a spreadsheet would compute have an apostrophe in front.
 [[nodiscard]] std::string to_csv(const Table& table);
 
 }  // namespace trammel::reports

@@ -1,10 +1,39 @@
 #include "reports/text/files.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace trammel::reports {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// While it lives, the signals that end the program are kept for later.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+}  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -15,10 +44,41 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
+  static std::atomic<unsigned> count{0};
+  fs::path part = path;
+  part += ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+  std::ofstream out(part, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw std::runtime_error(path.string() + ": cannot be written");
+  std::error_code error, ignored;
+  if (out) fs::rename(part, path, error);
+  if (out && !error) return;
+  fs::remove(part, ignored);
+  throw std::runtime_error(path.string() + ": cannot be written");
+}
+
+void replace_files(const fs::path& from, const fs::path& to, const std::string& last,
+                   const std::vector<fs::path>& obsolete) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(from))
+    if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(from));
+  std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
+    return std::pair(a == last, a) < std::pair(b == last, b);
+  });
+  for (const fs::path& file : files)
+    if (fs::symlink_status(to / file).type() == fs::file_type::directory)
+      throw std::runtime_error((to / file).string() + ": a folder stands where a file is written");
+  const SignalsWait wait;
+  for (const fs::path& file : files) {
+    const fs::path folder = (to / file).parent_path();
+    if (file.has_parent_path() && !fs::is_directory(fs::symlink_status(folder))) fs::remove(folder);
+    fs::create_directories(folder);
+    fs::rename(from / file, to / file);
+  }
+  std::error_code ignored;
+  for (const fs::path& file : obsolete)
+    if (std::find(files.begin(), files.end(), file) == files.end()) fs::remove(to / file, ignored);
+  fs::remove_all(from);
 }
 
 }  // namespace trammel::reports

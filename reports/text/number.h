@@ -8,6 +8,11 @@ namespace trammel::reports {
 /// Numbers for people: a real minus sign, powers of ten as 10⁻⁷, no more digits than say something.
 /// Full precision is for the CSV files (`shortest`).
 
+/// Neither a printed character nor a space; every byte of a longer UTF-8 character is none.
+[[nodiscard]] inline bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
 /// `digits` significant digits, zeros at the end kept; scientific outside 1e-4 ... 1e6.
 [[nodiscard]] std::string significant(double x, int digits);
 

@@ -12,7 +12,8 @@ namespace trammel::solver {
 ///   the largest axial force counts as changed.
 ///   Source: unit-load method, Maxwell (1864), Mohr (1874).
 /// - Geometric stiffening: K du = K_G u.   Source: S. P. Timoshenko, J. M. Gere, Theory of Elastic
-///   Stability (1961); u^T K_G u / u^T K u estimates load over buckling load.
+///   Stability (1961); u^T K_G u / u^T K u is a ratio of energies; it is load
+///   over buckling load only where u is the buckling shape.
 /// - Large displacement: chords shorten by s = integral v'^2 / 2 dx, K du = -sum B^T EA s / L;
 ///   the axial forces that this calls up stiffen, and section forces turn with their sections; what
 ///   turns as a rigid body moves by R θ^2 / 2 beside.   Source: von Karman (1910).

@@ -6,10 +6,15 @@
 #include <limits>
 
 #include "solver/linalg/sparse_lu.h"
+#include "solver/manipulator/path_error.h"
 
 namespace trammel::solver {
 
 namespace {
+
+void require_path(bool holds, const char* message) {
+  if (!holds) throw PathError(message);
+}
 
 Vector3d as_vector(const Pose& pose) {
   return {pose.x, pose.y, pose.phi};
@@ -20,10 +25,10 @@ Pose as_pose(const Vector3d& v) {
 }
 
 TrajectoryPoint evaluate(const Circle& circle, double t) {
-  require(circle.center.allFinite() && std::isfinite(circle.phi), "the circle is not finite");
-  require(circle.radius >= 0 && std::isfinite(circle.radius),
-          "the circle's radius must not be negative");
-  require(std::isfinite(circle.angular_speed), "the circle's angular speed is not finite");
+  require_path(circle.center.allFinite() && std::isfinite(circle.phi), "the circle is not finite");
+  require_path(circle.radius >= 0 && std::isfinite(circle.radius),
+               "the circle's radius must not be negative");
+  require_path(std::isfinite(circle.angular_speed), "the circle's angular speed is not finite");
   const double w = circle.angular_speed;
   const double rx = circle.radius * std::cos(w * t);
   const double ry = circle.radius * std::sin(w * t);
@@ -37,7 +42,7 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
 /// from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
   const Vector3d line = as_vector(to) - as_vector(from);
-  require(line.allFinite(), "the ends of the path are not finite");
+  require_path(line.allFinite(), "the ends of the path are not finite");
   TrajectoryPoint point;
   point.pose = as_pose(as_vector(from) + s * line);
   point.velocity = ds * line;
@@ -46,14 +51,14 @@ TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, d
 }
 
 TrajectoryPoint evaluate(const Line& line, double t) {
-  require(line.duration > 0 && std::isfinite(line.duration),
-          "the line's duration must be positive");
+  require_path(line.duration > 0 && std::isfinite(line.duration),
+               "the line's duration must be positive");
   return between(line.from, line.to, t / line.duration, 1 / line.duration, 0);
 }
 
 TrajectoryPoint evaluate(const RestToRest& path, double t) {
   const double T = path.duration;
-  require(T > 0 && std::isfinite(T), "the duration of the motion must be positive");
+  require_path(T > 0 && std::isfinite(T), "the duration of the motion must be positive");
   const double u = std::clamp(t / T, 0.0, 1.0);
   const double v = 1 - u;
   return between(path.from, path.to, u * u * u * (10 + u * (-15 + 6 * u)), 30 * u * u * v * v / T,
@@ -62,12 +67,12 @@ TrajectoryPoint evaluate(const RestToRest& path, double t) {
 
 TrajectoryPoint evaluate(const Spline& spline, double time) {
   const auto& times = spline.times;
-  require(times.size() >= 2, "a table of poses needs at least three points");
+  require_path(times.size() >= 2, "a table of poses needs at least three points");
   // A multiple of a step may lie past the end by a rounding: 63 steps of 0.1 s make more than 6.3.
   const double rounding = 4 * std::numeric_limits<double>::epsilon() *
                           std::max(std::abs(times.front()), std::abs(times.back()));
-  require(time >= times.front() - rounding && time <= times.back() + rounding,
-          "the time lies outside the table of poses");
+  require_path(time >= times.front() - rounding && time <= times.back() + rounding,
+               "the time lies outside the table of poses");
   const double t = std::clamp(time, times.front(), times.back());
   const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, t);
   const auto k = static_cast<Index>(next - times.begin());
@@ -107,8 +112,8 @@ bool is_still(const Way& line) {
 Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,
                    SplineEnds ends) {
   const auto n = static_cast<Index>(times.size());
-  require(n >= 3, "a table of poses needs at least three points");
-  require(poses.size() == times.size(), "a table of poses needs one time for each pose");
+  require_path(n >= 3, "a table of poses needs at least three points");
+  require_path(poses.size() == times.size(), "a table of poses needs one time for each pose");
   Spline spline{times, Eigen::MatrixX3d(n, 3), Eigen::MatrixX3d::Zero(n, 3)};
   Eigen::VectorXd h(n - 1);
   for (Index k = 0; k < n; ++k) {
@@ -116,12 +121,12 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
     spline.pose.row(k) = as_vector(poses[i]).transpose();
     if (k > 0) h(k - 1) = times[i] - times[i - 1];
   }
-  require(spline.pose.allFinite() && std::isfinite(times.front()) && h.allFinite(),
-          "the table of poses is not finite");
-  require((h.array() > 0).all(), "the times of the table of poses must ascend");
+  require_path(spline.pose.allFinite() && std::isfinite(times.front()) && h.allFinite(),
+               "the table of poses is not finite");
+  require_path((h.array() > 0).all(), "the times of the table of poses must ascend");
   const bool periodic = ends == SplineEnds::periodic;
-  require(!periodic || spline.pose.row(0) == spline.pose.row(n - 1),
-          "a periodic table of poses must end where it begins");
+  require_path(!periodic || spline.pose.row(0) == spline.pose.row(n - 1),
+               "a periodic table of poses must end where it begins");
 
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixX3d rhs = Eigen::MatrixX3d::Zero(n, 3);
@@ -157,13 +162,13 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
   Eigen::SparseMatrix<double> A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
   SparseLu<double> lu;
-  require(lu.factorize(A), "no spline goes through the table of poses");
+  require_path(lu.factorize(A), "no spline goes through the table of poses");
   for (Index c = 0; c < 3; ++c) spline.acceleration.col(c) = lu.solve(rhs.col(c));
   return spline;
 }
 
 TrajectoryPoint at(const Path& path, double time) {
-  require(std::isfinite(time), "the time is not finite");
+  require_path(std::isfinite(time), "the time is not finite");
   TrajectoryPoint point = std::visit([&](const auto& p) { return evaluate(p, time); }, path);
   point.time = time;
   return point;
@@ -174,8 +179,8 @@ bool stands_still(const Path& path) {
 }
 
 std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step) {
-  require(points >= 1, "a trajectory needs at least one point");
-  require(step > 0 && std::isfinite(step), "the time step of a trajectory must be positive");
+  require_path(points >= 1, "a trajectory needs at least one point");
+  require_path(step > 0 && std::isfinite(step), "the time step of a trajectory must be positive");
   std::vector<TrajectoryPoint> result;
   result.reserve(static_cast<std::size_t>(points));
   for (Index k = 0; k < points; ++k) result.push_back(at(path, static_cast<double>(k) * step));

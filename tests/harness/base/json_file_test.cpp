@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "harness/base/errors.h"
+#include "harness/base/one_line.h"
 #include "tests/support/harness/support.h"
 
 using namespace trammel;
@@ -63,6 +64,24 @@ BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
   BOOST_TEST((read_json(folder.path() / "a.json") == Json::array({1})));
   BOOST_TEST(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
   BOOST_CHECK_THROW(write_file(folder.path() / "none" / "a.json", "[1]"), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_failed_write_leaves_no_part_and_a_link_is_replaced_not_followed) {
+  const testing::Folder folder;
+  std::filesystem::create_directories(folder.path() / "here/in-the-way");
+  BOOST_CHECK_THROW(write_file(folder.path() / "here", "[1]"), InputError);
+  BOOST_TEST(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+  (void)folder.write("elsewhere", "kept");
+  std::filesystem::create_symlink("elsewhere", folder.path() / "link");
+  write_file(folder.path() / "link", "[1]");
+  BOOST_TEST(read_text(folder.path() / "elsewhere") == "kept");
+}
+
+BOOST_AUTO_TEST_CASE(a_message_is_one_line_whatever_a_key_holds) {
+  BOOST_TEST(one_line("a.json: /b\n\x1b[2J: x") == "a.json: /b\\u000a\\u001b[2J: x");
+  const std::string cut = one_line("a.json: /" + std::string(5000, 'k') + ": x");
+  BOOST_TEST(cut.size() < 200U);
+  BOOST_TEST(cut.ends_with("... x"), cut);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -3,6 +3,8 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
+#include <iterator>
+#include <set>
 #include <sstream>
 
 #include "harness/base/json_file.h"
@@ -144,6 +146,57 @@ BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written_is_told_before_anything_is_c
   BOOST_TEST(contains(outcome.err, "--out out.txt/x: expected a folder that can be written"));
 }
 
+BOOST_AUTO_TEST_CASE(a_second_call_into_one_folder_is_told_who_writes_it) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  (void)folder.write("out/.trammel-lock", "process 4711");
+  const std::string held = "flock -x -o out/.trammel-lock";
+  for (const char* words : {"run cantilever.json --out out", "report cantilever.json --out out",
+                            "cost cantilever.json --out out"}) {
+    const Outcome second = run(folder, words, held);
+    BOOST_TEST(second.status == 2, words);
+    BOOST_TEST(contains(second.err,
+                        "--out out: expected a folder that no other call writes "
+                        "(process 4711 does)"),
+               second.err);
+  }
+  BOOST_TEST(run(folder, "run cantilever.json --out out").status == 0);
+  std::set<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out"))
+    left.insert(entry.path().filename().string());
+  BOOST_TEST((left == std::set<std::string>{"junit.xml", "results.json"}));
+}
+
+BOOST_AUTO_TEST_CASE(a_report_without_gnuplot_is_refused_before_any_work) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  (void)folder.write("out/index.html", "former");
+  for (const char* words : {"report cantilever.json --out out", "cost modes --out out"}) {
+    const Outcome outcome = run(folder, words, "PATH=/nonexistent");
+    BOOST_TEST(outcome.status == 2, words);
+    BOOST_TEST(contains(outcome.err, "gnuplot"), outcome.err);
+    BOOST_TEST(outcome.out.empty());
+  }
+  BOOST_TEST(text_of(folder.path() / "out/index.html") == "former");
+}
+
+BOOST_AUTO_TEST_CASE(no_text_of_a_case_commands_the_terminal_or_breaks_a_message) {
+  const Folder folder;
+  Json json = judged(101);
+  json["title"] = "red \x1b[31m";
+  (void)folder.write(json);
+  for (const char* words : {"describe cantilever.json", "report cantilever.json --out out"})
+    BOOST_TEST(!contains(run(folder, words).out, "\x1b"), words);
+  BOOST_TEST(!contains(text_of(folder.path() / "out/index.html"), "\x1b"));
+  json["model"]["nodes"]["x\n\x1b" + std::string(3000, 'k')] = "nowhere";
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "run cantilever.json");
+  BOOST_TEST(outcome.status == 2);
+  BOOST_TEST(lines(outcome.err) == 1, outcome.err);
+  BOOST_TEST(contains(outcome.err, "\\u000a\\u001b"), outcome.err);
+  BOOST_TEST(outcome.err.size() < 500U);
+}
+
 BOOST_AUTO_TEST_CASE(a_pipe_sees_no_progress_bar) {
   const Folder folder;
   Json json = judged(101);
@@ -181,7 +234,7 @@ BOOST_AUTO_TEST_CASE(two_variants_and_two_result_files_are_compared) {
   const Outcome variants = run(folder, "compare cantilever.json cantilever.json:soft");
   BOOST_TEST(variants.status == 0, variants.err);
   BOOST_TEST(contains(variants.out, "displacement_y_m:B"));
-  BOOST_TEST(contains(variants.out, "50"));  // per cent
+  BOOST_TEST(contains(variants.out, "+100"));  // percent
   (void)run(folder, "run cantilever.json --out a");
   (void)run(folder, "run cantilever.json --out b --jobs 1");
   const Outcome same = run(folder, "compare a/results.json b/results.json");
@@ -192,6 +245,101 @@ BOOST_AUTO_TEST_CASE(two_variants_and_two_result_files_are_compared) {
   const Outcome other = run(folder, "compare a/results.json b/results.json");
   BOOST_TEST(contains(other.out, "2 differ"));
   BOOST_TEST(run(folder, "compare a/results.json cantilever.json").status == 2);
+}
+
+BOOST_AUTO_TEST_CASE(percent_of_a_comparison_is_of_the_first_side_and_not_of_round_off) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["model"]["nodes"]["B"] = {1.2, 1.6};
+  json["model"]["loads"]["tip"]["force_N"] = {-80, 60};
+  json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 0.8e11;
+  (void)folder.write(json);
+  std::istringstream table(run(folder, "compare cantilever.json cantilever.json:soft").out);
+  std::size_t found = 0;
+  for (std::string line; std::getline(table, line);) {
+    const bool moves = contains(line, "displacement_y_m:B");
+    if (moves) BOOST_TEST(contains(line, "+150"), line);  // not 60
+    const bool is_zero = contains(line, "axial_force_N:AB.start");
+    std::istringstream words(line);
+    const auto count = std::distance(std::istream_iterator<std::string>(words), {});
+    if (is_zero) BOOST_TEST(count == 4, line);  // no percent
+    found += moves || is_zero ? 1 : 0;
+  }
+  BOOST_TEST(found == 2U);
+}
+
+BOOST_AUTO_TEST_CASE(a_model_that_the_solver_refuses_is_bad_input_of_every_command) {
+  const Folder folder;
+  Json json = testing::manipulator();
+  json["model"]["manipulator"]["platform"]["kind"] = "triangles";
+  json["model"]["loads"]["P"]["moment_N_m"] = 1;
+  json["analysis"] = {{"statics", Json::object()}};
+  (void)folder.write(json);
+  for (const char* words : {"run robot.json", "effects robot.json", "quantities robot.json"}) {
+    const Outcome outcome = run(folder, words);
+    BOOST_TEST(outcome.status == 2, words);
+    BOOST_TEST(lines(outcome.err) == 1, words << ": " << outcome.err);
+    BOOST_TEST(contains(outcome.err, "robot.json: /model/manipulator: "), outcome.err);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_refused_drive_and_a_path_that_ends_too_soon_are_told_by_their_own_place) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["analysis"] = Json::parse(R"({"large-motion": {"end_time_s": 1, "step_s": 0.1, "drives": {
+      "motor": {"node": "A", "motion": "rotation", "law": {"constant_speed": {"speed_per_s": 1}}}}}})");
+  (void)folder.write(json);
+  const std::string drive = run(folder, "run cantilever.json").err;
+  BOOST_TEST(contains(drive, ": /analysis/large-motion/drives/motor: "), drive);
+  json = testing::manipulator();
+  json["model"].erase("pose");
+  json["model"]["manipulator"]["joints"]["elbow"] = "hinged";
+  json["model"]["trajectory"] = Json::parse(R"({"spline": {"points": 2, "step_s": 0.1, "knots": [
+      {"time_s": 0, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
+      {"time_s": 0.1, "x_m": 0.26, "y_m": 0.144, "phi_rad": 0},
+      {"time_s": 0.2, "x_m": 0.27, "y_m": 0.144, "phi_rad": 0}]}})");
+  json["analysis"] = {{"large-motion", {{"track", true}, {"end_time_s", 1}, {"step_s", 0.05}}}};
+  (void)folder.write(json);
+  const std::string path = run(folder, "run robot.json").err;
+  BOOST_TEST(contains(path, ": /model/trajectory: "), path);
+}
+
+BOOST_AUTO_TEST_CASE(a_tolerance_of_two_kinds_and_a_lost_reference_are_told_as_they_are_read) {
+  const Folder folder;
+  Json json = judged(101);
+  json["checks"]["c"].erase("bound");
+  json["checks"]["c"]["reference"] = "nowhere";
+  json["checks"]["c"]["tolerance"] = {{"absolute", 1}, {"relative", 0.1}, {"why", "x"}};
+  (void)folder.write(json);
+  BOOST_TEST(contains(run(folder, "describe cantilever.json").err,
+                      "/checks/c/tolerance: expected exactly one of 'absolute' or 'relative'"));
+  json["checks"]["c"]["tolerance"].erase("absolute");
+  (void)folder.write(json);
+  const std::string lost = run(folder, "run cantilever.json").err;
+  BOOST_TEST(contains(lost, "looked for in"), lost);
+  BOOST_TEST(contains(lost, "references/values"), lost);
+}
+
+BOOST_AUTO_TEST_CASE(a_column_is_told_how_near_its_load_is_to_the_buckling_load) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  const double critical = 0.25 * 9.8696044 * 2e11 * 0.05 * 1e-3 / 12 / 4;  // pi^2 E I / (2 L)^2
+  json["model"]["loads"]["tip"]["force_N"] = {-0.95 * critical, 1};
+  (void)folder.write(json);
+  const Outcome outcome = run(folder, "effects cantilever.json --repeats 0");
+  BOOST_TEST(contains(outcome.out, "% of the buckling load"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "Loads     95"), outcome.out);
+  BOOST_TEST(!contains(outcome.out, "load over buckling load"));
+}
+
+BOOST_AUTO_TEST_CASE(quantities_are_told_with_unit_and_meaning) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  const Outcome all = run(folder, "quantities"), own = run(folder, "quantities cantilever.json");
+  BOOST_TEST(contains(all.out, "estimated_correct_digits"));
+  BOOST_TEST(contains(all.out, "peak_displacement_y_m:NODE"));
+  BOOST_TEST(contains(own.out, "displacement_y_m:B"));
+  BOOST_TEST(contains(own.out, "displacement along y"));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_results_file_is_said_so_beside_one) {

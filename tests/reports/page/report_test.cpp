@@ -1,9 +1,11 @@
 #include "reports/page/report.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
+#include "reports/drawing/figure.h"
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
@@ -200,17 +202,72 @@ BOOST_AUTO_TEST_CASE(a_second_report_in_the_same_folder_leaves_nothing_of_the_fi
   BOOST_TEST(fs::exists(out / "figures" / "mine.svg"));
 }
 
+BOOST_AUTO_TEST_CASE(a_report_that_fails_or_is_replaced_leaves_whole_what_stands_there) {
+  const Workspace workspace;
+  const fs::path out = workspace.path() / "out", elsewhere = workspace.path() / "elsewhere";
+  const auto all = sample_results();
+  const std::string before = text_of(trammel::reports::write_report(workspace.results(all), out));
+  const auto count = [&] { return std::distance(fs::recursive_directory_iterator(out), {}); };
+  const auto files = count();
+  const std::string search = std::getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);
+  BOOST_TEST(!trammel::reports::can_draw());
+  BOOST_CHECK_THROW(trammel::reports::write_report(workspace.results(all), out),
+                    std::runtime_error);
+  setenv("PATH", search.c_str(), 1);
+  BOOST_TEST((text_of(out / "index.html") == before));
+  BOOST_TEST(count() == files);
+  // A link is not followed out of the folder, but replaced.
+  fs::remove_all(elsewhere);
+  fs::rename(out / "checks", elsewhere);
+  fs::create_directory_symlink(elsewhere, out / "checks");
+  for (const auto& entry : fs::directory_iterator(elsewhere)) fs::remove(entry);
+  trammel::reports::write_report(workspace.results(all), out);
+  BOOST_TEST(fs::is_empty(elsewhere));
+  BOOST_TEST(count() == files);
+}
+
+BOOST_AUTO_TEST_CASE(no_folder_of_a_report_becomes_a_command_of_gnuplot) {
+  const Workspace workspace;
+  const fs::path here = fs::current_path();
+  fs::current_path(workspace.path());
+  std::string name = "a'\"`touch intruder`@x %d $(touch intruder)\n!touch intruder\n|";
+  for (char c = 1; c < 0x20; ++c) name += c;
+  BOOST_CHECK_NO_THROW(
+      trammel::reports::write_report(workspace.results(sample_results()), name + "\x7fé"));
+  fs::current_path(here);
+  BOOST_TEST(fs::exists(workspace.path() / (name + "\x7fé") / "index.html"));
+  BOOST_TEST(!fs::exists(workspace.path() / "intruder"));
+}
+
+BOOST_AUTO_TEST_CASE(names_that_look_alike_have_files_of_their_own_and_long_ones_are_cut) {
+  std::set<std::string> slugs;
+  for (const std::string& name :
+       {std::string("a-b"), std::string("a.b"), std::string("A-B"), std::string("a_b"),
+        std::string("a--b"), std::string(300, 'a'), std::string(301, 'a'), std::string()}) {
+    const std::string slug = trammel::reports::slug(name);
+    BOOST_TEST(slugs.insert(slug).second, name);
+    BOOST_TEST(slug.size() <= 100U);
+  }
+  BOOST_TEST(trammel::reports::slug("a-b") == "a-b");
+}
+
 BOOST_AUTO_TEST_CASE(no_text_of_a_case_becomes_a_command_of_gnuplot) {
   const Workspace workspace;
   auto results = sample_results();
   const std::string file = (workspace.path() / "intruder").string();
-  const std::string title = "'; system('touch " + file + "'); `touch " + file + "`\nset output";
+  std::string title = "'; system('touch " + file + "'); `touch " + file + "`\n!touch " + file +
+                      "\nset output @x \"";
+  for (char c = 1; c < 0x20; ++c) title += c;
+  title += '\x7f';
   for (auto& [id, info] : results["cases"].items()) {
     info["title"] = title;
     for (auto& [variant, value] : info["variants"].items()) value["title"] = title + variant;
   }
-  trammel::reports::write_report(workspace.results(results), workspace.path() / "out");
+  const std::string text =
+      text_of(trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
   BOOST_TEST(!fs::exists(file));
+  BOOST_TEST((text.find('\x1b') == std::string::npos));
 }
 
 BOOST_AUTO_TEST_CASE(results_without_any_run_still_make_a_page) {

@@ -12,4 +12,13 @@ BOOST_AUTO_TEST_CASE(numbers_keep_all_digits_and_texts_are_quoted_where_they_mus
              "time_s,\"title, free\"\n0.30000000000000004,\"say \"\"no\"\"\"\n,\n");
 }
 
+BOOST_AUTO_TEST_CASE(no_text_is_a_formula_or_commands_a_terminal) {
+  for (const char* text : {"=1+1", "+1", "@sum", "-cmd", "-(1)"}) {
+    const Table table{{"h"}, {{std::string(text)}}};
+    BOOST_TEST(to_csv(table) == "h\n'" + std::string(text) + "\n");
+  }
+  BOOST_TEST(to_csv({{"h"}, {{std::string("-0.5 m")}}}) == "h\n-0.5 m\n");
+  BOOST_TEST(to_csv({{"h"}, {{std::string("a\x1b[2J")}}}) == "h\na [2J\n");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

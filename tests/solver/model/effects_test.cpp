@@ -133,7 +133,8 @@ BOOST_AUTO_TEST_CASE(where_forces_are_determinate_flexibilities_are_estimated_ex
              boost::test_tools::tolerance(1e-12));
 }
 
-/// Timoshenko & Gere: load over buckling load is how much the deflection grows, to first order.
+/// Timoshenko & Gere: load over buckling load is how much the deflection grows, to first order. The
+/// ratio of energies is that load ratio where the deflection has the buckling shape.
 BOOST_AUTO_TEST_CASE(a_columns_estimate_is_its_load_over_its_buckling_load) {
   Model model = testing::cantilever(stubby(), 5, 4);
   const double buckling = std::pow(std::numbers::pi / 10, 2) * stubby().EI;

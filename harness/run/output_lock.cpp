@@ -1,0 +1,55 @@
+#include "harness/run/output_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "harness/base/errors.h"
+#include "harness/results/unfinished_folder.h"
+
+namespace trammel::harness {
+
+namespace fs = std::filesystem;
+
+OutputLock::OutputLock(const fs::path& folder) : folder_(folder), file_(folder / ".trammel-lock") {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  acquire();
+  fs::remove_all(folder_ / results::kUnfinishedFolder, error);  // of a call that was killed
+  const std::string holder = "process " + std::to_string(getpid());
+  if (write(descriptor_, holder.data(), holder.size()) != static_cast<ssize_t>(holder.size()))
+    throw InputError("--out " + folder_.string() + ": expected a folder that can be written");
+}
+
+OutputLock::~OutputLock() {
+  std::error_code ignored;
+  fs::remove_all(folder_ / results::kUnfinishedFolder, ignored);
+  fs::remove(file_, ignored);
+  close(descriptor_);
+}
+
+void OutputLock::acquire() {
+  for (struct stat mine{}, there{};;) {
+    descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+      throw InputError("--out " + folder_.string() + ": expected a folder that can be written");
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      close(descriptor_);
+      std::string holder;
+      std::getline(std::ifstream(file_), holder);
+      throw InputError("--out " + folder_.string() +
+                       ": expected a folder that no other call writes (" +
+                       (holder.empty() ? "another" : holder) + " does)");
+    }
+    // Its last holder may have removed the file after it was opened here.
+    if (fstat(descriptor_, &mine) == 0 && lstat(file_.c_str(), &there) == 0 &&
+        mine.st_ino == there.st_ino && ftruncate(descriptor_, 0) == 0)
+      return;
+    close(descriptor_);
+  }
+}
+
+}  // namespace trammel::harness

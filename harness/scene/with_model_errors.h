@@ -1,0 +1,17 @@
+#pragma once
+
+#include "harness/scene/case_model.h"
+
+namespace trammel::harness {
+
+/// What `work` returns. @throws InputError  by `model_error`, where the solver refuses the model.
+template <class Work>
+auto with_model_errors(const Document& document, const Work& work) {
+  try {
+    return work();
+  } catch (const solver::ModelError& error) {
+    throw model_error(document, error);
+  }
+}
+
+}  // namespace trammel::harness
