@@ -42,10 +42,8 @@ void check_outcome(const Json& json, const std::vector<const char*>& words) {
     return;
   }
   BOOST_TEST(result.quantities.empty(), options);
-  if (result.outcome.status != Status::not_converged) {
-    BOOST_TEST(!result.outcome.reason.empty(), options);
-    return;
-  }
+  BOOST_TEST(!result.outcome.reason.empty(), options);
+  if (result.outcome.status != Status::not_converged) return;
   for (const char* word : words) {
     BOOST_TEST(contains(result.outcome.reason, word), options << ": " << result.outcome.reason);
   }
@@ -114,7 +112,7 @@ BOOST_AUTO_TEST_CASE(every_solver_of_linear_hard_models_gives_numbers_or_a_reaso
   for (const double factor : {1e-12, 1.0, 1e6, 1e12, 1e18}) {
     json["model"]["manipulator"]["platform_material"]["E_Pa"] = 6.9e10 * factor;
     json["analysis"] = {{"statics", Json::object()}};
-    check_outcome(json, {"ill-conditioned"});
+    check_outcome(json, {});
     json["analysis"] = {{"large-statics", Json::object()}};
     check_outcome(json, {"load factor"});
     for (const char* path : {"automatic", "dense", "sparse"}) {

@@ -301,7 +301,7 @@ BOOST_AUTO_TEST_CASE(a_refused_drive_and_a_path_that_ends_too_soon_are_told_by_t
   json["analysis"] = {{"large-motion", {{"track", true}, {"end_time_s", 1}, {"step_s", 0.05}}}};
   (void)folder.write(json);
   const std::string path = run(folder, "run robot.json").err;
-  BOOST_TEST(contains(path, ": /model/trajectory: "), path);
+  BOOST_TEST(contains(path, ": /analysis/large-motion/end_time_s: "), path);
 }
 
 BOOST_AUTO_TEST_CASE(a_tolerance_of_two_kinds_and_a_lost_reference_are_told_as_they_are_read) {
