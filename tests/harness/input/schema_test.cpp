@@ -194,4 +194,21 @@ BOOST_AUTO_TEST_CASE(orders_of_singular_corners_are_twice_the_stored_exponents) 
   check(sweep("macneal-harder-beam", "fine")["lower_order"], exponent("macneal-harder"));
 }
 
+BOOST_AUTO_TEST_CASE(every_integer_of_the_schemas_has_a_bound_that_its_reader_can_hold) {
+  const std::function<void(const Json&, const std::string&)> visit = [&](const Json& rule,
+                                                                         const std::string& key) {
+    if (rule.is_object() && rule.value("type", Json()) == "integer") {
+      const double most = key == "seed" ? 9007199254740991 : 2147483647;
+      BOOST_TEST((rule.contains("maximum") && rule["maximum"].get<double>() <= most), key);
+    }
+    if (!rule.is_structured()) return;
+    for (const auto& item : rule.items()) visit(item.value(), item.key());
+  };
+  for (const char* name : {"case", "claims", "cost", "reference"}) {
+    visit(read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json")), name);
+  }
+  const Json suite = {{"item", 2147483648}, {"indicators", {"c"}}};
+  BOOST_TEST(contains(fault(testing::cantilever(), "/stress_suite", suite), "/stress_suite/item"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
