@@ -2,6 +2,8 @@
 
 #include <Spectra/SymEigsSolver.h>
 
+#include <stdexcept>
+
 namespace trammel::solver {
 namespace {
 
@@ -24,10 +26,17 @@ LanczosPairs largest_eigenpairs(const std::function<Eigen::VectorXd(const Eigen:
                                 const Eigen::VectorXd& start, const LanczosOptions& options) {
   constexpr Index kMaxRestarts = 300;
   SpectraOperator op{apply, start.size()};
-  Spectra::SymEigsSolver<SpectraOperator> solver(op, options.wanted, options.subspace);
-  solver.init(start.data());
-  solver.compute(Spectra::SortRule::LargestAlge, kMaxRestarts, options.tolerance);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  const LanczosPairs none{Eigen::VectorXd(0), Eigen::MatrixXd(start.size(), 0)};
+  try {
+    Spectra::SymEigsSolver<SpectraOperator> solver(op, options.wanted, options.subspace);
+    solver.init(start.data());
+    solver.compute(Spectra::SortRule::LargestAlge, kMaxRestarts, options.tolerance);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+  } catch (const std::runtime_error&) {  // no eigenvalues of what it projected to: not finite
+    return none;
+  } catch (const std::invalid_argument&) {  // a start, or an image of it, that is zero
+    return none;
+  }
 }
 
 }  // namespace trammel::solver

@@ -13,7 +13,7 @@ struct LanczosOptions {
   double tolerance = 1e-9;
 };
 
-/// Those that converged; there may be fewer than were wanted.
+/// Those that converged; there may be fewer than were wanted, or none.
 struct LanczosPairs {
   Eigen::VectorXd value;   ///< descending
   Eigen::MatrixXd vector;  ///< one a column

@@ -88,9 +88,13 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   // M x = mu (K + s M) x with a shift far below the bulk of the spectrum: mu = 1 / (w^2 + s).
   const double shift = 1e-4 * stiffness.trace() / trace;
   const double positive = shift > 0 ? shift : 1;
-  const SymmetricEigenpairs<Eigen::MatrixXd> pairs =
-      symmetric_eigenpairs(mass, stiffness + positive * mass);
+  const Eigen::MatrixXd shifted = stiffness + positive * mass;
   ModalBasis basis;
+  if (!(shifted.diagonal().array() > 0).all()) {
+    basis.outcome = {Status::singular, "a coordinate has neither stiffness nor mass"};
+    return basis;
+  }
+  const SymmetricEigenpairs<Eigen::MatrixXd> pairs = symmetric_eigenpairs(mass, shifted);
   if (!pairs.converged) {
     basis.outcome = {Status::not_converged, "the dense eigenvalue iteration did not converge"};
     return basis;
@@ -108,7 +112,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
     basis.omega[i] = x.dot(stiffness * x) / modal_mass;
   }
   // What round-off of the stiffest mode can make of zero is zero.
-  const double zero = 1e-15 * basis.omega.cwiseAbs().maxCoeff();
+  const double zero = count == 0 ? 0 : 1e-15 * basis.omega.cwiseAbs().maxCoeff();
   for (double& w2 : basis.omega) w2 = w2 > zero ? std::sqrt(w2) : 0;
   return basis;
 }

@@ -127,4 +127,18 @@ BOOST_AUTO_TEST_CASE(a_load_that_jumps_takes_the_value_after_the_jump) {
   BOOST_TEST(at(9) == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_coordinate_that_nothing_holds_and_no_mass_moves_is_singular_in_words) {
+  const SparseMatrix one = sparse(Eigen::Vector2d(1, 0).asDiagonal());
+  const ModalBasis basis = all_modes(one, one);
+  BOOST_TEST((basis.outcome.status == Status::singular));
+  BOOST_TEST(basis.outcome.reason == "a coordinate has neither stiffness nor mass");
+  BOOST_TEST(basis.omega.size() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(numbers_that_overflow_have_no_modes) {
+  const SparseMatrix M = sparse(Eigen::Vector2d(1e300, 1e300).asDiagonal());
+  const SparseMatrix K = sparse(Eigen::Vector2d(1e308, 1e308).asDiagonal());
+  BOOST_TEST(!all_modes(M, K).outcome.solved());
+}
+
 BOOST_AUTO_TEST_SUITE_END()
