@@ -174,7 +174,8 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
                                   Recorder& record) {
   const solver::ElastodynamicsOptions options = read_elastodynamics(analysis, case_model);
   const solver::ElastodynamicsSolution solution = solver::solve_elastodynamics(options);
-  StepResult result{solution.outcome, solution.summary.counters, std::nullopt};
+  StepResult result{
+      solution.outcome, solution.summary.counters, std::nullopt, {}, solution.evidence};
   const solver::System start = solver::assemble(build_model(case_model, 0));
   if (draw) result.drawing = draw_model(start, true);
   if (!solution.outcome.solved()) return result;

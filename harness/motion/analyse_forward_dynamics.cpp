@@ -13,16 +13,6 @@ double turned(double from, double to) {
   return std::remainder(to - from, 2 * std::numbers::pi);
 }
 
-/// What gravity has taken up: -sum m g . x [J].
-double potential(const solver::RigidManipulator& m, const solver::InverseDynamics& at) {
-  double energy = -m.platform.mass * m.gravity.dot(at.bodies[6].position);
-  for (std::size_t k = 0; k < 3; ++k) {
-    energy -= m.gravity.dot(m.proximal[k].mass * at.bodies[k].position +
-                            m.distal[k].mass * at.bodies[3 + k].position);
-  }
-  return energy;
-}
-
 void record_motion(const solver::TrajectoryPoint& moved, Recorder& record) {
   record.add("motion_x_m", "", moved.pose.x);
   record.add("motion_y_m", "", moved.pose.y);
@@ -56,7 +46,7 @@ void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynam
       work += wrench.head<2>().dot(now.q.segment<2>(6) - before.q.segment<2>(6)) +
               wrench(2) * (now.q(8) - before.q(8));
     }
-    const double energy = now.kinetic_energy + potential(m, now) - work;
+    const double energy = now.kinetic_energy + now.potential_energy - work;
     if (k == 0) start = energy;
     kinetic.push_back(now.kinetic_energy);
     change.push_back(energy - start);
@@ -100,6 +90,7 @@ StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& c
       manipulator, case_model.motion.front(), torque, times, wrench, options);
   StepResult result;
   result.outcome = found.outcome;
+  result.evidence = found.evidence;
   if (draw) result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
   for (std::size_t step = 0; step < found.motion.size(); ++step) {
     record_path(case_model, step, record);

@@ -256,6 +256,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   const solver::large_motion::IntegrationSummary summary =
       integrate_motion(system, case_model, tracking, options, extrapolated, look);
   result.outcome = summary.outcome;
+  result.evidence = summary.evidence;
   result.counters = summary.counters;
   result.counters.element_evaluations = system.element_evaluations();
   result.counters.steps = summary.steps + summary.rejected;

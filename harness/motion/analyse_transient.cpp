@@ -73,7 +73,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   const solver::System system = solver::assemble(build_model(case_model, step));
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const MotionHistory motion = compute_motion(analysis, system);
-  StepResult result{motion.outcome, motion.counters, std::nullopt};
+  StepResult result{motion.outcome, motion.counters, std::nullopt, {}, motion.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) return result;
   const bool with_forces = std::any_of(outputs.begin(), outputs.end(),

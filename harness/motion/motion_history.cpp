@@ -11,6 +11,7 @@
 #include "solver/assembly/damping.h"
 #include "solver/modes/modes.h"
 #include "solver/time/modal_superposition.h"
+#include "solver/time/motion_evidence.h"
 #include "solver/time/rotating_frame_transient.h"
 
 namespace trammel::harness {
@@ -170,6 +171,7 @@ class Motion {
     }
     solver::TransientHistory found = solver::solve_transient(equation, options);
     history_.outcome = found.summary.outcome;
+    history_.evidence = found.summary.evidence;
     history_.steps = found.summary.accepted;
     history_.counters += found.summary.counters;
     history_.q = std::move(found.q);
@@ -180,18 +182,28 @@ class Motion {
   /// False where the damped modes are not found.
   bool damp(solver::EquationOfMotion& equation) {
     solver::HarmonicDamping damping = read_damping(transient_);
-    equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
-    if (damping.modal_ratio.empty()) return true;
+    if (damping.modal_ratio.empty()) {
+      damp(damping, {}, {}, equation);
+      return true;
+    }
     const solver::ModalSolution modes = solver::solve_modes(
         system_, {std::ssize(damping.modal_ratio), solver::EigenMethod::automatic});
     history_.outcome = modes.outcome;
     if (!modes.outcome.solved()) return false;
     damping = read_damping(transient_, modes.frequency.size());
-    const Eigen::Map<const Eigen::VectorXd> ratio(damping.modal_ratio.data(),
-                                                  modes.frequency.size());
-    equation.C += solver::modal_damping_matrix(system_.M, 2 * std::numbers::pi * modes.frequency,
-                                               modes.shape, ratio);
+    damp(damping, 2 * std::numbers::pi * modes.frequency, modes.shape, equation);
     return true;
+  }
+
+  /// @param omega, shape  of the damped modes, at least
+  void damp(const solver::HarmonicDamping& damping, const Eigen::VectorXd& omega,
+            const Eigen::MatrixXd& shape, solver::EquationOfMotion& equation) const {
+    equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
+    const auto count = std::min<solver::Index>(std::ssize(damping.modal_ratio), omega.size());
+    if (count == 0) return;
+    const Eigen::Map<const Eigen::VectorXd> ratio(damping.modal_ratio.data(), count);
+    equation.C +=
+        solver::modal_damping_matrix(system_.M, omega.head(count), shape.leftCols(count), ratio);
   }
 
   void superpose_modes() {
@@ -215,6 +227,23 @@ class Motion {
     history_.v = std::move(response.v);
     history_.a = std::move(response.a);
     add_massless(basis);
+    solver::EquationOfMotion equation;
+    equation.M = system_.M;
+    equation.K = system_.K;
+    damp(damping, basis.omega, basis.shape, equation);
+    add_evidence(equation);
+  }
+
+  /// Of the superposed modes, at the samples.
+  void add_evidence(solver::EquationOfMotion& equation) {
+    load_.apply_to(equation);
+    solver::MotionEvidence evidence(equation);
+    for (solver::Index i = 0; i < history_.q.cols(); ++i) {
+      const double time = history_.time[static_cast<std::size_t>(i)];
+      evidence.add_equilibrium(time, time, history_.q.col(i), history_.v.col(i), history_.a.col(i),
+                               transient_.number("step_s"));
+    }
+    history_.evidence = evidence.result();
   }
 
   /// What acts on coordinates without mass moves no mode: they follow it at once.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
+#include "solver/model/evidence.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/time/transient_history.h"
 
@@ -11,6 +12,7 @@ namespace trammel::harness {
 /// The motion of a model at its sample times.
 struct MotionHistory {
   solver::Outcome outcome;
+  solver::Evidence evidence;
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
   std::vector<double> load_factor;  ///< of all loads, at those times

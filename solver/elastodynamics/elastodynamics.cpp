@@ -8,6 +8,7 @@
 #include "solver/elastodynamics/path_follower.h"
 #include "solver/modes/modes.h"
 #include "solver/time/modal_superposition.h"
+#include "solver/time/motion_evidence.h"
 
 namespace trammel::solver {
 namespace {
@@ -27,12 +28,36 @@ std::vector<double> sample_times(const TransientOptions& options) {
   return times;
 }
 
+/// Written anew at every time, unless the platform stands still.
+EquationOfMotion equation_of(const ElastodynamicsOptions& options, PathFollower& follower) {
+  EquationOfMotion equation;
+  equation.M = equation.K = follower.system().K();
+  if (follower.damped() || options.gyroscopic) equation.C = follower.system().K();
+  follower.matrices(equation.M, equation.C, equation.K);
+  // Where there is no pose the numbers end, and with them the integration.
+  equation.load = [&follower](double time, VectorXd& f) {
+    if (follower.update_to(time)) {
+      f = follower.load();
+    } else {
+      f.setConstant(kNaN);
+    }
+  };
+  if (!follower.stands_still()) {
+    equation.update = [&follower](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
+      if (follower.update_to(time)) follower.matrices(M, C, K);
+    };
+  }
+  return equation;
+}
+
 /// K q = F + f at every sample.
 void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& follower,
                             ElastodynamicsRecorder& recorder, ElastodynamicsSolution& solution) {
   const std::vector<double> times = sample_times(options.time);
   VectorXd q;
   const VectorXd still = VectorXd::Zero(follower.system().K().rows());
+  const EquationOfMotion equation = equation_of(options, follower);
+  MotionEvidence evidence(equation);
   for (const double time : times) {
     if (!follower.update_to(time)) return;
     if (!follower.solve_statically(follower.load(), q)) {
@@ -40,11 +65,13 @@ void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& 
                           "the stiffness is singular: free joints have no quasi-static position"};
       return;
     }
+    evidence.add_equilibrium(time, time, q, still, still, options.time.step);
     MotionEnergy energy;
     energy.strain = q.dot(follower.system().K() * q) / 2;
     recorder.record(time, q, still, still, energy);
     solution.summary.time = time;
   }
+  solution.evidence = evidence.result();
 }
 
 /// All modes at every sample, each by its closed form.
@@ -72,10 +99,13 @@ void superpose_modes(const ElastodynamicsOptions& options, PathFollower& followe
       superpose(basis, decay_rates(options.damping, basis.omega), M,
                 step_load(f, options.time.start), from_start, q0, VectorXd::Zero(f.size()));
   const double strain_at_start = q0.dot(K * q0) / 2;
+  const EquationOfMotion equation = equation_of(options, follower);
+  MotionEvidence evidence(equation);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto column = static_cast<Index>(i) + 1;
     const VectorXd q = response.q.col(column);
     const VectorXd v = response.v.col(column);
+    evidence.add_equilibrium(times[i], times[i], q, v, response.a.col(column), options.time.step);
     MotionEnergy energy;
     energy.kinetic = v.dot(M * v) / 2;
     energy.strain = q.dot(K * q) / 2;
@@ -86,6 +116,7 @@ void superpose_modes(const ElastodynamicsOptions& options, PathFollower& followe
     recorder.record(times[i], q, v, response.a.col(column), energy);
     solution.summary.time = times[i];
   }
+  solution.evidence = evidence.result();
 }
 
 void find_first_frequency(const ElastodynamicsOptions& options, const System& start,
@@ -98,30 +129,15 @@ void find_first_frequency(const ElastodynamicsOptions& options, const System& st
   effects.damping_ratio = damping_ratio(options.damping, 2 * std::numbers::pi * *first);
 }
 
-/// By a scheme; the matrices are evaluated at every step unless the platform stands still.
+/// By a scheme.
 void integrate(const ElastodynamicsOptions& options, PathFollower& follower,
                ElastodynamicsRecorder& recorder, ElastodynamicsSolution& solution) {
-  EquationOfMotion equation;
-  equation.M = equation.K = follower.system().K();
-  if (follower.damped() || options.gyroscopic) equation.C = follower.system().K();
-  follower.matrices(equation.M, equation.C, equation.K);
-  // Where there is no pose the numbers end, and with them the integration.
-  equation.load = [&follower](double time, VectorXd& f) {
-    if (follower.update_to(time)) {
-      f = follower.load();
-    } else {
-      f.setConstant(kNaN);
-    }
-  };
-  if (!follower.stands_still()) {
-    equation.update = [&follower](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
-      if (follower.update_to(time)) follower.matrices(M, C, K);
-    };
-  }
+  const EquationOfMotion equation = equation_of(options, follower);
   solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
     recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy);
   });
   solution.outcome = solution.summary.outcome;
+  solution.evidence = solution.summary.evidence;
 }
 
 }  // namespace
@@ -149,6 +165,8 @@ ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options
     integrate(options, follower, recorder, solution);
   }
   if (!follower.outcome().solved()) solution.outcome = follower.outcome();
+  solution.outcome =
+      outcome_by_evidence(solution.outcome, solution.evidence, {Residual::equation_of_motion});
   solution.summary.counters += follower.counters();
   recorder.finish();
   return solution;

@@ -28,6 +28,7 @@ struct ElastodynamicsEffects {
 /// One entry a sample, as many as `time`.
 struct ElastodynamicsSolution {
   Outcome outcome;  ///< a pose out of reach or singular; or as in `summary`
+  Evidence evidence;
   TransientSummary summary;
   std::vector<double> time;              ///< [s]
   std::vector<TrajectoryPoint> nominal;  ///< of P

@@ -66,7 +66,11 @@ VectorXd PathFollower::load() const {
 }
 
 void PathFollower::matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
-  M.coeffs() = moving_.M().coeffs();
+  if (options_.elastic_inertia) {
+    M.coeffs() = moving_.M().coeffs();
+  } else {
+    M.coeffs().setZero();
+  }
   K.coeffs() = moving_.K().coeffs();
   if (damped()) {
     C.coeffs() =

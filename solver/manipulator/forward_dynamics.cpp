@@ -10,6 +10,8 @@
 #include <sstream>
 #include <utility>
 
+#include "solver/linalg/backward_error.h"
+#include "solver/manipulator/inverse_dynamics.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver {
@@ -17,7 +19,7 @@ namespace trammel::solver {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
-using State = Eigen::Matrix<double, 6, 1>;  // pose, velocity
+using State = Eigen::Matrix<double, 7, 1>;  // pose, velocity, work of torques and wrench
 
 Pose pose_of(const State& y) {
   return {y(0), y(1), y(2)};
@@ -62,8 +64,47 @@ class MotionIntegrator {
         max_steps_(options.max_steps),
         stepper_(ErrorNorm(manipulator.geometry, options.tolerance)),
         t_(start.time) {
-    y_ << start.pose.x, start.pose.y, start.pose.phi, start.velocity;
+    y_ << start.pose.x, start.pose.y, start.pose.phi, start.velocity, 0;
     result.outcome = evaluate(t_, y_, rate_);
+    if (result.outcome.solved()) add_evidence();
+  }
+
+  /// Of the present state.
+  void add_evidence() {
+    const InverseDynamics now = inverse_dynamics(manipulator_, point(), wrench_);
+    const RigidTerms terms = rigid_terms(manipulator_, pose_of(y_), y_.segment<3>(3));
+    const Vector3d given = torque_(t_);
+    const Vector3d size = terms.Mh.cwiseAbs() * now.q_ddot.head<3>().cwiseAbs() +
+                          terms.Ch.cwiseAbs() * now.q_dot.head<3>().cwiseAbs() +
+                          terms.Nh.cwiseAbs() + given.cwiseAbs() +
+                          terms.W.bottomRows<3>().transpose().cwiseAbs() * wrench_.cwiseAbs();
+    result.evidence.add(Residual::equation_of_motion, largest_ratio(now.torque - given, size));
+    double reach = 0, gap = 0;
+    for (Index i = 0; i < 3; ++i) {
+      const Limb<double> l = limb(manipulator_, now.q, i);
+      const Vector2d open = manipulator_.geometry.base[to_size(i)] + l.proximal * l.a +
+                            l.distal * l.e - now.q.segment<2>(6) - l.c;
+      gap = std::max(gap, open.norm());
+      reach = std::max(reach, l.proximal + l.distal);
+    }
+    result.evidence.add(Residual::constraints, gap / reach);
+    if (std::isnan(start_energy_)) start_energy_ = now.kinetic_energy + now.potential_energy;
+    const double change = now.kinetic_energy + now.potential_energy - start_energy_;
+    turnover_ += std::abs(y_(6) - last_work_);
+    last_work_ = y_(6);
+    energy_size_ = std::max({energy_size_, now.kinetic_energy, std::abs(change)});
+    largest_imbalance_ = std::max(largest_imbalance_, std::abs(change - y_(6)));
+    if (std::isnan(change - y_(6))) largest_imbalance_ = kNaN;
+  }
+
+  /// With what the whole motion shows.
+  [[nodiscard]] ForwardDynamics finish() {
+    const double size = energy_size_ + turnover_;
+    result.evidence.add(Residual::energy, size > 0 ? largest_imbalance_ / size : 0);
+    result.outcome = outcome_by_evidence(
+        result.outcome, result.evidence,
+        {Residual::equation_of_motion, Residual::constraints, Residual::energy});
+    return std::move(result);
   }
 
   /// Goes on to the time `end`; the last step is shortened to meet it.
@@ -78,7 +119,7 @@ class MotionIntegrator {
   }
 
   [[nodiscard]] TrajectoryPoint point() const {
-    return {t_, pose_of(y_), y_.tail<3>(), rate_.tail<3>()};
+    return {t_, pose_of(y_), y_.segment<3>(3), rate_.segment<3>(3)};
   }
 
   ForwardDynamics result;
@@ -86,9 +127,10 @@ class MotionIntegrator {
  private:
   Outcome evaluate(double t, const State& y, State& rate) {
     ++result.evaluations;
+    const Vector3d torque = torque_(t);
     const PlatformAcceleration a =
-        forward_acceleration(manipulator_, pose_of(y), y.tail<3>(), torque_(t), wrench_);
-    rate << y.tail<3>(), a.acceleration;
+        forward_acceleration(manipulator_, pose_of(y), y.segment<3>(3), torque, wrench_);
+    rate << y.segment<3>(3), a.acceleration, a.power;
     return a.outcome;
   }
 
@@ -132,6 +174,8 @@ class MotionIntegrator {
   const Index max_steps_;
   ControlledStepper stepper_;
   double t_, h_ = 1e-3;
+  double start_energy_ = kNaN, energy_size_ = 0, largest_imbalance_ = 0;
+  double last_work_ = 0, turnover_ = 0;
   State y_, rate_;
 };
 
@@ -141,7 +185,7 @@ PlatformAcceleration forward_acceleration(const RigidManipulator& m, const Pose&
                                           const Vector3d& velocity, const Vector3d& torque,
                                           const Vector3d& wrench) {
   const RigidTerms terms = rigid_terms(m, pose, velocity);
-  PlatformAcceleration result{terms.outcome, Vector3d::Constant(kNaN)};
+  PlatformAcceleration result{terms.outcome, Vector3d::Constant(kNaN), kNaN};
   if (!terms.outcome.solved()) return result;
   const Matrix3d G = terms.W.bottomRows<3>();
   const Vector3d rates = terms.q_dot.head<3>();
@@ -152,6 +196,7 @@ PlatformAcceleration forward_acceleration(const RigidManipulator& m, const Pose&
     return result;
   }
   const Vector3d active = llt.solve(force);
+  result.power = torque.dot(rates) + wrench.dot(velocity);
   result.acceleration = G * active + terms.W_dot.bottomRows<3>() * rates;
   return result;
 }
@@ -173,8 +218,9 @@ ForwardDynamics forward_dynamics(const RigidManipulator& m, const TrajectoryPoin
     integrator.advance(t);
     if (!integrator.result.outcome.solved()) break;
     integrator.result.motion.push_back(integrator.point());
+    integrator.add_evidence();
   }
-  return std::move(integrator.result);
+  return integrator.finish();
 }
 
 }  // namespace trammel::solver

@@ -5,6 +5,7 @@
 
 #include "solver/manipulator/rigid_terms.h"
 #include "solver/manipulator/trajectory.h"
+#include "solver/model/evidence.h"
 
 /// From actuator torques back to the motion of the rigid manipulator.
 namespace trammel::solver {
@@ -12,6 +13,7 @@ namespace trammel::solver {
 struct PlatformAcceleration {
   Outcome outcome;        ///< as RigidTerms
   Vector3d acceleration;  ///< (xddot, yddot [m/s^2], phiddot [rad/s^2]); NaN unless solved
+  double power = 0;       ///< of torque and wrench [W]; NaN unless solved
 };
 
 /// Mh theta_a.. = torque + (dx/dtheta_a)^T wrench - Ch theta_a. - Nh, taken to the platform by
@@ -28,12 +30,17 @@ struct ForwardOptions {
 };
 
 struct ForwardDynamics {
-  /// singular: as RigidTerms, at the time that the reason names; not_converged: too many steps
+  /// singular: as RigidTerms, at the time that the reason names; not_converged: too many
+  /// steps, or the evidence does not bear out the motion
   Outcome outcome;
   std::vector<TrajectoryPoint> motion;  ///< at the times asked for, as far as reached
   Index steps = 0;
   Index rejected = 0;
   Index evaluations = 0;  ///< of the acceleration
+  /// Equation of motion of the actuators' coordinates, and closing of the loops, at the times asked
+  /// for; kinetic and potential energy against the work of torques and wrench, whose power is
+  /// integrated beside the motion.
+  Evidence evidence;
 };
 
 /// Integrates pose and velocity of the platform, so that the loops stay closed by themselves, with

@@ -42,7 +42,8 @@ void set_nan(InverseDynamics& d) {
   const Vector2d none = Vector2d::Constant(kNaN);
   d.bodies.fill({none, none, none, kNaN, kNaN, kNaN});
   d.torque.setConstant(kNaN);
-  d.kinetic_energy = d.kinetic_power = d.actuator_power = d.load_power = d.gravity_power = kNaN;
+  d.kinetic_energy = d.potential_energy = d.kinetic_power = d.actuator_power = d.load_power =
+      d.gravity_power = kNaN;
 }
 
 void add_powers(const RigidManipulator& m, InverseDynamics& result) {
@@ -51,6 +52,7 @@ void add_powers(const RigidManipulator& m, InverseDynamics& result) {
         (mass * b.velocity.squaredNorm() + inertia * b.angular_velocity * b.angular_velocity) / 2;
     result.kinetic_power += mass * inner(b.velocity, b.acceleration) +
                             inertia * b.angular_velocity * b.angular_acceleration;
+    result.potential_energy -= mass * m.gravity.dot(b.position);
     result.gravity_power += mass * inner(m.gravity, b.velocity);
   };
   for (std::size_t k = 0; k < 3; ++k) {

@@ -19,6 +19,7 @@ struct InverseDynamics {
   std::array<BodyMotion, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
   Vector3d torque;                   ///< of the actuators on the proximal links [N m]
   double kinetic_energy = 0;         ///< [J]
+  double potential_energy = 0;       ///< what gravity has taken up, -sum m g . x [J]
   /// Rate of the kinetic energy, body by body: sum of m v . a + J omega alpha [W]. Power balance:
   /// kinetic_power = actuator_power + load_power + gravity_power.
   double kinetic_power = 0;

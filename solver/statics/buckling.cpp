@@ -54,7 +54,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
     solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
     EquationRows rows(system);
     rows.add_stiffness(system.T * x);
-    rows.add(softening, x, -pairs.value[j]);
+    rows.add(softening, x, -solution.load_factor[j]);
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
   if (!solution.outcome.solved()) return solution;

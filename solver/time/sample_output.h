@@ -14,7 +14,7 @@ struct TransientState {
   Eigen::VectorXd a;             ///< the algorithm's acceleration (time_scheme.h) ...
   double a_step = 0;             ///< ... and the step it belongs to
   Eigen::VectorXd acceleration;  ///< A, in equilibrium
-  Eigen::VectorXd f, Cv;
+  Eigen::VectorXd f, MA, Mv, Cv, Kq;
   MotionEnergy energy;
 
   explicit TransientState(Index n)
@@ -23,7 +23,10 @@ struct TransientState {
         a(Eigen::VectorXd::Zero(n)),
         acceleration(Eigen::VectorXd::Zero(n)),
         f(Eigen::VectorXd::Zero(n)),
-        Cv(Eigen::VectorXd::Zero(n)) {}
+        MA(Eigen::VectorXd::Zero(n)),
+        Mv(Eigen::VectorXd::Zero(n)),
+        Cv(Eigen::VectorXd::Zero(n)),
+        Kq(Eigen::VectorXd::Zero(n)) {}
 };
 
 /// Hands the samples that a step covers to the observer.
@@ -34,6 +37,10 @@ class SampleOutput {
       : times_(times), observe_(observe) {}
 
   void start(const TransientState& state);
+  /// Whether a step that ends then covers a sample.
+  [[nodiscard]] bool covers(double end) const {
+    return times_.empty() || (next_ < times_.size() && times_[next_] <= end);
+  }
   /// Between the ends of the step of length h.
   void step(const TransientState& begin, const TransientState& end, double h);
 

@@ -10,6 +10,7 @@
 #include "solver/linalg/sparse_ldlt.h"
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
+#include "solver/time/motion_evidence.h"
 #include "solver/time/sample_output.h"
 #include "solver/time/transient_start.h"
 
@@ -75,8 +76,9 @@ class TransientIntegrator {
         S_(matrices_.M()),
         now_(equation.M.rows()),
         next_(equation.M.rows()),
+        evidence_(equation, options.scheme),
         output_(options.sample_times, observe) {
-    for (VectorXd* x : {&MA_, &Mv_, &Kq_, &residual_, &correction_}) x->setZero(S_.rows());
+    for (VectorXd* x : {&residual_, &correction_}) x->setZero(S_.rows());
   }
 
   TransientSummary run() {
@@ -89,6 +91,9 @@ class TransientIntegrator {
       }
     }
     summary_.time = now_.time;
+    summary_.evidence = evidence_.result();
+    summary_.outcome = outcome_by_evidence(summary_.outcome, summary_.evidence,
+                                           {Residual::equation_of_motion, Residual::energy});
     summary_.counters.steps = summary_.accepted + summary_.rejected;
     return summary_;
   }
@@ -118,10 +123,10 @@ class TransientIntegrator {
     matrices_.update(now_.time);
     if (!options_.adaptive) outcome = check_stability(matrices_, options_, summary_.counters);
     if (!outcome.solved()) return false;
-    Mv_.noalias() = matrices_.M() * now_.v;
-    Kq_.noalias() = matrices_.K() * now_.q;
-    now_.energy.kinetic = 0.5 * now_.v.dot(Mv_);
-    now_.energy.strain = 0.5 * now_.q.dot(Kq_);
+    now_.Mv.noalias() = matrices_.M() * now_.v;
+    now_.Kq.noalias() = matrices_.K() * now_.q;
+    now_.energy.kinetic = 0.5 * now_.v.dot(now_.Mv);
+    now_.energy.strain = 0.5 * now_.q.dot(now_.Kq);
     return true;
   }
 
@@ -133,8 +138,8 @@ class TransientIntegrator {
     matrices_.update(now_.time);
     matrices_.load(now_.time, now_.f);
     now_.Cv.noalias() = matrices_.C() * now_.v;
-    residual_ = now_.f - now_.Cv;
-    residual_.noalias() -= matrices_.K() * now_.q;
+    now_.Kq.noalias() = matrices_.K() * now_.q;
+    residual_ = now_.f - now_.Cv - now_.Kq;
     if (!mass_factor_) mass_factor_ = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
     if (!matrices_.constant() || !mass_is_factored_) {
       ++summary_.counters.factorizations;
@@ -152,6 +157,11 @@ class TransientIntegrator {
     ++summary_.counters.solves;
     now_.a = now_.acceleration;
     now_.a_step = h;
+    now_.MA.noalias() = matrices_.M() * now_.acceleration;
+    evidence_.begin_segment(residual_ - now_.MA);
+    if (!mass_is_singular_) {
+      evidence_.add_equilibrium(now_.time, now_.time, now_.q, now_.v, now_.acceleration, h);
+    }
     return true;
   }
 
@@ -167,11 +177,11 @@ class TransientIntegrator {
       matrices_.load(t, next_.f);
       start_factor_->solve(next_.f, correction_);
       ++summary_.counters.solves;
-      MA_.noalias() = matrices_.M() * correction_;
-      Kq_.noalias() = matrices_.K() * correction_;
-      const double squared = correction_.dot(MA_);
+      next_.MA.noalias() = matrices_.M() * correction_;
+      next_.Kq.noalias() = matrices_.K() * correction_;
+      const double squared = correction_.dot(next_.MA);
       if (!(squared > 0)) continue;
-      const double stiffness = std::max(correction_.dot(Kq_) / squared, 1 / (time * time));
+      const double stiffness = std::max(correction_.dot(next_.Kq) / squared, 1 / (time * time));
       largest_ = std::max(largest_, std::sqrt(squared) / stiffness);
     }
   }
@@ -216,7 +226,7 @@ class TransientIntegrator {
         done *= 2;
         continue;
       }
-      accept(h);
+      accept(h, load_time);
       ++done;
       if (options_.adaptive && level > 0 && ratio < 0.125 && done % 2 == 0) {
         --level;
@@ -300,13 +310,13 @@ class TransientIntegrator {
   /// residual_ = f - M A - C v - K q of next_; its largest entry, what is allowed, and the share of
   /// the sum of the terms.
   double form_residual(double& share, double& allowed) {
-    MA_.noalias() = matrices_.M() * next_.acceleration;
+    next_.MA.noalias() = matrices_.M() * next_.acceleration;
     next_.Cv.noalias() = matrices_.C() * next_.v;
-    Kq_.noalias() = matrices_.K() * next_.q;
-    residual_ = next_.f - MA_ - next_.Cv - Kq_;
+    next_.Kq.noalias() = matrices_.K() * next_.q;
+    residual_ = next_.f - next_.MA - next_.Cv - next_.Kq;
     const double left = infinity_norm(residual_);
-    const double terms =
-        infinity_norm(MA_) + infinity_norm(next_.Cv) + infinity_norm(Kq_) + infinity_norm(next_.f);
+    const double terms = infinity_norm(next_.MA) + infinity_norm(next_.Cv) +
+                         infinity_norm(next_.Kq) + infinity_norm(next_.f);
     const double products = matrices_.norm_M() * infinity_norm(next_.acceleration) +
                             matrices_.norm_C() * infinity_norm(next_.v) +
                             matrices_.norm_K() * infinity_norm(next_.q);
@@ -334,15 +344,25 @@ class TransientIntegrator {
     return error_ == 0 ? 0 : error_ / allowed;
   }
 
-  void accept(double h) {
+  /// The equation itself is looked at where a sample is, and a hundred times in between.
+  void add_evidence(double h, double load_time) {
+    evidence_.add_energy(now_, next_, h);
+    if (!output_.covers(next_.time) && next_.time < next_look_) return;
+    next_look_ = next_.time + (options_.end - options_.start) / 100;
+    evidence_.add_relations(now_, next_, h);
+    evidence_.add_equilibrium(next_.time, load_time, next_.q, next_.v, next_.acceleration, h);
+  }
+
+  void accept(double h, double load_time) {
     MotionEnergy& energy = next_.energy;
     energy = now_.energy;
     correction_ = next_.q - now_.q;
     energy.work += 0.5 * (correction_.dot(now_.f) + correction_.dot(next_.f));
     energy.dissipated += 0.5 * (correction_.dot(now_.Cv) + correction_.dot(next_.Cv));
-    Mv_.noalias() = matrices_.M() * next_.v;
-    energy.kinetic = 0.5 * next_.v.dot(Mv_);
-    energy.strain = 0.5 * next_.q.dot(Kq_);
+    next_.Mv.noalias() = matrices_.M() * next_.v;
+    energy.kinetic = 0.5 * next_.v.dot(next_.Mv);
+    energy.strain = 0.5 * next_.q.dot(next_.Kq);
+    add_evidence(h, load_time);
     ++summary_.accepted;
     summary_.smallest_step = summary_.accepted == 1 ? h : std::min(summary_.smallest_step, h);
     summary_.largest_step = std::max(summary_.largest_step, h);
@@ -357,7 +377,7 @@ class TransientIntegrator {
   EquationMatrices matrices_;
   SparseMatrix S_;  // of a step
   TransientState now_, next_;
-  VectorXd MA_, Mv_, Kq_, residual_, correction_;  // work
+  VectorXd residual_, correction_;  // work
   std::unique_ptr<SparseLdlt> mass_factor_;
   SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step where M is singular
   bool mass_is_factored_ = false, mass_is_singular_ = false;
@@ -365,6 +385,8 @@ class TransientIntegrator {
   double factors_step_ = 0;
   int level_ = 0;
   double error_ = 0, largest_ = 0;
+  MotionEvidence evidence_;
+  double next_look_ = -std::numeric_limits<double>::infinity();
   SampleOutput output_;
   TransientSummary summary_;
 };

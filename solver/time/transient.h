@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/model/evidence.h"
 #include "solver/model/numbers.h"
 #include "solver/model/outcome.h"
 #include "solver/time/equation_of_motion.h"
@@ -61,8 +62,12 @@ struct MotionSample {
 using MotionObserver = std::function<void(const MotionSample&)>;
 
 struct TransientSummary {
-  /// singular: no factorization; not_converged: the reason names step, time and residual.
+  /// singular: no factorization; not_converged: the reason names step, time and residual, or the
+  /// evidence does not bear out the motion.
   Outcome outcome;
+  /// Equation of motion and the scheme's relations, at every sample and at a hundred steps spread
+  /// over the time at least; energy of all steps.
+  Evidence evidence;
   double time = 0;  ///< reached [s]
   std::int64_t accepted = 0;
   std::int64_t rejected = 0;

@@ -171,14 +171,16 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
   }
 }
 
-VectorXd KktMatrix::term_magnitudes(const VectorXd& x) const {
-  VectorXd permuted(x.size()), magnitudes(x.size());
+void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {
+  solution_.setZero();
   for (Index i = 0; i < x.size(); ++i)
-    permuted[permutation_[static_cast<std::size_t>(i)]] = std::abs(x[i]);
-  permuted = matrix_.cwiseAbs() * permuted;
+    work_[permutation_[static_cast<std::size_t>(i)]] = std::abs(x[i]);
+  for (Index column = 0; column < matrix_.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, column); it; ++it)
+      solution_[it.row()] += std::abs(it.value()) * work_[column];
+  }
   for (Index i = 0; i < x.size(); ++i)
-    magnitudes[i] = permuted[permutation_[static_cast<std::size_t>(i)]];
-  return magnitudes;
+    magnitudes[i] = solution_[permutation_[static_cast<std::size_t>(i)]];
 }
 
 Index KktMatrix::negative_pivots() const {

@@ -80,7 +80,7 @@ class KktMatrix {
   void solve(Eigen::Ref<VectorXd> right_hand_side) const;
 
   /// Of each equation, the sum of the magnitudes of its terms with the unknowns x = (q, lambda).
-  [[nodiscard]] VectorXd term_magnitudes(const VectorXd& x) const;
+  void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;
 
   /// Unstable directions: negative pivots beyond those of the constraints; -1 without LDL^T.
   [[nodiscard]] Index negative_pivots() const;

@@ -129,6 +129,12 @@ StepReport EnergyMomentum::newton(double h, bool exact) {
       change_ = to_.a - from_.a;
       report.error = first_ ? 0.0 : h * h / 12 * weighted_rms_norm(system_, change_);
       set_end_multipliers(h);
+      change_ = to_.q - from_.q - h / 2 * (from_.v + to_.v);
+      const double moved =
+          h * (weighted_rms_norm(system_, from_.v) + weighted_rms_norm(system_, to_.v));
+      const double size =
+          weighted_rms_norm(system_, to_.q) + weighted_rms_norm(system_, from_.q) + moved;
+      relation_residual_ = size > 0 ? weighted_rms_norm(system_, change_) / size : 0;
       report.converged = true;
       if (i > 4) factored_step_ = 0;
       return report;

@@ -21,6 +21,11 @@ class EnergyMomentum final : public Stepper {
   [[nodiscard]] const State& state() const override { return from_; }
   [[nodiscard]] const State& next() const override { return to_; }
   [[nodiscard]] const KktMatrix& matrix() const override { return matrix_; }
+  void force_residual(Eigen::Ref<VectorXd> r) const override {
+    system_.discrete_gradient_residual(to_, from_, previous_mean_lambda_, r);
+  }
+  [[nodiscard]] double relation_residual() const override { return relation_residual_; }
+  [[nodiscard]] bool keeps_rates() const override { return false; }
 
  private:
   [[nodiscard]] StepReport newton(double h, bool exact);
@@ -33,7 +38,7 @@ class EnergyMomentum final : public Stepper {
   KktMatrix matrix_;
   State from_, to_, midpoint_;
   VectorXd mean_lambda_, previous_mean_lambda_;  ///< multipliers of this step and the last
-  double factored_step_ = 0, last_step_ = 0;
+  double factored_step_ = 0, last_step_ = 0, relation_residual_ = 0;
   bool first_ = true;
   VectorXd constraint_residual_, constraint_rate_, previous_constraint_residual_, step_, change_;
 };

@@ -74,7 +74,8 @@ double Equilibrium::backward_error(const State& state) {
   x.tail(m) = state.lambda.cwiseAbs().cwiseMax(kLeast * largest_force);
   matrix_.clear();
   system_.tangent(state, TangentCoefficients{}, matrix_);
-  VectorXd terms = matrix_.term_magnitudes(x);
+  VectorXd terms(n + m);
+  matrix_.term_magnitudes(x, terms);
   system_.load_derivative(state, load);
   terms.head(n) += std::abs(state.load) * load.cwiseAbs();
   system_.force_residual(state, residual.head(n));

@@ -48,9 +48,28 @@ StepReport GeneralizedAlpha::attempt(double h) {
   StepReport report = newton(h);
   report.error =
       std::abs(shift / 2 + beta_ - 1.0 / 6) * h * h * weighted_rms_norm(system_, A1_ - A0_);
+  if (report.converged) relation_residual_ = relation_defect(h);
   // A rejected step must not scale A0 twice; an accepted one has no more use for it.
   A0_ = saved_A0_;
   return report;
+}
+
+double GeneralizedAlpha::relation_defect(double h) {
+  const auto size = [this](const VectorXd& x) { return weighted_rms_norm(system_, x); };
+  const double A = size(A0_) + size(A1_), a = size(from_.a) + size(to_.a) + A;
+  const double v = size(from_.v) + size(to_.v) + h * A;
+  const double q = size(from_.q) + size(to_.q) + h * v;
+  const auto share = [&](double terms) {
+    const double defect = size(defect_);
+    return defect == 0 ? 0 : defect / terms;
+  };
+  defect_ = (1 - alpha_m_) * A1_ + alpha_m_ * A0_ - (1 - alpha_f_) * to_.a - alpha_f_ * from_.a;
+  double largest = share(a);
+  defect_ = to_.v - from_.v - h * ((1 - gamma_) * A0_ + gamma_ * A1_);
+  largest = std::max(largest, share(v));
+  if (system_.constraints() > 0 && !(system_.compliance().minCoeff() > 0)) return largest;
+  defect_ = to_.q - from_.q - h * from_.v - h * h * ((0.5 - beta_) * A0_ + beta_ * A1_);
+  return std::max(largest, share(q));
 }
 
 StepReport GeneralizedAlpha::newton(double h) {

@@ -27,6 +27,10 @@ class GeneralizedAlpha final : public Stepper {
   [[nodiscard]] const State& state() const override { return from_; }
   [[nodiscard]] const State& next() const override { return to_; }
   [[nodiscard]] const KktMatrix& matrix() const override { return matrix_; }
+  void force_residual(Eigen::Ref<VectorXd> r) const override { system_.force_residual(from_, r); }
+  /// Without the relation of positions where rigid rows move them by p.
+  [[nodiscard]] double relation_residual() const override { return relation_residual_; }
+  [[nodiscard]] bool keeps_rates() const override { return true; }
 
  private:
   [[nodiscard]] StepReport newton(double h);
@@ -34,13 +38,14 @@ class GeneralizedAlpha final : public Stepper {
   void predict(double h);
   [[nodiscard]] bool factor(double h);
   void correct(double h);
+  [[nodiscard]] double relation_defect(double h);
 
   const ConstrainedSystem& system_;
   double alpha_m_, alpha_f_, beta_, gamma_;
   KktMatrix matrix_;
   State from_, to_;
-  VectorXd A0_, A1_, saved_A0_;  ///< the method's own accelerations
-  double last_step_ = 0, factored_step_ = 0;
+  VectorXd A0_, A1_, saved_A0_, defect_;  ///< the method's own accelerations
+  double last_step_ = 0, factored_step_ = 0, relation_residual_ = 0;
   bool first_ = true;
   VectorXd constraint_residual_, constraint_rate_, velocity_correction_, position_correction_;
 };

@@ -8,6 +8,7 @@
 
 #include "solver/large_motion/solve/energy_momentum.h"
 #include "solver/large_motion/solve/generalized_alpha.h"
+#include "solver/large_motion/solve/motion_residuals.h"
 
 namespace trammel::solver::large_motion {
 
@@ -17,7 +18,11 @@ class TimeIntegration {
  public:
   TimeIntegration(const ConstrainedSystem& system, Stepper& stepper,
                   const IntegrationOptions& options, const Observer& observe)
-      : system_(system), stepper_(stepper), options_(options), observe_(observe) {}
+      : system_(system),
+        stepper_(stepper),
+        options_(options),
+        observe_(observe),
+        residuals_(system, stepper) {}
 
   IntegrationSummary run(State& state) {
     start_time_ = state.t;
@@ -33,6 +38,8 @@ class TimeIntegration {
       if (!summary_.outcome.solved()) break;
     }
     state = stepper_.state();
+    summary_.outcome = outcome_by_evidence(summary_.outcome, summary_.evidence,
+                                           {Residual::equation_of_motion, Residual::constraints});
     summary_.counters.factorizations = stepper_.matrix().factorizations();
     summary_.counters.solves = stepper_.matrix().solves();
     return summary_;
@@ -88,6 +95,7 @@ class TimeIntegration {
       failed_step = 0;
       failures = 0;
       stepper_.accept();
+      add_evidence(step);
       ++summary_.steps;
       summary_.min_step = std::min(summary_.min_step, step);
       if (options_.adaptive) {
@@ -116,6 +124,13 @@ class TimeIntegration {
     return false;
   }
 
+  void add_evidence(double step) {
+    residuals_.add_constraints(step, summary_.evidence);
+    if (state_time() < next_look_ && state_time() < options_.end_time) return;
+    next_look_ = state_time() + (options_.end_time - start_time_) / 200;
+    residuals_.add_equation_of_motion(summary_.evidence);
+  }
+
   void observe_state() {
     const State& state = stepper_.state();
     if (!state.q.allFinite() || !state.v.allFinite()) {
@@ -140,7 +155,8 @@ class TimeIntegration {
   const IntegrationOptions& options_;
   const Observer& observe_;
   IntegrationSummary summary_;
-  double start_time_ = 0;
+  MotionResiduals residuals_;
+  double start_time_ = 0, next_look_ = 0;
   std::int64_t max_steps_ = 0;
   const char* step_limit_reason_ = "too many steps";
   VectorXd constraint_residual_, constraint_rate_;
@@ -194,6 +210,7 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
   const IntegrationSummary second = integrate(system, state, fixed, combine);
   state = extrapolated;
   summary.outcome = second.outcome;
+  summary.evidence.add(second.evidence);
   summary.steps += second.steps;
   summary.rejected += second.rejected;
   summary.iterations += second.iterations;

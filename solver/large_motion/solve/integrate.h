@@ -6,6 +6,7 @@
 #include "solver/assembly/system.h"
 #include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/model/evidence.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver::large_motion {
@@ -25,6 +26,8 @@ struct IntegrationOptions {
 
 struct IntegrationSummary {
   Outcome outcome;  ///< not_converged names the step, the time and the residual
+  Evidence
+      evidence;  ///< constraints of every step; equation of motion at every hundredth of the time
   std::int64_t steps = 0, rejected = 0, iterations = 0;
   double min_step = 0;                 ///< [s]
   double max_constraint_residual = 0;  ///< of a rigid constraint at any observed time [m or rad]

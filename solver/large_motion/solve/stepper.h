@@ -30,6 +30,12 @@ class Stepper {
   [[nodiscard]] virtual const State& state() const = 0;
   [[nodiscard]] virtual const State& next() const = 0;
   [[nodiscard]] virtual const KktMatrix& matrix() const = 0;
+  /// The method's equation of motion of the step accepted last, from its states alone.
+  virtual void force_residual(Eigen::Ref<VectorXd> r) const = 0;
+  /// How far that step's q, v and a are from the method's relations, over their terms [-].
+  [[nodiscard]] virtual double relation_residual() const = 0;
+  /// Whether velocities meet the constraints at the ends of steps.
+  [[nodiscard]] virtual bool keeps_rates() const = 0;
 };
 
 }  // namespace trammel::solver::large_motion

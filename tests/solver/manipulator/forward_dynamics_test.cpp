@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/manipulator/inverse_dynamics.h"
+#include "solver/model/numbers.h"
 #include "tests/support/solver/table_1.h"
 
 namespace {
@@ -69,6 +70,24 @@ BOOST_AUTO_TEST_CASE(without_torque_the_energy_stays_and_a_platform_at_rest_rest
   for (const TrajectoryPoint& p : f.motion)
     BOOST_TEST(std::abs(inverse_dynamics(m, p).kinetic_energy / energy - 1) < 1e-8);
   BOOST_TEST(distance(f.motion.back().pose, start.pose) > 0.01);
+}
+
+BOOST_AUTO_TEST_CASE(torques_that_the_integration_saw_too_late_are_not_solved) {
+  RigidManipulator m = rigid_manipulator(table_1_design());
+  m.gravity = {0, -9.81};
+  const Path circle = Circle{{0.25, 0.144}, 0.01, 1};
+  for (const double late : {0.0, 1e-3}) {
+    double last = kNaN;  // the integration asks for a time before its evidence does
+    const auto torque = [&](double t) {
+      const bool first = t != last;
+      last = t;
+      return inverse_dynamics(m, at(circle, first ? t - late : t)).torque;
+    };
+    const ForwardDynamics f =
+        trammel::solver::forward_dynamics(m, at(circle, 0), torque, times_to(1, 10));
+    BOOST_TEST(f.outcome.solved() == (late == 0), f.outcome.reason);
+    if (late == 0) BOOST_TEST(f.evidence.largest(Residual::energy) < 1e-9);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_fall_into_a_singular_posture_ends_with_its_time_and_reason) {

@@ -1,0 +1,118 @@
+#include "solver/time/motion_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/linalg/backward_error.h"
+#include "solver/model/numbers.h"
+
+namespace trammel::solver {
+
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kLeastShare = 1e-3;
+/// Motions below have no digits: what numerical damping leaves of a vibration ends in them.
+constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
+
+}  // namespace
+
+MotionEvidence::MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme)
+    : matrices_(equation), scheme_(scheme) {
+  for (VectorXd* x : {&size_, &sum_, &terms_, &f_}) x->setZero(equation.M.rows());
+}
+
+void MotionEvidence::find_scale(double step) {
+  scale_ = VectorXd(matrices_.M().diagonal()) + step * step * VectorXd(matrices_.K().diagonal());
+  scale_ = scale_.cwiseAbs().cwiseSqrt();
+  for (double& s : scale_) {
+    if (!(s > 0)) s = 1;
+  }
+}
+
+void MotionEvidence::set_sizes(const VectorXd& x) {
+  const double largest = x.size() ? x.cwiseProduct(scale_).lpNorm<Eigen::Infinity>() : 0;
+  size_ = x.cwiseAbs().cwiseMax((kLeastShare * largest) * scale_.cwiseInverse());
+  size_.array() += kUnderflow;
+}
+
+void MotionEvidence::add_product(const SparseMatrix& A, const VectorXd& x) {
+  set_sizes(x);
+  for (Index column = 0; column < A.outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator it(A, column); it; ++it) {
+      sum_[it.row()] += it.value() * x[column];
+      terms_[it.row()] += std::abs(it.value()) * size_[column];
+    }
+  }
+}
+
+void MotionEvidence::add_equilibrium(double time, double load_time, const VectorXd& q,
+                                     const VectorXd& v, const VectorXd& A, double step) {
+  matrices_.load(load_time, f_);
+  matrices_.update(time);
+  if (scale_.size() == 0) find_scale(step);
+  sum_ = -f_;
+  terms_ = f_.cwiseAbs();
+  add_product(matrices_.M(), A);
+  add_product(matrices_.C(), v);
+  add_product(matrices_.K(), q);
+  evidence_.add(Residual::equation_of_motion, largest_ratio(sum_, terms_));
+}
+
+void MotionEvidence::add_relations(const TransientState& from, const TransientState& to, double h) {
+  if (scale_.size() == 0) find_scale(h);
+  const TimeScheme& s = scheme_;
+  const auto take = [this] {
+    set_sizes(terms_);
+    evidence_.add(Residual::equation_of_motion, largest_ratio(sum_, size_));
+  };
+  const double b0 = (0.5 - s.beta) * h * h, b1 = s.beta * h * h;
+  sum_ = to.q - from.q - h * from.v - b0 * from.a - b1 * to.a;
+  terms_ = to.q.cwiseAbs() + from.q.cwiseAbs() + h * from.v.cwiseAbs() +
+           std::abs(b0) * from.a.cwiseAbs() + b1 * to.a.cwiseAbs();
+  take();
+  sum_ = to.v - from.v - h * ((1 - s.gamma) * from.a + s.gamma * to.a);
+  terms_ = to.v.cwiseAbs() + from.v.cwiseAbs() + h * (from.a.cwiseAbs() + to.a.cwiseAbs());
+  take();
+  sum_ = (1 - s.alpha_m) * to.a + s.alpha_m * from.a - (1 - s.alpha_f) * to.acceleration -
+         s.alpha_f * from.acceleration;
+  terms_ = to.a.cwiseAbs() + from.a.cwiseAbs() + to.acceleration.cwiseAbs() +
+           from.acceleration.cwiseAbs();
+  take();
+}
+
+void MotionEvidence::add_energy(const TransientState& from, const TransientState& to, double h) {
+  const TimeScheme& s = scheme_;
+  const double a = h / 2 - h * (s.gamma - 0.5), b = h / 2 + h * (s.gamma - 0.5);
+  const double c = h * h * (s.beta - s.gamma / 2);
+  double added = 0.5 * ((a * from.a + b * to.a).dot(from.Mv + to.Mv) -
+                        ((h / 2) * (from.v + to.v) + c * (to.a - from.a)).dot(from.MA + to.MA));
+  if (!matrices_.constant()) {
+    added += 0.5 * (from.q.dot(to.Kq) - to.q.dot(from.Kq) + from.v.dot(to.Mv) - to.v.dot(from.Mv));
+  }
+  if (unbalanced_.size() > 0) {
+    added -= 0.5 * (to.q - from.q).dot(unbalanced_);
+    unbalanced_.setZero();
+  }
+  const MotionEnergy& e0 = from.energy;
+  const MotionEnergy& e1 = to.energy;
+  energy_ += e1.total() - e0.total() - added;
+  throughput_ +=
+      std::abs(e1.work - e0.work) + std::abs(e1.dissipated - e0.dissipated) + std::abs(added);
+  largest_energy_ = std::max(
+      {largest_energy_, e0.kinetic + std::abs(e0.strain), e1.kinetic + std::abs(e1.strain)});
+  largest_imbalance_ = std::max(largest_imbalance_, std::abs(energy_));
+  if (std::isnan(energy_)) largest_imbalance_ = energy_;
+  has_energy_ = true;
+}
+
+Evidence MotionEvidence::result() const {
+  Evidence all = evidence_;
+  const double size = largest_energy_ + throughput_ + kUnderflow;
+  if (has_energy_) all.add(Residual::energy, largest_imbalance_ / size);
+  return all;
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,115 @@
+#include "solver/large_motion/solve/motion_residuals.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "solver/large_motion/solve/generalized_alpha.h"
+#include "solver/large_motion/solve/integrate.h"
+#include "tests/support/solver/callable_system.h"
+
+namespace {
+
+using namespace trammel::solver;
+using namespace trammel::solver::large_motion;
+using trammel::testing::CallableSystem;
+
+/// A mass of 2 kg on a rod of 1 m, its weight and a force that changes with time.
+CallableSystem pendulum() {
+  return CallableSystem(
+      {.coordinates = 2,
+       .constraints = 1,
+       .mass = [](const VectorXd&) -> Eigen::MatrixXd { return 2 * Eigen::Matrix2d::Identity(); },
+       .force = [](double t, const VectorXd&, const VectorXd& v) -> VectorXd {
+         return Eigen::Vector2d(3 * std::sin(5 * t), -19.62) - 0.1 * v;
+       },
+       .constraint_residual = [](double, const VectorXd& q) -> VectorXd {
+         return VectorXd::Constant(1, (q.squaredNorm() - 1) / 2);
+       },
+       .jacobian = [](double, const VectorXd& q) -> Eigen::MatrixXd { return q.transpose(); },
+       .constraint_time_derivative = {},
+       .scale = Eigen::Vector2d(1, 1)});
+}
+
+/// Claims another state than the one that generalized-alpha has found.
+class FalseClaim final : public Stepper {
+ public:
+  FalseClaim(const ConstrainedSystem& system, std::function<void(State&)> change)
+      : system_(system), found_(system, 0.9), change_(std::move(change)) {}
+  StepReport attempt(double h) override { return found_.attempt(h); }
+  void begin(const State& state) override { found_.begin(state); }
+  void accept() override {
+    found_.accept();
+    claimed_ = found_.state();
+    change_(claimed_);
+  }
+  [[nodiscard]] const State& state() const override { return claimed_; }
+  [[nodiscard]] const State& next() const override { return found_.next(); }
+  [[nodiscard]] const KktMatrix& matrix() const override { return found_.matrix(); }
+  void force_residual(Eigen::Ref<VectorXd> r) const override {
+    system_.force_residual(claimed_, r);
+  }
+  [[nodiscard]] double relation_residual() const override { return found_.relation_residual(); }
+  [[nodiscard]] bool keeps_rates() const override { return true; }
+
+ private:
+  const ConstrainedSystem& system_;
+  GeneralizedAlpha found_;
+  std::function<void(State&)> change_;
+  State claimed_;
+};
+
+/// The outcome of ten steps whose last state is claimed to be another.
+Outcome outcome_of(const std::function<void(State&)>& change) {
+  const CallableSystem system = pendulum();
+  State state;
+  state.q = Eigen::Vector2d(0.6, -0.8);
+  state.v = state.a = Eigen::Vector2d::Zero();
+  state.lambda = VectorXd::Zero(1);
+  BOOST_TEST_REQUIRE(make_consistent(system, state, {}, 0.01).solved());
+  FalseClaim stepper(system, change);
+  stepper.begin(state);
+  for (int i = 0; i < 10; ++i) {
+    BOOST_TEST_REQUIRE(stepper.attempt(0.01).converged);
+    stepper.accept();
+  }
+  MotionResiduals residuals(system, stepper);
+  Evidence evidence;
+  residuals.add_equation_of_motion(evidence);
+  residuals.add_constraints(0.01, evidence);
+  return outcome_by_evidence({}, evidence, {Residual::equation_of_motion, Residual::constraints});
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(motion_residuals)
+
+BOOST_AUTO_TEST_CASE(a_motion_that_was_found_is_solved_and_changed_ones_are_not) {
+  const Outcome found = outcome_of([](State&) {});
+  BOOST_TEST(found.solved(), found.reason);
+  const auto refused = [](const std::function<void(State&)>& change, const char* residual) {
+    const Outcome outcome = outcome_of(change);
+    BOOST_TEST(!outcome.solved());
+    BOOST_TEST(outcome.reason.find(residual) != std::string::npos, outcome.reason);
+  };
+  refused([](State& s) { s.a.setZero(); }, "equation of motion");         // no inertia
+  refused([](State& s) { s.t -= 0.01; }, "equation of motion");           // a stale force
+  refused([](State& s) { s.v = -s.v; }, "equation of motion");            // damping of wrong sign
+  refused([](State& s) { s.lambda *= 1 + 1e-3; }, "equation of motion");  // an early stop
+  refused([](State& s) { s.q += 1e-8 * s.q; }, "constraints");            // drift off the rod
+  refused([](State& s) { s.v += 1e-5 * s.q; }, "constraints");
+}
+
+BOOST_AUTO_TEST_CASE(an_integration_shows_its_residuals) {
+  const CallableSystem system = pendulum();
+  State state;
+  state.q = Eigen::Vector2d(0.6, -0.8);
+  state.v = state.a = Eigen::Vector2d::Zero();
+  state.lambda = VectorXd::Zero(1);
+  BOOST_TEST_REQUIRE(make_consistent(system, state, {}, 0.01).solved());
+  const IntegrationSummary summary = integrate(system, state, {.end_time = 1, .step = 0.01});
+  BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
+  BOOST_TEST(summary.evidence.largest(Residual::constraints) < 1e-13);
+  BOOST_TEST(summary.evidence.largest(Residual::equation_of_motion) < 1e-12);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
