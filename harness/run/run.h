@@ -21,9 +21,9 @@ struct RunOptions {
   TrackedQuantities tracked = TrackedQuantities::named;
   /// Called after each computation with how many of how many are done.
   std::function<void(std::size_t done, std::size_t all)> progress;
-  std::filesystem::path store;   ///< folder that computations are kept in; empty: none
-  bool resume = false;           ///< takes over what the store has
-  std::size_t memory_bytes = 0;  ///< that one computation may use; 0: no limit
+  std::filesystem::path store = {};  ///< folder that computations are kept in; empty: none
+  bool resume = false;               ///< takes over what the store has
+  std::size_t memory_bytes = 0;      ///< that one computation may use; 0: no limit
 };
 
 /// What the process of a run answers: all but the judgement.
