@@ -9,6 +9,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/one_line.h"
+#include "harness/base/processes.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_claims.h"
 #include "harness/cli/command_compare.h"
@@ -48,7 +49,8 @@ Examples:
   trammel report ~/my-robot.json            a page of your own case
 
 Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
-folder of --out that another call writes, 3 a fault of trammel.)";
+folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
+(143 by SIGTERM).)";
 
 /// All words of the command line, and what to do with them.
 class CommandLine {
@@ -114,6 +116,16 @@ class CommandLine {
     sub->add_option("-o,--out", run_.out, what)->capture_default_str();
   }
 
+  void add_store(CLI::App* sub) {
+    sub->add_flag("--resume", run_.resume,
+                  "Take what an earlier call left in the store, and compute only what is missing");
+    sub->add_option("--store", run_.store,
+                    "Folder where each run is kept as it ends; OUT/store by default");
+    sub->add_option("--max-memory", run_.memory_bytes,
+                    "What one run may take, as 500MB or 2GB; the machine's by default")
+        ->transform(CLI::AsSizeValue(false));
+  }
+
   void define_list() {
     CLI::App* sub = add("list", "The cases of the catalogue",
                         "\nExamples:\n  trammel list\n  trammel list -L manipulator --json");
@@ -146,6 +158,7 @@ class CommandLine {
     sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
     add_jobs(sub);
     add_out(sub, "Folder for results.json and junit.xml");
+    add_store(sub);
     sub->callback([this] {
       if (run_.cases.empty() && run_.labels.empty()) {
         throw CLI::RequiredError("a case or a label");
@@ -256,12 +269,20 @@ class CommandLine {
     sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
     add_jobs(sub);
     add_out(sub, "Folder for the page, its figures and data, results.json and junit.xml");
+    add_store(sub);
     sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
   }
 
   const Renderers& renderers_;
   CLI::App app_{kAbout};
-  RunCommand run_{{}, {}, "", std::max(1U, std::thread::hardware_concurrency()), "trammel-results"};
+  RunCommand run_{{},
+                  {},
+                  "",
+                  std::max(1U, std::thread::hardware_concurrency()),
+                  "trammel-results",
+                  "",
+                  false,
+                  machine_memory_bytes()};
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   EffectsCommand effects_;
   std::string name_, other_;
@@ -283,6 +304,9 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
   } catch (const InputError& error) {
     std::cerr << one_line(error.what()) << '\n';
     return 2;
+  } catch (const Interrupted& interrupted) {
+    std::cerr << interrupted.what() << '\n';
+    return 128 + interrupted.signal;
   } catch (const std::exception& error) {
     std::cerr << "trammel: a fault of its own: " << one_line(error.what()) << '\n';
     return 3;

@@ -23,6 +23,8 @@
 namespace trammel::harness {
 namespace {
 
+constexpr const char* kResume = "with --resume the same command does what is missing";
+
 /// Cases to run, and the runs of those that could not even be read.
 struct Selection {
   std::vector<Case> cases;
@@ -66,10 +68,14 @@ void require_variant(const std::vector<Case>& cases, const std::string& variant)
 }
 
 std::vector<Run> compute(const Selection& selection, const References& references,
-                         const RunOptions& asked) {
+                         const RunCommand& command) {
   Progress progress("runs");
-  RunOptions options = asked;
+  RunOptions options{command.variant, command.jobs, TrackedQuantities::named, {}};
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  options.store = std::filesystem::path(command.out) / "store";
+  if (!command.store.empty()) options.store = command.store;
+  options.resume = command.resume;
+  options.memory_bytes = command.memory_bytes;
   std::vector<Run> runs = run_cases(selection.cases, references, options);
   runs.insert(runs.end(), selection.broken.begin(), selection.broken.end());
   return runs;
@@ -274,8 +280,8 @@ int report_cases(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
   const OutputLock lock(command.out);
   const References references;
-  const std::vector<Run> runs =
-      compute(selection, references, {command.variant, command.jobs, TrackedQuantities::named, {}});
+  const std::vector<Run> runs = compute(selection, references, command);
+  require_complete(runs, kResume);
   print_failed_runs(runs);
   write_page(results_of(runs, selection.cases, references), runs, command.out, renderers);
   return exit_status(runs);
@@ -287,10 +293,9 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
   const OutputLock lock(command.out);
   const References references;
-  const std::vector<Run> runs =
-      compute(selection, references, {command.variant, command.jobs, TrackedQuantities::named, {}});
+  const std::vector<Run> runs = compute(selection, references, command);
   for (const Run& run : runs) {
-    if (run.error != Run::RunError::none) continue;
+    if (run.error != Run::RunError::none || run.interrupted_by != 0) continue;
     print_run(run);
     if (runs.size() == 1) print_validation(run, std::cout);
   }
@@ -299,6 +304,7 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   print_summary(runs);
   std::cout << "results in " << results.string() << std::endl;
   print_run_errors(runs);
+  require_complete(runs, kResume);
   return exit_status(runs);
 }
 
@@ -309,8 +315,8 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   const Catalogue catalogue;
   const Selection selection = load(catalogue.runnable_files(), catalogue);
   const References references;
-  const std::vector<Run> runs =
-      compute(selection, references, {"", command.jobs, TrackedQuantities::named, {}});
+  const std::vector<Run> runs = compute(selection, references, command);
+  require_complete(runs, kResume);
   print_failed_runs(runs);
   std::vector<std::string> error_messages;
   results::CostStudies cost = quick_cost(references, error_messages);

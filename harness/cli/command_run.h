@@ -13,6 +13,9 @@ struct RunCommand {
   std::string variant;
   unsigned jobs = 1;
   std::string out;
+  std::string store = {};  ///< folder; empty: in `out`
+  bool resume = false;
+  std::size_t memory_bytes = 0;  ///< of one run; 0: no limit
 };
 
 /// Computes cases and judges them. @returns the exit status

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/base/content_hash.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
@@ -63,16 +64,13 @@ CitedReference References::read(const fs::path& file) const {
 
 const references::Reference& References::get(const JsonView& id) const {
   const auto name = id.get<std::string>();
-  const std::lock_guard<std::mutex> guard(lock_);
   if (stored_.empty()) stored_ = references::reference_files(stored().string());
   std::vector<fs::path> files = places_beside(name, id.document().origin(id.pointer()).file);
   if (const auto file = stored_.find(name); file != stored_.end()) files.emplace_back(file->second);
   for (const fs::path& file : files) {
     std::error_code error;
-    if (!fs::is_regular_file(file, error)) continue;
-    auto found = read_.find(file);
-    if (found == read_.end()) found = read_.emplace(file, read(file)).first;
-    return found->second.reference;
+    if (fs::is_regular_file(file, error)) return add(file);
+    absent_.insert(file);
   }
   std::vector<std::string> names;
   for (const auto& item : stored_) names.push_back(item.first);
@@ -83,8 +81,20 @@ const references::Reference& References::get(const JsonView& id) const {
                  join(places, "and") + ")" + did_you_mean(name, names));
 }
 
+const references::Reference& References::add(const fs::path& file) const {
+  auto found = read_.find(file);
+  if (found == read_.end()) found = read_.emplace(file, read(file)).first;
+  return found->second.reference;
+}
+
+std::map<std::string, std::string> References::hashes() const {
+  std::map<std::string, std::string> hashes;
+  for (const fs::path& file : absent_) hashes[file.string()];
+  for (const auto& item : read_) hashes[item.first.string()] = file_hash(item.first);
+  return hashes;
+}
+
 std::map<std::string, CitedReference> References::used() const {
-  const std::lock_guard<std::mutex> guard(lock_);
   std::map<std::string, CitedReference> by_name;
   for (const auto& item : read_) by_name.emplace(item.second.reference.id, item.second);
   return by_name;

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <map>
-#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,13 +18,18 @@ struct CitedReference {
   references::Source source;
 };
 
-/// References by name, read once: from beside the case file, else from the catalogue. Safe to ask
-/// from several threads.
+/// References by name, read once: from beside the case file, else from the catalogue.
 class References {
  public:
   /// @param id      a place that holds the name
   /// @throws InputError  where there is no such reference or its file is broken.
   [[nodiscard]] const references::Reference& get(const JsonView& id) const;
+
+  /// The one in a file. @throws InputError  where it is broken.
+  const references::Reference& add(const std::filesystem::path& file) const;
+
+  /// Hash of every file that was looked for so far, empty for one that is not there.
+  [[nodiscard]] std::map<std::string, std::string> hashes() const;
 
   /// All that were asked for so far, by name.
   [[nodiscard]] std::map<std::string, CitedReference> used() const;
@@ -35,10 +40,10 @@ class References {
   [[nodiscard]] references::Source source(const std::string& key,
                                           const std::filesystem::path& file) const;
 
-  mutable std::mutex lock_;
   mutable std::map<std::string, std::string> stored_;  // by id, listed once
   mutable std::map<std::filesystem::path, references::Bibliography> bibliographies_;
   mutable std::map<std::filesystem::path, CitedReference> read_;
+  mutable std::set<std::filesystem::path> absent_;  // looked for in vain
 };
 
 }  // namespace trammel::harness

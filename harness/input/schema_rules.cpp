@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <mutex>
 
 #include "harness/base/data_root.h"
 #include "harness/base/errors.h"
@@ -18,9 +17,7 @@ const SchemaRule* keyword(const SchemaRule& rule, const char* name) {
 }
 
 const SchemaRule& load_schema(const std::string& name) {
-  static std::mutex lock;
   static std::map<std::string, std::pair<std::string, rapidjson::Document>> loaded;
-  const std::lock_guard<std::mutex> guard(lock);
   const auto [entry, fresh] = loaded.try_emplace(name);
   if (fresh) {
     const auto file = data_root() / "cases" / "schema" / (name + ".schema.json");

@@ -1,15 +1,15 @@
 #include "harness/run/run.h"
 
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 #include <exception>
-#include <map>
-#include <mutex>
 #include <set>
-#include <thread>
 
+#include "harness/base/json_file.h"
 #include "harness/base/one_line.h"
+#include "harness/base/processes.h"
 #include "harness/base/stopwatch.h"
+#include "harness/run/run_store.h"
 #include "harness/studies/run_sweeps.h"
 
 namespace trammel::harness {
@@ -64,7 +64,6 @@ Task prepare(const Case& owner, const std::string& variant, bool requested) {
   task.requested = requested;
   task.run.case_id = owner.id();
   task.run.variant = variant;
-  task.run.status = "not-run";
   run_guarded(task.run, [&] {
     task.document = patched(owner, variant);
     task.checks = read_checks(task.document, variant, owner.variants());
@@ -95,7 +94,6 @@ std::vector<Task> prepare_case(const Case& owner, const std::string& chosen) {
 }
 
 void compute(Task& task, const References& references) {
-  if (task.run.status == "error") return;
   const Stopwatch watch;
   run_guarded(task.run, [&] {
     task.run.result = analyse(task.document, references, {task.requested});
@@ -119,25 +117,74 @@ void compare_for_validation(Task& task, const References& references) {
   task.run.uncertainty_wall_s = watch.wall_s();
 }
 
-void compute_all(std::vector<Task>& tasks, const References& references,
-                 const RunOptions& options) {
-  std::atomic<std::size_t> next{0};
-  std::size_t done = 0;
-  std::mutex lock;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < tasks.size(); i = next++) {
-      compute(tasks[i], references);
-      compare_for_validation(tasks[i], references);
-      const std::lock_guard<std::mutex> guard(lock);
-      ++done;
-      if (options.progress) options.progress(done, tasks.size());
-    }
+std::string answer_of(Task task) {
+  const References references;
+  compute(task, references);
+  compare_for_validation(task, references);
+  task.run.references = references.hashes();
+  if (!task.run.result.timings.empty()) task.run.machine = machine_name();
+  return to_bytes(task.run);
+}
+
+/// The case's own limit of processor time [s].
+unsigned time_limit_s(const Document& document) {
+  constexpr double kDefault = 120, kLongest = 1e7;
+  return static_cast<unsigned>(
+      std::ceil(std::min(document.value().value("timeout_s", kDefault), kLongest)));
+}
+
+void mark_ended(Task& task, const ProcessOutcome& outcome) {
+  using Termination = ProcessOutcome::Termination;
+  const auto expected = [&](const std::string& pointer, const std::string& what) {
+    const std::string found = " (" + task.run.variant + ": " + outcome.text + ")";
+    mark_failed(task.run, task.document.error(pointer, "expected " + what + found).what(),
+                Run::RunError::input);
   };
-  std::vector<std::thread> threads;
-  const std::size_t jobs = std::min<std::size_t>(std::max(1U, options.jobs), tasks.size());
-  for (std::size_t j = 1; j < jobs; ++j) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
+  switch (outcome.termination) {
+    case Termination::answered:
+      static_cast<Computation&>(task.run) = computation_from(outcome.text);
+      break;
+    case Termination::timed_out:
+      expected("/timeout_s", "a computation within timeout_s");
+      break;
+    case Termination::out_of_memory:
+      expected("", "a model that fits into memory");
+      break;
+    case Termination::not_started:
+      expected("", "a system that has room for its process");
+      break;
+    case Termination::crashed:
+      mark_failed(task.run,
+                  "a fault of trammel itself: " + task.run.case_id + ":" + task.run.variant + ": " +
+                      outcome.text,
+                  Run::RunError::internal);
+  }
+}
+
+/// Does what the store does not have. @returns the signal that ended it early, else 0
+int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
+  std::vector<ProcessTask> work;
+  std::vector<std::pair<Task*, std::filesystem::path>> open;
+  for (Task& task : tasks) {
+    std::filesystem::path file;
+    if (task.run.status == "error") continue;
+    if (!options.store.empty())
+      file = options.store / (computation_name(task.document, task.requested) + ".cbor");
+    if (options.resume && find_stored(file, task.run)) continue;
+    work.push_back({[&task] { return answer_of(task); }, time_limit_s(task.document)});
+    open.emplace_back(&task, std::move(file));
+  }
+  std::error_code error;
+  if (!options.store.empty()) std::filesystem::create_directories(options.store, error);
+  std::size_t done = tasks.size() - work.size();
+  return run_in_processes(work, {options.jobs, options.memory_bytes},
+                          [&](std::size_t i, const ProcessOutcome& outcome) {
+                            const auto& [task, file] = open[i];
+                            mark_ended(*task, outcome);
+                            if (!file.empty() && task->run.status != "error")
+                              write_file(file, outcome.text);
+                            if (options.progress) options.progress(++done, tasks.size());
+                          });
 }
 
 /// How the computation ended, as a check of its own where that is not plain.
@@ -164,6 +211,13 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   if (run.status == "error") {
     for (const Check& check : task.checks) {
       run.check_results.push_back(failed_check_result(check, "not computed: " + run.reason));
+    }
+    return;
+  }
+  if (run.status == "not-run") {
+    for (const Check& check : task.checks) {
+      run.check_results.push_back(failed_check_result(check, "interrupted"));
+      run.check_results.back().verdict = results::Verdict::not_run;
     }
     return;
   }
@@ -202,8 +256,11 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
     std::vector<Task> case_tasks = prepare_case(owner, options.variant);
     std::move(case_tasks.begin(), case_tasks.end(), std::back_inserter(tasks));
   }
-  compute_all(tasks, references, options);
+  const int signal = compute_all(tasks, options);
   for (Task& task : tasks) {
+    for (const auto& [file, hash] : task.run.references)
+      if (!hash.empty()) (void)references.add(file);
+    if (task.run.status == "not-run") task.run.interrupted_by = signal;
     if (task.requested)
       run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
   }
@@ -212,6 +269,12 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
     if (task.requested) runs.push_back(std::move(task.run));
   }
   return runs;
+}
+
+void require_complete(const std::vector<Run>& runs, const std::string& how_to_go_on) {
+  for (const Run& run : runs)
+    if (run.interrupted_by != 0)
+      throw Interrupted(run.interrupted_by, "trammel: interrupted; " + how_to_go_on);
 }
 
 NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs) {

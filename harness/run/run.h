@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,31 +19,45 @@ struct RunOptions {
   std::string variant;  ///< empty: all
   unsigned jobs = 1;
   TrackedQuantities tracked = TrackedQuantities::named;
-  /// Called after each computation with how many of how many are done; from any thread, one at a
-  /// time.
+  /// Called after each computation with how many of how many are done.
   std::function<void(std::size_t done, std::size_t all)> progress;
+  std::filesystem::path store = {};  ///< folder that computations are kept in; empty: none
+  bool resume = false;               ///< takes over what the store has
+  std::size_t memory_bytes = 0;      ///< that one computation may use; 0: no limit
 };
 
-/// What came of one variant of a case.
-struct Run {
-  std::string case_id, variant;
-  std::string status;  ///< solved, singular, not-converged, error or not-run
+/// What the process of a run answers: all but the judgement.
+struct Computation {
+  std::string status = "not-run";  ///< solved, singular, not-converged, error or not-run
   std::string reason;
   enum class RunError { none, input, internal };
   RunError error = RunError::none;  ///< of a run with status "error"
   AnalysisResult result;
   std::vector<Sweep> sweeps;
-  std::vector<CheckResult> check_results;
-  std::vector<Convergence> convergence;
-  ValidationUncertainty uncertainty;  ///< empty where the case does not ask for it
-  double wall_s = 0, cpu_s = 0;       ///< of the computation and its sweeps
-  double uncertainty_wall_s = 0;      ///< of `uncertainty`
+  ValidationUncertainty uncertainty;              ///< empty where the case does not ask for it
+  double wall_s = 0, cpu_s = 0;                   ///< of the computation and its sweeps
+  double uncertainty_wall_s = 0;                  ///< of `uncertainty`
+  std::map<std::string, std::string> references;  ///< files looked for, and their hashes
+  std::string machine;                            ///< where it has measured times
 };
 
-/// Runs the cases, and judges them. The numbers do not depend on `jobs`.
-/// Bad input spoils its own run only: that run has the status "error".
+/// What came of one variant of a case.
+struct Run : Computation {
+  std::string case_id, variant;
+  int interrupted_by = 0;  ///< the signal that came before it was done
+  std::vector<CheckResult> check_results;
+  std::vector<Convergence> convergence;
+};
+
+/// Runs the cases, each run in a process of its own, and judges them. The numbers do not depend on
+/// `jobs`. Bad input, a crash, more processor time than the case's timeout_s or too much memory
+/// spoils its own run only: that run has the status "error". Those that SIGINT or SIGTERM has kept
+/// from being done are "not-run".
 [[nodiscard]] std::vector<Run> run_cases(const std::vector<Case>& cases,
                                          const References& references, const RunOptions& options);
+
+/// @throws Interrupted  where one of the runs was, saying how to go on.
+void require_complete(const std::vector<Run>& runs, const std::string& how_to_go_on);
 
 /// The bands of all refinements of the runs against the exact values, where there are any.
 [[nodiscard]] NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs);

@@ -1,25 +1,17 @@
 #include "harness/studies/sandboxed_run.h"
 
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <exception>
-#include <iostream>
 
 #include "harness/analysis/analysis.h"
+#include "harness/base/errors.h"
 #include "harness/base/json.h"
+#include "harness/base/processes.h"
 #include "harness/base/stopwatch.h"
 
 namespace trammel::harness {
 namespace {
-
-/// Wall time beyond which a process that uses none of its processor time counts as hung.
-constexpr unsigned kHangTimeoutFactor = 20;
 
 Json answer(const Setting& setting, const References& references) {
   Json json = Json::object();
@@ -35,37 +27,12 @@ Json answer(const Setting& setting, const References& references) {
     }
     json["values"] = observe(result.quantities, setting.observed);
   } catch (const std::bad_alloc&) {
-    json["failure"] = "more memory than there is";
+    throw;
   } catch (const std::exception& error) {
     json["failure"] = error.what();
   }
   if (!json.contains("cpu_s")) json["cpu_s"] = watch.cpu_s();
   return json;
-}
-
-[[noreturn]] void compute(const Setting& setting, int time_limit_s, const References& references,
-                          int out) {
-  const auto seconds = static_cast<rlim_t>(time_limit_s);
-  const rlimit limit{seconds, seconds + 1};
-  setrlimit(RLIMIT_CPU, &limit);
-  alarm(kHangTimeoutFactor * static_cast<unsigned>(time_limit_s));
-  const std::string text = answer(setting, references).dump(-1, ' ', true);
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t n = write(out, text.data() + written, text.size() - written);
-    if (n <= 0) break;
-    written += static_cast<std::size_t>(n);
-  }
-  _exit(0);
-}
-
-std::string read_all(int in) {
-  std::string text;
-  std::array<char, 65536> buffer{};
-  for (ssize_t n = 0; (n = read(in, buffer.data(), buffer.size())) > 0;) {
-    text.append(buffer.data(), static_cast<std::size_t>(n));
-  }
-  return text;
 }
 
 SandboxedRun read_answer(const std::string& text) {
@@ -97,31 +64,21 @@ SandboxedRun read_answer(const std::string& text) {
 }  // namespace
 
 SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s, const References& references) {
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe for a trial");
-  std::cout.flush();
-  std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no process for a trial");
-  if (child == 0) {
-    close(ends[0]);
-    compute(setting, time_limit_s, references, ends[1]);
-  }
-  close(ends[1]);
-  const std::string text = read_all(ends[0]);
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!WIFSIGNALED(status)) return read_answer(text);
   SandboxedRun sandboxed;
-  const int signal = WTERMSIG(status);
-  if (signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL) {
+  const auto end = [&](std::size_t, const ProcessOutcome& outcome) {
+    if (outcome.termination == ProcessOutcome::Termination::answered) {
+      sandboxed = read_answer(outcome.text);
+      return;
+    }
+    sandboxed.reason = outcome.text;
+    if (outcome.termination != ProcessOutcome::Termination::timed_out) return;
     sandboxed.termination = SandboxedRun::Termination::timed_out;
     sandboxed.cpu_s = time_limit_s;
-    sandboxed.reason = "not done after " + std::to_string(time_limit_s) + " s of processor time";
-  } else {
-    sandboxed.reason = "the computation crashed (signal " + std::to_string(signal) + ")";
-  }
+  };
+  const auto work = [&] { return answer(setting, references).dump(-1, ' ', true); };
+  const int signal = run_in_processes({{work, static_cast<unsigned>(time_limit_s)}},
+                                      {1, machine_memory_bytes()}, end);
+  if (signal != 0) throw Interrupted(signal, "interrupted");
   return sandboxed;
 }
 

@@ -173,6 +173,32 @@ BOOST_AUTO_TEST_CASE(bad_input_spoils_its_own_run_only) {
   BOOST_TEST(exit_status(runs) == 2);
 }
 
+BOOST_AUTO_TEST_CASE(more_time_or_memory_than_allowed_costs_its_own_run_alone) {
+  const Folder folder;
+  Json slow = testing::endless(), large = testing::cantilever();
+  slow["timeout_s"] = 1;
+  large["id"] = "large";
+#ifndef __SANITIZE_ADDRESS__  // which knows no limit of memory
+  large["model"]["elements"] = 1000000;
+#endif
+  const References references;
+  RunOptions options;
+  options.jobs = 2;
+  options.memory_bytes = 400000000;
+  const auto runs = run_cases({testing::read(folder, slow), testing::read(folder, large),
+                               testing::read(folder, testing::cantilever())},
+                              references, options);
+  BOOST_TEST(contains(runs[0].reason,
+                      "/timeout_s: expected a computation within timeout_s (base: not done after "
+                      "1 s of processor time)"),
+             runs[0].reason);
+#ifndef __SANITIZE_ADDRESS__
+  BOOST_TEST(contains(runs[1].reason, "fits into memory"), runs[1].reason);
+#endif
+  BOOST_TEST(runs[2].status == "solved");
+  BOOST_TEST(exit_status(runs) == 2);
+}
+
 BOOST_AUTO_TEST_CASE(a_variant_that_is_looked_at_is_computed_but_not_told) {
   const Folder folder;
   Json json = testing::cantilever();

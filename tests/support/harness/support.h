@@ -78,6 +78,19 @@ inline Json cantilever() {
   })");
 }
 
+/// The cantilever in ten million steps of time: minutes.
+inline Json endless() {
+  Json json = cantilever();
+  json["id"] = "endless";
+  json["model"]["elements"] = 40;
+  json["analysis"] = {{"transient",
+                       {{"duration_s", 1000},
+                        {"step_s", 1e-4},
+                        {"samples", 10},
+                        {"outputs", {"displacement_y_m:B"}}}}};
+  return json;
+}
+
 /// A quarter of a ring between radii 1 m and 2 m, held on its two straight edges, 0.3 MPa outside.
 inline Json quarter_ring() {
   return Json::parse(R"({

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace trammel::harness {
+
+/// The UUID of version 5 (RFC 9562) that names a text: 122 bits of its SHA-1.
+[[nodiscard]] std::string content_hash(const std::string& text);
+
+/// The same of a file; empty where there is none that can be read.
+[[nodiscard]] std::string file_hash(const std::filesystem::path& file);
+
+}  // namespace trammel::harness

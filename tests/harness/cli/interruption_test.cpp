@@ -1,0 +1,60 @@
+// ctest: labels=program timeout=300
+#include "tests/support/harness/interruption.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "harness/base/json_file.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::contains;
+using testing::Folder;
+
+BOOST_AUTO_TEST_SUITE(interruption)
+
+BOOST_AUTO_TEST_CASE(ten_kills_lose_and_double_nothing) {
+  testing::interrupt_and_resume(10, 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_computation_that_is_killed_from_outside_costs_its_run_alone) {
+  const Folder folder;
+  const auto files =
+      std::array{folder.write(testing::endless()), folder.write(testing::cantilever())};
+  const auto out = folder.path() / "out";
+  const pid_t program = fork();
+  if (program == 0) {
+    const auto log = folder.path() / "log";
+    if (std::freopen(log.c_str(), "w", stderr) == nullptr) _exit(126);
+    if (std::freopen("/dev/null", "w", stdout) == nullptr) _exit(126);
+    execl(TRAMMEL_PROGRAM, "trammel", "run", files[0].c_str(), files[1].c_str(), "--jobs", "1",
+          "--out", out.c_str(), nullptr);
+    _exit(127);
+  }
+  const std::string id = std::to_string(program);
+  pid_t child = 0;
+  for (int i = 0; i < 3000 && child == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::ifstream("/proc/" + id + "/task/" + id + "/children") >> child;
+  }
+  BOOST_REQUIRE(child > 0);
+  kill(child, SIGSEGV);
+  int status = 0;
+  waitpid(program, &status, 0);
+  BOOST_TEST(WEXITSTATUS(status) == 3);
+  const Json runs = read_json(out / "results.json")["runs"];
+  BOOST_TEST(runs[0]["status"] == "error");
+  BOOST_TEST(contains(runs[0]["reason"].get<std::string>(), "crashed (signal 11"));
+  BOOST_TEST(runs[1]["status"] == "solved");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,154 @@
+#include "harness/run/run_store.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "harness/base/json_file.h"
+#include "harness/run/results.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> entries(const fs::path& store) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(store)) files.push_back(entry.path());
+  return files;
+}
+
+/// A cantilever and variants of it, one with a reference beside the case.
+Json cases(const Folder& folder, double reference_N) {
+  (void)folder.write({{"id", "load"},
+                      {"title", "Load"},
+                      {"kind", "computed"},
+                      {"unit", "N"},
+                      {"values", {reference_N}},
+                      {"uncertainty", {{"absolute", 0}}},
+                      {"source", "me"},
+                      {"place", "here"}});
+  Json json = testing::cantilever();
+  json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};
+  json["variants"]["unsupported"]["model"]["supports"] = {{"A", {"x", "y"}}};
+  json["sweeps"]["elements"] = {
+      {"pointers", {"/model/elements"}}, {"values", {1, 2, 4}}, {"theory_order", 4}};
+  return json;
+}
+
+struct Resumed {
+  std::string results;
+  std::vector<double> wall_s;  ///< of a run taken from the store as it was when it was computed
+};
+
+Resumed run_all(const Folder& folder, const Json& json, bool resume) {
+  const References references;
+  const std::vector<Case> all = {testing::read(folder, json)};
+  RunOptions options;
+  options.store = folder.path() / "store";
+  options.resume = resume;
+  const std::vector<Run> runs = run_cases(all, references, options);
+  Json results = to_json(results_of(runs, all, references));
+  results["environment"].erase("date");
+  Resumed resumed{results.dump(), {}};
+  for (const Run& run : runs) resumed.wall_s.push_back(run.wall_s);
+  return resumed;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(run_store)
+
+BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
+  Computation computation;
+  computation.status = "solved";
+  computation.result.quantities["q"] = {
+      {0.1, -0.0, 5e-324, std::nan(""), -std::numeric_limits<double>::infinity()}, {1e-16}};
+  computation.result.drawing.emplace();
+  computation.result.drawing->nodes = {{0.1, std::nan("")}};
+  computation.result.drawing->members = {{0, 0}};
+  computation.result.effects = {{solver::Effect::shear, true, false, {}, 1.0 / 3, "why"}};
+  computation.sweeps = {{"s", {{2, computation.result.quantities}}}};
+  const std::string bytes = to_bytes(computation);
+  const Computation again = computation_from(bytes);
+  BOOST_TEST(to_bytes(again) == bytes);
+  const auto& values = again.result.quantities.at("q").values;
+  BOOST_TEST((values[0] == 0.1 && std::signbit(values[1]) && values[2] == 5e-324 &&
+              std::isnan(values[3]) && std::isinf(values[4])));
+}
+
+BOOST_AUTO_TEST_CASE(a_resumed_run_gives_the_same_results_times_included) {
+  const Folder folder;
+  const Json json = cases(folder, 100);
+  const std::string first = run_all(folder, json, false).results;
+  BOOST_TEST(entries(folder.path() / "store").size() == 3);
+  BOOST_TEST(run_all(folder, json, true).results == first);
+}
+
+BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
+  const Folder folder;
+  const Json json = cases(folder, 100);
+  const Resumed first = run_all(folder, json, false);
+  const auto files = entries(folder.path() / "store");
+  const std::string whole = read_text(files[0]);
+  std::string bent = whole;
+  bent[bent.size() / 2] = static_cast<char>(bent[bent.size() / 2] ^ 1);
+  for (const std::string& broken :
+       {std::string(), whole.substr(0, 20), whole.substr(0, whole.size() / 2), bent}) {
+    write_file(files[0], broken);
+    const Resumed again = run_all(folder, json, true);
+    int kept = 0;
+    for (std::size_t i = 0; i < 3; ++i) kept += int(again.wall_s[i] == first.wall_s[i]);
+    BOOST_TEST(kept == 2);
+    Computation found;
+    BOOST_TEST(find_stored(files[0], found));
+    write_file(files[0], whole);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_decides_a_run_decides_its_name) {
+  const Folder folder;
+  Json json = cases(folder, 100);
+  const auto name = [&] { return computation_name(testing::read(folder, json).document, true); };
+  const std::string first = name();
+  BOOST_TEST(name() == first);
+  BOOST_TEST(computation_name(testing::read(folder, json).document, false) != first);
+  json["model"]["elements"] = 5;
+  BOOST_TEST(name() != first);
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
+  const Folder folder;
+  const auto file = folder.write("r.json", "1");
+  Computation computation;
+  computation.references[file.string()] = "0";
+  const auto entry = folder.path() / "entry";
+  write_file(entry, to_bytes(computation));
+  BOOST_TEST(!find_stored(entry, computation));
+  computation.references = {{(folder.path() / "absent.json").string(), ""}};
+  write_file(entry, to_bytes(computation));
+  BOOST_TEST(find_stored(entry, computation));
+  (void)folder.write("absent.json", "1");
+  BOOST_TEST(!find_stored(entry, computation));
+}
+
+BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_taken_over) {
+  const Folder folder;
+  Computation computation;
+  computation.machine = "another";
+  const auto entry = folder.path() / "entry";
+  write_file(entry, to_bytes(computation));
+  BOOST_TEST(find_stored(entry, computation));
+  computation.result.timings = {{"t", 1, 1}};
+  write_file(entry, to_bytes(computation));
+  BOOST_TEST(!find_stored(entry, computation));
+  computation.machine = machine_name();
+  write_file(entry, to_bytes(computation));
+  BOOST_TEST(find_stored(entry, computation));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
