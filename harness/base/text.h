@@ -37,4 +37,7 @@ namespace trammel::harness {
 /// Bytes that a terminal or a line cannot hold become '?', long text is cut.
 [[nodiscard]] std::string printable(std::string text, std::size_t length = 60);
 
+/// A message as one line: control characters as JSON escapes, words beyond 120 bytes cut.
+[[nodiscard]] std::string one_line(const std::string& text);
+
 }  // namespace trammel::harness

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "harness/base/errors.h"
-#include "harness/base/one_line.h"
 #include "harness/base/processes.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_claims.h"

@@ -6,7 +6,6 @@
 
 #include "harness/base/diagnostic.h"
 #include "harness/base/errors.h"
-#include "harness/base/one_line.h"
 #include "harness/base/progress.h"
 #include "harness/base/statistic.h"
 #include "harness/base/table.h"

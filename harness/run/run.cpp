@@ -6,9 +6,9 @@
 #include <set>
 
 #include "harness/base/json_file.h"
-#include "harness/base/one_line.h"
 #include "harness/base/processes.h"
 #include "harness/base/stopwatch.h"
+#include "harness/base/text.h"
 #include "harness/run/run_store.h"
 #include "harness/studies/run_sweeps.h"
 

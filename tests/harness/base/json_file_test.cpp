@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "harness/base/errors.h"
-#include "harness/base/one_line.h"
+#include "harness/base/text.h"
 #include "tests/support/harness/support.h"
 
 using namespace trammel;

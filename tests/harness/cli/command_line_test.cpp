@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(a_second_call_into_one_folder_is_told_who_writes_it) {
   std::set<std::string> left;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out"))
     left.insert(entry.path().filename().string());
-  BOOST_TEST((left == std::set<std::string>{"junit.xml", "results.json"}));
+  BOOST_TEST((left == std::set<std::string>{"junit.xml", "results.json", "store"}));
 }
 
 BOOST_AUTO_TEST_CASE(a_report_without_gnuplot_is_refused_before_any_work) {

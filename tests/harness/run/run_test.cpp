@@ -179,12 +179,12 @@ BOOST_AUTO_TEST_CASE(more_time_or_memory_than_allowed_costs_its_own_run_alone) {
   slow["timeout_s"] = 1;
   large["id"] = "large";
 #ifndef __SANITIZE_ADDRESS__  // which knows no limit of memory
-  large["model"]["elements"] = 1000000;
+  large["model"]["elements"] = 65536;
 #endif
   const References references;
   RunOptions options;
   options.jobs = 2;
-  options.memory_bytes = 400000000;
+  options.memory_bytes = 250000000;
   const auto runs = run_cases({testing::read(folder, slow), testing::read(folder, large),
                                testing::read(folder, testing::cantilever())},
                               references, options);
