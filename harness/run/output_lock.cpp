@@ -5,12 +5,26 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "harness/base/errors.h"
 #include "harness/results/unfinished_folder.h"
 
 namespace trammel::harness {
+namespace {
+
+/// Of "process NUMBER".
+bool is_gone(const std::string& holder) {
+  const int process = std::atoi(holder.substr(holder.find(' ') + 1).c_str());
+  return process > 0 && kill(process, 0) != 0 && errno == ESRCH;
+}
+
+}  // namespace
 
 namespace fs = std::filesystem;
 
@@ -32,6 +46,7 @@ OutputLock::~OutputLock() {
 }
 
 void OutputLock::acquire() {
+  int waits = 0;
   for (struct stat mine{}, there{};;) {
     descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
@@ -40,6 +55,10 @@ void OutputLock::acquire() {
       close(descriptor_);
       std::string holder;
       std::getline(std::ifstream(file_), holder);
+      if (is_gone(holder) && ++waits < 100) {  // killed: its children let go as they die
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
       throw InputError("--out " + folder_.string() +
                        ": expected a folder that no other call writes (" +
                        (holder.empty() ? "another" : holder) + " does)");
