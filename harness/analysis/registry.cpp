@@ -64,7 +64,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        nullptr,
        "",
        {Residual::equation_of_motion, Residual::constraints}},
-      {"harmonic", analyse_harmonic, false, nullptr, nullptr, "", {Residual::equation_of_motion}},
+      {"harmonic", analyse_harmonic, false, nullptr, nullptr, "", {Residual::equilibrium}},
       {"transient", analyse_transient, false, nullptr, nullptr, "", {Residual::equation_of_motion}},
       {"inverse-dynamics",
        analyse_inverse_dynamics,

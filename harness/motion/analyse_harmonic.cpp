@@ -25,8 +25,7 @@ class Response {
     solver::HarmonicAmplitudes amplitudes;
     if (q.size() > 0) {
       amplitudes = solver::harmonic_amplitudes(system_, q, frequency);
-      result.evidence.add(solver::Residual::equation_of_motion,
-                          response_.backward_error(q, frequency));
+      result.evidence.add(solver::Residual::equilibrium, response_.backward_error(q, frequency));
     }
     for (const Output& output : outputs) {
       record.add(output.name, "",
