@@ -11,13 +11,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-template <class Coordinates, class Vector>
-void add_forces(const Coordinates& coordinates, const Vector& force, VectorXd& sum) {
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    if (coordinates[i] >= 0) sum[coordinates[i]] += force[static_cast<Index>(i)];
-  }
-}
-
 /// Forces that the nodes exert on the members by their section forces, less the members' loads.
 void add_members(const System& system, const ElasticState& state, const StaticSolution& solution,
                  VectorXd& sum) {
@@ -35,7 +28,7 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     force = frame_rotation(e.direction).transpose() * force;
     const Vector2d load = member.load + e.section.mass_per_length * system.model.gravity;
     // A bar's section forces hold its loads already; a beam's are those at its very ends.
-    add_forces(e.coordinates, (force + state.load_factor * element_load(e, load)).eval(), sum);
+    detail::scatter(e.coordinates, (force + state.load_factor * element_load(e, load)).eval(), sum);
   }
 }
 
@@ -47,8 +40,9 @@ void add_other_elements(const System& system, const VectorXd& u, VectorXd& sum) 
       --left_out;
       return;
     }
-    add_forces(coordinates,
-               (B.transpose() * c.cwiseProduct(B * detail::gather(coordinates, u))).eval(), sum);
+    detail::scatter(coordinates,
+                    (B.transpose() * c.cwiseProduct(B * detail::gather(coordinates, u))).eval(),
+                    sum);
   });
 }
 
