@@ -1,6 +1,5 @@
 #include "solver/linalg/factorization.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace trammel::solver {
@@ -11,14 +10,9 @@ void Factorization::compute(const SparseMatrix& A) {
   scaling_ =
       A.diagonal().cwiseAbs().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 1.0; });
   SparseMatrix scaled = A;
-  norm_ = 0;
   for (Index j = 0; j < A.cols(); ++j) {
-    double column = 0;
-    for (SparseMatrix::InnerIterator it(scaled, j); it; ++it) {
+    for (SparseMatrix::InnerIterator it(scaled, j); it; ++it)
       it.valueRef() *= scaling_[it.row()] * scaling_[j];
-      column += std::abs(it.value());
-    }
-    norm_ = std::max(norm_, column);
   }
   exists_ = ldlt_.factorize(scaled);
 }
@@ -40,27 +34,6 @@ VectorXd Factorization::solve_half(const VectorXd& b) const {
 
 VectorXd Factorization::solve_half_transposed(const VectorXd& y) const {
   return scaling_.cwiseProduct(ldlt_.solve_half_transposed(y));
-}
-
-double Factorization::condition() const {
-  const Index n = scaling_.size();
-  if (n == 0) return 1;
-  VectorXd x = VectorXd::Constant(n, 1.0 / static_cast<double>(n));
-  VectorXd y, z;
-  double estimate = 0;
-  for (int step = 0; step < 5; ++step) {
-    ldlt_.solve(x, y);
-    const double norm = y.lpNorm<1>();
-    if (step > 0 && norm <= estimate) break;
-    estimate = norm;
-    ldlt_.solve(y.unaryExpr([](double v) { return v < 0 ? -1.0 : 1.0; }), z);
-    Index next = 0;
-    const double largest = z.cwiseAbs().maxCoeff(&next);
-    if (step > 0 && largest <= z.dot(x)) break;
-    x.setZero();
-    x[next] = 1;
-  }
-  return estimate * norm_;
 }
 
 }  // namespace trammel::solver

@@ -32,14 +32,10 @@ class Factorization {
   [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
 
   [[nodiscard]] const Eigen::VectorXd& scaling() const { return scaling_; }
-  /// Condition number of S A S in the 1-norm, estimated from a few solves.
-  /// Source: Hager (1984), Higham (1988).
-  [[nodiscard]] double condition() const;
 
  private:
   SparseLdlt ldlt_;
   Eigen::VectorXd scaling_;
-  double norm_ = 0;  // 1-norm of S A S
   bool exists_ = false;
 };
 

@@ -48,9 +48,8 @@ class SecondOrderTheory {
   [[nodiscard]] SecondOrderState failed(double load) const {
     std::ostringstream reason;
     reason.precision(4);
-    reason << (whole_.status == Status::singular ? "the loads reach or exceed the buckling load"
-                                                 : "the forces of the state do not settle")
-           << ": second-order theory has no stable equilibrium beyond " << load << " of them";
+    reason << whole_.reason << ": second-order theory has no stable equilibrium beyond " << load
+           << " of the loads";
     return {{whole_.status, reason.str()}, {}, {}};
   }
 
@@ -89,7 +88,7 @@ class SecondOrderTheory {
       growing = change < last_change ? 0 : growing + 1;
       last_change = change;
     }
-    state.outcome = {Status::not_converged, "its forces do not settle"};
+    state.outcome = {Status::not_converged, "the forces of the state do not settle"};
   }
 
   /// (K + K_G) q = f; false with the outcome where there is no stable solution.
@@ -100,14 +99,14 @@ class SecondOrderTheory {
     factorization_.compute(system_.K + K_G);
     ++counters_.factorizations;
     if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) {
-      state.outcome = {Status::singular, "a motion buckles"};
+      state.outcome = {Status::singular, "the loads reach or exceed the buckling load"};
       return false;
     }
     const Operator tangent = [&](const VectorXd& q) -> VectorXd { return elastic_(q) + K_G * q; };
     const RefinedSolution refined = refined_solve(tangent, factorization_, f, counters_);
     state.q = refined.x;
     if (refined.converged()) return true;
-    state.outcome = {Status::not_converged, "its stiffness is too ill-conditioned"};
+    state.outcome = {Status::not_converged, "the stiffness of the state is too ill-conditioned"};
     return false;
   }
 
