@@ -1,6 +1,7 @@
 #include "harness/base/timing.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <random>
 
@@ -29,6 +30,19 @@ int runs_for(const std::function<void()>& work, double shortest_s) {
 }
 
 }  // namespace
+
+RelativeTime relative_time(const Timing& timing, const Timing& baseline, std::size_t first,
+                           std::size_t step) {
+  std::vector<double> ratios;
+  for (std::size_t i = first; i < timing.cpu_s.size(); i += step)
+    ratios.push_back(timing.cpu_s[i] / baseline.cpu_s[i]);
+  std::sort(ratios.begin(), ratios.end());
+  const std::size_t n = ratios.size();
+  const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);
+  std::size_t outside = 0;  // ratios on either side that the interval leaves out
+  while (2 * cdf(repeats_below, static_cast<double>(outside + 1)) <= 0.125) ++outside;
+  return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
+}
 
 double Timing::spread() const {
   return (upper_quartile_s - lower_quartile_s) / median_s;

@@ -26,10 +26,18 @@ struct Timing {
   [[nodiscard]] double spread() const;
 };
 
-/// A spread above this leaves the median of seven uncertain by more than about 9 % (standard error
-/// 1.25 s / sqrt(7), where s = quartile distance / 1.35): more than neighbours on a front differ
-/// by.
-inline constexpr double kMaxSpread = 0.25;
+/// What one computation takes over another.
+struct RelativeTime {
+  double median = 0;
+  /// Holds the true median with a probability of at least 7/8, however the times are distributed
+  /// (sign test; of seven repeats the second and the last but one).
+  double low = 0, high = 0;
+};
+
+/// Of the ratios in each repeat, both having met the same load of the machine.
+/// @param first, step  the repeats that count: all of them, or every second one from `first`
+[[nodiscard]] RelativeTime relative_time(const Timing& timing, const Timing& baseline,
+                                         std::size_t first = 0, std::size_t step = 1);
 
 /// Runs every work once to warm up, then in each repeat all of them once, in an order shuffled
 /// anew: what the machine does meanwhile meets all alike.

@@ -87,7 +87,7 @@ std::string mark(const MeasuredSetting& measured, bool on_pareto_front) {
 }
 
 void print_settings(const MeasuredStudy& measured) {
-  Table table({"setting", ">error", ">time", ">spread", ">cpu [s]", ">elements", ">factor.",
+  Table table({"setting", ">error", ">time", ">interval", ">cpu [s]", ">elements", ">factor.",
                ">solves", ">steps", ""});
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
@@ -98,8 +98,8 @@ void print_settings(const MeasuredStudy& measured) {
     const std::string& title = measured.study.settings[i].title;
     table.add(
         {title, measurement.error ? rounded(measurement.error->get(measured.study.norm), 3) : "-",
-         rounded(measurement.relative, 3),
-         measurement.timing ? rounded(measurement.timing->spread(), 2) : "-",
+         rounded(measurement.relative.median, 3),
+         rounded(measurement.relative.low, 3) + " - " + rounded(measurement.relative.high, 3),
          rounded(measurement.cpu_s, 3), std::to_string(measurement.counters.element_evaluations),
          std::to_string(measurement.counters.factorizations),
          std::to_string(measurement.counters.solves), std::to_string(measurement.counters.steps),
@@ -115,8 +115,11 @@ void print_cheapest(const MeasuredStudy& measured) {
   for (const double error : target_errors()) {
     const auto found = cheapest(measured.points, error);
     const std::string target = error < 1e-3 ? rounded(error) : rounded(100 * error) + " %";
-    table.add({target, found ? measured.study.settings[found->setting].title : "none of these",
+    const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
+    table.add({target, found ? title(found->setting) : "none of these",
                found ? rounded(found->error, 2) : "", found ? rounded(found->time, 3) : ""});
+    for (const std::size_t tied : tied_settings(measured.points, error))
+      table.add({"", "or " + title(tied), "", ""});
   }
   table.print(std::cout, "  ");
 }

@@ -16,8 +16,8 @@ struct ErrorNorms {
 
 struct SettingTime {
   std::vector<double> cpu_s;  ///< of one computation, by repeat
-  double lower_quartile_s = 0, upper_quartile_s = 0;
-  double spread = 0;  ///< quartile distance over median
+  /// Over the baseline's: the interval that holds the median with a probability of 7/8 or more.
+  double relative_low = 0, relative_high = 0;
   double wall_median_s = 0;
   std::size_t runs_per_measurement = 0;
 };
@@ -34,18 +34,16 @@ struct CostSetting {
 
   /// Whether it has an error and a time that are used.
   [[nodiscard]] bool measured() const { return status == "measured"; }
-  [[nodiscard]] bool spread_too_wide() const { return status == "spread-too-wide"; }
   /// Whether it belongs into the strip at the edge: it failed, diverged or was not done in time.
   [[nodiscard]] bool without_result() const {
     return status == "failed" || status == "diverged" || status == "timed-out";
   }
-  /// A time relative to the baseline's median.
-  [[nodiscard]] Number relative_to_baseline(double SettingTime::*seconds) const;
 };
 
 struct CheapestSetting {
   double error = 0;
   std::optional<std::size_t> setting;  ///< its number; none within that error: empty
+  std::vector<std::size_t> tied;       ///< settings whose time cannot be told from it
 };
 
 /// How near the Pareto fronts of odd and of even repeats come.
@@ -70,7 +68,7 @@ struct CostStudy {
 struct CostStudies {
   std::string sweep;  ///< quick or full
   std::size_t seed = 0, repeats = 0;
-  double max_spread = 0, equal_within = 0, diverged_above = 0;
+  double equal_within = 0, diverged_above = 0;
   std::vector<CostStudy> studies;
 
   [[nodiscard]] bool is_quick() const { return sweep == "quick"; }

@@ -113,9 +113,8 @@ template <>
 inline constexpr auto kFields<ErrorNorms> =
     std::tuple{TRAMMEL_REQUIRED(ErrorNorms, max, rms, mean)};
 template <>
-inline constexpr auto kFields<SettingTime> =
-    std::tuple{TRAMMEL_REQUIRED(SettingTime, cpu_s, lower_quartile_s, upper_quartile_s, spread,
-                                wall_median_s, runs_per_measurement)};
+inline constexpr auto kFields<SettingTime> = std::tuple{TRAMMEL_REQUIRED(
+    SettingTime, cpu_s, relative_low, relative_high, wall_median_s, runs_per_measurement)};
 template <>
 inline constexpr auto kFields<CostSetting> = std::tuple{
     required("error", &CostSetting::errors), required("relative_time", &CostSetting::relative),
@@ -123,7 +122,7 @@ inline constexpr auto kFields<CostSetting> = std::tuple{
                      counters, pareto_optimal)};
 template <>
 inline constexpr auto kFields<CheapestSetting> =
-    std::tuple{TRAMMEL_REQUIRED(CheapestSetting, error, setting)};
+    std::tuple{TRAMMEL_REQUIRED(CheapestSetting, error, setting, tied)};
 template <>
 inline constexpr auto kFields<Repeatability> =
     std::tuple{TRAMMEL_REQUIRED(Repeatability, on_both_fronts, on_either_front, same_cheapest,
@@ -134,8 +133,8 @@ inline constexpr auto kFields<CostStudy> =
                                 baseline, wall_s, settings, cheapest, repeatability, conclusion),
                TRAMMEL_OPTIONAL(CostStudy, description)};
 template <>
-inline constexpr auto kFields<CostStudies> = std::tuple{TRAMMEL_REQUIRED(
-    CostStudies, sweep, seed, repeats, max_spread, equal_within, diverged_above, studies)};
+inline constexpr auto kFields<CostStudies> = std::tuple{
+    TRAMMEL_REQUIRED(CostStudies, sweep, seed, repeats, equal_within, diverged_above, studies)};
 template <>
 inline constexpr auto kFields<Environment> =
     std::tuple{TRAMMEL_REQUIRED(Environment, trammel, commit, date, compiler, flags, build_type,
@@ -268,7 +267,10 @@ void require_consistent(const CostStudy& study, const Place& place) {
   const std::string expected = "an integer from 0 to " + std::to_string(count - 1);
   if (study.baseline >= count) Place{&place, "baseline"}.fail(expected);
   for (const CheapestSetting& cheapest : study.cheapest)
-    if (cheapest.setting && *cheapest.setting >= count) Place{&place, "cheapest"}.fail(expected);
+    if (cheapest.setting.value_or(0) >= count ||
+        std::any_of(cheapest.tied.begin(), cheapest.tied.end(),
+                    [count](std::size_t tied) { return tied >= count; }))
+      Place{&place, "cheapest"}.fail(expected);
 }
 
 /// Titles that are left out are the names.
@@ -403,11 +405,6 @@ const CaseInfo& Results::case_info(const std::string& id) const {
 
 const Reference* Results::reference(const std::string& id) const {
   return find_id(references, id);
-}
-
-Number CostSetting::relative_to_baseline(double SettingTime::*seconds) const {
-  if (!time) return std::nullopt;
-  return relative.value_or(0) / cpu_s * ((*time).*seconds);
 }
 
 Number CostStudy::error(const CostSetting& setting) const {

@@ -8,9 +8,9 @@
 namespace trammel::harness {
 namespace {
 
-results::SettingTime setting_time(const Timing& timing) {
-  return {timing.cpu_s,    timing.lower_quartile_s, timing.upper_quartile_s,
-          timing.spread(), timing.wall_median_s,    static_cast<std::size_t>(timing.runs_each)};
+results::SettingTime setting_time(const Timing& timing, const RelativeTime& relative) {
+  return {timing.cpu_s, relative.low, relative.high, timing.wall_median_s,
+          static_cast<std::size_t>(timing.runs_each)};
 }
 
 results::CostSetting setting_results(const Setting& setting, const MeasuredSetting& measured,
@@ -24,8 +24,8 @@ results::CostSetting setting_results(const Setting& setting, const MeasuredSetti
   out.reason = measured.reason;
   if (const auto& error = measured.error) out.errors = {{error->max}, {error->rms}, {error->mean}};
   out.cpu_s = measured.cpu_s;
-  out.relative = measured.relative;
-  if (measured.timing) out.time = setting_time(*measured.timing);
+  out.relative = measured.relative.median;
+  if (measured.timing) out.time = setting_time(*measured.timing, measured.relative);
   out.counters = counters(measured.counters);
   out.pareto_optimal = pareto_optimal;
   return out;
@@ -51,9 +51,10 @@ results::CostStudy study_results(const MeasuredStudy& measured) {
         setting_results(study.settings[i], measured.settings[i], pareto_optimal));
   }
   for (const double error : target_errors()) {
-    out.cheapest.push_back({error, {}});
-    if (const auto found = cheapest(measured.points, error))
-      out.cheapest.back().setting = found->setting;
+    results::CheapestSetting& at = out.cheapest.emplace_back();
+    at.error = error;
+    if (const auto found = cheapest(measured.points, error)) at.setting = found->setting;
+    at.tied = tied_settings(measured.points, error);
   }
   const ParetoFrontAgreement& agreement = measured.repeatability;
   out.repeatability = {agreement.shared,
@@ -73,7 +74,6 @@ results::CostStudies cost_results(const std::vector<MeasuredStudy>& studies, Swe
   results::CostStudies out{extent == SweepExtent::quick ? "quick" : "full",
                            timing.seed,
                            static_cast<std::size_t>(timing.repeats),
-                           kMaxSpread,
                            kParetoTolerance,
                            kDivergedError,
                            {}};
@@ -86,8 +86,9 @@ std::vector<CostPoint> cost_points(const results::CostStudy& study) {
   for (std::size_t i = 0; i < study.settings.size(); ++i) {
     const results::CostSetting& setting = study.settings[i];
     if (!setting.measured()) continue;
-    points.push_back(
-        {i, std::max(study.error(setting).value(), kMinError), setting.relative.value()});
+    points.push_back({i, std::max(study.error(setting).value(), kMinError),
+                      setting.relative.value(), setting.time->relative_low,
+                      setting.time->relative_high});
   }
   return points;
 }

@@ -98,15 +98,7 @@ MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setti
 
 bool is_computed(const MeasuredSetting& measured) {
   return measured.status == MeasurementStatus::measured ||
-         measured.status == MeasurementStatus::excessive_spread ||
          measured.status == MeasurementStatus::reference_solution;
-}
-
-/// Median time of the repeats that begin at `first`, every `step`.
-double median_of(const Timing& timing, std::size_t first, std::size_t step) {
-  std::vector<double> chosen;
-  for (std::size_t i = first; i < timing.cpu_s.size(); i += step) chosen.push_back(timing.cpu_s[i]);
-  return quantile(chosen, 0.5);
 }
 
 std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::size_t first,
@@ -117,9 +109,8 @@ std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::size_t firs
     const MeasuredSetting& measurement = measured.settings[i];
     if (measurement.status != MeasurementStatus::measured) continue;
     const double error = measurement.error->get(measured.study.norm);
-    points.push_back(
-        {i, std::max(error, kMinError),
-         median_of(*measurement.timing, first, step) / median_of(baseline, first, step)});
+    const RelativeTime time = relative_time(*measurement.timing, baseline, first, step);
+    points.push_back({i, std::max(error, kMinError), time.median, time.low, time.high});
   }
   return points;
 }
@@ -210,14 +201,11 @@ MeasuredStudy measure(CostStudy study, const CostOptions& options, const Referen
 
 void derive_results(MeasuredStudy& measured) {
   const CostStudy& cost_study = measured.study;
+  const MeasuredSetting& baseline = measured.settings[cost_study.baseline];
   for (MeasuredSetting& measurement : measured.settings) {
-    measurement.relative = measurement.cpu_s / measured.settings[cost_study.baseline].cpu_s;
-    if (measurement.status != MeasurementStatus::measured &&
-        measurement.status != MeasurementStatus::excessive_spread)
-      continue;
-    measurement.status = measurement.timing->spread() > kMaxSpread
-                             ? MeasurementStatus::excessive_spread
-                             : MeasurementStatus::measured;
+    const double trial = measurement.cpu_s / baseline.cpu_s;
+    measurement.relative = measurement.timing ? relative_time(*measurement.timing, *baseline.timing)
+                                              : RelativeTime{trial, trial, trial};
   }
   measured.points = points_of(measured, 0, 1);
   measured.pareto_front = find_pareto_front(measured.points);
@@ -228,8 +216,7 @@ void derive_results(MeasuredStudy& measured) {
 }
 
 const char* to_string(MeasurementStatus status) {
-  constexpr std::array names = {"measured", "spread-too-wide", "reference",
-                                "diverged", "timed-out",       "failed"};
+  constexpr std::array names = {"measured", "reference", "diverged", "timed-out", "failed"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -31,7 +31,6 @@ inline constexpr double kDivergedError = 10;
 struct MeasuredSetting {
   enum class MeasurementStatus {
     measured,
-    excessive_spread,    ///< measured, but the spread is too wide to be used
     reference_solution,  ///< what the others are measured against
     diverged,            ///< not finite, or the error is above `kDivergedError`
     timed_out,           ///< not done within the processor time allowed
@@ -41,8 +40,8 @@ struct MeasuredSetting {
   std::string reason;
   std::optional<ErrorNorms> error;
   std::optional<Timing> timing;
-  double relative = 0;  ///< median time over the baseline's
-  double cpu_s = 0;     ///< median; of the one trial where it was not timed
+  RelativeTime relative;  ///< to the baseline; without repeats the one trial's
+  double cpu_s = 0;       ///< median; of the one trial where it was not timed
   solver::Counters counters;
 };
 
@@ -67,8 +66,7 @@ struct CostOptions {
 [[nodiscard]] MeasuredStudy measure(CostStudy study, const CostOptions& options,
                                     const References& references);
 
-/// What follows from errors and times: which spreads are too wide, the times relative to the
-/// baseline, the front, the words.
+/// What follows from errors and times: the times relative to the baseline, the front, the words.
 void derive_results(MeasuredStudy& measured);
 
 [[nodiscard]] const char* to_string(MeasuredSetting::MeasurementStatus status);

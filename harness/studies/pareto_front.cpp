@@ -43,6 +43,16 @@ std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double e
   return best;
 }
 
+std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points, double error) {
+  std::vector<std::size_t> tied;
+  const auto best = cheapest(points, error);
+  for (const CostPoint& point : points) {
+    if (point.error <= error && point.setting != best->setting && point.low <= best->high)
+      tied.push_back(point.setting);
+  }
+  return tied;
+}
+
 std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points) {
   std::vector<CostPoint> front;
   for (const CostPoint& point : points) {
@@ -103,7 +113,12 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
     return "No setting comes within 1 %: the best, " + title(front.back()) + ", is off by " +
            error_text(front.back().error) + ".";
   }
-  std::string text = "Within 1 %, " + title(*first) + " is cheapest";
+  std::string text = "Within 1 %, " + title(*first);
+  const std::vector<std::size_t> tied = tied_settings(points, 0.01);
+  for (std::size_t i = 0; i < std::min<std::size_t>(tied.size(), 2); ++i)
+    text += " or '" + titles[tied[i]] + "'";
+  if (tied.size() > 2) text += " or one of " + std::to_string(tied.size() - 2) + " more";
+  text += tied.empty() ? " is cheapest" : " is cheapest (times that cannot be told apart)";
   if (std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance)) {
     if (first->setting != baseline) text += ", as quick as '" + titles[baseline] + "'";
   } else {

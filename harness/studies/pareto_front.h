@@ -11,8 +11,9 @@ namespace trammel::harness {
 
 struct CostPoint {
   std::size_t setting = 0;
-  double error = 0;  ///< relative
-  double time = 0;   ///< of the baseline's
+  double error = 0;                ///< relative
+  double time = 0;                 ///< over the baseline's, median
+  double low = time, high = time;  ///< that time's interval
 };
 
 /// What an error of zero counts as: a double cannot tell less.
@@ -25,6 +26,11 @@ inline constexpr double kParetoTolerance = 0.05;
 
 /// The cheapest point with at most that error.
 [[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
+
+/// Settings with at most that error that the measurement cannot tell from the cheapest: their
+/// intervals of time meet.
+[[nodiscard]] std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points,
+                                                     double error);
 
 /// What is cheapest for the error of any point, or for one a little above; cheapest first.
 [[nodiscard]] std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points);

@@ -22,8 +22,7 @@ double drawn_error(const CostStudy& study, const CostSetting& setting) {
 }
 
 bool is_drawn(const CostStudy& study, const CostSetting& setting) {
-  return (setting.measured() || setting.spread_too_wide()) && study.error(setting) &&
-         setting.relative;
+  return setting.measured() && study.error(setting) && setting.relative;
 }
 
 CostExtent extent_of(const CostStudy& study) {
@@ -99,7 +98,7 @@ PlotScript::Rows steps_of(const CostStudy& study, const CostExtent& extent) {
 
 void draw_curve(PlotScript& script, const CostStudy& study, const std::string& curve,
                 std::size_t number, const Strip& strip) {
-  PlotScript::Rows line, used, wide, outside;
+  PlotScript::Rows points, outside;
   std::string title;
   for (const CostSetting& setting : study.settings) {
     if (setting.curve != curve) continue;
@@ -108,20 +107,15 @@ void draw_curve(PlotScript& script, const CostStudy& study, const std::string& c
       outside.push_back({strip.middle, *setting.relative});
     if (!is_drawn(study, setting)) continue;
     const double time = *setting.relative;
-    const std::vector<double> point = {
-        drawn_error(study, setting), time,
-        setting.relative_to_baseline(&SettingTime::lower_quartile_s).value_or(time),
-        setting.relative_to_baseline(&SettingTime::upper_quartile_s).value_or(time)};
-    line.push_back(point);
-    (setting.measured() ? used : wide).push_back(point);
+    points.push_back({drawn_error(study, setting), time,
+                      setting.time ? setting.time->relative_low : time,
+                      setting.time ? setting.time->relative_high : time});
   }
   const std::string color = lc(palette::color(number));
   const bool filled = number < palette::kFilledPoint.size();
   const std::string mark = point_type(number, filled);
-  script.curve(line, "using 1:2 with lines lw 1.2" + color);
-  script.curve(used, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
-  script.curve(wide, "using 1:2:3:4 with yerrorbars lw 1 ps 0.8 pt " + point_type(number, false) +
-                         lc(palette::kMuted));
+  script.curve(points, "using 1:2 with lines lw 1.2" + color);
+  script.curve(points, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
   script.curve(outside, "using 1:2 with points lw 1.6 ps 1 pt 2" + color);
   script.key_entry("with linespoints lw 1.2 ps 0.8 pt " + mark + color, title);
 }
@@ -138,9 +132,8 @@ Table table_of(const CostStudy& study) {
                  "error_mean",
                  "cpu_s",
                  "relative_time",
-                 "relative_lower_quartile",
-                 "relative_upper_quartile",
-                 "spread",
+                 "relative_time_low",
+                 "relative_time_high",
                  "pareto_optimal"};
   for (const auto& counter : study.settings.front().counters) table.heads.push_back(counter.first);
   for (const CostSetting& s : study.settings) {
@@ -155,9 +148,8 @@ Table table_of(const CostStudy& study) {
                                     cell(errors.mean),
                                     s.cpu_s,
                                     cell(s.relative),
-                                    cell(s.relative_to_baseline(&SettingTime::lower_quartile_s)),
-                                    cell(s.relative_to_baseline(&SettingTime::upper_quartile_s)),
-                                    cell(s.time ? Number(s.time->spread) : Number()),
+                                    cell(s.time ? Number(s.time->relative_low) : Number()),
+                                    cell(s.time ? Number(s.time->relative_high) : Number()),
                                     std::string(s.pareto_optimal ? "yes" : "no")};
     for (const auto& counter : s.counters) row.emplace_back(static_cast<double>(counter.second));
     table.rows.push_back(std::move(row));
@@ -166,16 +158,13 @@ Table table_of(const CostStudy& study) {
 }
 
 std::string notes_on(const CostStudy& study) {
-  std::size_t outside = 0, wide = 0;
+  std::size_t outside = 0;
   for (const CostSetting& setting : study.settings) {
     outside += setting.without_result() ? 1 : 0;
-    wide += setting.spread_too_wide() ? 1 : 0;
   }
   std::string text;
   if (outside > 0)
     text += " The strip at the edge holds " + count(outside, "setting") + " without an answer.";
-  if (wide > 0)
-    text += " " + count(wide, "measurement") + " with too wide a spread (grey, open) is not used.";
   return text;
 }
 

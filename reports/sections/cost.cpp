@@ -86,14 +86,16 @@ std::string within(double error) {
   return error < 1e-4 ? power_of_ten(-6) : trimmed(100 * error, 2) + "\u202f%";
 }
 
-Data cheapest_row(const CostStudy& study, double error, std::optional<std::size_t> number) {
+Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
   Data row = object();
-  row.set("within", within(error));
-  set_flag(row, "found", number.has_value());
-  if (!number) return row;
-  const CostSetting& setting = study.settings[*number];
+  row.set("within", within(cheapest.error));
+  set_flag(row, "found", cheapest.setting.has_value());
+  if (!cheapest.setting) return row;
+  const CostSetting& setting = study.settings[*cheapest.setting];
   const Number error_of = study.error(setting);
-  row.set("setting", setting.title);
+  std::string settings = setting.title;
+  for (const std::size_t tied : cheapest.tied) settings += " or " + study.settings[tied].title;
+  row.set("setting", settings);
   row.set("error", error_of ? relative(*error_of, 2, false) : "–");
   row.set("times", times(setting.relative));
   row.set("cpu", duration(setting.cpu_s));
@@ -102,9 +104,6 @@ Data cheapest_row(const CostStudy& study, double error, std::optional<std::size_
 }
 
 std::string status_text(const CostSetting& setting) {
-  if (setting.spread_too_wide())
-    return "spread of " + relative((setting.time ? setting.time->spread : 0), 2, false) +
-           ", not used";
   if (setting.status == "timed-out") return "out of time";
   return setting.status == "diverged" ? "diverged" : "no solution";
 }
@@ -112,7 +111,7 @@ std::string status_text(const CostSetting& setting) {
 Data left_out(const CostStudy& study) {
   Data rows = list();
   for (const CostSetting& setting : study.settings) {
-    if (!setting.without_result() && !setting.spread_too_wide()) continue;
+    if (!setting.without_result()) continue;
     Data row = object();
     row.set("setting", setting.title);
     row.set("status_text", status_text(setting));
@@ -150,8 +149,8 @@ Data study_data(const CostPanel& panel) {
   data.set("measured", measured_text(study));
   data.set("figure", figure_data(panel.figure));
   Data rows = list();
-  for (const auto& [error, setting] : study.cheapest)
-    rows.push_back(cheapest_row(study, error, setting));
+  for (const CheapestSetting& cheapest : study.cheapest)
+    rows.push_back(cheapest_row(study, cheapest));
   data.set("cheapest", rows);
   const Data lost = left_out(study);
   set_flag(data, "has_left_out", lost.is_non_empty_list());
@@ -162,9 +161,9 @@ Data study_data(const CostPanel& panel) {
 /// All studies in one table: the cheapest setting for each accuracy.
 void set_overview(Data& section, const std::vector<CostPanel>& panels) {
   Data heads = list();
-  for (const auto& [error, setting] : panels.front().study->cheapest) {
+  for (const CheapestSetting& cheapest : panels.front().study->cheapest) {
     Data head = object();
-    head.set("within", within(error));
+    head.set("within", within(cheapest.error));
     heads.push_back(head);
   }
   Data rows = list();
@@ -173,8 +172,8 @@ void set_overview(Data& section, const std::vector<CostPanel>& panels) {
     row.set("anchor", study_anchor(*panel.study));
     row.set("study_title", panel.study->title);
     Data cells = list();
-    for (const auto& [error, setting] : panel.study->cheapest)
-      cells.push_back(cheapest_row(*panel.study, error, setting));
+    for (const CheapestSetting& cheapest : panel.study->cheapest)
+      cells.push_back(cheapest_row(*panel.study, cheapest));
     row.set("cells", cells);
     rows.push_back(row);
   }
@@ -202,7 +201,6 @@ Data cost_section(const Results& results, const std::vector<Family>& families,
   section.set("sweep", cost.is_quick() ? "the quick sweep" : "the full sweep");
   set_flag(section, "quick", cost.is_quick());
   section.set("repeats", std::to_string(cost.repeats));
-  section.set("widest", relative(cost.max_spread, 2, false));
   Data studies = list();
   for (const CostPanel& panel : panels) studies.push_back(study_data(panel));
   const std::string studies_count = count(panels.size(), "study", "studies");

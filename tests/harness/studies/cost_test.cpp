@@ -75,8 +75,7 @@ BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
   BOOST_TEST_REQUIRE(study.settings.size() == 5U);
   for (std::size_t i : {0U, 1U, 2U}) {
     const MeasuredSetting& one = study.settings[i];
-    BOOST_TEST((one.status == MeasurementStatus::measured ||
-                one.status == MeasurementStatus::excessive_spread));
+    BOOST_TEST((one.status == MeasurementStatus::measured));
     BOOST_TEST(one.error->max > 0);
     BOOST_TEST(one.timing->cpu_s.size() == 7U);
   }
@@ -103,17 +102,17 @@ BOOST_AUTO_TEST_CASE(counters_are_the_work_and_do_not_depend_on_the_machine) {
              2 * a.settings[1].counters.element_evaluations);
 }
 
-BOOST_AUTO_TEST_CASE(a_spread_that_is_too_wide_is_marked_and_not_used) {
+BOOST_AUTO_TEST_CASE(a_setting_is_never_dropped_for_its_noise_it_is_tied) {
   MeasuredStudy study = measured(study_json());
-  Timing& timing = *study.settings[1].timing;
-  timing.median_s = timing.lower_quartile_s = 1;
-  timing.upper_quartile_s = 1 + 1.01 * kMaxSpread;
+  for (std::size_t i : {0U, 1U, 2U}) study.settings[i].timing->cpu_s.assign(7, 1.0 + 10.0 * i);
+  study.settings[1].timing->cpu_s = {11, 1, 11, 300, 1, 11, 11};
   derive_results(study);
-  BOOST_TEST((study.settings[1].status == MeasurementStatus::excessive_spread));
-  for (const CostPoint& point : study.points) BOOST_TEST(point.setting != 1U);
-  timing.upper_quartile_s = 1 + 0.99 * kMaxSpread;
-  derive_results(study);
-  BOOST_TEST((study.settings[1].status == MeasurementStatus::measured));
+  BOOST_TEST(study.points.size() == 3U);
+  BOOST_TEST(study.points[1].time == 11);
+  BOOST_TEST(study.points[1].low == 1);
+  BOOST_TEST(study.points[1].high == 11);
+  const std::vector<std::size_t> tied = {1};
+  BOOST_TEST(tied_settings(study.points, 10) == tied, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {

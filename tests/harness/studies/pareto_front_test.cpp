@@ -68,6 +68,14 @@ BOOST_AUTO_TEST_CASE(the_sentence_names_what_is_enough_and_what_more_takes) {
   BOOST_TEST(contains(words, "1e-6 takes 'finest' and 8 times as long"));
 }
 
+BOOST_AUTO_TEST_CASE(the_sentence_names_all_that_the_noise_cannot_tell_from_the_cheapest) {
+  std::vector<CostPoint> points = {{0, 5e-3, 1, 0.9, 1.3}, {2, 4e-3, 1.4, 1.2, 1.5}, {3, 1e-3, 2}};
+  BOOST_TEST(contains(describe_pareto_front(points, titles, 0),
+                      "Within 1 %, 'coarse' or 'middle' is cheapest (times that cannot be"));
+  points[1].low = 1.31;
+  BOOST_TEST(contains(describe_pareto_front(points, titles, 0), "'coarse' is cheapest;"));
+}
+
 BOOST_AUTO_TEST_CASE(the_sentence_does_not_compare_the_baseline_with_itself) {
   BOOST_TEST(contains(describe_pareto_front({{0, 1e-3, 1}}, titles, 0), "'coarse' is cheapest;"));
   BOOST_TEST(contains(describe_pareto_front({{1, 1e-3, 1.02}}, titles, 0), "as quick as 'coarse'"));
