@@ -26,6 +26,7 @@ std::vector<Named> read_parameters(const JsonView& parameters) {
 /// What the route says of the frequencies and their derivatives.
 struct Derivatives {
   solver::Outcome outcome;
+  solver::Evidence evidence;
   Eigen::VectorXd frequency;
   Eigen::MatrixXd derivative;  ///< mode x parameter
   solver::Counters counters;
@@ -40,6 +41,7 @@ Derivatives one_by_one(const std::vector<solver::DesignParameter>& parameters,
     const solver::FrequencyDifferences one = difference(parameters[p]);
     all.counters += one.counters;
     all.outcome = one.outcome;
+    all.evidence.add(one.evidence);
     all.frequency = one.frequency;
     all.derivative.conservativeResize(one.derivative.size(), static_cast<solver::Index>(p) + 1);
     all.derivative.col(static_cast<solver::Index>(p)) = one.derivative;
@@ -55,7 +57,7 @@ Derivatives derive_by(const JsonView& method, const CaseModel& case_model,
   if (method.json() == "complex-step") {
     const solver::FrequencyComplexStep found =
         solver::differentiate_by_complex_step(design, pose, parameters, count);
-    return {found.outcome, found.frequency, found.derivative, found.counters};
+    return {found.outcome, found.evidence, found.frequency, found.derivative, found.counters};
   }
   if (method.json() == "extrapolated-differences") {
     return one_by_one(parameters, [&](const solver::DesignParameter& parameter) {
@@ -111,11 +113,12 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
   } else {
     const Derivatives other = derive_by(*method, case_model, parameters, count);
     found.outcome = other.outcome;
+    found.evidence = other.evidence;
     found.frequency = other.frequency;
     found.derivative = other.derivative;
     found.counters = other.counters;
   }
-  StepResult result{found.outcome, found.counters, std::nullopt};
+  StepResult result{found.outcome, found.counters, std::nullopt, {}, found.evidence};
   if (draw) result.drawing = draw_model(solver::assemble(build_model(case_model, 0)), true);
   if (!found.outcome.solved()) return result;
   for (solver::Index i = 0; i < found.frequency.size(); ++i) {

@@ -114,9 +114,11 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
                                                          analysis["columns"].get<solver::Index>());
     const solver::SensitivityMap map = solver::map_first_frequency(design, parameter, grid);
     result.counters += map.counters;
+    result.evidence.add(map.evidence);
     Reading reading = read_map(map, quantity, item, margin, positions, record);
     const solver::FirstFrequency at_center = solver::first_frequency(design, parameter, center);
     result.outcome = at_center.outcome;
+    result.evidence.add(at_center.evidence);
     if (!result.outcome.solved()) {
       result.outcome.reason.insert(0, "at the centre, " + item + ": ");
       return result;

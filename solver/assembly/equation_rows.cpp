@@ -39,7 +39,6 @@ void EquationRows::add_element(const Coordinates& coordinates, const Matrix& k, 
 }
 
 VectorXd EquationRows::sizes_of(const VectorXcd& u) const {
-  constexpr double kLeast = 1e-3;
   VectorXd size = u.cwiseAbs();
   double largest = 0;
   for (Index i = 0; i < size.size(); ++i) {
@@ -48,7 +47,7 @@ VectorXd EquationRows::sizes_of(const VectorXcd& u) const {
   }
   for (Index i = 0; i < size.size(); ++i) {
     const bool rotation = system_.coordinates.is_rotation[static_cast<std::size_t>(i)];
-    size[i] = std::max(size[i], kLeast * largest / (rotation ? model_size_ : 1));
+    size[i] = std::max(size[i], kLeastShare * largest / (rotation ? model_size_ : 1));
   }
   return size;
 }

@@ -30,7 +30,6 @@ using Matrix6 = Eigen::Matrix<T, 6, 6>;
 template <class T>
 using Matrix36 = Eigen::Matrix<T, 3, 6>;
 using FrameDeformation = Matrix36<double>;
-using FrameInterpolation = Matrix36<double>;
 
 /// Section of a member at the fraction 0 <= at <= 1 of its length, by its taper.
 [[nodiscard]] Section section_at(const Member& member, double at);

@@ -9,4 +9,8 @@ namespace trammel::solver {
 /// Source: Oettli and Prager (1964).
 [[nodiscard]] double largest_ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& terms);
 
+/// No row is judged by coordinates or forces that are rounding of the others: each counts with at
+/// least this share of the largest.
+inline constexpr double kLeastShare = 1e-3;
+
 }  // namespace trammel::solver

@@ -130,6 +130,7 @@ FrequencyComplexStep differentiate_by_complex_step(const ManipulatorDesign& desi
   const ModalSolution modes = solve_modes(system, {.count = count + 1});
   FrequencyComplexStep result;
   result.outcome = modes.outcome;
+  result.evidence = modes.evidence;
   result.counters = modes.counters;
   if (!modes.outcome.solved()) return result;
   const Index kept = std::min(count, modes.frequency.size());

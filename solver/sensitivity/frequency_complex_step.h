@@ -8,6 +8,7 @@ namespace trammel::solver {
 
 struct FrequencyComplexStep {
   Outcome outcome;             ///< singular: as FrequencySensitivity, or repeated frequencies
+  Evidence evidence;           ///< of the modes
   Eigen::VectorXd frequency;   ///< ascending [Hz]
   Eigen::MatrixXd derivative;  ///< mode x parameter [Hz / unit]; 0 for rigid motions
   Counters counters;

@@ -62,6 +62,7 @@ class Differences {
     const ModalSolution modes =
         solve_modes(assemble(build_manipulator(design, pose_)), {.count = count_ + kExtraModes});
     result_.counters += modes.counters;
+    result_.evidence.add(modes.evidence);
     if (!modes.outcome.solved()) result_.outcome = modes.outcome;
     return modes.frequency;
   }

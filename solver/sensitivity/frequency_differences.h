@@ -8,6 +8,7 @@ namespace trammel::solver {
 
 struct FrequencyDifferences {
   Outcome outcome;                 ///< as the modes of the design and of the changed ones
+  Evidence evidence;               ///< of the modes of all designs
   Eigen::VectorXd frequency;       ///< ascending [Hz]
   Eigen::VectorXd derivative;      ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
   Eigen::VectorXd error_estimate;  ///< what the extrapolation itself says of its error [Hz / unit]

@@ -47,6 +47,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
   const ModalSolution modes = whole_sets(system, count);
   FrequencySensitivity result;
   result.outcome = modes.outcome;
+  result.evidence = modes.evidence;
   result.counters = modes.counters;
   const Index kept = std::min(count, modes.frequency.size());
   const auto columns = static_cast<Index>(parameters.size());

@@ -18,6 +18,7 @@ struct FrequencySensitivity {
   /// singular: a limb is straight or folded and the derivative infinite; not_converged: as the
   /// modes.
   Outcome outcome;
+  Evidence evidence;          ///< of the modes
   Eigen::VectorXd frequency;  ///< ascending [Hz]
   /// mode x parameter [Hz / unit of the parameter]. Within a set of repeated frequencies: the
   /// directional derivatives, eigenvalues of X^T (dK/dp - w^2 dM/dp) X over the set, ascending, as

@@ -8,11 +8,13 @@ namespace trammel::solver {
 
 FirstFrequency first_frequency(const ManipulatorDesign& design, const DesignParameter& parameter,
                                const Pose& pose) {
-  FirstFrequency first{.outcome = {}, .frequency = kNaN, .derivative = kNaN, .counters = {}};
+  FirstFrequency first{
+      .outcome = {}, .evidence = {}, .frequency = kNaN, .derivative = kNaN, .counters = {}};
   for (Index count = 1;; count *= 2) {
     const FrequencySensitivity s = frequency_sensitivity(design, pose, {parameter}, count);
     first.counters += s.counters;
     first.outcome = s.outcome;
+    first.evidence = s.evidence;
     const auto rigid = (s.frequency.array() == 0).count();
     if (rigid < s.frequency.size()) {
       first.frequency = s.frequency[rigid];
@@ -69,6 +71,7 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
       map.frequency(j, i) = first.frequency;
       map.derivative(j, i) = first.derivative;
       map.counters += first.counters;
+      if (first.outcome.solved()) map.evidence.add(first.evidence);
     }
   }
   return map;

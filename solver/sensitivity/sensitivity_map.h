@@ -10,6 +10,7 @@ namespace trammel::solver {
 /// The first elastic frequency at one pose; NaN unless solved.
 struct FirstFrequency {
   Outcome outcome;       ///< as FrequencySensitivity; singular too where all motions are rigid
+  Evidence evidence;     ///< of the modes
   double frequency = 0;  ///< [Hz]; has a value at a straight or folded limb, too
   double derivative =
       0;  ///< as the parameter grows; of a repeated frequency the lowest [Hz / unit]
@@ -38,6 +39,7 @@ struct SensitivityMap {
   Eigen::MatrixXd derivative;  ///< d f_1 / dp [Hz / unit], as the parameter grows
   Eigen::MatrixXd parallel_distance, serial_distance;  ///< as in Jacobians [-]
   Eigen::ArrayXX<bool> reachable;
+  Evidence evidence;  ///< of the modes at all poses with a value
   Counters counters;
 };
 

@@ -13,7 +13,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kLeastShare = 1e-3;
 /// Motions below have no digits: what numerical damping leaves of a vibration ends in them.
 constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
 

@@ -97,6 +97,11 @@ class ConservativeSystem : public ConstrainedSystem {
                                          const TangentCoefficients& coefficients,
                                          KktMatrix& matrix) const = 0;
   [[nodiscard]] virtual Energy energy(const State& state) const = 0;
+  /// Work that changes the energy in a step [J]: of drives, of loads that change or follow their
+  /// nodes, less what damping takes.
+  /// @param lambda  means of the step
+  [[nodiscard]] virtual double nonconservative_work(const State& from, const State& to,
+                                                    const VectorXd& lambda) const = 0;
 };
 
 }  // namespace trammel::solver::large_motion

@@ -19,6 +19,7 @@ void EnergyMomentum::begin(const State& state) {
   mean_lambda_ = previous_mean_lambda_ = state.lambda;
   factored_step_ = 0;
   first_ = true;
+  energy_step_.after = system_.energy(state);
 }
 
 void EnergyMomentum::accept() {
@@ -26,6 +27,8 @@ void EnergyMomentum::accept() {
   std::swap(previous_mean_lambda_, mean_lambda_);
   last_step_ = from_.t - to_.t;
   first_ = false;
+  energy_step_ = {energy_step_.after, system_.energy(from_),
+                  system_.nonconservative_work(to_, from_, previous_mean_lambda_)};
 }
 
 bool EnergyMomentum::factor(double h, bool exact) {

@@ -26,6 +26,7 @@ class EnergyMomentum final : public Stepper {
   }
   [[nodiscard]] double relation_residual() const override { return relation_residual_; }
   [[nodiscard]] bool keeps_rates() const override { return false; }
+  [[nodiscard]] std::optional<EnergyStep> energy_step() const override { return energy_step_; }
 
  private:
   [[nodiscard]] StepReport newton(double h, bool exact);
@@ -40,6 +41,7 @@ class EnergyMomentum final : public Stepper {
   VectorXd mean_lambda_, previous_mean_lambda_;  ///< multipliers of this step and the last
   double factored_step_ = 0, last_step_ = 0, relation_residual_ = 0;
   bool first_ = true;
+  EnergyStep energy_step_;
   VectorXd constraint_residual_, constraint_rate_, previous_constraint_residual_, step_, change_;
 };
 

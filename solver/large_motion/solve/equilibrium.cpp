@@ -65,13 +65,11 @@ void Equilibrium::load_direction(const State& state, VectorXd& direction) {
 double Equilibrium::backward_error(const State& state) {
   const Index n = system_.coordinates(), m = system_.constraints();
   VectorXd x(n + m), residual(n + m), load(n);
-  // As in EquationRows: no row is judged by coordinates or forces that are rounding alone.
-  constexpr double kLeast = 1e-3;
   const VectorXd motion = state.q.head(n).cwiseQuotient(system_.scale()).cwiseAbs();
   const double largest_motion = n > 0 ? motion.maxCoeff() : 0;
   const double largest_force = m > 0 ? state.lambda.cwiseAbs().maxCoeff() : 0;
-  x.head(n) = motion.cwiseMax(kLeast * largest_motion).cwiseProduct(system_.scale());
-  x.tail(m) = state.lambda.cwiseAbs().cwiseMax(kLeast * largest_force);
+  x.head(n) = motion.cwiseMax(kLeastShare * largest_motion).cwiseProduct(system_.scale());
+  x.tail(m) = state.lambda.cwiseAbs().cwiseMax(kLeastShare * largest_force);
   matrix_.clear();
   system_.tangent(state, TangentCoefficients{}, matrix_);
   VectorXd terms(n + m);

@@ -1,8 +1,10 @@
 #include "solver/large_motion/solve/motion_residuals.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/linalg/backward_error.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
 
@@ -37,9 +39,8 @@ void MotionResiduals::add_equation_of_motion(Evidence& evidence) {
   add_terms({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
   unknowns_ << state.q, state.lambda;
   add_terms({}, state);
-  // As in statics: no row is judged by terms that are rounding of the others.
   const auto scale = system_.scale().array();
-  const double least = n > 0 ? 1e-3 * (terms_.head(n).array() * scale).maxCoeff() : 0;
+  const double least = n > 0 ? kLeastShare * (terms_.head(n).array() * scale).maxCoeff() : 0;
   terms_.head(n) = terms_.head(n).array().max(least / scale);
   evidence.add(Residual::equation_of_motion, largest_ratio(residual_, terms_.head(n)));
 }
@@ -53,6 +54,22 @@ void MotionResiduals::add_constraints(double h, Evidence& evidence) {
     evidence.add(Residual::constraints, rate * std::abs(constraint_rate_[r]) / size_);
   }
   if (constraint_residual_.size() == 0) evidence.add(Residual::constraints, 0);
+}
+
+void MotionResiduals::take_energy() {
+  const auto step = stepper_.energy_step();
+  if (!step) return;
+  has_energy_ = true;
+  energy_gap_ += step->after.total() - step->before.total() - step->work;
+  throughput_ += std::abs(step->work);
+  for (const Energy& e : {step->before, step->after})
+    largest_energy_ = std::max(largest_energy_, e.kinetic + e.strain + std::abs(e.load));
+  largest_energy_gap_ = nan_max(largest_energy_gap_, std::abs(energy_gap_));
+}
+
+void MotionResiduals::add_energy(Evidence& evidence) const {
+  const double size = largest_energy_ + throughput_;
+  if (has_energy_) evidence.add(Residual::energy, size > 0 ? largest_energy_gap_ / size : 0);
 }
 
 }  // namespace trammel::solver::large_motion

@@ -17,6 +17,11 @@ class MotionResiduals {
   /// Rigid rows over the size of what they join, in positions and, where the method keeps them
   /// there, in velocities times h.
   void add_constraints(double h, Evidence& evidence);
+  /// Takes what the step did to the energy; generalized-alpha has no balance of its own for forces
+  /// that are not linear.
+  void take_energy();
+  /// The largest gap in the balance since the start, over the energies and the work done.
+  void add_energy(Evidence& evidence) const;
 
  private:
   void add_terms(const TangentCoefficients& coefficients, const State& state);
@@ -24,6 +29,8 @@ class MotionResiduals {
   const ConstrainedSystem& system_;
   const Stepper& stepper_;
   double size_;  ///< of the model [m]
+  bool has_energy_ = false;
+  double energy_gap_ = 0, largest_energy_gap_ = 0, largest_energy_ = 0, throughput_ = 0;  ///< [J]
   KktMatrix matrix_;
   VectorXd residual_, unknowns_, terms_, magnitudes_, constraint_residual_, constraint_rate_;
 };

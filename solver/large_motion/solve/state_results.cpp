@@ -13,53 +13,107 @@ double value_or(const VectorXd& values, Index k, double absent) {
   return k < values.size() ? values[k] : 0.0;
 }
 
-/// Forces and moments at the nodes of a beam element that the rest of the structure applies,
-/// G^T lambda + K (q + tau v) + M (a + alpha v - g) - loads [N, N, N m].
+/// A beam element where it is.
 template <int P>
-typename Beam<P>::Coordinates nodal_forces(const Beam<P>& beam,
-                                           const GeometricallyExactSystem& system,
-                                           const State& state, Index index,
-                                           const std::array<Index, Beam<P>::N>& where) {
-  constexpr int N = Beam<P>::N, R = Beam<P>::R;
+struct PlacedBeam {
   using Coordinates = typename Beam<P>::Coordinates;
-  typename Beam<P>::Rows residual;
-  typename Beam<P>::Gradient G;
-  const Coordinates q = gather<N>(state.q, where);
-  beam.constraint_residual(q, state.t, residual, G);
-  Coordinates f = G.transpose() * state.lambda.template segment<R>(system.element_row(index));
-  Coordinates strained = q;
-  if (state.v.size() > 0) {
-    strained += system.strain_rate_damping() * gather<N>(state.v, where);
+  const GeometricallyExactSystem& system;
+  const State& state;
+  Index index;
+  const MemberElement& element = system.layout().elements[to_size(index)];
+  const Member& member = system.model().members[to_size(element.member)];
+  Beam<P> beam = make_beam<P>(member, element);
+  std::array<Index, Beam<P>::N> where = coordinates_of<Beam<P>::N>(element);
+  Coordinates q = gather<Beam<P>::N>(state.q, where);
+
+  /// Loads + M (g - a - alpha v) at each node [N, N, N m].
+  [[nodiscard]] Coordinates applied_forces() const {
+    constexpr int N = Beam<P>::N;
+    Coordinates field = Coordinates::Zero();
+    if (state.a.size() > 0) {
+      field = -gather<N>(state.a, where) -
+              system.large_motion().mass_damping * gather<N>(state.v, where);
+    }
+    const Vector2d g = state.gravity * system.model().gravity;
+    for (int a = 0; a < N; a += 3) field.template segment<2>(a) += g;
+    Coordinates f = beam.mass() * field;
+    for (int a = 0; a <= P; ++a) {
+      f.template segment<2>(3 * a) +=
+          beam.length * shape_functions<P>().integral[a] * state.load * member.load;
+    }
+    return f;
   }
-  f += beam.stiffness() * strained;
-  Coordinates inertia = Coordinates::Zero();
-  if (state.a.size() > 0) {
-    inertia =
-        gather<N>(state.a, where) + system.large_motion().mass_damping * gather<N>(state.v, where);
+
+  /// Forces and moments at the nodes that the rest of the structure applies,
+  /// G^T lambda + K (q + tau v) - applied forces [N, N, N m].
+  [[nodiscard]] Coordinates nodal_forces() const {
+    typename Beam<P>::Rows residual;
+    typename Beam<P>::Gradient G;
+    beam.constraint_residual(q, state.t, residual, G);
+    Coordinates strained = q;
+    if (state.v.size() > 0)
+      strained += system.strain_rate_damping() * gather<Beam<P>::N>(state.v, where);
+    return G.transpose() * state.lambda.template segment<Beam<P>::R>(system.element_row(index)) +
+           beam.stiffness() * strained - applied_forces();
   }
-  const Vector2d g = state.gravity * system.model().gravity;
-  for (int a = 0; a < N; a += 3) inertia.template segment<2>(a) -= g;
-  f += beam.mass() * inertia;
-  return f;
-}
+
+  /// Axes of the section at a node.
+  [[nodiscard]] Vector2d e1(int node) const { return rotated(beam.axis, q[3 * node + 2]); }
+  [[nodiscard]] Vector2d position(int node) const {
+    const double x = lobatto_coordinate(P, to_size(node));
+    return element.start + x * (element.end - element.start) + q.template segment<2>(3 * node);
+  }
+};
 
 template <int P>
 Eigen::RowVector3d beam_resultants(const GeometricallyExactSystem& system, const State& state,
                                    Index index, bool first) {
-  const MemberElement& element = system.layout().elements[to_size(index)];
-  const Member& member = system.model().members[to_size(element.member)];
-  const Beam<P> beam = make_beam<P>(member, element);
-  const auto where = coordinates_of<Beam<P>::N>(element);
-  typename Beam<P>::Coordinates f = nodal_forces<P>(beam, system, state, index, where);
-  const int k = first ? 0 : 3 * P;
-  const double share = beam.length * shape_functions<P>().integral[first ? 0 : P] * state.load;
-  f.template segment<2>(k) -= share * member.load;
-  const double angle = value_or(state.q, where[to_size(k + 2)], 0);
-  const Vector2d e1 = rotated(beam.axis, angle);
-  const Vector2d e2 = perpendicular(e1);
+  const PlacedBeam<P> placed{system, state, index};
+  const int node = first ? 0 : P;
+  const typename Beam<P>::Coordinates f = placed.nodal_forces();
+  const Vector2d e1 = placed.e1(node);
   const double sign = first ? -1 : 1;
-  const Vector2d force = f.template segment<2>(k);
-  return {sign * e1.dot(force), sign * e2.dot(force), sign * f[k + 2]};
+  const Vector2d force = f.template segment<2>(3 * node);
+  return {sign * e1.dot(force), sign * perpendicular(e1).dot(force), sign * f[3 * node + 2]};
+}
+
+/// Sums of forces and of moments about a point, and of their terms' magnitudes.
+struct FreeBody {
+  Vector2d about;
+  Vector2d force = Vector2d::Zero();
+  double moment = 0, force_terms = 0, moment_terms = 0;
+
+  void add(const Vector2d& at, const Vector2d& f, double m) {
+    const Vector2d arm = at - about;
+    force += f;
+    moment += arm.x() * f.y() - arm.y() * f.x() + m;
+    force_terms += f.norm();
+    moment_terms += arm.norm() * f.norm() + std::abs(m);
+  }
+};
+
+template <int P>
+FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, Index first,
+                  Index last) {
+  const auto section_force = [](const PlacedBeam<P>& beam, const Eigen::RowVector3d& resultant,
+                                int node) -> Vector2d {
+    return resultant[0] * beam.e1(node) + resultant[1] * perpendicular(beam.e1(node));
+  };
+  const PlacedBeam<P> head{system, state, first}, tail{system, state, last};
+  FreeBody body{head.position(0)};
+  const Eigen::RowVector3d start = beam_resultants<P>(system, state, first, true);
+  const Eigen::RowVector3d end = beam_resultants<P>(system, state, last, false);
+  body.add(head.position(0), -section_force(head, start, 0), -start[2]);
+  body.add(tail.position(P), section_force(tail, end, P), end[2]);
+  for (Index e = first; e <= last; ++e) {
+    const PlacedBeam<P> beam{system, state, e};
+    const typename Beam<P>::Coordinates f = beam.applied_forces();
+    for (int a = 0; a <= P; ++a)
+      body.add(beam.position(a), f.template segment<2>(3 * a), f[3 * a + 2]);
+    // Moments are differences of rotations, however far the member has turned.
+    body.moment_terms += (beam.beam.stiffness().cwiseAbs() * beam.q.cwiseAbs()).maxCoeff();
+  }
+  return body;
 }
 
 /// (N, V, M) at the first or the second end of an element.
@@ -124,6 +178,30 @@ Resultants member_resultants(const GeometricallyExactSystem& system, const State
         element_resultants(system, state, layout.first_element[to_size(m + 1)] - 1, false);
   }
   return resultants;
+}
+
+void MemberBalance::add(const GeometricallyExactSystem& system, const State& state) {
+  const Layout& layout = system.layout();
+  for (std::size_t m = 0; m < system.model().members.size(); ++m) {
+    const Index first = layout.first_element[m], last = layout.first_element[m + 1] - 1;
+    if (layout.elements[to_size(first)].is_bar()) continue;
+    const FreeBody body = system.order() == 1   ? cut_free<1>(system, state, first, last)
+                          : system.order() == 2 ? cut_free<2>(system, state, first, last)
+                                                : cut_free<3>(system, state, first, last);
+    force_ = nan_max(force_, body.force.norm());
+    moment_ = nan_max(moment_, std::abs(body.moment));
+    force_terms_ = std::max(force_terms_, body.force_terms);
+    moment_terms_ = std::max(moment_terms_, body.moment_terms);
+    length_ = std::max(
+        length_,
+        (layout.elements[to_size(last)].end - layout.elements[to_size(first)].start).norm());
+  }
+}
+
+double MemberBalance::residual() const {
+  if (force_ == 0 && moment_ == 0) return 0;
+  const double moment_terms = std::max(moment_terms_, force_terms_ * length_);
+  return nan_max(force_ * length_, moment_) / moment_terms;
 }
 
 double drive_force(const GeometricallyExactSystem& system, const State& state, Index drive) {

@@ -29,6 +29,22 @@ struct Resultants {
 [[nodiscard]] Resultants member_resultants(const GeometricallyExactSystem& system,
                                            const State& state);
 
+/// How far members cut free are from equilibrium under the section forces at their ends, their
+/// loads, weight and inertia in the place where they are.
+class MemberBalance {
+ public:
+  /// @param state  meets the equation of motion
+  void add(const GeometricallyExactSystem& system, const State& state);
+  /// The largest sum of forces, or of moments about a first end, over the largest terms of such
+  /// sums: states and members whose forces are rounding of the others' do not count.
+  [[nodiscard]] double residual() const;
+
+ private:
+  double force_ = 0, moment_ = 0;              // largest sums [N, N m]
+  double force_terms_ = 0, moment_terms_ = 0;  // largest sums of magnitudes [N, N m]
+  double length_ = 0;                          // the longest member [m]
+};
+
 /// Force [N] or torque [N m] of a drive on the structure.
 [[nodiscard]] double drive_force(const GeometricallyExactSystem& system, const State& state,
                                  Index drive);

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <utility>
 
+#include "solver/large_motion/solve/state_results.h"
+
 namespace trammel::solver::large_motion {
 
 namespace {
@@ -56,6 +58,7 @@ class PathFollower {
       while (next()) {
       }
     }
+    path_.evidence.add(Residual::recovered_forces, balance_.residual());
     const Outcome judged = outcome_by_evidence(path_.outcome, path_.evidence);
     if (path_.outcome.solved() && !judged.solved()) not_converged(judged.reason);
     path_.counters.factorizations = equilibrium_.matrix().factorizations();
@@ -85,7 +88,7 @@ class PathFollower {
     normalize(direction_);
     point.unstable_directions = equilibrium_.matrix().negative_pivots();
     arc_step_ = options_.first_step / direction_.load;
-    path_.evidence.add(Residual::equilibrium, equilibrium_.backward_error(point.state));
+    add_evidence(point.state);
     path_.points.push_back(std::move(point));
     return true;
   }
@@ -192,9 +195,14 @@ class PathFollower {
     return switched || !done;
   }
 
+  void add_evidence(const State& state) {
+    path_.evidence.add(Residual::equilibrium, equilibrium_.backward_error(state));
+    balance_.add(system_, state);
+  }
+
   void append(PathPoint point) {
     ++path_.counters.steps;
-    path_.evidence.add(Residual::equilibrium, equilibrium_.backward_error(point.state));
+    add_evidence(point.state);
     if (!options_.keep_points) path_.points.clear();
     path_.points.push_back(std::move(point));
   }
@@ -302,6 +310,7 @@ class PathFollower {
   const StaticPathOptions& options_;
   Equilibrium equilibrium_;
   StaticPath path_;
+  MemberBalance balance_;
   Direction direction_;
   double displacement_weight_ = 1;  ///< of the displacements beside the load factor
   double arc_step_ = 0;

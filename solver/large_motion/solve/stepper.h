@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "solver/large_motion/elements/constrained_system.h"
 
 namespace trammel::solver::large_motion {
@@ -10,6 +12,12 @@ struct StepReport {
   int iterations = 0;
   double correction = 0;  ///< last correction of the positions, over the scale [-]
   double error = 0;       ///< estimate of the local error in position, over the scale [-]
+};
+
+/// What a step did to the energy [J].
+struct EnergyStep {
+  Energy before, after;
+  double work = 0;  ///< of what is not conservative
 };
 
 /// A time integrator: one step from a consistent state.
@@ -36,6 +44,8 @@ class Stepper {
   [[nodiscard]] virtual double relation_residual() const = 0;
   /// Whether velocities meet the constraints at the ends of steps.
   [[nodiscard]] virtual bool keeps_rates() const = 0;
+  /// Of the step accepted last, where the method has an exact balance of energy.
+  [[nodiscard]] virtual std::optional<EnergyStep> energy_step() const { return std::nullopt; }
 };
 
 }  // namespace trammel::solver::large_motion

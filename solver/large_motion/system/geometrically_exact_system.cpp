@@ -190,6 +190,40 @@ Energy GeometricallyExactSystem::energy(const State& state) const {
   return energy;
 }
 
+double GeometricallyExactSystem::nonconservative_work(const State& from, const State& to,
+                                                      const VectorXd& lambda) const {
+  const Index n = layout_.free;
+  const double h = to.t - from.t;
+  const VectorXd moved = to.q - from.q;
+  const auto mean = (from.q + to.q) / 2;
+  double work = -mean.dot((to.gravity - from.gravity) * gravity_.head(n) +
+                          (to.load - from.load) * parts_.loads.head(n));
+  padded_.head(n) = (from.v + to.v) / 2;
+  product_.noalias() = mass_ * padded_;
+  work -= h * large_motion_.mass_damping * padded_.head(n).dot(product_.head(n));
+  // Rows change by the motion and by the drives; the constraint forces do the work of the former.
+  VectorXd before = VectorXd::Zero(parts_.rows), after = before, rate = before;
+  State held = to;
+  held.t = from.t;
+  constraint_residual(from, before, rate);
+  constraint_residual(held, after, rate);
+  const double tau = large_motion_.strain_rate_damping;
+  for (Index i = 0; i < parts_.rows; ++i) {
+    const double change = after[i] - before[i];
+    work -= compliance_[i] > 0 ? tau / h * change * change / compliance_[i] : lambda[i] * change;
+  }
+  VectorXd forces = VectorXd::Zero(n), elastic = forces;
+  if (parts_.follower_loads != nullptr)
+    parts_.follower_loads->discrete_gradient_forces(from, to, lambda, 0, forces);
+  if (tau != 0) {
+    for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
+      group->discrete_gradient_forces(from, to, lambda, tau, forces);
+      group->discrete_gradient_forces(from, to, lambda, 0, elastic);
+    }
+  }
+  return work - moved.dot(forces - elastic);
+}
+
 void GeometricallyExactSystem::load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
   r = -gravity_.head(r.size()) - parts_.loads.head(r.size());
   if (parts_.follower_loads != nullptr) parts_.follower_loads->add_load_derivative(state, r);

@@ -44,6 +44,8 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   }
   [[nodiscard]] double load_factor(double t) const override;
   [[nodiscard]] Energy energy(const State& state) const override;
+  [[nodiscard]] double nonconservative_work(const State& from, const State& to,
+                                            const VectorXd& lambda) const override;
 
   /// d(force residual)/d(load factor), gravity included.
   void load_derivative(const State& state, Eigen::Ref<VectorXd> r) const;

@@ -5,7 +5,10 @@
 
 #include "solver/large_motion/solve/generalized_alpha.h"
 #include "solver/large_motion/solve/integrate.h"
+#include "solver/large_motion/solve/state_results.h"
+#include "solver/large_motion/solve/static_path.h"
 #include "tests/support/solver/callable_system.h"
+#include "tests/support/solver/large_models.h"
 
 namespace {
 
@@ -110,6 +113,49 @@ BOOST_AUTO_TEST_CASE(an_integration_shows_its_residuals) {
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
   BOOST_TEST(summary.evidence.largest(Residual::constraints) < 1e-13);
   BOOST_TEST(summary.evidence.largest(Residual::equation_of_motion) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(work_and_energy_balance_to_rounding_with_every_kind_of_work) {
+  Model model = trammel::testing::cantilever(trammel::testing::unit_section(1e4), 1, 2);
+  model.gravity = {1, -9.81};
+  model.loads = {{1, {20, -5, 0}}};
+  LargeMotionModel large_motion;
+  large_motion.initial_velocities = {{1, 1, 2.0}};
+  large_motion.follower_loads = {{1, {0, 30, 4}}};
+  large_motion.load_history = [](double t) { return std::sin(9 * t); };
+  large_motion.mass_damping = 0.4;
+  large_motion.strain_rate_damping = 1e-3;
+  large_motion.drives = {
+      {"motor", 1, 0, [](double t) -> std::array<double, 3> {
+         return {-0.01 * (1 - std::cos(7 * t)), -0.07 * std::sin(7 * t), -0.49 * std::cos(7 * t)};
+       }}};
+  const GeometricallyExactSystem system(model, large_motion);
+  State state;
+  const IntegrationSummary summary = integrate(
+      system, state, {.integrator = Integrator::energy_momentum, .end_time = 1, .step = 0.01});
+  BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
+  BOOST_TEST(summary.evidence.largest(Residual::energy) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(a_member_cut_free_is_in_equilibrium_only_under_forces_recovered_rightly) {
+  Model model = trammel::testing::cantilever(trammel::testing::unit_section(1e4), 1, 2);
+  model.loads = {{1, {0, -1, 0}}};
+  model.members[0].load = {0.3, 0.7};
+  const GeometricallyExactSystem system(model);
+  StaticPath path = follow_static_path(system);
+  BOOST_TEST(path.outcome.solved(), path.outcome.reason);
+  BOOST_TEST(path.evidence.largest(Residual::recovered_forces) < 1e-13);
+  State& state = path.points.back().state;
+  const auto residual = [&] {
+    MemberBalance balance;
+    balance.add(system, state);
+    return balance.residual();
+  };
+  state.lambda[0] *= 1 + 1e-6;
+  BOOST_TEST(residual() > 1e-8);
+  state.lambda[0] /= 1 + 1e-6;
+  state.load *= 1 + 1e-6;
+  BOOST_TEST(residual() > 1e-8);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
