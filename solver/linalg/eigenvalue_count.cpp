@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/eigenpairs.h"
 #include "solver/linalg/factorization.h"
 
@@ -31,6 +32,16 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
   }
   const bool nothing_swings = found[found.size() - 1] == 0;
   return nothing_swings ? 0 : std::numeric_limits<double>::infinity();
+}
+
+Index dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X) {
+  if (X.cols() == 0) return 0;
+  constexpr double kDependent = 1e-3;  // eigenvectors leave 1, twice the same rounding
+  Eigen::MatrixXd products = X.transpose() * (metric * X);
+  const Eigen::VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
+  products = scale.asDiagonal() * products * scale.asDiagonal();
+  const auto independent = (symmetric_eigenpairs(products).value.array() > kDependent).count();
+  return X.cols() - independent;  // all, where they are not numbers
 }
 
 }  // namespace trammel::solver

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "solver/model/counters.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 
@@ -12,5 +13,9 @@ namespace trammel::solver {
 /// @param found  ascending, >= 0; 0 of free motions
 [[nodiscard]] double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
                                             const Eigen::VectorXd& found);
+
+/// How many of the eigenvectors depend on the others, by their products in a metric in which they
+/// are orthogonal: a mode that was found twice counts once.
+[[nodiscard]] Index dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
 
 }  // namespace trammel::solver

@@ -16,7 +16,7 @@ enum class Residual {
   equilibrium,          ///< K u = f row by row, with the matrices formed afresh
   recovered_forces,     ///< equilibrium of the forces that are reported: members, supports, loads
   eigenvalue_equation,  ///< K x = w^2 M x row by row, of every mode
-  mode_count,           ///< modes that are missed or too many, by Sylvester's law of inertia
+  mode_count,           ///< modes missed, too many (Sylvester's law of inertia) or found twice
   equation_of_motion,   ///< row by row, the largest over the steps
   constraints,          ///< joints, drives and the closing of loops, over the size of the model
   energy,               ///< work of all forces less the change of energy, over the whole run

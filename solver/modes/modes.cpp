@@ -144,7 +144,8 @@ void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& s
   }
   const double missed = K_G ? miscounted_eigenvalues(system.K + *K_G, system.M, w2)
                             : miscounted_eigenvalues(system.K, system.M, w2);
-  solution.evidence.add(Residual::mode_count, missed);
+  const auto twice = static_cast<double>(dependent_vectors(system.M, solution.shape));
+  solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
 }
 

@@ -58,8 +58,9 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
   if (!solution.outcome.solved()) return solution;
-  solution.evidence.add(Residual::mode_count,
-                        miscounted_eigenvalues(system.K, softening, solution.load_factor));
+  const double missed = miscounted_eigenvalues(system.K, softening, solution.load_factor);
+  const auto twice = static_cast<double>(dependent_vectors(system.K, solution.shape));
+  solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
   return solution;
 }

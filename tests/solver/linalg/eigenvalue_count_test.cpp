@@ -1,0 +1,34 @@
+#include "solver/linalg/eigenvalue_count.h"
+
+#include <boost/test/unit_test.hpp>
+
+namespace {
+
+using namespace trammel::solver;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+SparseMatrix diagonal(const VectorXd& values) {
+  return SparseMatrix(values.asDiagonal());
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(eigenvalue_count)
+
+BOOST_AUTO_TEST_CASE(a_missed_mode_is_counted_and_one_found_twice_does_not_hide_it) {
+  const SparseMatrix A = diagonal(VectorXd{{1, 2, 2, 5, 9}}), B = diagonal(VectorXd::Ones(5));
+  MatrixXd shapes = MatrixXd::Identity(5, 4);
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}) == 0);
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 5}}) == 1);
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 1, 2, 2, 5}}) == 1);
+  BOOST_TEST(dependent_vectors(B, shapes) == 0);
+  // The lowest is missed, another stands in its place: the number is right.
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 2, 5}}) == 0);
+  shapes.col(0) = 0.6 * shapes.col(1) + 0.8 * shapes.col(2);
+  BOOST_TEST(dependent_vectors(B, shapes) == 1);
+  shapes(0, 0) = std::nan("");
+  BOOST_TEST(dependent_vectors(B, shapes) == 4);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
