@@ -146,11 +146,17 @@ PlatformMotion read_platform_motion(const JsonView& model,
     motion = {std::move(trajectory.path), std::move(trajectory.motion)};
   }
   for (std::size_t i = 0; i < motion.points.size(); ++i) {
-    const solver::Posture posture = solver::inverse_kinematics(geometry, motion.points[i].pose);
-    if (posture.outcome.solved()) continue;
+    std::string reason;
+    try {
+      const auto posture = solver::inverse_kinematics(geometry, motion.points[i].pose);
+      if (posture.outcome.solved()) continue;
+      reason = posture.outcome.reason;
+    } catch (const solver::ModelError& error) {  // a path may overflow between finite knots
+      reason = error.what();
+    }
     const std::string point = single ? "" : " at point " + std::to_string(i);
     throw model[single ? "pose" : "trajectory"].error("expected a pose within reach" + point +
-                                                      " (" + posture.outcome.reason + ")");
+                                                      " (" + reason + ")");
   }
   return motion;
 }

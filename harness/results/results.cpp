@@ -377,6 +377,8 @@ Results read_results(const std::filesystem::path& file) {
     return read_results(Json::parse(in));
   } catch (const Json::parse_error& error) {
     throw std::runtime_error(file.string() + ": not JSON at byte " + std::to_string(error.byte));
+  } catch (const Json::out_of_range&) {
+    throw std::runtime_error(file.string() + ": /: a number that a double cannot hold");
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }

@@ -232,4 +232,13 @@ BOOST_AUTO_TEST_CASE(the_tests_mirror_the_rooms) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_readme_of_the_tests_names_their_folders) {
+  std::set<std::string> told, there;
+  for (const Cells& cells : table(kRoot / "tests/README.md", "| folder |"))
+    for (const std::string& name : names_in(cells.at(0))) told.insert(name);
+  for (const auto& entry : fs::directory_iterator(kRoot / "tests"))
+    if (entry.is_directory()) there.insert(entry.path().filename().string());
+  BOOST_TEST(told == there, boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,165 @@
+#include "tests/fuzz/target.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <regex>
+
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/base/text.h"
+#include "harness/cli/command_compare.h"
+#include "harness/input/catalogue.h"
+#include "harness/run/claims.h"
+#include "harness/run/results.h"
+#include "harness/run/run_store.h"
+#include "harness/studies/cost_study.h"
+#include "harness/studies/run_sweeps.h"
+#include "reports/page/junit.h"
+
+namespace trammel::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace harness;
+
+const Catalogue& catalogue() {
+  static const Catalogue all;
+  return all;
+}
+
+/// As `run` computes and judges a variant, with its sweeps and its uncertainty now and then.
+void compute(const Case& given, const std::string& variant, bool all) {
+  const References references;
+  const Document document = patched(given, variant);
+  const auto checks = read_checks(document, variant, given.variants());
+  Run run;
+  run.case_id = given.id();
+  run.variant = variant;
+  run.result = analyse(document, references, {true});
+  run.status = run.result.outcome.solved() ? "solved" : "singular";
+  if (run.status == "solved") {
+    if (all) run.sweeps = run_sweeps(document, references);
+    if (all && document.value().contains("uncertainty"))
+      run.uncertainty = evaluate_validation_uncertainty(document, run.result, checks, references);
+    for (const Sweep& sweep : run.sweeps)
+      for (Convergence& found :
+           study_sweep(sweep, document, checks, references, TrackedQuantities::named))
+        run.convergence.push_back(std::move(found));
+    const auto other = [&](const std::string&) { return &run.result.quantities; };
+    const CheckContext context{document, run.result.quantities, run.convergence, references, other};
+    for (const Check& check : checks)
+      for (CheckResult& judged : evaluate_check(check, context))
+        run.check_results.push_back(std::move(judged));
+  }
+  static_cast<Computation&>(run) = computation_from(to_bytes(run));
+  (void)results::read_results(results::to_json(results_of({run}, {given}, references)));
+}
+
+void take_case(const fs::path& file, std::size_t pick, const std::function<void()>& computing) {
+  const Case given = load_case(file, catalogue());
+  std::vector<std::string> variants = given.variants();
+  const auto own = std::find(variants.begin(), variants.end(), "fuzz");
+  if (own != variants.end()) {
+    variants = {"fuzz"};
+  } else if (pick > 0) {
+    variants = {variants[pick % 3 == 0 ? pick % variants.size() : 0]};
+  }
+  computing();
+  for (const std::string& variant : variants) compute(given, variant, pick % 4 == 0);
+}
+
+void take_claims(const fs::path& file) {
+  static const std::vector<Case> cases = {load_case(catalogue().find_case("table-2-audit")),
+                                          load_case(catalogue().find_case("claims-audit"))};
+  Document claims = Document::from_json(file.string(), read_json(file));
+  claims.validate("claims");
+  (void)cases_of(claims, cases);
+  std::vector<Run> runs;
+  for (const Case& some : cases) {
+    Run run;
+    run.case_id = some.id();
+    run.variant = kBaseVariant;
+    run.status = "solved";
+    run.result = analyse(patched(some, kBaseVariant), References(), {false});
+    runs.push_back(std::move(run));
+  }
+  (void)results::claims_to_json(claim_results(evaluate_claims(claims, runs)));
+}
+
+void take_results(const fs::path& file, const fs::path& sample) {
+  try {
+    (void)results::read_results(file);
+    reports::write_junit(file, file.parent_path() / "junit.xml");
+  } catch (const std::runtime_error& error) {
+    throw InputError(error.what());  // read by the reports, which do not know the harness
+  }
+  (void)compare_command(file, sample);
+}
+
+void take_file(const Input& input, const fs::path& file, const std::function<void()>& computing) {
+  if (input.kind == "case") take_case(file, input.pick, computing);
+  if (input.kind == "cost")
+    for (const SweepExtent extent : {SweepExtent::quick, SweepExtent::full})
+      (void)load_cost_study(file, extent, References());
+  if (input.kind == "claims") take_claims(file);
+  if (input.kind == "reference") (void)References().add(file);
+  if (input.kind != "results") return;
+  const fs::path sample = file.parent_path() / "sample.json";
+  if (!fs::exists(sample)) write_file(sample, sample_results().dump());
+  take_results(file, sample);
+}
+
+/// A refusal is one line that says where.
+Verdict judge_refusal(const std::string& message) {
+  static const std::regex place("(: /|: line |at byte |expected )");
+  const bool is_line = std::none_of(message.begin(), message.end(),
+                                    [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  if (!is_line) return {Outcome::wrong, "control characters in: " + message};
+  if (!std::regex_search(message, place)) return {Outcome::wrong, "no place in: " + message};
+  return {Outcome::refused, message};
+}
+
+}  // namespace
+
+const char* to_string(Outcome outcome) {
+  constexpr std::array<const char*, kOutcomes> names = {"unfinished", "valid",    "refused",
+                                                        "no memory",  "crash",    "hang",
+                                                        "stopped",    "internal", "wrong"};
+  return names.at(static_cast<std::size_t>(outcome));
+}
+
+bool is_finding(Outcome outcome) {
+  return outcome == Outcome::unfinished || outcome == Outcome::crash || outcome == Outcome::hang ||
+         outcome == Outcome::internal || outcome == Outcome::wrong;
+}
+
+Json sample_results() {
+  static const Json sample = [] {
+    const References references;
+    std::vector<Case> cases;
+    for (const char* name : {"cantilever-tip-force", "table-2-audit"})
+      cases.push_back(load_case(catalogue().find_case(name)));
+    return results::to_json(results_of(run_cases(cases, references, {}), cases, references));
+  }();
+  return sample;
+}
+
+Verdict take(const Input& input, const fs::path& folder, const std::function<void()>& computing) {
+  const fs::path file = folder / (input.name + ".json");
+  std::ofstream(file, std::ios::binary) << input.text;
+  try {
+    take_file(input, file, computing);
+    if (input.is_invalid) return {Outcome::wrong, "accepted, though it breaks the schema"};
+    return {Outcome::valid, ""};
+  } catch (const InputError& error) {
+    return judge_refusal(one_line(error.what()));
+  } catch (const std::bad_alloc&) {
+    return {Outcome::no_memory, "more memory than there is"};
+  } catch (const std::exception& error) {
+    return {Outcome::internal, error.what()};
+  }
+}
+
+}  // namespace trammel::fuzz
