@@ -11,4 +11,7 @@ namespace trammel::harness {
 /// The same of a file; empty where there is none that can be read.
 [[nodiscard]] std::string file_hash(const std::filesystem::path& file);
 
+/// What names this program's code: the linker's build id; of a program without one its file's hash.
+[[nodiscard]] std::string program_hash();
+
 }  // namespace trammel::harness

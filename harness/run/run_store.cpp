@@ -112,7 +112,7 @@ Json tried_cases(const Document& document) {
 }  // namespace
 
 std::string computation_name(const Document& document, bool requested) {
-  static const std::string program = file_hash("/proc/self/exe");
+  static const std::string program = program_hash();
   const std::string file = std::filesystem::absolute(document.origin("").file).string();
   const Json all = {program, requested, file, document.value(), tried_cases(document)};
   return content_hash(all.dump(-1, ' ', false, Json::error_handler_t::replace));
