@@ -16,6 +16,7 @@
 #include "harness/run/cost_results.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
+#include "harness/studies/accuracy_search.h"
 #include "harness/studies/cost_study_of_sweeps.h"
 
 namespace trammel::harness {
@@ -146,6 +147,60 @@ void print(const MeasuredStudy& measured) {
             << '\n';
 }
 
+/// "0.1 %", "1e-6".
+std::string share(double error) {
+  return error < 1e-4 ? rounded(error, 2) : rounded(100 * error, 2) + " %";
+}
+
+void print_search(const AccuracySearch& search) {
+  Table table({"tried", ">error", ""});
+  for (const TriedSetting& tried : search.tried)
+    table.add({tried.title, tried.reason.empty() ? rounded(tried.error, 2) : "-", tried.reason});
+  table.print(std::cout, "  ");
+  std::cout << wrapped(
+      fmt::format("Errors against {}, which the last refinement changed by {}.",
+                  search.study.reference_description, share(search.reference_change)),
+      "  ");
+  if (search.out_of_time)
+    std::cout << "  Not everything was tried: --time-limit gives the search more time.\n";
+}
+
+/// The cheapest setting within the accuracy, and the patch that makes a case compute so.
+void print_choice(const AccuracySearch& search, const MeasuredStudy& measured, double accuracy) {
+  const auto best = cheapest(measured.points, accuracy);
+  if (!best) {
+    std::cout << "No setting that was tried comes within " << share(accuracy) << ".\n";
+    return;
+  }
+  const auto title = [&](std::size_t i) { return "'" + measured.study.settings[i].title + "'"; };
+  std::vector<std::string> tied;
+  for (const std::size_t i : tied_settings(measured.points, accuracy)) tied.push_back(title(i));
+  std::string words = "Within " + share(accuracy) + ": " + title(best->setting);
+  if (!tied.empty()) words += "; in times that cannot be told from its, also " + join(tied, "and");
+  std::cout << wrapped(words + ". As a variant of the case:", "")
+            << search.patches[best->setting].dump(2) << '\n';
+}
+
+MeasuredStudy choose_setting(const CostCommand& command, const CostOptions& options,
+                             const References& references) {
+  if (command.what.size() != 1 || !command.sweeps.empty())
+    throw InputError("--accuracy: expected one case beside it, and no --sweep");
+  const Case given = load_case(find_one(command.what.front(), {}));
+  AccuracySearch search;
+  {
+    Progress progress("settings tried");
+    const auto show = [&](std::size_t tried) { progress.show(tried, 0); };
+    search = search_accuracy(given, command.variant.empty() ? kBaseVariant : command.variant,
+                             {command.accuracy, command.quantities, command.time_limit_s},
+                             references, show);
+  }
+  print_search(search);
+  MeasuredStudy measured = measure(search.study, options, references);
+  print(measured);
+  print_choice(search, measured, command.accuracy);
+  return measured;
+}
+
 TimingOptions timing_of(const CostCommand& command) {
   TimingOptions timing;
   timing.repeats = command.repeats;
@@ -160,9 +215,14 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   const OutputLock lock(command.out);
   const References references;
   const SweepExtent extent = command.quick ? SweepExtent::quick : SweepExtent::full;
-  std::vector<CostStudy> studies = read_studies(command, extent, references);
   CostOptions options{timing_of(command), {}};
   std::vector<MeasuredStudy> measured;
+  std::vector<CostStudy> studies;
+  if (command.accuracy > 0) {
+    measured.push_back(choose_setting(command, options, references));
+  } else {
+    studies = read_studies(command, extent, references);
+  }
   for (CostStudy& study : studies) {
     {
       Progress progress("measurements");

@@ -19,6 +19,9 @@ struct CostCommand {
   int repeats = 7;
   std::uint64_t seed = 1;
   std::string out;
+  double accuracy = 0;  ///< the settings are searched for this error; 0: they are not
+  std::vector<std::string> quantities;  ///< that the search looks at
+  double time_limit_s = 120;            ///< of the search
 };
 
 /// What accuracy costs in time. @returns the exit status

@@ -191,7 +191,8 @@ class CommandLine {
             "Settings run in random order, one at a time; keep the machine otherwise idle.\n\n"
             "Examples:\n  trammel cost\n  trammel cost modes statics --quick\n"
             "  trammel cost beam-cantilever --sweep elements\n"
-            "  trammel cost my-study.json --repeats 15 --out cost");
+            "  trammel cost my-study.json --repeats 15 --out cost\n"
+            "  trammel cost my-case.json --accuracy 1e-3 --quantity displacement_y_m:B");
     sub->add_option("what", cost_.what,
                     "Families or studies of the catalogue, cases, or files of either; every study "
                     "by default");
@@ -204,6 +205,16 @@ class CommandLine {
         ->capture_default_str();
     sub->add_option("--seed", cost_.seed, "Of the order")->capture_default_str();
     sub->add_option("-o,--out", cost_.out, "Folder for results.json, the page, figures and data")
+        ->capture_default_str();
+    sub->add_option(
+           "--accuracy", cost_.accuracy,
+           "Search the cheapest setting of one case within this relative error: mesh, beam "
+           "theory, tier, integrator and step as far as it has them")
+        ->check(CLI::Range(1e-10, 1.0));
+    sub->add_option("--quantity", cost_.quantities,
+                    "What --accuracy looks at, as displacement_y_m:B or displacement_y_m");
+    sub->add_option("--time-limit", cost_.time_limit_s, "Of the search by --accuracy [s]")
+        ->check(CLI::Range(1.0, 1e6))
         ->capture_default_str();
     sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
   }

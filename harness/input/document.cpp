@@ -6,10 +6,6 @@
 
 namespace trammel::harness {
 
-namespace {
-
-/// One merge patch that does what two do one after the other: unlike a document, a patch keeps its
-/// nulls.
 void compose(Json& patch, const Json& later) {
   if (!patch.is_object() || !later.is_object()) {
     patch = later;
@@ -17,8 +13,6 @@ void compose(Json& patch, const Json& later) {
   }
   for (const auto& item : later.items()) compose(patch[item.key()], item.value());
 }
-
-}  // namespace
 
 Document Document::from_json(const std::string& file, const Json& json) {
   Document document;

@@ -14,6 +14,10 @@ struct Origin {
   bool is_value = false;  ///< `pointer` leads to a sweep's value that stands in for the place
 };
 
+/// Makes one merge patch that does what two do one after the other: unlike a document, a patch
+/// keeps its nulls.
+void compose(Json& patch, const Json& later);
+
 /// A JSON document made of layers, each a merge patch (RFC 7386) over those before it. It remembers
 /// which file said what, so that a message points to where the user wrote it.
 class Document {

@@ -18,8 +18,8 @@ using MeasurementStatus = MeasuredSetting::MeasurementStatus;
 /// What the error of an entry is divided by.
 double divisor(double reference_solution, double largest, const Scale& scale) {
   if (scale.kind == Scale::Kind::number) return scale.number;
-  if (scale.kind == Scale::Kind::largest || reference_solution == 0) return largest;
-  return std::abs(reference_solution);
+  const bool by_entry = scale.kind == Scale::Kind::entry && reference_solution != 0;
+  return by_entry ? std::abs(reference_solution) : largest;
 }
 
 std::vector<double> relative_errors(const std::vector<double>& found,

@@ -219,6 +219,8 @@ std::string describe_scale(const Scale& scale, const JsonView& study) {
   switch (scale.kind) {
     case Scale::Kind::entry:
       return "relative to each true value";
+    case Scale::Kind::quantity:
+      return "relative to the largest true value of each quantity";
     case Scale::Kind::largest:
       return "relative to the largest true value of all";
     case Scale::Kind::number:

@@ -47,7 +47,8 @@ enum class Norm { max, rms, mean };
 
 /// What an error is divided by.
 struct Scale {
-  enum class Kind { entry, largest, number } kind = Kind::entry;
+  /// The entry itself, the largest of its quantity, the largest of all, a number.
+  enum class Kind { entry, quantity, largest, number } kind = Kind::entry;
   double number = 0;
 };
 
