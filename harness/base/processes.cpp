@@ -12,7 +12,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -38,6 +40,22 @@ constexpr bool kLimitsMemory = true;
 constexpr bool kLimitsMemory = true;
 #endif
 
+int status_without_memory = 0;
+const char* line_without_memory = "";
+std::terminate_handler otherwise = nullptr;
+
+[[noreturn]] void end_by_exception() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    std::fputs(line_without_memory, stderr);
+    _exit(status_without_memory);
+  } catch (...) {  // told by what terminates
+  }
+  otherwise();
+  std::abort();
+}
+
 struct Child {
   pid_t process = -1;
   int answer = -1;  ///< read end of its pipe
@@ -50,6 +68,7 @@ struct Child {
 /// ends.
 [[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, pid_t parent,
                           int out) noexcept {
+  end_without_memory(kOutOfMemory, "");
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   const rlimit cpu{task.cpu_limit_s, task.cpu_limit_s + 1};
@@ -173,6 +192,12 @@ class ProcessPool {
 };
 
 }  // namespace
+
+void end_without_memory(int status, const char* line) {
+  status_without_memory = status;
+  line_without_memory = line;
+  if (otherwise == nullptr) otherwise = std::set_terminate(end_by_exception);
+}
 
 std::size_t machine_memory_bytes() {
   return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *

@@ -26,6 +26,10 @@ struct ProcessOptions {
   std::size_t memory_bytes = 0;  ///< address space of each; 0: no limit, as always under sanitizers
 };
 
+/// Where memory runs out and nobody catches it (JSON allocates in a destructor, which lets nothing
+/// out), this process ends with that status and line on standard error.
+void end_without_memory(int status, const char* line);
+
 /// The memory of the machine.
 [[nodiscard]] std::size_t machine_memory_bytes();
 

@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <iostream>
+#include <new>
 #include <thread>
 
 #include "harness/base/errors.h"
@@ -317,6 +318,8 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
   } catch (const Interrupted& interrupted) {
     std::cerr << interrupted.what() << '\n';
     return 128 + interrupted.signal;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     std::cerr << "trammel: a fault of its own: " << one_line(error.what()) << '\n';
     return 3;

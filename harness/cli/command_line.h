@@ -22,6 +22,7 @@ void require_drawing(const Renderers& renderers);
 
 /// Runs the program. @returns 0: every gate holds, 1: a check failed, 2: bad usage or input, 3: our
 /// own fault.
+/// @throws std::bad_alloc  where memory runs out.
 /// @param arguments  the command line without the program's name
 [[nodiscard]] int run_command_line(const std::vector<std::string>& arguments,
                                    const Renderers& renderers);

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <new>
 #include <thread>
 
 #include "harness/base/errors.h"
@@ -39,9 +40,12 @@ OutputLock::OutputLock(const fs::path& folder) : folder_(folder), file_(folder /
 }
 
 OutputLock::~OutputLock() {
-  std::error_code ignored;
-  fs::remove_all(folder_ / results::kUnfinishedFolder, ignored);
-  fs::remove(file_, ignored);
+  try {
+    std::error_code ignored;
+    fs::remove(file_, ignored);
+    fs::remove_all(folder_ / results::kUnfinishedFolder, ignored);
+  } catch (const std::bad_alloc&) {  // the next call removes what is left
+  }
   close(descriptor_);
 }
 

@@ -90,7 +90,8 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder) {
   for (const Figure* figure : figures) fs::remove(svg_path(*figure));
   {
     const NoBrokenPipe guard;
-    Gnuplot gnuplot("gnuplot -d");  // without the user's own settings
+    // Without the user's own settings; one that hangs is ended.
+    Gnuplot gnuplot("timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d");
     for (const Figure* figure : figures)
       gnuplot << preamble(*figure, svg_path(*figure)) << figure->commands << "unset output\n";
   }
