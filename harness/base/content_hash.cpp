@@ -5,7 +5,6 @@
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <cstring>
-#include <string_view>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
@@ -29,8 +28,8 @@ int take_build_id(dl_phdr_info* object, std::size_t, void* build_id) {
       std::memcpy(&note, at, sizeof note);
       const char* const name = at + sizeof note;
       const char* const content = name + padded(note.n_namesz);
-      if (note.n_type == NT_GNU_BUILD_ID &&
-          std::string_view(name, note.n_namesz) == std::string_view("GNU", 4))
+      const bool gnu = note.n_namesz == sizeof "GNU" && std::memcmp(name, "GNU", sizeof "GNU") == 0;
+      if (gnu && note.n_type == NT_GNU_BUILD_ID)
         static_cast<std::string*>(build_id)->assign(content, note.n_descsz);
       at = content + padded(note.n_descsz);
     }
