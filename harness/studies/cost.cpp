@@ -91,8 +91,10 @@ MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setti
     measured.reason = std::isfinite(error) ? "the error is above 1000 %" : "not finite";
     return measured;
   }
-  measured.status = error == 0 && study.reference_solution ? MeasurementStatus::reference_solution
-                                                           : MeasurementStatus::measured;
+  const bool is_reference = study.reference_solution &&
+                            study.reference_solution->document.value() == setting.document.value();
+  measured.status =
+      is_reference ? MeasurementStatus::reference_solution : MeasurementStatus::measured;
   return measured;
 }
 

@@ -136,6 +136,17 @@ BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
   BOOST_TEST((measured(json).settings[4].status == MeasurementStatus::diverged));
 }
 
+BOOST_AUTO_TEST_CASE(an_exact_setting_is_a_choice_and_only_the_reference_itself_is_none) {
+  Json json = study_json();
+  // The same frequencies from another document.
+  json["curves"]["more"] = {{"title", "another name"},
+                            {"patch", {{"title", "another"}, {"model", {{"elements", 16}}}}}};
+  const MeasuredStudy study = measured(json);
+  BOOST_TEST((study.settings[3].status == MeasurementStatus::reference_solution));
+  BOOST_TEST((study.settings[4].status == MeasurementStatus::measured));
+  BOOST_TEST(study.settings[4].error->max == 0);
+}
+
 BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
   Json json = study_json();
   json["reference_solution"]["patch"]["model"]["supports"] = {{"A", nullptr}};
