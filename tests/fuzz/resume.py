@@ -69,6 +69,7 @@ def main():
         print(f"resumed: exit status {call(program, words, out)}, {time.monotonic() - begin:.1f} s of {takes:.1f} s")
         (first, count, timed), (second, _, _) = numbers(whole), numbers(out)
         print(f"{count} runs compared bit for bit; left out, as they measure times: {timed}")
+        print("equal" if first == second else "different")
         return 0 if first == second else 1
 
 

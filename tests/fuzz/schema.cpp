@@ -18,7 +18,7 @@ bool is_of_type(const Json& value, const std::string& type) {
                             : value.is_boolean();
 }
 
-void walk(const Schema& schema, const Json& value, Place place, std::vector<Place>& found) {
+void walk(const Schema& schema, const Json& value, const Place& place, std::vector<Place>& found) {
   found.push_back(place);
   if (!value.is_structured()) return;
   for (const auto& item : value.items()) {
@@ -26,7 +26,7 @@ void walk(const Schema& schema, const Json& value, Place place, std::vector<Plac
     value.is_array() ? inner.at.push_back(std::to_string(std::stoul(item.key())))
                      : inner.at.push_back(item.key());
     inner.is_certain = place.is_certain && inner.rules.size() == 1;
-    walk(schema, item.value(), std::move(inner), found);
+    walk(schema, item.value(), inner, found);
   }
 }
 

@@ -79,6 +79,7 @@ __attribute__((destructor)) void tell() {
 
 extern "C" {
 
+// NOLINTBEGIN(bugprone-reserved-identifier): names of the C library
 void* __libc_malloc(std::size_t size);
 
 int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(),
@@ -87,6 +88,7 @@ int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, v
   return next<decltype(&__libc_start_main)>("__libc_start_main")(armed_main, argc, argv, init, fini,
                                                                  rtld_fini, stack_end);
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 void* malloc(std::size_t size) {
   if (kind == Kind::memory || kind == Kind::count) {
