@@ -80,6 +80,11 @@ AnalysisResult analyse(const Document& document, const References& references,
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
+    if (choice.beyond_tier && *choice.beyond_tier > *choice.tolerance) {
+      result.warnings.push_back({"the change by large displacement, in statics along the path,",
+                                 *choice.beyond_tier, "",
+                                 "more than the tolerance; 'large-motion' has it"});
+    }
     return result;
   });
 }

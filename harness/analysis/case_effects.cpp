@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "harness/analysis/analysis.h"
+#include "harness/analysis/effect_elimination.h"
 #include "harness/analysis/registry.h"
 #include "harness/base/text.h"
 
@@ -27,7 +28,7 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
 }
 
 /// Without "effects": the parts' own words, and the analysis's.
-solver::Effects stated_effects(const Document& document, const solver::EffectScope& scope) {
+solver::Effects stated_effects(const Document& document, const EffectScope& scope) {
   solver::Effects stated = scope.applicable.without(solver::Effect::large_displacement);
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
     const auto specified = find_key(document, effect_key);
@@ -37,7 +38,7 @@ solver::Effects stated_effects(const Document& document, const solver::EffectSco
   return stated;
 }
 
-std::vector<EffectReason> reasons_without_estimates(const solver::EffectScope& scope,
+std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope,
                                                     solver::Effects chosen,
                                                     const EffectRules& rules,
                                                     const std::string& effect_key) {
@@ -57,7 +58,7 @@ std::vector<EffectReason> reasons_without_estimates(const solver::EffectScope& s
 }
 
 /// Names, which the schema has checked.
-solver::Effects read_names(const JsonView& names, const solver::EffectScope& scope,
+solver::Effects read_names(const JsonView& names, const EffectScope& scope,
                            const EffectRules& rules) {
   solver::Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
@@ -81,46 +82,84 @@ solver::Effects read_names(const JsonView& names, const solver::EffectScope& sco
   return chosen;
 }
 
-std::string describe_decision(const solver::EffectEstimate& estimate, bool active, double tolerance,
-                              const solver::EffectScope& scope, solver::Effects chosen) {
-  const std::string alone = percent(estimate.size());
-  if (!active) {
-    return "without it the results change by " + alone + ", within " + percent(tolerance) +
-           (estimate.size() > 0 ? " together with all that is off" : "");
+std::string describe_decision(const EffectReason& one, const EffectScope& scope,
+                              const Elimination& found, double tolerance) {
+  if (one.change) {
+    return "without it and what was left out before it the results change by " +
+           percent(*one.change) + (one.active ? ", more than " : ", within ") + percent(tolerance);
   }
   for (const solver::Effect carried :
-       scope.dependents[static_cast<std::size_t>(estimate.effect)].list()) {
-    if (chosen.has(carried) && estimate.size() < tolerance) {
-      return std::string(solver::name_of(carried)) + " needs it";
-    }
+       scope.dependents[static_cast<std::size_t>(one.effect)].list()) {
+    if (found.chosen.has(carried)) return std::string(solver::name_of(carried)) + " needs it";
   }
-  if (estimate.size() > tolerance) {
-    return "without it the results change by " + alone + ", more than " + percent(tolerance);
+  return "decided";
+}
+
+/// By estimates, which add up; the smallest goes first.
+Elimination eliminate_by_estimates(const EffectRules& rules, const JsonView& analysis,
+                                   const CaseModel& case_model, const EffectScope& scope,
+                                   double tolerance, std::vector<EffectReason>& reasons) {
+  solver::EffectEstimates estimates = rules.estimate(analysis, case_model, scope);
+  std::stable_sort(estimates.effects.begin(), estimates.effects.end(),
+                   [](const auto& a, const auto& b) { return a.change < b.change; });
+  std::vector<solver::Effect> order;
+  for (const solver::EffectEstimate& one : estimates.effects) {
+    order.push_back(one.effect);
+    reasons[static_cast<std::size_t>(one.effect)].number = one.number;
   }
-  return "without it the results change by " + alone + ", with all that is off by more than " +
-         percent(tolerance) + " less a tenth in hand";
+  // To second order the estimates err by their square and less.
+  constexpr double kSafetyFactor = 0.9;
+  const ChangeWith change_with = [&](solver::Effects active) {
+    double change = 0;
+    for (const solver::EffectEstimate& one : estimates.effects)
+      if (!active.has(one.effect)) change += one.change;
+    return change / kSafetyFactor;
+  };
+  Elimination found;
+  if (estimates.outcome.solved()) found = eliminate(scope, order, {}, tolerance, change_with);
+  found.outcome = estimates.outcome;
+  found.counters = estimates.counters;
+  return found;
+}
+
+/// What the analysis does not have, by what it is worth at rest.
+void add_beyond_tier(const Document& document, const CaseModel& case_model, EffectChoice& choice) {
+  choice.beyond_tier = large_displacement_at_rest(analysis_place(document), case_model);
+  if (!choice.beyond_tier) return;
+  for (const solver::Effect effect :
+       {solver::Effect::geometric_stiffening, solver::Effect::large_displacement}) {
+    EffectReason& one = choice.reasons[static_cast<std::size_t>(effect)];
+    one.change = choice.beyond_tier;
+    one.why += "; at rest, statics without geometric stiffening and large displacement is off by " +
+               percent(*choice.beyond_tier);
+  }
 }
 
 EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,
-                                  const solver::EffectScope& scope, double tolerance) {
-  const EffectRules& rules = *effects_of(document);
-  const solver::EffectEstimates estimates =
-      rules.estimate(analysis_place(document), case_model, scope);
+                                  const EffectScope& scope, double tolerance) {
+  const AnalysisKind& kind = find_analysis(analysis_kind(document));
+  const EffectRules& rules = *kind.effects;
   EffectChoice choice;
   choice.tolerance = tolerance;
-  choice.counters = estimates.counters;
-  choice.chosen = choose_effects(estimates, scope, tolerance);
-  choice.reasons = reasons_without_estimates(
-      scope, choice.chosen, rules,
-      "decided: there is no linear solution to decide by (" + estimates.outcome.reason + ")");
-  if (!estimates.outcome.solved()) return choice;
-  for (const solver::EffectEstimate& estimate : estimates.effects) {
-    EffectReason& one = choice.reasons[static_cast<std::size_t>(estimate.effect)];
-    if (scope.required.has(estimate.effect)) continue;
-    one.number = estimate.number;
-    one.change = estimate.size();
-    one.why = describe_decision(estimate, one.active, tolerance, scope, choice.chosen);
+  choice.reasons = reasons_without_estimates(scope, scope.applicable, rules, "decided");
+  const Elimination found =
+      rules.estimate != nullptr
+          ? eliminate_by_estimates(rules, analysis_place(document), case_model, scope, tolerance,
+                                   choice.reasons)
+          : eliminate_by_measurement(kind, analysis_place(document), case_model, scope, tolerance);
+  choice.counters = found.counters;
+  choice.chosen = found.outcome.solved() ? found.chosen : scope.applicable;
+  for (EffectReason& one : choice.reasons) {
+    if (!one.applicable || scope.required.has(one.effect)) continue;
+    one.active = choice.chosen.has(one.effect);
+    one.change = found.change[static_cast<std::size_t>(one.effect)];
+    one.why = found.outcome.solved() ? describe_decision(one, scope, found, tolerance)
+                                     : "on: the whole scene has no solution to compare with (" +
+                                           found.outcome.reason + ")";
+    if (rules.estimate == nullptr)
+      one.number = slenderness_number(one.effect, build_model(case_model, 0));
   }
+  if (rules.estimate != nullptr) add_beyond_tier(document, case_model, choice);
   return choice;
 }
 
@@ -130,9 +169,9 @@ bool knows_effects(const Document& document) {
   return effects_of(document) != nullptr;
 }
 
-solver::EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
+EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
   const solver::Model model = build_model(case_model, 0);
-  solver::EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
+  EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(solver::Effect::platform_flexibility);
     // Plates that are no platform are what there is.
@@ -150,7 +189,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
     return {};
   }
   const EffectRules& rules = *effects_of(document);
-  const solver::EffectScope scope = effect_scope(document, case_model);
+  const EffectScope scope = effect_scope(document, case_model);
   EffectChoice choice;
   if (!requested) {
     choice.chosen = stated_effects(document, scope);

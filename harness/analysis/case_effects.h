@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/analysis/effect_rules.h"
 #include "harness/input/document.h"
 #include "harness/scene/case_model.h"
-#include "solver/effects/effect_choice.h"
 
 namespace trammel::harness {
 
@@ -16,7 +16,7 @@ struct EffectReason {
   bool applicable = false;  ///< what the parts and the analysis have at all
   bool active = false;
   std::optional<double> number;  ///< dimensionless; `describe_effect_number` says of what
-  std::optional<double> change;  ///< what leaving it out alone would change, relative
+  std::optional<double> change;  ///< of the results, relative, without it beside what went before
   std::string why;
 };
 
@@ -26,14 +26,16 @@ struct EffectChoice {
   std::optional<double> tolerance;    ///< of "auto"
   std::vector<EffectReason> reasons;  ///< of every effect; empty where the analysis knows none
   solver::Counters counters;          ///< what the choice has cost
+  /// What geometric stiffening and large displacement, which the analysis does not have, change in
+  /// statics along the path; relative.
+  std::optional<double> beyond_tier;
 };
 
 /// Whether the case's analysis knows effects.
 [[nodiscard]] bool knows_effects(const Document& document);
 
 /// What the analysis of the whole scene can do with.
-[[nodiscard]] solver::EffectScope effect_scope(const Document& document,
-                                               const CaseModel& case_model);
+[[nodiscard]] EffectScope effect_scope(const Document& document, const CaseModel& case_model);
 
 /// Reads "effects": names, or {"auto": {"tolerance": ...}}; without it, what the words of the parts
 /// and of the analysis say. `case_model` is the whole scene, with all effects.

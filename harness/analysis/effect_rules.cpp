@@ -7,11 +7,8 @@
 #include "harness/readers/time_reader.h"
 #include "harness/statics_modes/rotating_state.h"
 #include "solver/assembly/restrict_model_effects.h"
-#include "solver/effects/axial_constraints.h"
 #include "solver/effects/dynamic_effect_estimates.h"
-#include "solver/effects/modal_effect_estimates.h"
-#include "solver/effects/rotating_effect_estimates.h"
-#include "solver/effects/static_effect_estimates.h"
+#include "solver/elements/frame_element.h"
 
 namespace trammel::harness {
 namespace {
@@ -23,7 +20,8 @@ struct EffectWords {
 
 constexpr const char* kStrain = "share of the strain energy";
 constexpr const char* kKinetic = "share of the kinetic energy";
-constexpr const char* kStiffness = "share of the stiffness";
+constexpr const char* kSlenderness = "(r / L)^2, the squared slenderness";
+constexpr const char* kShear = "12 E I / (kappa G A L^2)";
 constexpr const char* kAtRest = "nothing moves in statics";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
 
@@ -31,47 +29,49 @@ constexpr std::array<const char*, 3> all(const char* text) {
   return {text, text, text};
 }
 
+constexpr std::array<const char*, 3> in_motion(const char* text) {
+  return {"", "", text};
+}
+
 const EffectWords& words_of(solver::Effect effect) {
   static const std::array<EffectWords, solver::kEffectCount> table = {{
       /* axial flexibility */
-      {{"(r / L)^2, the squared slenderness", kStrain, kStrain},
-       all("no member both bends and stretches ('axial')")},
+      {{kSlenderness, kSlenderness, kStrain}, all("no member both bends and stretches ('axial')")},
       /* shear */
-      {{"12 E I / (kappa G A L^2)", kStrain, kStrain}, all("the members do not shear ('beam')")},
+      {{kShear, kShear, kStrain}, all("the members do not shear ('beam')")},
       /* rotary inertia */
-      {all(kKinetic),
+      {{"", kSlenderness, kKinetic},
        {kAtRest, "the sections have no rotary inertia ('beam')",
         "the sections have no rotary inertia ('beam')"}},
       /* platform flexibility */
-      {all(kStrain), all("there is no platform of triangles ('kind')")},
+      {in_motion(kStrain), all("there is no platform of triangles ('kind')")},
       /* joint compliance */
-      {all(kStrain), all("no joint has a spring")},
+      {in_motion(kStrain), all("no joint has a spring")},
       /* link mass */
-      {{"weight of members over all loads, in energy", kKinetic, kKinetic},
+      {in_motion(kKinetic),
        {"no member has a weight", "no member has a mass", "no member has a mass"}},
       /* gravity */
-      {{"other weights over all loads, in energy", kStiffness, "weights over all loads, in energy"},
+      {in_motion("weights over all loads, in energy"),
        all("nothing has a weight ('gravity_m_s2')")},
       /* inertia */
-      {{"", "", "(speed of the path over the first frequency)^2"},
+      {in_motion("(speed of the path over the first frequency)^2"),
        {kAtRest, "the frame does not turn", "the frame does not turn"}},
       /* damping */
-      {all("damping ratio of the first mode"),
+      {in_motion("damping ratio of the first mode"),
        {kAtRest, "modes are those of the undamped model", "there is no 'damping'"}},
       /* gyroscopic */
-      {{kStiffness, kStiffness, "twice the fastest turning over the first frequency"},
+      {in_motion("twice the fastest turning over the first frequency"),
        {kAtRest, "the frame does not turn", "the frame does not turn"}},
       /* geometric stiffening */
-      {{"geometric over elastic strain energy, tension positive", kStiffness, kStiffness},
-       {kLarge, "there are no loads", kLarge}},
+      {all(""), {kLarge, "there are no loads", kLarge}},
       /* large displacement */
-      {all("largest rotation [rad]"), {kLarge, "modes are small motions", kLarge}},
+      {all(""), {kLarge, "modes are small motions", kLarge}},
   }};
   return table[static_cast<std::size_t>(effect)];
 }
 
-solver::EffectScope statics_scope(const JsonView&, const solver::Model& model) {
-  solver::EffectScope scope;
+EffectScope statics_scope(const JsonView&, const solver::Model& model) {
+  EffectScope scope;
   scope.applicable = solver::applicable_effects(model).without(solver::Effect::rotary_inertia);
   if (!scope.applicable.has(solver::Effect::gravity)) {
     scope.applicable = scope.applicable.without(solver::Effect::link_mass);
@@ -92,8 +92,8 @@ bool is_loaded(const solver::Model& model) {
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
-solver::EffectScope modes_at_rest_scope(const solver::Model& model) {
-  solver::EffectScope scope;
+EffectScope modes_at_rest_scope(const solver::Model& model) {
+  EffectScope scope;
   scope.applicable = solver::applicable_effects(model).with(solver::Effect::inertia);
   scope.required = solver::Effects().with(solver::Effect::inertia);
   if (is_loaded(model) || scope.applicable.has(solver::Effect::gravity)) {
@@ -107,8 +107,8 @@ solver::EffectScope modes_at_rest_scope(const solver::Model& model) {
 }
 
 /// Whatever the frame holds as it turns stays.
-solver::EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
-  solver::EffectScope scope;
+EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
+  EffectScope scope;
   scope.applicable = solver::applicable_effects(model)
                          .with(solver::Effect::inertia)
                          .with(solver::Effect::geometric_stiffening);
@@ -124,8 +124,8 @@ solver::EffectScope rotating_scope(const JsonView& rotating, const solver::Model
   return scope;
 }
 
-solver::EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
-  solver::EffectScope scope;
+EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
+  EffectScope scope;
   scope.applicable = solver::applicable_effects(model)
                          .with(solver::Effect::inertia)
                          .with(solver::Effect::gyroscopic);
@@ -145,21 +145,6 @@ solver::EffectScope motion_scope(const JsonView& analysis, const solver::Model& 
   return scope;
 }
 
-/// The whole model at a few of its poses, on a mesh that is good enough to decide by.
-std::vector<solver::Model> sample_poses(const CaseModel& case_model) {
-  constexpr std::size_t kPoses = 4;
-  constexpr solver::Index kElements = 8;
-  const std::size_t count = std::min(kPoses, case_model.steps());
-  std::vector<solver::Model> models;
-  for (std::size_t i = 0; i < count; ++i) {
-    models.push_back(build_model(case_model, i * case_model.steps() / count));
-    for (solver::Member& member : models.back().members) {
-      member.elements = std::min(member.elements, kElements);
-    }
-  }
-  return models;
-}
-
 std::vector<EffectKey> modes_keys(const JsonView& analysis) {
   if (analysis.has("rotating")) {
     return {{solver::Effect::gyroscopic, {"rotating", "coriolis"}, true}};
@@ -167,23 +152,48 @@ std::vector<EffectKey> modes_keys(const JsonView& analysis) {
   return {{solver::Effect::geometric_stiffening, {"prestressed"}, false}};
 }
 
-solver::EffectScope modes_scope(const JsonView& analysis, const solver::Model& model) {
+EffectScope modes_scope(const JsonView& analysis, const solver::Model& model) {
   return analysis.has("rotating") ? rotating_scope(analysis["rotating"], model)
                                   : modes_at_rest_scope(model);
 }
 
-solver::EffectEstimates estimate_for_modes(const JsonView& analysis, const CaseModel& case_model,
-                                           const solver::EffectScope& scope) {
-  const std::vector<solver::Model> poses = sample_poses(case_model);
-  if (analysis.has("rotating")) {
-    return solver::estimate_rotating_effects(
-        poses.front(), scope.applicable, read_rotating_options(analysis), read_speeds(analysis));
-  }
-  return solver::estimate_modal_effects(poses, scope.applicable,
-                                        analysis["count"].get<solver::Index>());
+double span(const solver::Model& model, const solver::Member& member) {
+  const auto at = [&](solver::Index node) {
+    return model.nodes[static_cast<std::size_t>(node)].position;
+  };
+  return (at(member.nodes[1]) - at(member.nodes[0])).norm();
 }
 
 }  // namespace
+
+solver::Effects EffectScope::without(solver::Effects set, solver::Effect effect) const {
+  set = set.without(effect);
+  for (const solver::Effect dependent : dependents[static_cast<std::size_t>(effect)].list()) {
+    if (set.has(dependent)) set = without(set, dependent);
+  }
+  return set;
+}
+
+std::optional<double> slenderness_number(solver::Effect effect, const solver::Model& model) {
+  double largest = 0;
+  for (const solver::Member& member : model.members) {
+    if (!(member.section.EI > 0)) continue;
+    const double length = span(model, member);
+    const solver::Section& section = member.section;
+    if (effect == solver::Effect::axial_flexibility) {
+      largest = std::max(largest, section.EI / (section.EA * length * length));
+    } else if (effect == solver::Effect::shear) {
+      largest = std::max(largest, solver::shear_ratio(section, member.theory, length));
+    } else if (effect == solver::Effect::rotary_inertia) {
+      if (section.mass_per_length > 0)
+        largest = std::max(
+            largest, section.inertia_per_length / (section.mass_per_length * length * length));
+    } else {
+      return std::nullopt;
+    }
+  }
+  return largest;
+}
 
 const char* EffectRules::describe_missing(solver::Effect effect) const {
   return words_of(effect).missing[column];
@@ -199,7 +209,7 @@ const char* EffectRules::describe_required(solver::Effect effect) const {
              : "the analysis is of it";
 }
 
-solver::Effects& dependents_of(solver::EffectScope& scope, solver::Effect effect) {
+solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect) {
   return scope.dependents[static_cast<std::size_t>(effect)];
 }
 
@@ -208,16 +218,12 @@ const EffectRules& statics_effects() {
       [](const JsonView&) -> std::vector<EffectKey> {
         return {{solver::Effect::geometric_stiffening, {"second_order"}, false}};
       },
-      statics_scope,
-      [](const JsonView&, const CaseModel& case_model, const solver::EffectScope& scope) {
-        return solver::estimate_static_effects(sample_poses(case_model), scope.applicable);
-      },
-      0};
+      statics_scope, nullptr, 0};
   return rules;
 }
 
 const EffectRules& modes_effects() {
-  static const EffectRules rules = {modes_keys, modes_scope, estimate_for_modes, 1};
+  static const EffectRules rules = {modes_keys, modes_scope, nullptr, 1};
   return rules;
 }
 
@@ -228,7 +234,7 @@ const EffectRules& elastodynamics_effects() {
                 {solver::Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
       },
       motion_scope,
-      [](const JsonView& analysis, const CaseModel& case_model, const solver::EffectScope& scope) {
+      [](const JsonView& analysis, const CaseModel& case_model, const EffectScope& scope) {
         return solver::estimate_motion_effects(read_elastodynamics(analysis, case_model),
                                                scope.applicable);
       },

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +19,23 @@ struct EffectKey {
   bool otherwise;                  ///< where nothing is said
 };
 
+/// What an analysis can do with, and what it cannot do without.
+struct EffectScope {
+  solver::Effects applicable, required;
+  /// By effect: those that are nothing without it, as the mass of links in statics without gravity.
+  std::array<solver::Effects, solver::kEffectCount> dependents{};
+
+  /// The set less the effect and all that depends on it.
+  [[nodiscard]] solver::Effects without(solver::Effects set, solver::Effect effect) const;
+};
+
 /// `analysis` is the place below "analysis" that holds the analysis's own words.
 struct EffectRules {
   std::vector<EffectKey> (*keys)(const JsonView& analysis);
-  solver::EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
+  EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
+  /// Null: changes are measured, not estimated.
   solver::EffectEstimates (*estimate)(const JsonView& analysis, const CaseModel& case_model,
-                                      const solver::EffectScope& scope);
+                                      const EffectScope& scope);
   std::size_t column;  ///< in the table of words
 
   /// Why a scene does not have an effect.
@@ -37,7 +50,12 @@ struct EffectRules {
 [[nodiscard]] const EffectRules& modes_effects();
 [[nodiscard]] const EffectRules& elastodynamics_effects();
 
+/// The number without dimension that says beforehand what an effect of slender members is worth;
+/// nothing of other effects.
+[[nodiscard]] std::optional<double> slenderness_number(solver::Effect effect,
+                                                       const solver::Model& model);
+
 /// The effects that an effect carries: without it they are nothing.
-[[nodiscard]] solver::Effects& dependents_of(solver::EffectScope& scope, solver::Effect effect);
+[[nodiscard]] solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect);
 
 }  // namespace trammel::harness

@@ -1,24 +1,15 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/analysis/analysis.h"
+#include "harness/analysis/effect_changes.h"
 #include "harness/input/document.h"
 
 /// Measures what effects do: the whole scene, and the scene without some of them.
 namespace trammel::harness {
-
-/// Largest change of each kind of quantity: "displacement", "rotation", "force", "moment", each
-/// relative to the largest of its kind, and "frequency", each relative to itself. Infinite where
-/// modes are lost. Quantities that one side does not have, as rotations of a rigid platform, and
-/// those of other kinds are not compared.
-using Changes = std::map<std::string, double>;
-[[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
-                                      double size_m);
-[[nodiscard]] double max_change(const Changes& changes);
 
 /// The scene with some effects.
 struct EffectRun {
@@ -27,7 +18,7 @@ struct EffectRun {
   Quantities quantities;
   solver::Counters counters;
   Changes changes;        ///< from the whole scene
-  double cpu_s = 0;       ///< median of the repeats
+  double cpu_s = 0;       ///< median of the repeats; without, of one run
   double cpu_spread = 0;  ///< half of the range between the quartiles, relative
 };
 
@@ -37,7 +28,7 @@ struct Ablation {
 };
 
 struct EffectStudy {
-  solver::EffectScope scope;
+  EffectScope scope;
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
@@ -48,13 +39,15 @@ struct EffectStudy {
   std::vector<Ablation> from_chosen;     ///< each chosen effect left out of the chosen set
 
   [[nodiscard]] bool within_tolerance() const;  ///< the chosen set is within the tolerance
-  [[nodiscard]] bool is_minimal() const;        ///< no chosen effect can go
+  /// What the analysis does not have is worth more than the tolerance.
+  [[nodiscard]] bool is_beyond_tier() const { return choice.beyond_tier.value_or(0) > tolerance; }
+  [[nodiscard]] bool is_minimal() const;  ///< no chosen effect can go
 };
 
 struct EffectStudyOptions {
   double tolerance = 0.01;
-  bool pairs = true;
-  int repeats = 7;  ///< of each, in turns, after one for warming up; 0: not timed
+  bool pairs = true;  ///< also leave out each effect, and each two, of the whole scene
+  int repeats = 7;    ///< of each, in turns, after one for warming up; 0: not timed
 };
 
 /// @param document  a case whose analysis knows effects; its own "effects" set the tolerance where

@@ -38,7 +38,7 @@ Json material() {
 Json joint(Draw& draw, const char* otherwise, double thickness, double width, double length) {
   if (!draw.chance(0.4)) return otherwise;
   const double bending = kE * width * std::pow(thickness, 3) / 12 / length;
-  return {{"spring_N_m_per_rad", bending * draw.logarithmic(1, 1e5)}};
+  return {{"spring_N_m_per_rad", bending * draw.logarithmic(1e-2, 1e6)}};
 }
 
 /// A load that would turn a link of that bending stiffness by about so much [N].
@@ -77,7 +77,7 @@ Json manipulator(bool modes, Draw& draw) {
                    {"side_m", draw.uniform(0.12, 0.22)},
                    {"thickness_m", width * draw.logarithmic(0.003, 3)}};
   if (soft) platform["refinements"] = 1;
-  platform["mass_kg"] = kDensity * thickness * width * length * draw.logarithmic(0.1, 1e4);
+  platform["mass_kg"] = kDensity * thickness * width * length * draw.logarithmic(1e-4, 1e4);
   Json joints = {{"active", joint(draw, "locked", thickness, width, length)},
                  {"elbow", joint(draw, "welded", thickness, width, length)},
                  {"platform", "hinged"}};
@@ -91,7 +91,7 @@ Json manipulator(bool modes, Draw& draw) {
         {"P",
          {{"node", "P"},
           {"force_N", draw.direction(bending_load(draw, thickness, width, length))}}}};
-    if (draw.chance(0.5)) model["gravity_m_s2"] = {0, -draw.logarithmic(0.001, 10)};
+    if (draw.chance(0.5)) model["gravity_m_s2"] = draw.direction(draw.logarithmic(0.001, 10));
   }
   return model;
 }
@@ -131,13 +131,13 @@ Json beam(bool modes, Draw& draw) {
   const double mass = kDensity * thickness * width * length;
   if (modes || draw.chance(0.5)) {
     model["point_masses"] = {
-        {"lump", {{"node", loaded}, {"mass_kg", mass * draw.logarithmic(0.1, 1e4)}}}};
+        {"lump", {{"node", loaded}, {"mass_kg", mass * draw.logarithmic(1e-4, 1e4)}}}};
   }
   const double load = bending_load(draw, thickness, width, length);
   if (!modes) {
     model["loads"] = {{"force", {{"node", loaded}, {"force_N", draw.direction(load)}}}};
     if (draw.chance(0.5)) {
-      model["gravity_m_s2"] = {0, -draw.logarithmic(1e-4, 1) * load / mass};
+      model["gravity_m_s2"] = draw.direction(draw.logarithmic(1e-4, 1) * load / mass);
     }
   }
   return model;
@@ -167,15 +167,95 @@ Json portal(bool modes, Draw& draw) {
   const double mass = kDensity * thickness * width * (2 * height + span);
   if (modes || draw.chance(0.5)) {
     model["point_masses"] = {
-        {"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(0.1, 1e3)}}}};
+        {"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(1e-4, 1e4)}}}};
   }
   const double load = bending_load(draw, thickness, width, height);
   if (!modes) {
     model["loads"] = {{"force", {{"node", "B"}, {"force_N", draw.direction(load)}}}};
     if (draw.chance(0.5)) {
-      model["gravity_m_s2"] = {0, -draw.logarithmic(1e-4, 1) * load / mass};
+      model["gravity_m_s2"] = draw.direction(draw.logarithmic(1e-4, 1) * load / mass);
     }
   }
+  return model;
+}
+
+/// A column or a tie, clamped at its foot, its head free or guided: up to 0.99 of its buckling load
+/// and back, and as far in tension.
+Json column(bool modes, Draw& draw) {
+  const double length = draw.logarithmic(0.2, 5);
+  const double thickness = length * draw.logarithmic(0.002, 0.05);
+  const double width = thickness * draw.logarithmic(0.5, 5);
+  const bool guided = draw.chance(0.3);
+  const double bending = kE * width * std::pow(thickness, 3) / 12;
+  const double effective = guided ? length : 2 * length;
+  const double buckling = std::pow(std::numbers::pi / effective, 2) * bending;
+  const double share = 1 - draw.logarithmic(0.01, 1);
+  Json model = {
+      {"materials", {{"alloy", material()}}},
+      {"sections",
+       {{"s",
+         {{"material", "alloy"},
+          {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
+      {"elements", 8},
+      {"nodes", {{"A", {0, 0}}, {"B", {length, 0}}}},
+      {"members", {{"AB", {{"nodes", {"A", "B"}}, {"section", "s"}, {"beam", "timoshenko"}}}}},
+      {"supports", {{"A", {"x", "y", "rotation"}}}}};
+  if (guided) model["supports"]["B"] = {"rotation"};
+  const double across = modes ? 0 : draw.logarithmic(1e-5, 0.1) * bending / (length * length);
+  model["loads"] = {
+      {"head",
+       {{"node", "B"}, {"force_N", {(draw.chance(0.7) ? -share : share) * buckling, across}}}}};
+  return model;
+}
+
+/// A manipulator along a path that comes to within a thousandth to a tenth of a singularity, of a
+/// limb that is stretched out or of distal links that meet in P.
+Json near_singular(Draw& draw) {
+  const double length = draw.uniform(0.18, 0.22);
+  const double thickness = length * draw.logarithmic(0.004, 0.1);
+  const double width = length * draw.logarithmic(0.05, 0.3);
+  const double side = draw.uniform(0.15, 0.22), near = draw.logarithmic(1e-3, 0.1);
+  constexpr double kBase = 0.5;
+  constexpr int kPoints = 13;
+  const double arm = side / std::numbers::sqrt3, centre = kBase / std::numbers::sqrt3;
+  const Json platform = {{"kind", "rigid"}, {"side_m", side}, {"thickness_m", width}};
+  const Json joints = {{"active", joint(draw, "locked", thickness, width, length)},
+                       {"elbow", draw.chance(0.5) ? "welded" : "hinged"},
+                       {"platform", "hinged"}};
+  Json model = {{"manipulator", manipulator_of(length, thickness, width, 4, platform, joints)}};
+  const int nearest = static_cast<int>(draw.uniform(1, kPoints - 1));
+  const auto pose = [&](double from_A1, double phi) {
+    return Json{{"x_m", from_A1 * std::cos(std::numbers::pi / 6)},
+                {"y_m", from_A1 * std::sin(std::numbers::pi / 6)},
+                {"phi_rad", phi}};
+  };
+  const auto load = [&] {
+    return draw.direction(bending_load(draw, thickness, width, length) * draw.logarithmic(1e-3, 1));
+  };
+  model["loads"] = {{"P", {{"node", "P"}, {"force_N", load()}}}};
+  if (draw.chance(0.5)) {  // out along the first limb and back
+    const double reach = 2 * length * (1 - near) + arm;
+    const double radius = (reach - centre) / 2;
+    const Json middle = pose(centre + radius, 0);
+    model["trajectory"] = {{"circle",
+                            {{"center_m", {middle["x_m"], middle["y_m"]}},
+                             {"radius_m", radius},
+                             {"points", kPoints},
+                             {"step_s", 2 * std::numbers::pi / 12},
+                             {"phi_rad", 0}}}};
+    return model;
+  }
+  const double out = arm + length;
+  const double singular =
+      std::acos((centre * centre + out * out - length * length) / (2 * centre * out));
+  const double sign = draw.chance(0.5) ? 1 : -1;
+  const double step = 0.25 / kPoints, at = sign * singular + near;
+  model["trajectory"] = {{"line",
+                          {{"from", pose(centre, at - nearest * step)},
+                           {"to", pose(centre, at + (kPoints - 1 - nearest) * step)},
+                           {"duration_s", 1},
+                           {"points", kPoints},
+                           {"step_s", 1.0 / (kPoints - 1)}}}};
   return model;
 }
 
@@ -260,13 +340,18 @@ Document written(const std::string& name, const Json& scene) {
   return document;
 }
 
+/// How near the results must come: from a tenth to a ten-thousandth, half of the time a hundredth.
+Json effects(Draw& draw) {
+  return {{"auto", {{"tolerance", draw.chance(0.5) ? 0.01 : draw.logarithmic(1e-4, 0.1)}}}};
+}
+
 }  // namespace
 
 Document random_motion(std::uint64_t seed, std::uint64_t n) {
   Draw draw((seed + 1) * kSpread + n);
   const std::string name = "random-motion-" + std::to_string(seed) + "-" + std::to_string(n);
-  Json scene = {{"id", name}, {"title", "Random model in motion"}};
   const bool spins = draw.chance(0.25);
+  Json scene = {{"id", name}, {"title", spins ? "spinning link" : "manipulator in motion"}};
   Json model = spins ? spinning_link(draw, scene) : moving_manipulator(draw, scene);
   scene["model"] = std::move(model);
   return written(name, scene);
@@ -274,14 +359,23 @@ Document random_motion(std::uint64_t seed, std::uint64_t n) {
 
 Document random_scene(std::uint64_t seed, std::uint64_t n) {
   Draw draw((seed + 1) * kSpread + n);
-  const bool modes = draw.chance(0.5);
+  const bool modes = draw.chance(0.4);
   const double kind = draw.uniform(0, 1);
   const std::string name = "random-" + std::to_string(seed) + "-" + std::to_string(n);
-  Json scene = {{"id", name}, {"title", "Random model"}};
-  scene["model"] = kind < 0.5    ? manipulator(modes, draw)
-                   : kind < 0.75 ? beam(modes, draw)
-                                 : portal(modes, draw);
+  const bool path = !modes && kind >= 0.8;
+  const char* part = path          ? "path near a singularity"
+                     : kind < 0.35 ? "manipulator"
+                     : kind < 0.5  ? "beam"
+                     : kind < 0.65 ? "portal"
+                                   : "column";
+  Json scene = {{"id", name}, {"title", part + std::string(modes ? ", modes" : ", statics")}};
+  scene["model"] = path          ? near_singular(draw)
+                   : kind < 0.35 ? manipulator(modes, draw)
+                   : kind < 0.5  ? beam(modes, draw)
+                   : kind < 0.65 ? portal(modes, draw)
+                                 : column(modes, draw);
   scene["analysis"] = analysis(modes, draw);
+  scene["effects"] = effects(draw);
   return written(name, scene);
 }
 

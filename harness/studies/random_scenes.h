@@ -6,9 +6,11 @@
 
 namespace trammel::harness {
 
-/// The n-th of the random scenes of a seed: a case with statics or modes of a manipulator, a portal
-/// frame, or a beam, whose sizes, loads and joints are drawn so that each effect lies anywhere from
-/// far below a per cent to far above. The same on every machine.
+/// The n-th of the random scenes of a seed, its kind in its title: statics or modes of a
+/// manipulator, a portal frame, a beam or a column up to 0.99 of its buckling load, or statics
+/// along a path near a singularity, whose sizes, loads, joints and tolerances are drawn so that
+/// each effect lies anywhere from far below what is asked for to far above. The same on every
+/// machine.
 [[nodiscard]] Document random_scene(std::uint64_t seed, std::uint64_t n);
 
 /// The same in motion: a manipulator along a circle (elastodynamics), slow or fast, damped or not,

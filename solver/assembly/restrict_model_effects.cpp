@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/assembly/constraints.h"
 #include "solver/elements/frame_element.h"
 
 namespace trammel::solver {
@@ -73,6 +74,16 @@ Model restrict_effects(Model model, Effects active) {
   for (Member& member : model.members) restrict_effects(member, active);
   if (!active.has(Effect::gravity)) model.gravity.setZero();
   return model;
+}
+
+bool is_axially_overconstrained(const Model& model) {
+  const Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
+  const Constraints constraints = build_constraints(stiff, discretise(stiff));
+  for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
+    const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;
+    if (along && constraints.pivot[i] < 0) return true;
+  }
+  return false;
 }
 
 }  // namespace trammel::solver

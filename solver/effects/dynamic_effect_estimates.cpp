@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr std::size_t kPoses = 4;
+constexpr std::size_t kPoses = 2;
 constexpr Index kElements = 8;
 
 /// The whole motion, on a mesh that is good enough to decide by.
@@ -73,6 +73,9 @@ class MotionEstimates {
       const double share = (static_cast<double>(k) + 0.5) / kPoses;
       estimate_at(options_.time.start + share * (options_.time.end - options_.time.start));
     }
+    for (const double time : extreme_times()) {
+      if (estimates_.outcome.solved()) estimate_at(time);
+    }
     if (estimates_.outcome.solved() && frequency_ <= 0) {
       estimates_.outcome = {Status::singular, "nothing vibrates"};
     }
@@ -111,6 +114,22 @@ class MotionEstimates {
       return {};
     }
     return factorization_.solve(pose.load());
+  }
+
+  /// The samples at which the quasi-static response is largest.
+  std::vector<double> extreme_times() {
+    PathFollower pose(options_, options_.time.start);
+    ResponseSize largest;
+    double farthest = 0, hardest = 0;
+    for (const double time : options_.time.sample_times) {
+      const VectorXd q = quasi_static_response(pose, time, options_.gravity);
+      if (!estimates_.outcome.solved()) return {};
+      const ResponseSize size = size_of(pose.system(), q);
+      if (size.translation > largest.translation) farthest = time;
+      if (size.energy > largest.energy) hardest = time;
+      largest.take_max(size);
+    }
+    return {farthest, hardest};
   }
 
   void estimate_at(double time) {
@@ -211,12 +230,10 @@ class MotionEstimates {
     damping_ = damping_ratio(options_.damping, omega);
     const EnergyShares shares(system, modes.shape.col(first), omega * omega);
     for (const Effect effect : flexibilities())
-      frequency_change_[effect] = frequency_change_without(effect, shares.elastic(effect));
+      frequency_change_[effect] = frequency_change_without(shares.elastic(effect));
     const double rotary = shares.kinetic(true), all = shares.kinetic(false);
-    frequency_change_[Effect::link_mass] =
-        frequency_change_without(Effect::link_mass, all - rotary);
-    frequency_change_[Effect::rotary_inertia] =
-        frequency_change_without(Effect::rotary_inertia, rotary);
+    frequency_change_[Effect::link_mass] = frequency_change_without(all - rotary);
+    frequency_change_[Effect::rotary_inertia] = frequency_change_without(rotary);
     sizes_.share[Effect::link_mass] = all - rotary;
     sizes_.share[Effect::rotary_inertia] = rotary;
   }
@@ -306,7 +323,7 @@ class MotionEstimates {
           if (effect == Effect::platform_flexibility && is_suddenly_loaded())
             change = std::max(change, 1.0);
       }
-      estimates_.effects.push_back({effect, number, VectorXd::Constant(1, change)});
+      estimates_.effects.push_back({effect, number, change});
     }
   }
 

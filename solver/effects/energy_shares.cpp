@@ -11,6 +11,10 @@ namespace trammel::solver {
 
 using Eigen::VectorXd;
 
+namespace {
+
+/// How much of each of an element's three deformations is the effect's; the last is antisymmetric
+/// bending.
 Vector3d deformation_share(const System& system, const FrameElement& e, Effect effect) {
   if (e.is_bar()) return Vector3d::Zero();
   if (effect == Effect::axial_flexibility) return {1, 0, 0};
@@ -19,6 +23,8 @@ Vector3d deformation_share(const System& system, const FrameElement& e, Effect e
   const double phi = shear_ratio(e.section, member.theory, e.length);
   return {0, 0, phi / (1 + phi)};
 }
+
+}  // namespace
 
 VectorXd EnergyShares::forces(Effect effect) const {
   const auto frames = static_cast<Index>(system_.mesh.frame.size());
@@ -73,12 +79,9 @@ double EnergyShares::kinetic(bool rotary_only) const {
   return energy;
 }
 
-double frequency_change_without(Effect effect, double share) {
+double frequency_change_without(double share) {
   constexpr double kMaxShare = 1 - 1e-12;
-  const bool stiffness = effect == Effect::geometric_stiffening || effect == Effect::gravity ||
-                         effect == Effect::gyroscopic;
-  return stiffness ? std::sqrt(std::max(0.0, 1 - share)) - 1
-                   : 1 / std::sqrt(1 - std::min(share, kMaxShare)) - 1;
+  return 1 / std::sqrt(1 - std::min(share, kMaxShare)) - 1;
 }
 
 }  // namespace trammel::solver

@@ -29,13 +29,8 @@ class EnergyShares {
   double energy_;
 };
 
-/// How much of each of an element's three deformations is the effect's; the last is antisymmetric
-/// bending.
-[[nodiscard]] Vector3d deformation_share(const System& system, const FrameElement& e,
-                                         Effect effect);
-
-/// The relative change of a frequency without an effect that has the share s of its energy:
-/// (1 - s)^(1/2) - 1 of a stiffness, (1 - s)^(-1/2) - 1 of a flexibility or an inertia.
-[[nodiscard]] double frequency_change_without(Effect effect, double share);
+/// The relative change of a frequency without a flexibility or an inertia that has the share s of
+/// its energy, (1 - s)^(-1/2) - 1.   Source: Rayleigh, The Theory of Sound (1894), arts. 88-90.
+[[nodiscard]] double frequency_change_without(double share);
 
 }  // namespace trammel::solver

@@ -15,20 +15,20 @@ BOOST_AUTO_TEST_CASE(a_random_scene_is_the_same_every_time) {
   BOOST_TEST(random_scene(1, 7).value() != random_scene(2, 7).value());
 }
 
-/// The estimates are good enough: of 200 scenes, automatic effects are within the tolerance of the
-/// whole scene in 99 %, and none of them could be left out in 90 %.
+/// Of 100 scenes, near buckling loads and singularities too, automatic effects are within the
+/// tolerance of the whole scene, and none of them could be left out in 90 %.
 BOOST_AUTO_TEST_CASE(automatic_effects_hold_and_are_minimal_on_random_scenes) {
-  constexpr int kScenes = 200;
-  int within = 0, minimal = 0;
+  constexpr int kScenes = 100;
+  int minimal = 0, solved = 0;
   for (int n = 0; n < kScenes; ++n) {
     const EffectStudy study = study_effects(random_scene(1, n), {0.01, false, 0});
-    BOOST_TEST_REQUIRE(study.full.outcome.solved(), "scene " << n);
-    within += study.within_tolerance() ? 1 : 0;
+    if (!study.full.outcome.solved()) continue;
+    ++solved;
+    BOOST_TEST(study.within_tolerance(), "scene " << n);
     minimal += study.is_minimal() ? 1 : 0;
   }
-  BOOST_TEST_MESSAGE(within << " within, " << minimal << " minimal of " << kScenes);
-  BOOST_TEST(within >= 0.99 * kScenes);
-  BOOST_TEST(minimal >= 0.9 * kScenes);
+  BOOST_TEST(solved >= 0.95 * kScenes);
+  BOOST_TEST(minimal >= 0.9 * solved);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -5,11 +5,7 @@
 #include <numbers>
 
 #include "solver/assembly/restrict_model_effects.h"
-#include "solver/effects/effect_choice.h"
-#include "solver/effects/modal_effect_estimates.h"
-#include "solver/effects/static_effect_estimates.h"
 #include "solver/modes/modes.h"
-#include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
 using namespace trammel;
@@ -40,17 +36,6 @@ double first_frequency_squared(BeamTheory theory, Index mode) {
   const ModalSolution modes = solve_modes(assemble(model), {6, EigenMethod::automatic});
   const double w = 2 * std::numbers::pi * modes.frequency[mode];
   return w * w;
-}
-
-const EffectEstimate& of(const EffectEstimates& estimates, Effect effect) {
-  for (const EffectEstimate& one : estimates.effects) {
-    if (one.effect == effect) return one;
-  }
-  throw std::logic_error("not estimated");
-}
-
-EffectEstimate made_up(Effect effect, const Eigen::VectorXd& change) {
-  return {effect, 0, change};
 }
 
 }  // namespace
@@ -110,84 +95,6 @@ BOOST_AUTO_TEST_CASE(a_model_admits_what_its_parts_have) {
   BOOST_TEST(applicable_effects(model).has(Effect::gravity));
   const Model stripped = restrict_effects(model, Effects());
   BOOST_TEST(applicable_effects(stripped).empty());
-}
-
-/// Forces follow from equilibrium alone, so that the estimate is no estimate.
-BOOST_AUTO_TEST_CASE(where_forces_are_determinate_flexibilities_are_estimated_exactly) {
-  Model model = sprung_cantilever();
-  model.gravity.setZero();
-  const Effects all = applicable_effects(model).without(Effect::link_mass);
-  const EffectEstimates estimates =
-      estimate_static_effects({model}, all.without(Effect::rotary_inertia));
-  const double full = solve_statics(assemble(model)).displacement(1, 1);
-  for (const Effect effect : {Effect::shear, Effect::joint_compliance}) {
-    const double without = solve_statics(assemble(model, all.without(effect))).displacement(1, 1);
-    BOOST_TEST_CONTEXT(name_of(effect)) {
-      // Node B's y is the fourth displacement, and the largest.
-      BOOST_TEST(of(estimates, effect).change[3] == (without - full) / std::abs(full),
-                 boost::test_tools::tolerance(1e-9));
-    }
-  }
-  BOOST_TEST(of(estimates, Effect::shear).number ==
-                 12 * stubby().EI / (stubby().kappa_GA * kLength * kLength),
-             boost::test_tools::tolerance(1e-12));
-}
-
-/// Timoshenko & Gere: load over buckling load is how much the deflection grows, to first order. The
-/// ratio of energies is that load ratio where the deflection has the buckling shape.
-BOOST_AUTO_TEST_CASE(a_columns_estimate_is_its_load_over_its_buckling_load) {
-  Model model = testing::cantilever(stubby(), 5, 4);
-  const double buckling = std::pow(std::numbers::pi / 10, 2) * stubby().EI;
-  model.loads = {{1, {-0.01 * buckling, 1, 0}}};
-  const EffectEstimates estimates = estimate_static_effects(
-      {model}, Effects().with(Effect::geometric_stiffening).with(Effect::large_displacement));
-  BOOST_TEST(of(estimates, Effect::geometric_stiffening).number == -0.01,
-             boost::test_tools::tolerance(0.02));  // the sag is not quite the buckling shape
-  const double first = solve_statics(assemble(model)).displacement(1, 1);
-  const double second = solve_statics(assemble(model), {.second_order = true}).displacement(1, 1);
-  BOOST_TEST(-of(estimates, Effect::geometric_stiffening).change[3] == second / first - 1,
-             boost::test_tools::tolerance(0.03));  // its own square, 0.01, and more
-}
-
-BOOST_AUTO_TEST_CASE(a_frequencys_estimates_are_what_leaving_out_does) {
-  Model model = sprung_cantilever();
-  model.masses = {{1, 5, 0, {0, 0}}};
-  model.gravity.setZero();
-  const Effects all = applicable_effects(model).with(Effect::inertia);
-  const double full = solve_modes(assemble(model, all), {1, EigenMethod::dense}).frequency[0];
-  const EffectEstimates estimates = estimate_modal_effects({model}, all, 1);
-  for (const Effect effect : {Effect::shear, Effect::joint_compliance, Effect::rotary_inertia}) {
-    const double without =
-        solve_modes(assemble(model, all.without(effect)), {1, EigenMethod::dense}).frequency[0];
-    BOOST_TEST_CONTEXT(name_of(effect)) {
-      BOOST_TEST(of(estimates, effect).change[0] == without / full - 1,
-                 boost::test_tools::tolerance(0.05));
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(small_changes_that_add_up_are_not_small) {
-  EffectScope scope;
-  scope.applicable = Effects().with(Effect::shear).with(Effect::axial_flexibility);
-  EffectEstimates estimates;
-  const Eigen::VectorXd change = Eigen::VectorXd::Constant(1, 0.006);
-  estimates.effects = {made_up(Effect::axial_flexibility, change), made_up(Effect::shear, change)};
-  BOOST_TEST(choose_effects(estimates, scope, 0.01).list().size() == 1);
-  estimates.effects[1].change = -change;
-  BOOST_TEST(choose_effects(estimates, scope, 0.01).empty());
-}
-
-BOOST_AUTO_TEST_CASE(what_carries_another_effect_goes_only_with_it) {
-  EffectScope scope;
-  scope.applicable = Effects().with(Effect::gravity).with(Effect::link_mass);
-  scope.dependents[static_cast<std::size_t>(Effect::gravity)] = Effects().with(Effect::link_mass);
-  EffectEstimates estimates;
-  estimates.effects = {made_up(Effect::link_mass, Eigen::VectorXd::Constant(1, 0.1)),
-                       made_up(Effect::gravity, Eigen::VectorXd::Zero(1))};
-  BOOST_TEST((choose_effects(estimates, scope, 0.01) == scope.applicable));
-  BOOST_TEST(scope.without(scope.applicable, Effect::gravity).empty());
-  estimates.outcome = {Status::singular, "a mechanism"};
-  BOOST_TEST((choose_effects(estimates, scope, 1) == scope.applicable));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,341 @@
+#include "harness/analysis/effect_elimination.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "harness/analysis/effect_changes.h"
+
+namespace trammel::harness {
+namespace {
+
+using solver::Effect;
+using solver::Effects;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// A coarse mesh measures a change to within about a fifth, a platform of three triangles to within
+/// a factor of three, and large displacement not much better: what it finds between these shares of
+/// the tolerance is measured on the scene's own mesh.
+constexpr double kSurelyWithin = 0.75, kPlatformSurelyWithin = 0.25;
+constexpr double kSurelyBeyond = 1.25, kLargeSurelyBeyond = 4;
+/// The same of what linear theory finds for a scene of large displacement, by which nothing stays
+/// on, for the forces that matter may be others there.
+constexpr double kLinearSurelyBeyond = 20;
+
+class EliminationOf {
+ public:
+  EliminationOf(const EffectScope& scope, double tolerance, const ChangeWith& change_with)
+      : scope_(scope), tolerance_(tolerance), change_with_(change_with) {
+    found_.chosen = scope.applicable;
+    decided_ = scope.required;
+  }
+
+  Elimination run(const std::vector<Effect>& order, Effects negligible) {
+    if (!negligible.empty()) try_without(negligible.list());
+    for (const Effect effect : order) decide(effect);
+    return found_;
+  }
+
+ private:
+  bool try_without(const std::vector<Effect>& effects) {
+    Effects left = found_.chosen;
+    for (const Effect effect : effects) left = scope_.without(left, effect);
+    const double change = change_with_(left);
+    const bool within = change <= tolerance_;
+    if (within) found_.chosen = left;
+    for (const Effect effect : effects) {
+      if (within) decided_ = decided_.with(effect);
+      if (within || effects.size() == 1) found_.change[static_cast<std::size_t>(effect)] = change;
+    }
+    return within;
+  }
+
+  void decide(Effect effect) {
+    if (decided_.has(effect) || !scope_.applicable.has(effect)) return;
+    decided_ = decided_.with(effect);
+    for (const Effect dependent : scope_.dependents[static_cast<std::size_t>(effect)].list())
+      decide(dependent);
+    const bool carries = !(scope_.without(found_.chosen, effect) == found_.chosen.without(effect));
+    if (!carries) try_without({effect});
+  }
+
+  const EffectScope& scope_;
+  double tolerance_;
+  const ChangeWith& change_with_;
+  Elimination found_;
+  Effects decided_;
+};
+
+/// The scene on one mesh: its results with some effects at some step, each computed once.
+class MeshedScene {
+ public:
+  MeshedScene(const AnalysisKind& kind, const JsonView& analysis, CaseModel scene, Effects all,
+              double size)
+      : kind_(kind), analysis_(analysis), scene_(std::move(scene)), all_(all), size_(size) {}
+
+  /// Nothing where there is no solution.
+  const std::optional<Quantities>& at(Effects effects, std::size_t step) {
+    auto run = std::find_if(runs_.begin(), runs_.end(),
+                            [&](const auto& one) { return one.first == effects; });
+    if (run == runs_.end()) run = runs_.insert(runs_.end(), {effects, {}});
+    const auto [place, missing] = run->second.try_emplace(step);
+    if (missing) place->second = compute(effects, step);
+    return place->second;
+  }
+
+  double change(Effects whole, Effects effects, const std::set<std::size_t>& steps) {
+    const auto full = along(whole, steps), other = along(effects, steps);
+    if (!full || !other) return kInfinite;
+    return max_change(changes_between(*full, *other, size_)).value;
+  }
+
+  /// One after the other; nothing where one is missing.
+  std::optional<Quantities> along(Effects effects, const std::set<std::size_t>& steps) {
+    Quantities all;
+    for (const std::size_t step : steps) {
+      const auto& found = at(effects, step);
+      if (!found) return std::nullopt;
+      for (const auto& [name, quantity] : *found) {
+        auto& values = all[name].values;
+        values.insert(values.end(), quantity.values.begin(), quantity.values.end());
+      }
+    }
+    return all;
+  }
+
+  solver::Outcome outcome;  ///< of the whole scene
+  solver::Counters counters;
+
+ private:
+  std::optional<Quantities> compute(Effects effects, std::size_t step) {
+    Recorder record;
+    scene_.effects = effects;
+    try {
+      const StepResult result =
+          std::get<StepAnalysis>(kind_.of_scene)(analysis_, scene_, step, false, record);
+      counters += result.counters;
+      const solver::Outcome found =
+          solver::outcome_by_evidence(result.outcome, result.evidence, kind_.evidence);
+      if (effects == all_ && outcome.solved()) outcome = outcome_at_path_point(scene_, step, found);
+      if (!found.solved()) return std::nullopt;
+    } catch (const solver::ModelError&) {  // what is left means nothing without the effect
+      if (effects == all_) throw;
+      return std::nullopt;
+    }
+    return record.take_quantities();
+  }
+
+  const AnalysisKind& kind_;
+  const JsonView& analysis_;
+  CaseModel scene_;
+  Effects all_;
+  double size_;
+  std::vector<std::pair<Effects, std::map<std::size_t, std::optional<Quantities>>>> runs_;
+};
+
+/// At most so many elements a member, and a platform of three triangles; @returns whether there are
+/// fewer than before.
+bool coarsen(CaseModel& scene, solver::Index most) {
+  bool coarser = false;
+  const auto limit = [&](solver::Index& elements) {
+    coarser = coarser || elements > most;
+    elements = std::min(elements, most);
+  };
+  for (solver::Member& member : scene.structure.members) limit(member.elements);
+  if (!scene.manipulator) return coarser;
+  for (std::size_t i = 0; i < 3; ++i) {
+    limit(scene.manipulator->proximal[i].elements);
+    limit(scene.manipulator->distal[i].elements);
+  }
+  int& refinements = scene.manipulator->platform.refinements;
+  if (scene.manipulator->platform.pin_radius > 0 || refinements == 0) return coarser;
+  refinements = 0;
+  return true;
+}
+
+/// Those that slenderness alone makes look negligible: measured all at once, they cost one run.
+Effects negligible_effects(const solver::Model& model, const EffectScope& scope, double tolerance) {
+  Effects negligible;
+  for (const Effect effect : {Effect::axial_flexibility, Effect::shear, Effect::rotary_inertia}) {
+    const bool carries = !scope.dependents[static_cast<std::size_t>(effect)].empty();
+    if (!scope.applicable.has(effect) || scope.required.has(effect) || carries) continue;
+    if (*slenderness_number(effect, model) < 0.1 * tolerance) negligible = negligible.with(effect);
+  }
+  return negligible;
+}
+
+class Measurement {
+ public:
+  Measurement(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
+              const EffectScope& scope, double tolerance)
+      : scope_(scope), tolerance_(tolerance) {
+    const solver::Model model = build_model(scene, 0);
+    size_ = model_size(model);
+    const auto members = std::max<solver::Index>(std::ssize(model.members), 1);
+    CaseModel coarse = scene, coarsest = scene;
+    is_coarser_ = coarsen(coarse, 2 + analysis.get<solver::Index>("count", 0) / members);
+    coarsen(coarsest, 1);
+    coarsest_.emplace(kind, analysis, std::move(coarsest), scope.applicable, size_);
+    coarse_.emplace(kind, analysis, std::move(coarse), scope.applicable, size_);
+    own_.emplace(kind, analysis, scene, scope.applicable, size_);
+    for (std::size_t step = 0; step < scene.steps(); ++step) every_step_.insert(step);
+    negligible_ = negligible_effects(model, scope, tolerance);
+  }
+
+  Elimination run() {
+    choose_steps();
+    Elimination found;
+    do {
+      found = eliminate(scope_, kOrder, negligible_, tolerance_,
+                        [this](Effects active) { return change_with(active); });
+      if (!tried_linearly_ || change_from_whole(found.chosen) <= tolerance_) continue;
+      try_linearly_ = tried_linearly_ = false;
+      found = eliminate(scope_, kOrder, negligible_, tolerance_,
+                        [this](Effects active) { return change_with(active); });
+    } while (coarse_->outcome.solved() && add_worst_step(found.chosen));
+    found.outcome = coarse_->outcome;
+    found.counters = coarse_->counters;
+    found.counters += own_->counters;
+    found.counters += coarsest_->counters;
+    return found;
+  }
+
+  /// Of linear theory, from the whole scene.
+  std::optional<double> change_by_large_displacement() {
+    choose_steps();
+    const double change = coarse_->change(scope_.applicable, linear(scope_.applicable), steps_);
+    return std::isfinite(change) ? std::optional(change) : std::nullopt;
+  }
+
+ private:
+  /// What costs most first.
+  inline static const std::vector<Effect> kOrder = {Effect::large_displacement,
+                                                    Effect::geometric_stiffening,
+                                                    Effect::gyroscopic,
+                                                    Effect::damping,
+                                                    Effect::shear,
+                                                    Effect::rotary_inertia,
+                                                    Effect::axial_flexibility,
+                                                    Effect::joint_compliance,
+                                                    Effect::platform_flexibility,
+                                                    Effect::link_mass,
+                                                    Effect::gravity,
+                                                    Effect::inertia};
+
+  [[nodiscard]] Effects linear(Effects effects) const {
+    return scope_.without(scope_.without(effects, Effect::geometric_stiffening),
+                          Effect::large_displacement);
+  }
+
+  double change_with(Effects active) {
+    if (try_linearly_ && active.has(Effect::large_displacement)) {
+      const double change = change_from(linear(scope_.applicable), linear(active));
+      if (change <= tolerance_) tried_linearly_ = true;
+      if (change <= tolerance_ || change > kLinearSurelyBeyond * tolerance_) return change;
+    }
+    return change_from_whole(active);
+  }
+
+  double change_from_whole(Effects active) { return change_from(scope_.applicable, active); }
+
+  double change_from(Effects full, Effects active) {
+    const double change = coarse_->change(full, active, steps_);
+    if (!is_coarser_) return change;
+    const double within =
+        active.has(Effect::platform_flexibility) ? kSurelyWithin : kPlatformSurelyWithin;
+    const bool large =
+        active.has(Effect::large_displacement) || !full.has(Effect::large_displacement);
+    const double beyond = large ? kSurelyBeyond : kLargeSurelyBeyond;
+    const bool lost = !std::isfinite(change) && linear(active) == active;
+    const bool settled = change <= within * tolerance_ || change > beyond * tolerance_;
+    return settled && !lost ? change : change_on_own_mesh(full, active);
+  }
+
+  /// Of the whole scene from linear theory on the coarse mesh, and from there on its own, where
+  /// these two settle it: the sides of a triangle.
+  double change_on_own_mesh(Effects full, Effects active) {
+    if (linear(active) == active && !(linear(full) == full)) {
+      const double coarse = coarse_->change(full, linear(full), steps_);
+      const double own = own_->change(linear(full), active, steps_);
+      if (coarse + own <= tolerance_ || own - coarse > tolerance_) return coarse + own;
+    }
+    return own_->change(full, active, steps_);
+  }
+
+  /// Where linear theory has its largest displacements and forces, or its lowest and highest first
+  /// frequency.
+  void choose_steps() {
+    if (every_step_.size() <= 2) {
+      steps_ = every_step_;
+      return;
+    }
+    const auto found = coarsest_->along(linear(scope_.applicable), every_step_);
+    if (!found) {
+      steps_ = every_step_;
+      return;
+    }
+    std::map<std::string, std::pair<double, std::size_t>> extremes;
+    const auto look = [&](const std::string& extreme, double size, std::size_t step) {
+      auto& largest = extremes.try_emplace(extreme, size, step).first->second;
+      largest = std::max(largest, {size, step});
+    };
+    for (const auto& [name, quantity] : *found) {
+      const std::string kind = change_kind(name);
+      for (std::size_t i = 0; i < quantity.values.size(); ++i) {
+        const double size = std::abs(quantity.values[i]);
+        if (kind == "displacement" || kind == "force") look(kind, size, i);
+        if (name == "frequency_Hz:1") look("highest", size, i), look("lowest", -size, i);
+      }
+    }
+    for (const auto& [extreme, place] : extremes) steps_.insert(place.second);
+  }
+
+  /// @returns false where the choice holds at every step that was not looked at before
+  bool add_worst_step(Effects chosen) {
+    if (steps_ == every_step_ || chosen == scope_.applicable) return false;
+    const bool large = chosen.has(Effect::large_displacement);
+    const Effects whole = large ? linear(scope_.applicable) : scope_.applicable;
+    if (large) chosen = linear(chosen);
+    const auto full = coarsest_->along(whole, every_step_);
+    if (!full) return false;
+    for (const std::size_t step : every_step_) {
+      if (!coarsest_->at(chosen, step)) return steps_.insert(step).second;
+    }
+    const LargestDifference worst =
+        max_change(changes_between(*full, *coarsest_->along(chosen, every_step_), size_));
+    return worst.value > kSurelyWithin * tolerance_ && steps_.insert(worst.index).second;
+  }
+
+  const EffectScope& scope_;
+  double tolerance_;
+  double size_;
+  Effects negligible_;
+  bool is_coarser_ = false, try_linearly_ = true, tried_linearly_ = false;
+  std::optional<MeshedScene> coarsest_, coarse_, own_;
+  std::set<std::size_t> every_step_, steps_;
+};
+
+}  // namespace
+
+Elimination eliminate(const EffectScope& scope, const std::vector<Effect>& order,
+                      Effects negligible, double tolerance, const ChangeWith& change_with) {
+  return EliminationOf(scope, tolerance, change_with).run(order, negligible);
+}
+
+Elimination eliminate_by_measurement(const AnalysisKind& kind, const JsonView& analysis,
+                                     const CaseModel& scene, const EffectScope& scope,
+                                     double tolerance) {
+  return Measurement(kind, analysis, scene, scope, tolerance).run();
+}
+
+std::optional<double> large_displacement_at_rest(const JsonView& analysis, const CaseModel& scene) {
+  const AnalysisKind& statics = find_analysis("statics");
+  const EffectScope scope = statics.effects->scope(analysis, build_model(scene, 0));
+  if (scene.structure.loads.empty() && !scope.applicable.has(Effect::gravity)) return std::nullopt;
+  return Measurement(statics, analysis, scene, scope, 1).change_by_large_displacement();
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+
+#include "harness/analysis/registry.h"
+
+/// Which effects a scene calls for: one after the other is left out for as long as the results stay
+/// within the tolerance of the whole scene.
+namespace trammel::harness {
+
+/// How far the results with these effects are from those of the whole scene, relative; infinite
+/// where they are none.
+using ChangeWith = std::function<double(solver::Effects active)>;
+
+struct Elimination {
+  solver::Outcome outcome;  ///< of the whole scene; without a solution every effect stays
+  solver::Effects chosen;
+  /// By effect: how far the results were off when it was left out beside all that was off then.
+  std::array<std::optional<double>, solver::kEffectCount> change;
+  solver::Counters counters;
+};
+
+/// @param order  what is tried first; an effect's dependents go before it
+/// @param negligible  what is tried at once before all else
+[[nodiscard]] Elimination eliminate(const EffectScope& scope,
+                                    const std::vector<solver::Effect>& order,
+                                    solver::Effects negligible, double tolerance,
+                                    const ChangeWith& change_with);
+
+/// By running the analysis, which goes step by step, with and without each effect: on a mesh as
+/// coarse as keeps the physics, and on the scene's own where the coarse one comes near the
+/// tolerance; along a path at the extremes of linear theory, and at any other pose where the choice
+/// turns out to be off by more. Where large displacement stays, the others are tried in linear
+/// theory first, and what is left is compared with the whole scene.
+[[nodiscard]] Elimination eliminate_by_measurement(const AnalysisKind& kind,
+                                                   const JsonView& analysis, const CaseModel& scene,
+                                                   const EffectScope& scope, double tolerance);
+
+/// What geometric stiffening and large displacement change in statics under the loads at rest, at
+/// the extremes of linear theory along the path; nothing without loads, or without a solution.
+[[nodiscard]] std::optional<double> large_displacement_at_rest(const JsonView& analysis,
+                                                               const CaseModel& scene);
+
+}  // namespace trammel::harness
