@@ -230,7 +230,8 @@ class CommandLine {
   }
   void define_effects() {
     CLI::App* sub =
-        add("effects", "Physical effects of a model: which it calls for, and the measured influence of each",
+        add("effects",
+            "Physical effects of a model: which it calls for, and the measured influence of each",
             "\nThe full model against the model without each effect, without pairs, and "
             "with only those\nselected for the tolerance.\n\nExamples:\n"
             "  trammel effects scene-soft-platform\n"
