@@ -40,7 +40,7 @@ RelativeTime relative_time(const Timing& timing, const Timing& baseline, std::si
   const std::size_t n = ratios.size();
   const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);
   std::size_t outside = 0;  // ratios on either side that the interval leaves out
-  while (2 * cdf(repeats_below, static_cast<double>(outside + 1)) <= 0.125) ++outside;
+  while (2 * cdf(repeats_below, static_cast<double>(outside + 1)) <= 0.02) ++outside;
   return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
 }
 

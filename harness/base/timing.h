@@ -29,8 +29,8 @@ struct Timing {
 /// What one computation takes over another.
 struct RelativeTime {
   double median = 0;
-  /// Holds the true median with a probability of at least 7/8, however the times are distributed
-  /// (sign test; of seven repeats the second and the last but one).
+  /// Holds the true median with a probability of at least 98 %, however the times are distributed
+  /// (sign test; of seven repeats all of them).
   double low = 0, high = 0;
 };
 

@@ -16,7 +16,7 @@ struct ErrorNorms {
 
 struct SettingTime {
   std::vector<double> cpu_s;  ///< of one computation, by repeat
-  /// Over the baseline's: the interval that holds the median with a probability of 7/8 or more.
+  /// Over the baseline's: the interval that holds the median with a probability of 98 %.
   double relative_low = 0, relative_high = 0;
   double wall_median_s = 0;
   std::size_t runs_per_measurement = 0;

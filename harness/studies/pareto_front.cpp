@@ -47,7 +47,8 @@ std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points, dou
   std::vector<std::size_t> tied;
   const auto best = cheapest(points, error);
   for (const CostPoint& point : points) {
-    if (point.error <= error && point.setting != best->setting && point.low <= best->high)
+    if (point.error <= error && point.setting != best->setting &&
+        point.low <= (1 + kParetoTolerance) * best->high)
       tied.push_back(point.setting);
   }
   return tied;

@@ -28,7 +28,7 @@ inline constexpr double kParetoTolerance = 0.05;
 [[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
 
 /// Settings with at most that error that the measurement cannot tell from the cheapest: their
-/// intervals of time meet.
+/// intervals of time meet, or nearly.
 [[nodiscard]] std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points,
                                                      double error);
 
