@@ -152,9 +152,12 @@ def change_surroundings(faults, bench):
     for what, names in (("no HOME", {"HOME": None}), ("no TMPDIR", {"TMPDIR": str(empty / "none")}),
                         ("C locale", {"LC_ALL": "C"}), ("Latin 1", {"LC_ALL": "de_DE.ISO-8859-1"}),
                         ("comma decimals", {"LC_ALL": "de_DE.UTF-8"})):
+        before = None
         if "de_DE" in names.get("LC_ALL", ""):
             names["LOCPATH"] = locale_folder(bench.folder, names["LC_ALL"])
-        faults.check(what, bench, (0,), environment=names)
+            if not (bench.folder / names["LC_ALL"]).exists():
+                before = lambda: os._exit(CANNOT)
+        faults.check(what, bench, (0,), environment=names, before=before)
     faults.check("clock steps back", bench, (0,), fault="clock:0")
     disk = bench.folder / "disk"
     disk.mkdir()
