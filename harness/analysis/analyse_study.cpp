@@ -78,7 +78,7 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const double error =
         std::abs(kept[i].value - reference_solution[i]) / std::abs(reference_solution[i]);
-    record.add("relative_error", name, error);
+    record.add_or_gap("relative_error", name, error);
     if (error < min_error) {
       min_error = error;
       best = parameter[i];
@@ -87,8 +87,8 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
       record.add("roundoff", name, kept[i].roundoff);
       record.add("error_over_roundoff", name, error / kept[i].roundoff);
     } else if (std::isnan(kept[i].value)) {
-      record.add("roundoff", name, kNaN);
-      record.add("error_over_roundoff", name, kNaN);
+      record.add_gap("roundoff", name);
+      record.add_gap("error_over_roundoff", name);
     }
   }
   if (keep.has("reference") && !std::isnan(best)) record.add("min_error_at", name, best);
@@ -150,7 +150,7 @@ StepResult analyse_study(const Document& document, const References& references,
   }
   for (std::size_t k = 0; k < keep.size(); ++k) {
     const auto& [name, place] = keep[k];
-    for (const KeptQuantity& one : kept[k]) record.add(name, "", one.value);
+    for (const KeptQuantity& one : kept[k]) record.add_or_gap(name, "", one.value);
     record_errors(name, kept[k], parameter, place, references, record);
   }
   return result;

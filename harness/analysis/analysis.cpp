@@ -1,6 +1,7 @@
 #include "harness/analysis/analysis.h"
 
 #include "harness/analysis/registry.h"
+#include "harness/analysis/size_estimate.h"
 #include "harness/scene/with_model_errors.h"
 
 namespace trammel::harness {
@@ -33,7 +34,8 @@ StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
   return analyse_steps(std::get<StepAnalysis>(kind.of_scene), analysis, case_model, draw, record);
 }
 
-/// What was recorded counts where a solution was found and its residuals speak for it.
+/// What was recorded counts where a solution was found, its residuals speak for it and every number
+/// is finite.
 AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
   AnalysisResult result;
   result.analysis = kind.name;
@@ -45,6 +47,10 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   result.counters = found.counters;
   result.timings = std::move(found.timings);
   result.warnings = std::move(found.warnings);
+  if (result.outcome.solved() && !record.not_finite().empty()) {
+    result.outcome = {solver::Status::not_converged,
+                      record.not_finite() + " is not a finite number"};
+  }
   if (!result.outcome.solved()) return result;
   result.quantities = record.take_quantities();
   const double of_load =
@@ -64,6 +70,7 @@ std::string analysis_kind(const Document& document) {
 
 AnalysisResult analyse(const Document& document, const References& references,
                        const AnalysisOptions& options) {
+  require_fits(document);
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
   Recorder record;
   if (!kind.needs_model(document)) {

@@ -14,11 +14,9 @@ class InputError : public std::runtime_error {
       : std::runtime_error(file + ": " + (pointer.empty() ? "/" : pointer) + ": " + message) {}
 };
 
-/// SIGINT or SIGTERM came: what() is one line that says how to go on. Exit 128 + the signal.
-class Interrupted : public std::runtime_error {
- public:
-  Interrupted(int number, const std::string& message)
-      : std::runtime_error(message), signal(number) {}
+/// SIGINT or SIGTERM came. Exit 128 + the signal.
+struct Interrupted : std::runtime_error {
+  explicit Interrupted(int number) : std::runtime_error("interrupted"), signal(number) {}
   int signal;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <new>
 #include <sstream>
 
 #include "harness/base/errors.h"
@@ -110,18 +111,25 @@ Json parse_json(const std::string& text, const std::string& name) {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code ignored;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file, ignored)) {
-    throw InputError(file.string() + ": expected a readable file");
-  }
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 28;
+  std::error_code error;
+  const bool regular = std::filesystem::is_regular_file(file, error);  // a pipe may never open
+  std::ifstream in;
+  if (regular) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw InputError(file.string() + ": expected a readable file");
+  if (std::filesystem::file_size(file, error) > most)
+    throw InputError(file.string() + ": expected a file of at most 256 MiB");
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
 }
 
 Json read_json(const std::filesystem::path& file) {
-  return parse_json(read_text(file), file.string());
+  try {
+    return parse_json(read_text(file), file.string());
+  } catch (const std::bad_alloc&) {
+    throw InputError(file.string() + ": expected a file that fits into memory");
+  }
 }
 
 namespace {

@@ -8,7 +8,7 @@
 namespace trammel::harness {
 
 /// All of a file.
-/// @throws InputError  where it cannot be read.
+/// @throws InputError  where it cannot be read, is no regular file or has more than 256 MiB.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
 /// Reads one JSON document, strictly: UTF-8, no duplicate keys, no number beyond a double.

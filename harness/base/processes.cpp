@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <iostream>
 #include <new>
 #include <stdexcept>
@@ -56,6 +57,8 @@ std::terminate_handler otherwise = nullptr;
   std::abort();
 }
 
+std::size_t allowed_bytes = 0;  ///< to this process by the one that forked it; 0: nothing is said
+
 struct Child {
   pid_t process = -1;
   int answer = -1;  ///< read end of its pipe
@@ -76,6 +79,7 @@ struct Child {
   alarm(kHangTimeoutFactor * task.cpu_limit_s);
   const rlimit memory{memory_bytes, memory_bytes};
   if (kLimitsMemory && memory_bytes > 0) setrlimit(RLIMIT_AS, &memory);
+  allowed_bytes = memory_bytes;
   std::string text;
   try {
     text = task.work();
@@ -162,10 +166,14 @@ class ProcessPool {
   }
 
   /// Takes in what there is of answers. @returns the signal where one came, else 0
-  int wait(const std::function<void(std::size_t, const ProcessOutcome&)>& ended) {
+  int wait(const std::function<void(std::size_t, const ProcessOutcome&)>& ended,
+           const std::function<void()>& waiting) {
     std::vector<pollfd> ready = {{signals_, POLLIN, 0}};
     for (const Child& child : children_) ready.push_back({child.answer, POLLIN, 0});
-    if (poll(ready.data(), ready.size(), -1) < 0) return 0;
+    constexpr int a_second = 1000;
+    const int found = poll(ready.data(), ready.size(), a_second);
+    if (found == 0 && waiting) waiting();
+    if (found <= 0) return 0;
     if (signalfd_siginfo came{}; ready[0].revents != 0)
       return read(signals_, &came, sizeof came) > 0 ? static_cast<int>(came.ssi_signo) : 0;
     for (std::size_t i = children_.size(); i-- > 0;) {
@@ -191,6 +199,15 @@ class ProcessPool {
   int signals_ = -1;
 };
 
+/// Said by a signal's handler, which may only write and end.
+std::array<char, 200> last_line{};
+
+extern "C" void say_and_end(int signal) {
+  if (write(STDERR_FILENO, last_line.data(), std::strlen(last_line.data())) >= 0) {
+  }
+  _exit(128 + signal);
+}
+
 }  // namespace
 
 void end_without_memory(int status, const char* line) {
@@ -199,9 +216,25 @@ void end_without_memory(int status, const char* line) {
   if (otherwise == nullptr) otherwise = std::set_terminate(end_by_exception);
 }
 
-std::size_t machine_memory_bytes() {
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+void end_on_signals(const std::string& line) {
+  last_line.fill(0);
+  line.copy(last_line.data(), last_line.size() - 1);
+  for (const int signal : {SIGINT, SIGTERM})
+    if (std::signal(signal, say_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+std::size_t memory_limit_bytes() {
+  static const std::size_t least = [] {
+    auto bytes = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+                 static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    if (rlimit set{}; getrlimit(RLIMIT_AS, &set) == 0)
+      bytes = std::min<std::size_t>(bytes, set.rlim_cur);
+    for (const char* file :
+         {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+      if (std::size_t allowed = 0; std::ifstream(file) >> allowed) bytes = std::min(bytes, allowed);
+    return bytes;
+  }();
+  return allowed_bytes > 0 ? allowed_bytes : least / 2;
 }
 
 int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
@@ -217,7 +250,7 @@ int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions
       ++next;
     }
     if (pool.size() == 0) continue;
-    if (const int signal = pool.wait(ended); signal != 0) return signal;
+    if (const int signal = pool.wait(ended, options.waiting); signal != 0) return signal;
   }
   return 0;
 }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -16,20 +17,21 @@ Progress::~Progress() {
 }
 
 void Progress::show(std::size_t done, std::size_t all) {
-  if (all < 2) return;
+  const auto now = std::chrono::steady_clock::now();
+  const bool each_time = terminal_ && all > 1;
+  if (!each_time && now - last_shown_ < std::chrono::seconds(5)) return;
+  last_shown_ = now;
+  const std::chrono::duration<double> spent = now - start_;
+  std::string bar = "trammel:";
   if (terminal_) {
     constexpr std::size_t width = 40;
-    const std::size_t filled = width * done / all;
-    const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-    std::fprintf(stderr, "\r[%s] %zu of %zu %s\033[K", bar.c_str(), done, all, items_.c_str());
-    std::fflush(stderr);
+    const std::size_t filled = width * done / std::max<std::size_t>(all, 1);
+    bar = "\r[" + std::string(filled, '#') + std::string(width - filled, '.') + "]";
     bar_shown_ = true;
-    return;
   }
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_line_ < std::chrono::seconds(10)) return;
-  std::fprintf(stderr, "trammel: %zu of %zu %s\n", done, all, items_.c_str());
-  last_line_ = now;
+  std::fprintf(stderr, "%s %zu of %zu %s, %.0f s%s", bar.c_str(), done, all, items_.c_str(),
+               spent.count(), terminal_ ? "\033[K" : "\n");
+  std::fflush(stderr);
 }
 
 }  // namespace trammel::harness

@@ -7,7 +7,7 @@
 namespace trammel::harness {
 
 /// How far a computation is, on standard error: a bar that is rewritten on a terminal, elsewhere
-/// (in a log) a line at most every ten seconds.
+/// (in a log) a line; of a single item, and in a log, at most every five seconds.
 class Progress {
  public:
   /// @param items  what is counted, in the plural: "runs"
@@ -21,7 +21,8 @@ class Progress {
   std::string items_;
   bool terminal_;
   bool bar_shown_ = false;
-  std::chrono::steady_clock::time_point last_line_ = std::chrono::steady_clock::now();
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_shown_ = start_;
 };
 
 }  // namespace trammel::harness

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "harness/base/quantity.h"
@@ -12,14 +14,34 @@ class Recorder {
  public:
   /// @param item  what it belongs to, after the colon; empty: nothing
   void add(const std::string& name, const std::string& item, double value, double roundoff = -1) {
-    Quantity& quantity = quantities_[item.empty() ? name : name + ":" + item];
+    Quantity& quantity = quantity_of(name, item);
     quantity.values.push_back(value);
     if (roundoff >= 0) quantity.roundoff.push_back(roundoff);
+    if (!std::isfinite(value) && not_finite_.empty()) not_finite_ = key(name, item);
   }
+  /// The analysis itself says that there is no number here: a gap between curves, a level of a
+  /// study without solution. Written as null; only a check that asks for it fails.
+  void add_gap(const std::string& name, const std::string& item) {
+    quantity_of(name, item).values.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  /// A number, or a gap where it is NaN.
+  void add_or_gap(const std::string& name, const std::string& item, double value) {
+    std::isnan(value) ? add_gap(name, item) : add(name, item, value);
+  }
+  /// The first quantity with a number that is none and was not said to be a gap; empty: none.
+  [[nodiscard]] const std::string& not_finite() const { return not_finite_; }
   [[nodiscard]] Quantities take_quantities() { return std::move(quantities_); }
 
  private:
+  static std::string key(const std::string& name, const std::string& item) {
+    return item.empty() ? name : name + ":" + item;
+  }
+  Quantity& quantity_of(const std::string& name, const std::string& item) {
+    return quantities_[key(name, item)];
+  }
+
   Quantities quantities_;
+  std::string not_finite_;
 };
 
 }  // namespace trammel::harness

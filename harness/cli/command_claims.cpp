@@ -50,7 +50,7 @@ int claims_command(unsigned jobs, bool json) {
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   const std::vector<Run> runs =
       run_cases(cases_of(document, Catalogue().load()), references, options);
-  require_complete(runs, "nothing is judged");
+  require_complete(runs);
   const ClaimSet claim_set = evaluate_claims(document, runs);
   if (json) {
     std::cout << pretty(results::claims_to_json(claim_results(claim_set)));

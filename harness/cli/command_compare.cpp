@@ -27,26 +27,17 @@ using Named = std::map<std::string, std::vector<double>>;
 struct Side {
   std::string label;
   Document document;
-  Run run;
+  AnalysisResult result;
 };
 
-Side side_loads(const std::string& name, const References& references) {
+Side side_loads(const std::string& name) {
   // A colon in a file's own name is no variant.
   const auto colon = name.rfind(':');
   const bool split =
       colon != std::string::npos && name.find('/', colon) == std::string::npos && colon > 0;
   const Case given = load_named_case(split ? name.substr(0, colon) : name);
   const std::string variant = split ? name.substr(colon + 1) : kBaseVariant;
-  Side side{given.id() + ":" + variant, patched(given, variant), {}};
-  Run& run = side.run;
-  run.case_id = given.id();
-  run.variant = variant;
-  run.result = analyse(side.document, references, {false});
-  if (!run.result.outcome.solved()) {
-    throw InputError(side.label + ": expected a solution to compare (" + run.result.outcome.reason +
-                     ")");
-  }
-  return side;
+  return {given.id() + ":" + variant, patched(given, variant), solution_of(given, variant)};
 }
 
 Named numbers_of(const Quantities& quantities) {
@@ -130,7 +121,7 @@ std::string mode_numbers(const std::vector<std::size_t>& set) {
 
 void print_modes(const Side& a, const Side& b) {
   const auto [modes_a, modes_b] = sample_modes(a.document, b.document);
-  const std::size_t count = a.run.result.quantities.at("frequency_Hz").values.size();
+  const std::size_t count = a.result.quantities.at("frequency_Hz").values.size();
   Table table(
       {">mode", ">" + a.label + " [Hz]", ">mode", ">" + b.label + " [Hz]", ">percent", ">alike"});
   for (const ModeMatch& match : match_modes(modes_a, modes_b)) {
@@ -284,21 +275,20 @@ int compare_command(const std::string& a, const std::string& b) {
     results_a ? refuse_beside_results(b, json_b) : refuse_beside_results(a, json_a);
   }
   if (results_a) return compare_results(a, json_a, b, json_b);
-  const References references;
-  const Side side_a = side_loads(a, references), side_b = side_loads(b, references);
+  const Side side_a = side_loads(a), side_b = side_loads(b);
   if (analysis_kind(side_a.document) != analysis_kind(side_b.document)) {
     throw InputError("expected two variants of one kind of analysis (got " +
                      analysis_kind(side_a.document) + " and " + analysis_kind(side_b.document) +
                      ")");
   }
   if (analysis_kind(side_a.document) == "modes" &&
-      side_a.run.result.quantities.count("frequency_Hz") > 0 &&
-      side_b.run.result.quantities.count("frequency_Hz") > 0) {
+      side_a.result.quantities.count("frequency_Hz") > 0 &&
+      side_b.result.quantities.count("frequency_Hz") > 0) {
     print_modes(side_a, side_b);
     return 0;
   }
-  print_quantities(numbers_of(side_a.run.result.quantities),
-                   numbers_of(side_b.run.result.quantities), side_a.label, side_b.label);
+  print_quantities(numbers_of(side_a.result.quantities), numbers_of(side_b.result.quantities),
+                   side_a.label, side_b.label);
   return 0;
 }
 

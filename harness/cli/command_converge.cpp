@@ -67,7 +67,7 @@ int converge_command(const std::string& name, const std::string& variant, unsign
   const References references;
   const std::vector<Run> runs =
       run_cases({given}, references, {variant, jobs, TrackedQuantities::all, {}});
-  require_complete(runs, "nothing is judged");
+  require_complete(runs);
   for (const Run& run : runs) {
     if (run.error != Run::RunError::none) {
       std::cerr << run.reason << '\n';

@@ -8,6 +8,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
+#include "harness/base/processes.h"
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
@@ -16,6 +17,7 @@
 #include "harness/run/cost_results.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
+#include "harness/run/run_store.h"
 #include "harness/studies/accuracy_search.h"
 #include "harness/studies/cost_study_of_sweeps.h"
 
@@ -213,6 +215,7 @@ TimingOptions timing_of(const CostCommand& command) {
 int cost_command(const CostCommand& command, const Renderers& renderers) {
   require_drawing(renderers);
   const OutputLock lock(command.out);
+  if (command.accuracy == 0) end_on_signals(kInterrupted);
   const References references;
   const SweepExtent extent = command.quick ? SweepExtent::quick : SweepExtent::full;
   CostOptions options{timing_of(command), {}};
@@ -227,7 +230,8 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
     {
       Progress progress("measurements");
       options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-      measured.push_back(measure(std::move(study), options, references));
+      measured.push_back(measure_or_find(std::move(study), options, references,
+                                         store_folder(command.out, command.store), command.resume));
     }
     print(measured.back());
   }
@@ -244,20 +248,21 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   return any_lost ? 1 : 0;
 }
 
-results::CostStudies quick_cost(const References& references,
+results::CostStudies quick_cost(const References& references, const fs::path& store, bool resume,
                                 std::vector<std::string>& error_messages) {
   Progress progress("cost studies");
-  const CostOptions options;
   const std::vector<fs::path> files = cost_study_files();
   std::vector<MeasuredStudy> measured;
+  const auto show = [&] { progress.show(measured.size() + error_messages.size(), files.size()); };
+  const CostOptions options{{}, [&](std::size_t, std::size_t) { show(); }};
   for (const fs::path& file : files) {
     try {
-      measured.push_back(
-          measure(load_cost_study(file, SweepExtent::quick, references), options, references));
+      measured.push_back(measure_or_find(load_cost_study(file, SweepExtent::quick, references),
+                                         options, references, store, resume));
     } catch (const InputError& error) {
       error_messages.emplace_back(error.what());
     }
-    progress.show(measured.size() + error_messages.size(), files.size());
+    show();
   }
   return cost_results(measured, SweepExtent::quick, options.timing);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,16 +21,26 @@ struct CostCommand {
   std::uint64_t seed = 1;
   std::string out;
   double accuracy = 0;  ///< the settings are searched for this error; 0: they are not
-  std::vector<std::string> quantities;  ///< that the search looks at
-  double time_limit_s = 120;            ///< of the search
+  std::vector<std::string> quantities = {};  ///< that the search looks at
+  double time_limit_s = 120;                 ///< of the search
+  std::string store = {};                    ///< folder; empty: in `out`
+  bool resume = false;
 };
+
+/// The folder that computations are kept in.
+[[nodiscard]] inline std::filesystem::path store_folder(const std::string& out,
+                                                        const std::string& store) {
+  return store.empty() ? std::filesystem::path(out) / "store" : std::filesystem::path(store);
+}
 
 /// What accuracy costs in time. @returns the exit status
 int cost_command(const CostCommand& command, const Renderers& renderers);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.
+/// @param store, resume   as `measure_or_find`
 /// @param error_messages  gets a line for each study that could not be measured
 [[nodiscard]] results::CostStudies quick_cost(const References& references,
+                                              const std::filesystem::path& store, bool resume,
                                               std::vector<std::string>& error_messages);
 
 }  // namespace trammel::harness

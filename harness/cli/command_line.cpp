@@ -4,8 +4,10 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "harness/base/errors.h"
@@ -116,13 +118,15 @@ class CommandLine {
     sub->add_option("-o,--out", run_.out, what)->capture_default_str();
   }
 
-  void add_store(CLI::App* sub) {
-    sub->add_flag("--resume", run_.resume,
+  void add_store(CLI::App* sub, bool& resume, std::string& store) {
+    sub->add_flag("--resume", resume,
                   "Take what an earlier call left in the store, and compute only what is missing");
-    sub->add_option("--store", run_.store,
-                    "Folder where each run is kept as it ends; OUT/store by default");
+    sub->add_option("--store", store,
+                    "Folder where each run or study is kept as it ends; OUT/store by default");
+  }
+  void add_memory(CLI::App* sub) {
     sub->add_option("--max-memory", run_.memory_bytes,
-                    "What one run may take, as 500MB or 2GB; the machine's by default")
+                    "What one run may take, as 500MB or 2GB; by default half of the memory")
         ->transform(CLI::AsSizeValue(false));
   }
 
@@ -158,7 +162,8 @@ class CommandLine {
     sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
     add_jobs(sub);
     add_out(sub, "Folder for results.json and junit.xml");
-    add_store(sub);
+    add_store(sub, run_.resume, run_.store);
+    add_memory(sub);
     sub->callback([this] {
       if (run_.cases.empty() && run_.labels.empty()) {
         throw CLI::RequiredError("a case or a label");
@@ -217,6 +222,7 @@ class CommandLine {
     sub->add_option("--time-limit", cost_.time_limit_s, "Of the search by --accuracy [s]")
         ->check(CLI::Range(1.0, 1e6))
         ->capture_default_str();
+    add_store(sub, cost_.resume, cost_.store);
     sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
   }
   void define_claims() {
@@ -281,7 +287,8 @@ class CommandLine {
     sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
     add_jobs(sub);
     add_out(sub, "Folder for the page, its figures and data, results.json and junit.xml");
-    add_store(sub);
+    add_store(sub, run_.resume, run_.store);
+    add_memory(sub);
     sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
   }
 
@@ -294,7 +301,7 @@ class CommandLine {
                   "trammel-results",
                   "",
                   false,
-                  machine_memory_bytes()};
+                  memory_limit_bytes()};
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   EffectsCommand effects_;
   std::string name_, other_;
@@ -311,16 +318,25 @@ void require_drawing(const Renderers& renderers) {
 
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   const PrintableStream out(std::cout), err(std::cerr);
+  end_on_signals("trammel: interrupted; the same command begins anew\n");
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of files fails instead
   try {
-    return CommandLine(renderers).run(arguments);
+    const int status = CommandLine(renderers).run(arguments);
+    if (!std::cout.flush()) throw InputError("expected a standard output that can be written");
+    return status;
   } catch (const InputError& error) {
     std::cerr << one_line(error.what()) << '\n';
     return 2;
   } catch (const Interrupted& interrupted) {
-    std::cerr << interrupted.what() << '\n';
+    std::cout.flush();
+    std::raise(interrupted.signal);
     return 128 + interrupted.signal;
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const std::system_error& error) {  // a full disk, a folder where a file should be
+    std::cerr << "expected files and processes that the system grants: " << one_line(error.what())
+              << '\n';
+    return 2;
   } catch (const std::exception& error) {
     std::cerr << "trammel: a fault of its own: " << one_line(error.what()) << '\n';
     return 3;

@@ -17,6 +17,10 @@ struct Renderers {
   std::function<bool()> can_draw;  ///< whether there is what a report is drawn with
 };
 
+/// What a command says that a signal ends and that has a store.
+inline constexpr const char* kInterrupted =
+    "trammel: interrupted; with --resume the same command does what is missing\n";
+
 /// @throws InputError  where a report could not be drawn: before any work is done.
 void require_drawing(const Renderers& renderers);
 

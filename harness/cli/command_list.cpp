@@ -4,6 +4,7 @@
 
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/registry.h"
+#include "harness/analysis/size_estimate.h"
 #include "harness/base/json_file.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
@@ -196,6 +197,7 @@ int describe_case(const std::string& name, bool json) {
     std::cout << pretty(document);
     return 0;
   }
+  require_fits(patched(given, kBaseVariant));
   const References references;
   std::cout << given.id() << ": " << given.title() << '\n';
   std::cout << wrapped(text_of(given, "description"), "  ");

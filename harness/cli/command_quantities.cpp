@@ -2,12 +2,11 @@
 
 #include <iostream>
 
-#include "harness/analysis/analysis.h"
 #include "harness/analysis/registry.h"
-#include "harness/base/errors.h"
 #include "harness/base/table.h"
 #include "harness/input/catalogue.h"
 #include "harness/results/quantity_definitions.h"
+#include "harness/run/run.h"
 
 namespace trammel::harness {
 namespace {
@@ -44,11 +43,9 @@ int quantities_command(const std::string& name) {
     print_analyses();
     return 0;
   }
-  const Document document = patched(load_named_case(name), kBaseVariant);
-  const References references;
-  const AnalysisResult result = analyse(document, references, {false});
-  if (!result.outcome.solved())
-    throw InputError(name + ": expected a solution (" + result.outcome.reason + ")");
+  const Case given = load_named_case(name);
+  const Document document = patched(given, kBaseVariant);
+  const AnalysisResult result = solution_of(given, kBaseVariant);
   Table table({"quantity", ">entries", "unit", "meaning"});
   for (const auto& [quantity, found] : result.quantities)
     table.add({quantity, std::to_string(found.values.size()), unit_of(quantity),

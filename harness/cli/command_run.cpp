@@ -6,6 +6,7 @@
 
 #include "harness/base/diagnostic.h"
 #include "harness/base/errors.h"
+#include "harness/base/processes.h"
 #include "harness/base/progress.h"
 #include "harness/base/statistic.h"
 #include "harness/base/table.h"
@@ -21,8 +22,6 @@
 
 namespace trammel::harness {
 namespace {
-
-constexpr const char* kResume = "with --resume the same command does what is missing";
 
 /// Cases to run, and the runs of those that could not even be read.
 struct Selection {
@@ -71,8 +70,7 @@ std::vector<Run> compute(const Selection& selection, const References& reference
   Progress progress("runs");
   RunOptions options{command.variant, command.jobs, TrackedQuantities::named, {}};
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  options.store = std::filesystem::path(command.out) / "store";
-  if (!command.store.empty()) options.store = command.store;
+  options.store = store_folder(command.out, command.store);
   options.resume = command.resume;
   options.memory_bytes = command.memory_bytes;
   std::vector<Run> runs = run_cases(selection.cases, references, options);
@@ -278,9 +276,10 @@ void write_page(const results::Results& found, const std::vector<Run>& runs, con
 int report_cases(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
   const OutputLock lock(command.out);
+  end_on_signals(kInterrupted);
   const References references;
   const std::vector<Run> runs = compute(selection, references, command);
-  require_complete(runs, kResume);
+  require_complete(runs);
   print_failed_runs(runs);
   write_page(results_of(runs, selection.cases, references), runs, command.out, renderers);
   return exit_status(runs);
@@ -291,6 +290,7 @@ int report_cases(const RunCommand& command, const Renderers& renderers) {
 int run_command(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
   const OutputLock lock(command.out);
+  end_on_signals(kInterrupted);
   const References references;
   const std::vector<Run> runs = compute(selection, references, command);
   for (const Run& run : runs) {
@@ -303,7 +303,7 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   print_summary(runs);
   std::cout << "results in " << results.string() << std::endl;
   print_run_errors(runs);
-  require_complete(runs, kResume);
+  require_complete(runs);
   return exit_status(runs);
 }
 
@@ -311,14 +311,16 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   require_drawing(renderers);
   if (!command.cases.empty() || !command.labels.empty()) return report_cases(command, renderers);
   const OutputLock lock(command.out);
+  end_on_signals(kInterrupted);
   const Catalogue catalogue;
   const Selection selection = load(catalogue.runnable_files(), catalogue);
   const References references;
   const std::vector<Run> runs = compute(selection, references, command);
-  require_complete(runs, kResume);
+  require_complete(runs);
   print_failed_runs(runs);
   std::vector<std::string> error_messages;
-  results::CostStudies cost = quick_cost(references, error_messages);
+  results::CostStudies cost = quick_cost(references, store_folder(command.out, command.store),
+                                         command.resume, error_messages);
   results::Results results = results_of(runs, selection.cases, references);
   results.cost = std::move(cost);
   const ClaimSet claim_set = evaluate_claims(load_claims(), runs);

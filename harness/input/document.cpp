@@ -17,7 +17,7 @@ void compose(Json& patch, const Json& later) {
 Document Document::from_json(const std::string& file, const Json& json) {
   Document document;
   document.value_ = json;
-  document.layers_.push_back({file, "", json, false});
+  document.layers_.push_back({file, "", std::make_shared<const Json>(json), false});
   return document;
 }
 
@@ -29,7 +29,7 @@ void Document::apply_patch(const std::string& file, const std::string& origin, c
     compose(variants, *stated);
     value_["variants"] = std::move(variants);
   }
-  layers_.push_back({file, origin, patch, false});
+  layers_.push_back({file, origin, std::make_shared<const Json>(patch), false});
 }
 
 void Document::apply_value_patch(const std::string& file, const std::string& origin,
@@ -41,7 +41,7 @@ void Document::apply_value_patch(const std::string& file, const std::string& ori
 Origin Document::origin(const std::string& pointer) const {
   for (JsonPointer at(pointer);; at = at.parent_pointer()) {
     const auto layer = std::find_if(layers_.rbegin(), layers_.rend(), [&](const Layer& candidate) {
-      return candidate.patch.contains(at);
+      return candidate.patch->contains(at);
     });
     if (layer != layers_.rend()) {
       return {layer->file, layer->is_value ? layer->origin : layer->origin + pointer,

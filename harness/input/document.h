@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,7 @@ class Document {
  private:
   struct Layer {
     std::string file, origin;
-    Json patch;
+    std::shared_ptr<const Json> patch;  ///< one for all copies of the document
     bool is_value = false;
   };
   Json value_ = Json::object();

@@ -100,13 +100,13 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
   if (!std::isfinite(above)) return;
   record.add("overdamped_above_Hz", "", above);
   const std::optional<solver::Index> below = solver::sturm_count(start, above);
-  record.add("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
+  record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
 
 /// What says beforehand whether an effect matters, and what the integration took.
 void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const solver::ElastodynamicsEffects& effects = solution.effects;
-  if (effects.first_frequency == 0) return;  // quasi-static
+  if (std::isnan(effects.first_frequency)) return;  // quasi-static
   record.add("first_frequency_Hz", "", effects.first_frequency);
   record.add("damping_ratio", "", effects.damping_ratio);
   if (std::isfinite(effects.nominal_inertia)) {
@@ -167,6 +167,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   if (!(options.time.end > options.time.start)) {
     throw analysis.error("expected a trajectory of at least two points");
   }
+  require_step_count(analysis["step_s"], options.time.end - options.time.start);
   return options;
 }
 
@@ -183,7 +184,7 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
     record_path(case_model, i, record);
     record_solution(start.model, solution.state[i], -1, record);
     warn_of_rotation(largest_rotation(solution.state[i]), result.warnings);
-    warn_of_extension(start.model, solution.state[i], result.warnings);
+    warn_of_strain(start.model, solution.state[i], result.warnings);
     record.add("equilibrium_residual_N", "", solution.state[i].equilibrium_residual);
     record.add("moment_residual_N_m", "", solution.state[i].moment_residual);
   }

@@ -200,8 +200,8 @@ void record_positions(const solver::ManipulatorGeometry& geometry, const CaseMod
     const solver::ForwardKinematics found =
         solver::forward_kinematics(geometry, active, case_model.motion[k].pose);
     const bool solved = found.outcome.solved();
-    record.add("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
-    record.add("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
+    record.add_or_gap("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
+    record.add_or_gap("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
   }
 }
 

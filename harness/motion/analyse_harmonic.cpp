@@ -1,8 +1,5 @@
 #include "harness/motion/analyse_harmonic.h"
 
-#include <limits>
-
-#include "harness/base/numbers.h"
 #include "harness/readers/damping_reader.h"
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
@@ -28,8 +25,11 @@ class Response {
       result.evidence.add(solver::Residual::equilibrium, response_.backward_error(q, frequency));
     }
     for (const Output& output : outputs) {
-      record.add(output.name, "",
-                 q.size() > 0 ? amplitude_of(output, system_.model, amplitudes, frequency) : kNaN);
+      if (q.size() == 0) {  // resonance without damping
+        record.add_gap(output.name, "");
+      } else {
+        record.add(output.name, "", amplitude_of(output, system_.model, amplitudes, frequency));
+      }
     }
     if (q.size() == 0) return;
     for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})

@@ -5,6 +5,7 @@
 
 #include "harness/base/text.h"
 #include "harness/readers/joint_reader.h"
+#include "harness/readers/time_reader.h"
 #include "harness/scene/draw_large.h"
 #include "harness/scene/tracking.h"
 #include "solver/large_motion/solve/integrate.h"
@@ -64,6 +65,8 @@ solver::large_motion::IntegrationOptions read_large_motion_options(const JsonVie
   options.output_step = analysis.get("output_step_s", 0.0);
   options.adaptive = analysis.has("tolerance");
   options.tolerance = analysis.get("tolerance", options.tolerance);
+  if (!options.adaptive) require_step_count(analysis["step_s"], options.end_time);
+  if (options.output_step > 0) require_step_count(analysis["output_step_s"], options.end_time);
   options.spectral_radius = analysis.get("spectral_radius", options.spectral_radius);
   options.max_steps = analysis.get("steps", options.max_steps);
   return options;

@@ -1,5 +1,7 @@
 #include "harness/readers/time_reader.h"
 
+#include <cmath>
+
 namespace trammel::harness {
 namespace {
 
@@ -23,6 +25,12 @@ solver::TimeScheme read_time_scheme(const JsonView& scheme) {
   } catch (const solver::ModelError& error) {
     throw numbers.error(std::string("expected a scheme that has a meaning: ") + error.what());
   }
+}
+
+void require_step_count(const JsonView& step, double duration) {
+  const double steps = std::ceil(duration / step.get<double>() * (1 - 1e-12));
+  if (steps <= 1e7) return;
+  throw step.error("expected at most ten million steps (got " + std::to_string(steps) + ")");
 }
 
 solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {

@@ -12,6 +12,10 @@ namespace trammel::harness {
 /// @throws InputError  where the numbers make no scheme.
 [[nodiscard]] solver::TimeScheme read_time_scheme(const JsonView& scheme);
 
+/// @param step  a time
+/// @throws InputError  where the duration has more than ten million of it.
+void require_step_count(const JsonView& step, double duration);
+
 /// {"mass_per_s": w1, "stiffness_s": w2}; none where it is absent.
 [[nodiscard]] solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
 

@@ -5,8 +5,10 @@
 #include <exception>
 #include <set>
 
+#include "harness/analysis/size_estimate.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
+#include "harness/base/progress.h"
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
 #include "harness/run/run_store.h"
@@ -50,8 +52,7 @@ void run_guarded(Run& run, const Work& work) {
   } catch (const InputError& error) {
     mark_failed(run, error.what(), Run::RunError::input);
   } catch (const std::bad_alloc&) {
-    mark_failed(run, run.case_id + ": expected a model that fits into memory",
-                Run::RunError::input);
+    throw;  // says the process how it ended
   } catch (const std::exception& error) {
     mark_failed(run, std::string("a fault of trammel itself: ") + error.what(),
                 Run::RunError::internal);
@@ -148,7 +149,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome) {
       expected("/timeout_s", "a computation within timeout_s");
       break;
     case Termination::out_of_memory:
-      expected("", "a model that fits into memory");
+      expected(estimate_size(task.document).cause, "a model that fits into memory");
       break;
     case Termination::not_started:
       expected("", "a system that has room for its process");
@@ -169,21 +170,26 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     std::filesystem::path file;
     if (task.run.status == "error") continue;
     if (!options.store.empty())
-      file = options.store / (computation_name(task.document, task.requested) + ".cbor");
+      file = options.store / computation_name(task.document, task.requested);
     if (options.resume && find_stored(file, task.run)) continue;
     work.push_back({[&task] { return answer_of(task); }, time_limit_s(task.document)});
     open.emplace_back(&task, std::move(file));
   }
   std::error_code error;
   if (!options.store.empty()) std::filesystem::create_directories(options.store, error);
+  if (!options.store.empty()) drop_unused(options.store);
   std::size_t done = tasks.size() - work.size();
-  return run_in_processes(work, {options.jobs, options.memory_bytes},
+  const auto show = [&] {
+    if (options.progress) options.progress(done, tasks.size());
+  };
+  return run_in_processes(work, {options.jobs, options.memory_bytes, show},
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
                             mark_ended(*task, outcome);
                             if (!file.empty() && task->run.status != "error")
                               write_file(file, outcome.text);
-                            if (options.progress) options.progress(++done, tasks.size());
+                            ++done;
+                            show();
                           });
 }
 
@@ -271,10 +277,24 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   return runs;
 }
 
-void require_complete(const std::vector<Run>& runs, const std::string& how_to_go_on) {
+AnalysisResult solution_of(const Case& owner, const std::string& variant) {
+  Progress progress("runs");
+  RunOptions options;
+  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  options.memory_bytes = memory_limit_bytes();
+  std::vector<Task> tasks(1, prepare(owner, variant, false));
+  if (const int signal = compute_all(tasks, options); signal != 0) throw Interrupted(signal);
+  Run& run = tasks.front().run;
+  if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
+  if (run.error == Run::RunError::input) throw InputError(run.reason);
+  if (run.status != "solved")
+    throw InputError(owner.id() + ":" + variant + ": expected a solution (" + run.reason + ")");
+  return std::move(run.result);
+}
+
+void require_complete(const std::vector<Run>& runs) {
   for (const Run& run : runs)
-    if (run.interrupted_by != 0)
-      throw Interrupted(run.interrupted_by, "trammel: interrupted; " + how_to_go_on);
+    if (run.interrupted_by != 0) throw Interrupted(run.interrupted_by);
 }
 
 NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs) {

@@ -19,7 +19,7 @@ struct RunOptions {
   std::string variant;  ///< empty: all
   unsigned jobs = 1;
   TrackedQuantities tracked = TrackedQuantities::named;
-  /// Called after each computation with how many of how many are done.
+  /// Called after each computation and every second with how many of how many are done.
   std::function<void(std::size_t done, std::size_t all)> progress;
   std::filesystem::path store = {};  ///< folder that computations are kept in; empty: none
   bool resume = false;               ///< takes over what the store has
@@ -56,8 +56,12 @@ struct Run : Computation {
 [[nodiscard]] std::vector<Run> run_cases(const std::vector<Case>& cases,
                                          const References& references, const RunOptions& options);
 
-/// @throws Interrupted  where one of the runs was, saying how to go on.
-void require_complete(const std::vector<Run>& runs, const std::string& how_to_go_on);
+/// What a variant comes to, in a process of its own, without sweeps and checks.
+/// @throws InputError  where it has no solution, as `Interrupted` where a signal comes.
+[[nodiscard]] AnalysisResult solution_of(const Case& owner, const std::string& variant);
+
+/// @throws Interrupted  where one of the runs was.
+void require_complete(const std::vector<Run>& runs);
 
 /// The bands of all refinements of the runs against the exact values, where there are any.
 [[nodiscard]] NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -92,9 +94,64 @@ TRAMMEL_KEPT(ValidationUncertainty, inputs, samples, failed, literal_samples, li
 TRAMMEL_KEPT(Computation, status, reason, error, result, sweeps, uncertainty, wall_s, cpu_s,
              uncertainty_wall_s, references, machine)
 
+TRAMMEL_KEPT(ErrorNorms, max, rms, mean)
+TRAMMEL_KEPT(Timing, cpu_s, median_s, lower_quartile_s, upper_quartile_s, wall_median_s, runs_each)
+TRAMMEL_KEPT(RelativeTime, median, low, high)
+TRAMMEL_KEPT(MeasuredSetting, status, reason, error, timing, relative, cpu_s, counters)
+
 namespace {
 
+struct KeptStudy {
+  std::vector<MeasuredSetting> settings;
+  double wall_s = 0;
+  std::map<std::string, std::string> references;
+};
+TRAMMEL_KEPT(KeptStudy, settings, wall_s, references)
+
 constexpr std::size_t kHashLength = 36;
+
+std::string with_hash(const nlohmann::json& json) {
+  std::string bytes;
+  nlohmann::json::to_cbor(json, bytes);
+  return content_hash(bytes) + bytes;
+}
+
+nlohmann::json without_hash(const std::string& bytes) {
+  const std::string body = bytes.size() > kHashLength ? bytes.substr(kHashLength) : "";
+  if (body.empty() || content_hash(body) != bytes.substr(0, kHashLength))
+    throw std::runtime_error("the computation ended without an answer");
+  return nlohmann::json::from_cbor(body);
+}
+
+bool stand(const std::map<std::string, std::string>& references) {
+  return std::all_of(references.begin(), references.end(),
+                     [](const auto& item) { return file_hash(item.first) == item.second; });
+}
+
+void mark_used(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
+}
+
+std::string name_of(const Json& all_that_decides) {
+  static const std::string program = program_hash();
+  const Json all = {program, all_that_decides};
+  return content_hash(all.dump(-1, ' ', false, Json::error_handler_t::replace)) + ".cbor";
+}
+
+std::string name_of(const CostStudy& study, const TimingOptions& timing) {
+  Json all = {machine_name(),    timing.repeats,     timing.seed,
+              timing.shortest_s, study.time_limit_s, study.baseline,
+              study.norm,        study.scale.kind,   study.scale.number};
+  const auto add = [&](const Setting& setting) {
+    all.push_back(setting.document.value());
+    for (const ObservedQuantity& one : setting.observed)
+      all.push_back({one.quantity, one.addend, one.statistic, one.index, one.is_error, one.exact});
+  };
+  std::for_each(study.settings.begin(), study.settings.end(), add);
+  if (study.reference_solution) add(*study.reference_solution);
+  return name_of(all);
+}
 
 /// Cases that an analysis of other cases tries.
 Json tried_cases(const Document& document) {
@@ -112,37 +169,62 @@ Json tried_cases(const Document& document) {
 }  // namespace
 
 std::string computation_name(const Document& document, bool requested) {
-  static const std::string program = program_hash();
   const std::string file = std::filesystem::absolute(document.origin("").file).string();
-  const Json all = {program, requested, file, document.value(), tried_cases(document)};
-  return content_hash(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return name_of({requested, file, document.value(), tried_cases(document)});
 }
 
 std::string to_bytes(const Computation& computation) {
-  std::string bytes;
-  nlohmann::json::to_cbor(computation, bytes);
-  return content_hash(bytes) + bytes;
+  return with_hash(computation);
 }
 
 Computation computation_from(const std::string& bytes) {
-  const std::string body = bytes.size() > kHashLength ? bytes.substr(kHashLength) : "";
-  if (body.empty() || content_hash(body) != bytes.substr(0, kHashLength))
-    throw std::runtime_error("the computation ended without an answer");
-  return nlohmann::json::from_cbor(body).get<Computation>();
+  return without_hash(bytes).get<Computation>();
 }
 
 bool find_stored(const std::filesystem::path& file, Computation& computation) {
   try {
     Computation found = computation_from(read_text(file));
-    const bool stands =
-        std::all_of(found.references.begin(), found.references.end(),
-                    [](const auto& item) { return file_hash(item.first) == item.second; }) &&
-        (found.result.timings.empty() || found.machine == machine_name());
-    if (stands) computation = std::move(found);
-    return stands;
+    if (!stand(found.references)) return false;
+    if (!found.result.timings.empty() && found.machine != machine_name()) return false;
+    computation = std::move(found);
   } catch (const std::exception&) {
     return false;  // half a file, or of another version
   }
+  mark_used(file);
+  return true;
+}
+
+MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
+                              const References& references, const std::filesystem::path& store,
+                              bool resume) {
+  const std::filesystem::path file = store / name_of(study, options.timing);
+  KeptStudy kept;
+  try {
+    if (resume) kept = without_hash(read_text(file)).get<KeptStudy>();
+  } catch (const std::exception&) {
+    kept = {};  // as above
+  }
+  if (kept.settings.empty() || !stand(kept.references)) {
+    MeasuredStudy measured = measure(std::move(study), options, references);
+    std::filesystem::create_directories(store);
+    write_file(file, with_hash(KeptStudy{measured.settings, measured.wall_s, references.hashes()}));
+    return measured;
+  }
+  mark_used(file);
+  MeasuredStudy measured;
+  measured.study = std::move(study);
+  measured.settings = std::move(kept.settings);
+  measured.wall_s = kept.wall_s;
+  derive_results(measured);
+  return measured;
+}
+
+void drop_unused(const std::filesystem::path& store) {
+  std::error_code error;
+  const auto oldest = std::filesystem::file_time_type::clock::now() - std::chrono::days(30);
+  for (const auto& entry : std::filesystem::directory_iterator(store, error))
+    if (entry.path().extension() == ".cbor" && entry.last_write_time(error) < oldest)
+      std::filesystem::remove(entry.path(), error);
 }
 
 std::string machine_name() {

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "harness/run/run.h"
+#include "harness/studies/cost.h"
 
 /// What runs came to, kept for a later call: a file a run, named by a hash of all that decides it.
 /// CBOR (RFC 8949) after its own hash: every double as it was, also those that are no number.
 namespace trammel::harness {
 
-/// Name of what is computed of a case or variant: a hash of the case with all that it extends, its
-/// file, the program, and whether it was asked for or only looked at by another.
+/// Name of the file of what is computed of a case or variant: a hash of the case with all that it
+/// extends, its file, the program, and whether it was asked for or only looked at by another.
 [[nodiscard]] std::string computation_name(const Document& document, bool requested);
 
 /// As a process answers and a file of the store holds it.
@@ -21,6 +22,15 @@ namespace trammel::harness {
 /// @returns whether the file holds a computation that still stands: whole, with the references as
 ///          they are now, and with times of this machine.
 [[nodiscard]] bool find_stored(const std::filesystem::path& file, Computation& computation);
+
+/// As `measure`, or what the store holds of the same settings, by the same program and options, on
+/// this machine, with the references as they are now.
+[[nodiscard]] MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
+                                            const References& references,
+                                            const std::filesystem::path& store, bool resume);
+
+/// Removes what no call has written or found for 30 days.
+void drop_unused(const std::filesystem::path& store);
 
 /// The machine that times are measured on.
 [[nodiscard]] std::string machine_name();

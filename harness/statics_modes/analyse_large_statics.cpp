@@ -36,7 +36,7 @@ void record_point(const GeometricallyExactSystem& system, const PathPoint& point
   record.add("load_factor", "", point.state.load);
   const solver::StaticSolution solution = solver::static_solution(system, point.state);
   record_solution(system.model(), solution, -1, record);
-  warn_of_extension(system.model(), solution, warnings);
+  warn_of_strain(system.model(), solution, warnings);
   for (std::size_t i = 0; i < system.large_motion().drives.size(); ++i) {
     const solver::large_motion::Drive& drive = system.large_motion().drives[i];
     record.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,

@@ -66,8 +66,8 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
     record.add("frequency_Hz", item, modes.frequency[i], modes.roundoff[i]);
     record.add("frequency_roundoff", item, modes.roundoff[i]);
     if (i > 0) {
-      record.add("frequency_gap", item,
-                 (modes.frequency[i] - modes.frequency[i - 1]) / modes.frequency[i]);
+      const double apart = modes.frequency[i] - modes.frequency[i - 1];
+      record.add("frequency_gap", item, apart == 0 ? 0 : apart / modes.frequency[i]);
     }
     if (result.drawing && i < kMaxDrawnShapes) {
       result.drawing->shapes.push_back(
@@ -77,7 +77,7 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
   if (analysis.has("count_below_Hz")) {
     const std::optional<solver::Index> below =
         solver::sturm_count(system, analysis.number("count_below_Hz"));
-    record.add("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
+    record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
   }
   record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));

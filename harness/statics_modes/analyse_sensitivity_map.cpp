@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "harness/base/numbers.h"
 #include "harness/base/text.h"
 #include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
@@ -14,14 +14,13 @@ namespace trammel::harness {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kCurveGap = std::numeric_limits<double>::quiet_NaN();  // between two curves
 
 /// What one orientation comes to, by each reading of "the sensitivity".
 struct Reading {
-  double center_frequency = kCurveGap,
-         center = kCurveGap;  ///< at the position that counts as the centre
-  double mean_frequency = kCurveGap, mean = kCurveGap;  ///< over all positions of the map
-  double largest = kCurveGap;                           ///< in magnitude, clear of the boundary
+  double center_frequency = kNaN,
+         center = kNaN;                       ///< at the position that counts as the centre
+  double mean_frequency = kNaN, mean = kNaN;  ///< over all positions of the map
+  double largest = kNaN;                      ///< in magnitude, clear of the boundary
 };
 
 void record_curves(const std::string& name, const std::string& item,
@@ -31,8 +30,8 @@ void record_curves(const std::string& name, const std::string& item,
       record.add(name + "_x_m", item, point.x());
       record.add(name + "_y_m", item, point.y());
     }
-    record.add(name + "_x_m", item, kCurveGap);
-    record.add(name + "_y_m", item, kCurveGap);
+    record.add_gap(name + "_x_m", item);
+    record.add_gap(name + "_y_m", item);
   }
 }
 
@@ -80,7 +79,7 @@ void record_rises(const std::vector<Reading>& readings, Recorder& record) {
   const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);
     for (std::size_t k = 1; k < readings.size(); ++k) {
-      record.add(name, item, 100 * (std::abs(readings[k].*number) / first - 1));
+      record.add_or_gap(name, item, 100 * (std::abs(readings[k].*number) / first - 1));
     }
   };
   rise("sensitivity_rise_percent", "center", &Reading::center);
@@ -132,11 +131,11 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
       record_curves("singular", item, solver::parallel_singularities(design.geometry, grid),
                     record);
     }
-    record.add("center_frequency_Hz", "", reading.center_frequency);
-    record.add("center_" + quantity, "", reading.center);
-    record.add("mean_frequency_Hz", "", reading.mean_frequency);
-    record.add("mean_" + quantity, "", reading.mean);
-    record.add("largest_" + quantity, "", reading.largest);
+    record.add_or_gap("center_frequency_Hz", "", reading.center_frequency);
+    record.add_or_gap("center_" + quantity, "", reading.center);
+    record.add_or_gap("mean_frequency_Hz", "", reading.mean_frequency);
+    record.add_or_gap("mean_" + quantity, "", reading.mean);
+    record.add_or_gap("largest_" + quantity, "", reading.largest);
   }
   record_rises(readings, record);
   return result;

@@ -134,7 +134,7 @@ StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool d
   }
   if (!solution.outcome.solved()) return result;
   record_solution(model, solution, -1, record);
-  warn_of_extension(model, solution, result.warnings);
+  warn_of_strain(model, solution, result.warnings);
   return result;
 }
 
@@ -170,7 +170,7 @@ StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::si
   record_all(model, solution, {roundoff, of_forces}, record);
   if (!case_model.path) record_bending_stress(model, solution, of_forces, record);
   warn_of_rotation(largest_rotation(system, system.T * solution.q), result.warnings);
-  warn_of_extension(model, solution, result.warnings);
+  warn_of_strain(model, solution, result.warnings);
   // The pins of a platform are points that no mesh resolves.
   if (!case_model.manipulator) record_node_stresses(model, solution, of_forces, record);
   // Loads times displacements: twice the strain energy.

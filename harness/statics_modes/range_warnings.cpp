@@ -64,20 +64,26 @@ void warn_of_rotation(double rotation, std::vector<Warning>& warnings) {
                              "large-motion hold beyond"});
 }
 
-void warn_of_extension(const solver::Model& model, const solver::StaticSolution& solution,
-                       std::vector<Warning>& warnings) {
-  double largest = 0;
+void warn_of_strain(const solver::Model& model, const solver::StaticSolution& solution,
+                    std::vector<Warning>& warnings) {
+  double extension = 0, shear = 0;
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const solver::Member& member = model.members[i];
-    if (!member.axially_flexible) continue;
     const auto row = static_cast<Eigen::Index>(i);
-    largest = std::max({largest, std::abs(solution.resultant_start(row, 0)) / member.section.EA,
-                        std::abs(solution.resultant_end(row, 0)) / member.end_section.EA});
+    const auto add = [&](const auto& resultant, const solver::Section& section) {
+      if (member.axially_flexible)
+        extension = std::max(extension, std::abs(resultant(row, 0)) / section.EA);
+      const double stiffness = section.kappa_GA > 0 ? section.kappa_GA : section.EA;
+      shear = std::max(shear, std::abs(resultant(row, 1)) / stiffness);
+    };
+    add(solution.resultant_start, member.section);
+    add(solution.resultant_end, member.end_section);
   }
-  if (!(largest > kMaxExtension)) return;
-  add_warning(warnings, {"the largest extension of a member", largest, "",
-                         "N = EA times the extension holds up to " + rounded(kMaxExtension) +
-                             ", where the measures of strain differ by 5 %"});
+  for (const auto& [name, strain] : {std::pair("extension", extension), std::pair("shear", shear)})
+    if (strain > kMaxStrain)
+      add_warning(warnings, {std::string("the largest ") + name + " of a member", strain, "",
+                             "the section's law holds up to " + rounded(kMaxStrain) +
+                                 ", where the measures of strain differ by 5 %"});
 }
 
 }  // namespace trammel::harness

@@ -13,7 +13,7 @@ inline constexpr double kMaxLinearRotation = 0.1;
 
 /// N = EA times the extension takes the section as it was: up to here the measures of strain
 /// (engineering, logarithmic, Green's) differ by 5 %, and so do the stresses on the section.
-inline constexpr double kMaxExtension = 0.1;
+inline constexpr double kMaxStrain = 0.1;
 
 /// Largest rotation of a node, a member's end or a chord, or a triangle [rad].
 /// @param u  unconstrained coordinates
@@ -26,7 +26,7 @@ inline constexpr double kMaxExtension = 0.1;
 void warn_of_rotation(double rotation, std::vector<Warning>& warnings);
 
 /// Of |N| / EA at the ends of the members.
-void warn_of_extension(const solver::Model& model, const solver::StaticSolution& solution,
-                       std::vector<Warning>& warnings);
+void warn_of_strain(const solver::Model& model, const solver::StaticSolution& solution,
+                    std::vector<Warning>& warnings);
 
 }  // namespace trammel::harness

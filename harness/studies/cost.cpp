@@ -58,10 +58,11 @@ InputError cannot(const Setting& setting, const std::string& what, const std::st
   return setting.document.error("", "expected " + what + " that can be computed: " + reason);
 }
 
-Observations compute_reference_solution(const CostStudy& study, const References& references) {
+Observations compute_reference_solution(const CostStudy& study, const References& references,
+                                        const std::function<void()>& waiting) {
   if (!study.reference_solution) return {};
   const SandboxedRun sandboxed =
-      run_sandboxed(*study.reference_solution, study.time_limit_s, references);
+      run_sandboxed(*study.reference_solution, study.time_limit_s, references, waiting);
   if (sandboxed.termination != SandboxedRun::Termination::solved)
     throw cannot(*study.reference_solution, "a reference solution", sandboxed.reason);
   return sandboxed.values;
@@ -185,11 +186,16 @@ MeasuredStudy measure(CostStudy study, const CostOptions& options, const Referen
   const auto repeats = static_cast<std::size_t>(options.timing.repeats);
   const std::size_t all = cost_study.settings.size() * (repeats + 1);
   std::size_t done = 0;
-  const Observations reference_solution = compute_reference_solution(cost_study, references);
+  const auto show = [&] {
+    if (options.progress) options.progress(done, all);
+  };
+  const Observations reference_solution = compute_reference_solution(cost_study, references, show);
   for (const Setting& setting : cost_study.settings) {
-    const SandboxedRun sandboxed = run_sandboxed(setting, cost_study.time_limit_s, references);
+    const SandboxedRun sandboxed =
+        run_sandboxed(setting, cost_study.time_limit_s, references, show);
     measured.settings.push_back(classify_run(sandboxed, setting, reference_solution, cost_study));
-    if (options.progress) options.progress(++done, all);
+    ++done;
+    show();
   }
   const MeasuredSetting& baseline = measured.settings[cost_study.baseline];
   if (!is_computed(baseline)) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "harness/analysis/registry.h"
+#include "harness/analysis/size_estimate.h"
 #include "harness/base/stopwatch.h"
 #include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
@@ -133,6 +134,7 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
     throw JsonView(document)["analysis"].error("expected an analysis that knows effects: " +
                                                analyses_with_effects());
   }
+  require_fits(document);
   return with_model_errors(document, [&] { return Study(document, options).run(); });
 }
 

@@ -63,7 +63,8 @@ SandboxedRun read_answer(const std::string& text) {
 
 }  // namespace
 
-SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s, const References& references) {
+SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s, const References& references,
+                           const std::function<void()>& waiting) {
   SandboxedRun sandboxed;
   const auto end = [&](std::size_t, const ProcessOutcome& outcome) {
     if (outcome.termination == ProcessOutcome::Termination::answered) {
@@ -77,8 +78,8 @@ SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s, const Refer
   };
   const auto work = [&] { return answer(setting, references).dump(-1, ' ', true); };
   const int signal = run_in_processes({{work, static_cast<unsigned>(time_limit_s)}},
-                                      {1, machine_memory_bytes()}, end);
-  if (signal != 0) throw Interrupted(signal, "interrupted");
+                                      {1, memory_limit_bytes(), waiting}, end);
+  if (signal != 0) throw Interrupted(signal);
   return sandboxed;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "harness/studies/cost_study.h"
@@ -19,7 +20,9 @@ struct SandboxedRun {
 
 /// Computes a setting once, in a process of its own that is ended when it has used up its processor
 /// time: an endless loop or a crash costs no more than that.
+/// @param waiting  called about once a second until then
 [[nodiscard]] SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s,
-                                         const References& references);
+                                         const References& references,
+                                         const std::function<void()>& waiting = {});
 
 }  // namespace trammel::harness

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
-#include <stdexcept>
+#include <system_error>
 
 #include "reports/drawing/figure.h"
 #include "reports/drawing/palette.h"
@@ -97,8 +98,10 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder) {
   }
   for (Figure* figure : figures) {
     const fs::path path = svg_path(*figure);
-    if (!fs::exists(path)) throw std::runtime_error("gnuplot did not draw " + path.string());
-    figure->svg = tidy_svg(read_file(path), figure->id, figure->title, figure->alt);
+    const std::string drawn = fs::exists(path) ? read_file(path) : "";
+    if (drawn.find("</svg>") == std::string::npos)  // it does not say why: the disk may be full
+      throw std::system_error(EIO, std::generic_category(), path.string() + ": not drawn whole");
+    figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
     write_file(path, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n" + figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
   }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace trammel::reports {
@@ -39,7 +41,8 @@ std::string read_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream out;
   out << in.rdbuf();
-  if (!in) throw std::runtime_error(path.string() + ": cannot be read");
+  if (!in)
+    throw std::system_error(EIO, std::generic_category(), path.string() + ": cannot be read");
   return out.str();
 }
 
@@ -54,7 +57,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
   if (out) fs::rename(part, path, error);
   if (out && !error) return;
   fs::remove(part, ignored);
-  throw std::runtime_error(path.string() + ": cannot be written");
+  throw std::system_error(EIO, std::generic_category(), path.string() + ": cannot be written");
 }
 
 void replace_files(const fs::path& from, const fs::path& to, const std::string& last,
@@ -67,7 +70,8 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
   });
   for (const fs::path& file : files)
     if (fs::symlink_status(to / file).type() == fs::file_type::directory)
-      throw std::runtime_error((to / file).string() + ": a folder stands where a file is written");
+      throw std::system_error(EISDIR, std::generic_category(),
+                              (to / file).string() + ": a folder stands where a file is written");
   const SignalsWait wait;
   for (const fs::path& file : files) {
     const fs::path folder = (to / file).parent_path();

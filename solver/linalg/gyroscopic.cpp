@@ -238,7 +238,8 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, const Fa
     extend(op.known, found);  // its partner, W times it
     if (!ritz(pencil, op, modes)) return did_not_converge();
     const SeparatingShift shift = choose_separating_shift(modes.omega, count);
-    modes.inertia_count = shift.found == 0 ? 0 : gyroscopic_sturm_count(pencil, shift.omega);
+    if (shift.found == 0) return no_modes({Status::not_converged, "no frequency is a number"});
+    modes.inertia_count = gyroscopic_sturm_count(pencil, shift.omega);
     ++counters.factorizations;
     if (modes.inertia_count == shift.found) break;
     if (op.known.cols() == before || round + 1 == kRounds || modes.inertia_count < shift.found) {

@@ -3,6 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "harness/analysis/size_estimate.h"
+#include "harness/base/recorder.h"
+#include "harness/input/catalogue.h"
 #include "tests/support/harness/analysing.h"
 
 using namespace trammel;
@@ -338,6 +341,69 @@ BOOST_AUTO_TEST_CASE(
   }
   json["analysis"]["modes"]["count_below_Hz"] = 100;
   BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "without 'reduction'"));
+}
+
+BOOST_AUTO_TEST_CASE(a_number_that_overflows_is_not_solved) {
+  Json json = testing::cantilever();
+  json["model"]["loads"]["tip"]["force_N"] = {0, 1e155};
+  BOOST_TEST(result_of(json).outcome.solved());
+  json["model"]["loads"]["tip"]["force_N"] = {0, 1e160};
+  const AnalysisResult result = result_of(json);
+  BOOST_TEST((result.outcome.status == Status::not_converged));
+  BOOST_TEST(result.outcome.reason == "compliance_J is not a finite number");
+  BOOST_TEST(result.quantities.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_gap_that_the_analysis_means_is_solved) {
+  Recorder record;
+  record.add_or_gap("a", "", std::nan(""));
+  record.add("a", "", 1);
+  BOOST_TEST(record.not_finite() == "");
+  record.add("b", "P", std::nan(""));
+  BOOST_TEST(record.not_finite() == "b:P");
+}
+
+BOOST_AUTO_TEST_CASE(what_would_not_fit_is_refused_at_the_key_that_is_the_cause) {
+  const auto refusal = [](const Json& json) {
+    return complaint([&] { require_fits(testing::document_of(json), 1e8); });
+  };
+  Json json = testing::cantilever();
+  BOOST_TEST(refusal(json) == "");
+  json["model"]["elements"] = 65536;
+  BOOST_TEST(contains(refusal(json), "/model/elements: expected a computation of at most 0.1 GB"));
+  json["model"]["members"]["AB"]["elements"] = 1;
+  BOOST_TEST(refusal(json) == "");
+  json["model"]["members"]["AB"]["elements"] = 1000;
+  json["analysis"] = {{"modes", {{"count", 5}, {"eigensolver", "dense"}}}};
+  BOOST_TEST(contains(refusal(json), "/analysis/modes/eigensolver: "));
+  json["analysis"] = {{"transient",
+                       {{"duration_s", 1},
+                        {"step_s", 1e-5},
+                        {"samples", 100000},
+                        {"outputs", {"displacement_y_m:B"}}}}};
+  BOOST_TEST(contains(refusal(json), "/analysis/transient/samples: "));
+  Json ring = testing::quarter_ring();
+  BOOST_TEST(refusal(ring) == "");
+  ring["model"]["plates"]["ring"]["divisions"] = 512;
+  BOOST_TEST(contains(refusal(ring), "/model/plates/ring/divisions: "));
+  ring["model"]["plates"]["ring"]["blocks"]["b"]["cells"] = {512, 512};
+  BOOST_TEST(contains(refusal(ring), "2^31 non-zeros"));
+  Json robot = testing::manipulator();
+  robot["model"]["manipulator"]["platform"]["kind"] = "triangles";
+  robot["model"]["manipulator"]["platform"]["refinements"] = 8;
+  BOOST_TEST(contains(refusal(robot), "/model/manipulator/platform/refinements: "));
+  Json map = testing::manipulator();
+  map["analysis"] = {{"sensitivity-map", {{"columns", 400}, {"orientations_deg", {0, 10, 20}}}}};
+  BOOST_TEST(contains(refusal(map), "/analysis/sensitivity-map/columns: "));
+}
+
+BOOST_AUTO_TEST_CASE(no_case_of_the_catalogue_comes_near_what_is_refused) {
+  const Catalogue catalogue;
+  for (const auto& file : catalogue.runnable_files()) {
+    const Case given = load_case(file, catalogue);
+    for (const std::string& variant : given.variants())
+      BOOST_TEST(estimate_size(patched(given, variant)).bytes < 2e9, file << ": " << variant);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -84,4 +84,13 @@ BOOST_AUTO_TEST_CASE(a_message_is_one_line_whatever_a_key_holds) {
   BOOST_TEST(cut.ends_with("... x"), cut);
 }
 
+BOOST_AUTO_TEST_CASE(a_file_without_end_is_refused) {
+  BOOST_TEST(complaint([] { (void)read_json("/dev/zero"); }) ==
+             "/dev/zero: expected a readable file");
+  const testing::Folder folder;
+  const auto large = folder.write("large.json", "{}");
+  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // has no blocks
+  BOOST_TEST(testing::contains(complaint([&] { (void)read_json(large); }), "at most 256 MiB"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -101,4 +101,14 @@ BOOST_AUTO_TEST_CASE(a_signal_stops_what_is_under_way_and_what_is_left) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(each_process_knows_what_it_may_take_and_waiting_is_told) {
+  int waited = 0;
+  const auto outcomes =
+      run_all({{[] { return std::to_string(memory_limit_bytes()); }, 10}, {loop, 2}},
+              {2, std::size_t{1} << 30, [&] { ++waited; }});
+  BOOST_TEST(outcomes.at(0).text == "1073741824");
+  BOOST_TEST(waited >= 1);
+  BOOST_TEST(memory_limit_bytes() != std::size_t{1} << 30);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

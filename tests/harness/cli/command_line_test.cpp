@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -488,6 +489,10 @@ BOOST_AUTO_TEST_CASE(the_sweep_of_one_s_own_case_is_measured_and_written) {
   BOOST_TEST(outcome.status == 0, outcome.err);
   BOOST_TEST(contains(outcome.out, "elements 2"));
   const Json results = read_json(folder.path() / "mine/results.json");
+  BOOST_TEST(run(folder, "cost cantilever.json --sweep elements --out mine --resume").status == 0);
+  BOOST_TEST((read_json(folder.path() / "mine/results.json")["cost"] == results["cost"]));
+  BOOST_TEST(run(folder, "cost cantilever.json --sweep elements --out mine").status == 0);
+  BOOST_TEST((read_json(folder.path() / "mine/results.json")["cost"] != results["cost"]));
   const auto fault = find_schema_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST(results["cost"]["sweep"] == "full");
@@ -510,6 +515,46 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_measured_is_bad_usage) {
     BOOST_TEST(lines(outcome.err) == 1, words << ": " << outcome.err);
   }
   BOOST_TEST(contains(run(folder, "cost mods").err, "did you mean 'modes'"));
+}
+
+BOOST_AUTO_TEST_CASE(what_the_system_refuses_is_not_our_fault) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  const Outcome full = run(folder, "list >/dev/full 2>err.txt; exit $?; true");
+  BOOST_TEST(full.status == 2);
+  BOOST_TEST(full.err == "expected a standard output that can be written\n");
+  std::filesystem::create_directories(folder.path() / "page/index.html/inside");
+  const Outcome blocked = run(folder, "report cantilever.json --out page");
+  BOOST_TEST(blocked.status == 2);
+  BOOST_TEST(contains(blocked.err, "page/index.html: a folder"), blocked.err);
+  const Outcome endless = run(folder, "run /dev/zero");
+  BOOST_TEST(endless.status == 2);
+  BOOST_TEST(endless.err == "/dev/zero: expected a readable file\n");
+}
+
+BOOST_AUTO_TEST_CASE(a_disk_that_is_full_leaves_the_former_report) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  BOOST_TEST(run(folder, "report cantilever.json --out out").status == 0);
+  const auto files = [&] {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() / "out"))
+      if (entry.is_regular_file() && entry.path().extension() != ".cbor")
+        all[entry.path().string()] = text_of(entry.path());
+    return all;
+  };
+  const auto former = files();
+  std::size_t broken_off = 0;
+  for (const int blocks : {1, 2, 4, 8, 16, 32, 64, 128}) {  // of 512 bytes in one file
+    const Outcome full = run(folder, "report cantilever.json --out out",
+                             "ulimit -f " + std::to_string(blocks) + " &&");
+    if (full.status == 0) continue;
+    ++broken_off;
+    BOOST_TEST(full.status == 2, blocks << ": " << full.err);
+    BOOST_TEST(lines(full.err) == 1, full.err);
+    BOOST_TEST((files() == former), blocks);
+  }
+  BOOST_TEST(broken_off >= 4);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -57,4 +57,30 @@ BOOST_AUTO_TEST_CASE(a_computation_that_is_killed_from_outside_costs_its_run_alo
   BOOST_TEST(runs[1]["status"] == "solved");
 }
 
+BOOST_AUTO_TEST_CASE(a_signal_while_drawing_or_timing_says_how_to_go_on) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},
+                                {"values", {1, 2, 4}},
+                                {"quantities", {{"displacement_y_m:B", {{"index", {0}}}}}}};
+  (void)folder.write(json);
+  const auto gnuplot = folder.write("gnuplot", "#!/bin/sh\n: >drawing\nexec sleep 20\n");
+  std::filesystem::permissions(gnuplot, std::filesystem::perms::all);
+  const auto status_of = [&](const std::string& words, const std::string& until) {
+    const std::string line = "cd " + folder.path().string() +
+                             "; PATH=$PWD:$PATH; " TRAMMEL_PROGRAM " " + words +
+                             " >out.txt 2>err.txt & " + until + "; kill -TERM $!; wait $!";
+    return WEXITSTATUS(std::system(line.c_str()));
+  };
+  const auto told = [&] { return read_text(folder.path() / "err.txt"); };
+  BOOST_TEST(status_of("report cantilever.json", "until test -e drawing; do sleep 0.1; done") ==
+             143);
+  BOOST_TEST(told() ==
+             "trammel: interrupted; with --resume the same command does what is missing\n");
+  BOOST_TEST(status_of("cost cantilever.json --repeats 10000", "sleep 1") == 143);
+  BOOST_TEST(contains(told(), "with --resume"));
+  BOOST_TEST(status_of("effects --random 100000", "sleep 1") == 143);
+  BOOST_TEST(told() == "trammel: interrupted; the same command begins anew\n");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <boost/test/unit_test.hpp>
 
 #include "harness/input/case.h"
@@ -162,6 +164,23 @@ BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
       contains(fault("nowhere"), "/sweeps/nowhere/pointers/0: expected a pointer to a value"));
   BOOST_TEST(contains(fault("nowhere"), "did you mean 'elements'?"));
   BOOST_TEST(contains(fault("patches"), "/sweeps/patches/patches/0/model/elements: expected"));
+}
+
+BOOST_AUTO_TEST_CASE(variants_do_not_each_keep_the_whole_file) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  const int count = 300;
+  for (int i = 0; i < count; ++i) {
+    json["variants"]["v" + std::to_string(i)]["title"] = std::string(4000, 't');
+  }
+  const Case given = testing::read(folder, json);
+  const auto used = [] { return mallinfo2().uordblks; };
+  const std::size_t before = used();
+  std::vector<Document> documents;
+  for (const std::string& variant : given.variants()) documents.push_back(patched(given, variant));
+  BOOST_TEST(documents.size() == count + 1U);
+  const std::size_t after = used();
+  BOOST_TEST(after < before + 32 * 1024 * 1024);  // all of them of 1.2 MB: 360 MB
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -76,4 +76,11 @@ BOOST_AUTO_TEST_CASE(what_shuts_each_other_out_is_refused_by_name) {
   BOOST_TEST(contains(moves, "stands still"), moves);
 }
 
+BOOST_AUTO_TEST_CASE(steps_beyond_number_are_refused_before_the_first) {
+  Json json = motion(between("line", 0.01));
+  options(json)["step_s"] = 1e-12;
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }),
+                      "/analysis/elastodynamics/step_s: expected at most ten million steps"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,6 +1,7 @@
 #include "harness/run/run_store.h"
 
 #include <boost/test/unit_test.hpp>
+#include <chrono>
 #include <cmath>
 
 #include "harness/base/json_file.h"
@@ -149,6 +150,23 @@ BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_taken_over) {
   computation.machine = machine_name();
   write_file(entry, to_bytes(computation));
   BOOST_TEST(find_stored(entry, computation));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_used_for_a_month_is_dropped) {
+  const Folder folder;
+  const auto old = folder.path() / "old.cbor", used = folder.path() / "used.cbor";
+  const auto other = folder.write("old.json", "1");
+  Computation computation;
+  for (const auto& file : {old, used, other}) {
+    if (file != other) write_file(file, to_bytes(computation));
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() - std::chrono::days(31));
+  }
+  BOOST_TEST(find_stored(used, computation));
+  drop_unused(folder.path());
+  BOOST_TEST(!std::filesystem::exists(old));
+  BOOST_TEST(std::filesystem::exists(used));
+  BOOST_TEST(std::filesystem::exists(other));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -34,14 +34,17 @@ BOOST_AUTO_TEST_CASE(a_linear_rotation_beyond_its_range_is_solved_with_a_warning
   BOOST_TEST(of_cantilever(0, 50000, "large-statics").warnings.empty());
 }
 
-// A strip of 0.2 m ended at -64 m without a word. N / EA = 1e-9 a newton.
-BOOST_AUTO_TEST_CASE(an_extension_beyond_what_the_section_means_is_solved_with_a_warning) {
+// A strip of 0.2 m ended at -64 m without a word. N / EA = V / EA = 1e-9 a newton.
+BOOST_AUTO_TEST_CASE(a_strain_beyond_what_the_section_means_is_solved_with_a_warning) {
   for (const char* analysis : {"statics", "large-statics"}) {
     BOOST_TEST(of_cantilever(9e7, 0, analysis).warnings.empty());
     const AnalysisResult beyond = of_cantilever(3e8, 0, analysis);
     BOOST_REQUIRE(beyond.warnings.size() == 1U);
     BOOST_TEST(contains(beyond.warnings[0].text(), "the largest extension of a member is 0.3: "),
                beyond.warnings[0].text());
+    const AnalysisResult across = of_cantilever(0, 3e12, analysis);
+    BOOST_REQUIRE(!across.warnings.empty());
+    BOOST_TEST(contains(across.warnings.back().text(), "the largest shear of a member is "));
   }
 }
 

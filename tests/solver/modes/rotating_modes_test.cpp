@@ -230,4 +230,16 @@ BOOST_AUTO_TEST_CASE(a_rigid_arm_and_an_offset_mass_feel_the_same_centrifugal_st
   BOOST_TEST(rotate(arm, W, 1).frequency[0] == exact, tolerance(1e-10));
 }
 
+BOOST_AUTO_TEST_CASE(coordinates_without_bounds_give_no_modes_and_no_crash) {
+  Model model = blade(0, 4);
+  for (const double size : {1e100, 1e155, 1e300}) {
+    Model far = model;
+    for (Node& node : far.nodes) node.position *= size;
+    for (const EigenMethod path : {EigenMethod::automatic, EigenMethod::sparse}) {
+      const RotatingModes r = rotate(far, 10, 2, path);
+      BOOST_TEST((!r.outcome.solved() || r.frequency.size() == 2), size);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,177 @@
+#include "harness/analysis/size_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "harness/base/text.h"
+#include "harness/input/json_view.h"
+
+namespace trammel::harness {
+namespace {
+
+// Bytes, measured with margin: a coordinate in model, matrices and states; an entry of a factor
+// while it is made; a number that is recorded, written as JSON and drawn.
+constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 60;
+
+class Estimator {
+ public:
+  explicit Estimator(const Document& document) : document_(document), root_(document) {}
+
+  SizeEstimate run() {
+    if (root_.has("model")) count_model(root_["model"]);
+    const auto [kind, analysis] = root_["analysis"].entries().front();
+    if (kind == "study") {
+      if (analysis.get("trajectory", false)) {  // a document each
+        add(path_, points_ * 20 * static_cast<double>(document_.value().dump().size()));
+      }
+    } else {
+      add(path_, points_ * numbers_ * kNumber);
+      count_analysis(kind, analysis);
+    }
+    for (const auto& [pointer, bytes] : bytes_) {
+      size_.bytes += bytes;
+      if (size_.cause.empty() || bytes > bytes_[size_.cause]) size_.cause = pointer;
+    }
+    return size_;
+  }
+
+ private:
+  void add(const std::string& pointer, double bytes) { bytes_[pointer] += bytes; }
+
+  void add_coordinates(const JsonView& key, double count, bool in_plane) {
+    const double entries = count * (in_plane ? 16 * std::log2(count + 2) : 12);
+    size_.coordinates += count;
+    size_.non_zeros += entries;
+    add(key.pointer(), kCoordinate * count + kEntry * entries);
+  }
+
+  void count_model(const JsonView& model) {
+    count_members(model);
+    if (const auto plates = model.find("plates")) {
+      for (const auto& entry : plates->entries()) count_plate(entry.second);
+    }
+    if (const auto manipulator = model.find("manipulator")) {
+      const JsonView links = (*manipulator)["links"];
+      for (const char* which : {"proximal", "distal"}) {
+        const JsonView own = links.has(which) ? links[which] : links;
+        count_elements(own.has("elements") ? own : links, links, 3);
+      }
+      const JsonView platform = (*manipulator)["platform"];
+      if (const auto refinements = platform.find("refinements")) {
+        add_coordinates(*refinements, 3 * std::pow(4, refinements->get<double>()), true);
+      }
+    }
+    if (const auto trajectory = model.find("trajectory")) {
+      const JsonView path = trajectory->entries().front().second;
+      if (path.has("points")) {
+        points_ = path.number("points");
+        path_ = path["points"].pointer();
+      }
+    }
+  }
+
+  void count_elements(const JsonView& owner, const JsonView& model, double members) {
+    const JsonView& where = owner.has("elements") ? owner : model;
+    const bool stated = where.has("elements");
+    const double elements = stated ? where.number("elements") : 1;
+    add_coordinates(stated ? where["elements"] : owner, 3 * members * elements, false);
+  }
+
+  void count_members(const JsonView& model) {
+    if (const auto members = model.find("members")) {
+      for (const auto& entry : members->entries()) count_elements(entry.second, model, 1);
+      numbers_ += 12 * static_cast<double>(members->size());
+    }
+    if (const auto nodes = model.find("nodes")) {
+      numbers_ += 9 * static_cast<double>(nodes->size());
+    }
+  }
+
+  void count_plate(const JsonView& plate) {
+    const auto blocks = plate.find("blocks");
+    if (!blocks) return;
+    const double of_cell = plate.get<std::string>("element", "three-node") == "six-node" ? 8 : 2;
+    const double divisions = plate.get("divisions", 1.0);
+    for (const auto& entry : blocks->entries()) {
+      const JsonView& block = entry.second;
+      const double cells = block.has("cells")
+                               ? block["cells"][0].get<double>() * block["cells"][1].get<double>()
+                               : 1;
+      const bool divided = plate.has("divisions") && divisions * divisions >= cells;
+      add_coordinates(divided              ? plate["divisions"]
+                      : block.has("cells") ? block["cells"]
+                                           : block,
+                      of_cell * cells * divisions * divisions, true);
+    }
+  }
+
+  void count_analysis(const std::string& kind, const JsonView& analysis) {
+    const double n = size_.coordinates;
+    const auto outputs = [&] {
+      return 5.0 + (analysis.has("outputs") ? static_cast<double>(analysis["outputs"].size()) : 0);
+    };
+    if (analysis.has("eigensolver") && analysis["eigensolver"].json() == "dense") {
+      add(analysis["eigensolver"].pointer(), 64 * n * n);
+    }
+    if (const auto count = analysis.find("count")) {
+      add(count->pointer(), 64 * n * std::min(count->get<double>(), n));
+    }
+    if (kind == "transient") {
+      if (analysis.has("method") && analysis["method"].json() == "modal-superposition") {
+        add(analysis["method"].pointer(), 80 * n * n);
+      }
+      const double steps = analysis.number("duration_s") / analysis.number("step_s");
+      const double samples = analysis.get("samples", std::clamp(steps, 1.0, 1e4));
+      add(analysis[analysis.has("samples") ? "samples" : "step_s"].pointer(),
+          samples * (40 * n + kNumber * outputs()));
+    } else if (kind == "harmonic" && analysis.has("points")) {
+      add(analysis["points"].pointer(), analysis.number("points") * kNumber * outputs());
+    } else if (kind == "large-statics") {
+      add("/analysis/large-statics", 2 * kCoordinate * n);
+    } else if (kind == "large-motion" &&
+               (analysis.has("output_step_s") || !analysis.has("tolerance"))) {
+      const char* key = analysis.has("output_step_s") ? "output_step_s" : "step_s";
+      const double samples = analysis.number("end_time_s") / analysis.number(key);
+      add(analysis[key].pointer(), samples * numbers_ * kNumber);
+    } else if (kind == "elastodynamics") {
+      add(path_, points_ * n * 300);
+    } else if (kind == "sensitivity-map") {
+      const double columns = analysis.number("columns");
+      add(analysis["columns"].pointer(),
+          4 * columns * columns * kNumber *
+              static_cast<double>(analysis["orientations_deg"].size()));
+    } else if (kind == "manufactured" && analysis.has("cells")) {
+      const double cells = analysis.number("cells");
+      const bool in_plane = analysis.has("membrane");
+      add_coordinates(analysis["cells"], in_plane ? 8 * cells * cells : 3 * cells, in_plane);
+    }
+  }
+
+  const Document& document_;
+  JsonView root_;
+  SizeEstimate size_;
+  std::map<std::string, double> bytes_;  ///< by the key that calls for them
+  double points_ = 1, numbers_ = 100;    ///< of the path; recorded at each
+  std::string path_ = "/model";
+};
+
+}  // namespace
+
+SizeEstimate estimate_size(const Document& document) {
+  return Estimator(document).run();
+}
+
+void require_fits(const Document& document, double max_memory) {
+  const SizeEstimate size = estimate_size(document);
+  const bool countable = size.non_zeros <= std::numeric_limits<int>::max();
+  if (countable && size.bytes <= max_memory) return;
+  throw document.error(size.cause,
+                       "expected a computation of at most " + rounded(max_memory / 1e9, 3) + " GB" +
+                           (countable ? "" : " and 2^31 non-zeros") + " (estimated " +
+                           rounded(size.bytes / 1e9, 3) + " GB, " + rounded(size.coordinates, 3) +
+                           " coordinates, " + rounded(size.non_zeros, 3) + " non-zeros)");
+}
+
+}  // namespace trammel::harness
