@@ -1,10 +1,10 @@
 #include "solver/effects/dynamic_effect_estimates.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "solver/effects/energy_shares.h"
 #include "solver/elastodynamics/nominal_motion.h"
@@ -69,12 +69,10 @@ class MotionEstimates {
       : options_(coarsened(options)), applicable_(applicable), rate_(path_rate(options)) {}
 
   EffectEstimates run() {
-    for (std::size_t k = 0; k < kPoses && estimates_.outcome.solved(); ++k) {
+    for (const double time : extreme_times()) estimate_at(time, true);
+    for (std::size_t k = 0; k < kPoses; ++k) {
       const double share = (static_cast<double>(k) + 0.5) / kPoses;
-      estimate_at(options_.time.start + share * (options_.time.end - options_.time.start));
-    }
-    for (const double time : extreme_times()) {
-      if (estimates_.outcome.solved()) estimate_at(time);
+      estimate_at(options_.time.start + share * (options_.time.end - options_.time.start), false);
     }
     if (estimates_.outcome.solved() && frequency_ <= 0) {
       estimates_.outcome = {Status::singular, "nothing vibrates"};
@@ -117,7 +115,7 @@ class MotionEstimates {
   }
 
   /// The samples at which the quasi-static response is largest.
-  std::vector<double> extreme_times() {
+  std::set<double> extreme_times() {
     PathFollower pose(options_, options_.time.start);
     ResponseSize largest;
     double farthest = 0, hardest = 0;
@@ -132,7 +130,8 @@ class MotionEstimates {
     return {farthest, hardest};
   }
 
-  void estimate_at(double time) {
+  void estimate_at(double time, bool with_modes) {
+    if (!estimates_.outcome.solved()) return;
     PathFollower pose(options_, time);
     const double step = rate_ > 0 ? 1e-3 / rate_ : 1e-4 * (options_.time.end - options_.time.start);
     const VectorXd before = quasi_static_response(pose, time - step, options_.gravity);
@@ -168,7 +167,7 @@ class MotionEstimates {
     }
     const VectorXd load = pose.load();
     without_masses(time, load, system);
-    if (estimates_.outcome.solved()) estimate_frequency_changes(system);
+    if (with_modes && estimates_.outcome.solved()) estimate_frequency_changes(system);
     if (!applicable_.has(Effect::gravity) || !estimates_.outcome.solved()) return;
     estimates_.outcome = pose.move_to(time, Vector2d::Zero());
     if (!estimates_.outcome.solved()) return;

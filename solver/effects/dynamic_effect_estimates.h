@@ -7,8 +7,9 @@
 /// first angular frequency w1 and damping ratio z, how fast the path turns W, the time T.
 namespace trammel::solver {
 
-/// Elastodynamics along a path, at some poses of it. The quasi-static response q_s, K q_s = F + f,
-/// and its rates say what is left out as a small load would:
+/// Elastodynamics along a path, at some poses of it and where the response is largest. The
+/// quasi-static response q_s, K q_s = F + f, and its rates say what is left out as a small load
+/// would:
 ///   inertia -K^-1 (M q_s.. + C q_s.), damping -K^-1 C q_s., gyroscopic forces -K^-1 (G q_s. + S
 ///   q_s), weights and masses of links by the loads that they are; a flexibility by the load K_e
 ///   q_s of its part K_e of K, and its share of the strain energy (springs in series). C = w2 K in
