@@ -126,7 +126,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
       if (!first) {
         first = std::move(result);
       } else if (result.outcome.status != first->outcome.status) {
-        counts.disagree(std::numeric_limits<double>::infinity());
+        counts.disagree(std::numeric_limits<double>::max());  // finite, so that it is recorded
       } else {
         counts.disagree(max_relative_difference(first->quantities, result.quantities));
       }

@@ -236,8 +236,12 @@ BOOST_AUTO_TEST_CASE(coordinates_without_bounds_give_no_modes_and_no_crash) {
     Model far = model;
     for (Node& node : far.nodes) node.position *= size;
     for (const EigenMethod path : {EigenMethod::automatic, EigenMethod::sparse}) {
-      const RotatingModes r = rotate(far, 10, 2, path);
-      BOOST_TEST((!r.outcome.solved() || r.frequency.size() == 2), size);
+      try {
+        const RotatingModes r = rotate(far, 10, 2, path);
+        BOOST_TEST((!r.outcome.solved() || r.frequency.size() == 2), size);
+      } catch (const ModelError& error) {  // a length beyond the range of numbers
+        BOOST_TEST(size >= 1e155, error.what());
+      }
     }
   }
 }
