@@ -1,3 +1,4 @@
+// ctest: timeout=300
 #include <boost/test/unit_test.hpp>
 
 #include "harness/analysis/analysis.h"
