@@ -112,7 +112,9 @@ class Search {
       }
     }
     if (observed.empty())
-      throw base_.error("/analysis", "expected --quantity: nothing of the case is looked at first");
+      throw base_.error("/analysis",
+                        "expected --quantity: the case has neither displacements, positions, "
+                        "frequencies nor load factors other than zero");
     return observed;
   }
 
