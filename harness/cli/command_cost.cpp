@@ -149,11 +149,6 @@ void print(const MeasuredStudy& measured) {
             << '\n';
 }
 
-/// "0.1 %", "1e-6".
-std::string share(double error) {
-  return error < 1e-4 ? rounded(error, 2) : rounded(100 * error, 2) + " %";
-}
-
 void print_search(const AccuracySearch& search) {
   Table table({"tried", ">error", ""});
   for (const TriedSetting& tried : search.tried)
@@ -161,7 +156,7 @@ void print_search(const AccuracySearch& search) {
   table.print(std::cout, "  ");
   std::cout << wrapped(
       fmt::format("Errors against {}, which the last refinement changed by {}.",
-                  search.study.reference_description, share(search.reference_change)),
+                  search.study.reference_description, error_text(search.reference_change)),
       "  ");
   if (search.out_of_time)
     std::cout << "  Not everything was tried: --time-limit gives the search more time.\n";
@@ -171,13 +166,13 @@ void print_search(const AccuracySearch& search) {
 void print_choice(const AccuracySearch& search, const MeasuredStudy& measured, double accuracy) {
   const auto best = cheapest(measured.points, accuracy);
   if (!best) {
-    std::cout << "No setting that was tried comes within " << share(accuracy) << ".\n";
+    std::cout << "No setting that was tried comes within " << error_text(accuracy) << ".\n";
     return;
   }
   const auto title = [&](std::size_t i) { return "'" + measured.study.settings[i].title + "'"; };
   std::vector<std::string> tied;
   for (const std::size_t i : tied_settings(measured.points, accuracy)) tied.push_back(title(i));
-  std::string words = "Within " + share(accuracy) + ": " + title(best->setting);
+  std::string words = "Within " + error_text(accuracy) + ": " + title(best->setting);
   if (!tied.empty()) words += "; in times that cannot be told from its, also " + join(tied, "and");
   std::cout << wrapped(words + ". As a variant of the case:", "")
             << search.patches[best->setting].dump(2) << '\n';

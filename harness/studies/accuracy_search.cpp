@@ -65,10 +65,7 @@ class Search {
         request_(request),
         references_(references),
         progress_(progress) {
-    found_.study.id = given.id() + (variant == kBaseVariant ? "" : "-" + variant);
-    found_.study.family = json_.value("family", given.id());
-    found_.study.title = given.title();
-    if (variant != kBaseVariant) found_.study.title += ": " + given.variant_title(variant);
+    found_.study = empty_study(given, variant);
   }
 
   AccuracySearch run() {

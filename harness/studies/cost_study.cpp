@@ -352,6 +352,15 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
   return study;
 }
 
+CostStudy empty_study(const Case& given, const std::string& variant) {
+  CostStudy study;
+  study.id = given.id() + (variant == kBaseVariant ? "" : "-" + variant);
+  study.family = given.document.value().value("family", given.id());
+  study.title = given.title();
+  if (variant != kBaseVariant) study.title += ": " + given.variant_title(variant);
+  return study;
+}
+
 bool is_cost_study(const fs::path& file) {
   const Json json = read_json(file);
   return json.is_object() && json.contains("curves");

@@ -73,6 +73,9 @@ enum class SweepExtent { full, quick };
 [[nodiscard]] CostStudy load_cost_study(const std::filesystem::path& file, SweepExtent extent,
                                         const References& references);
 
+/// A study of that case or variant, named after it, without settings yet.
+[[nodiscard]] CostStudy empty_study(const Case& given, const std::string& variant);
+
 /// Whether a file holds a study, not a case.
 [[nodiscard]] bool is_cost_study(const std::filesystem::path& file);
 

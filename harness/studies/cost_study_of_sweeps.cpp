@@ -89,11 +89,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   const JsonView root(document);
   if (!root.has("sweeps")) throw root.error("expected 'sweeps', which say what to refine");
   const std::vector<std::string> wanted = sweeps_wanted(root["sweeps"], sweeps);
-  CostStudy study;
-  study.id = given.id() + (variant == kBaseVariant ? "" : "-" + variant);
-  study.family = given.document.value().value("family", given.id());
-  study.title = given.title();
-  if (variant != kBaseVariant) study.title += ": " + given.variant_title(variant);
+  CostStudy study = empty_study(given, variant);
   const JsonView first = root["sweeps"][wanted.front()];
   std::vector<ObservedQuantity> observed = observed_quantities(
       first.has("quantities")

@@ -10,11 +10,6 @@
 namespace trammel::harness {
 namespace {
 
-/// "1 %", "1e-6".
-std::string error_text(double error) {
-  return error < 1e-4 ? rounded(error, 2) : rounded(100 * error, 2) + " %";
-}
-
 /// "1.7", "43", "7900".
 std::string times(double factor) {
   if (factor < 100) return rounded(factor, 2);
@@ -102,6 +97,10 @@ ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
     if (at_a->setting == at_b->setting) ++agreement.same_cheapest;
   }
   return agreement;
+}
+
+std::string error_text(double error) {
+  return error < 1e-4 ? rounded(error, 2) : rounded(100 * error, 2) + " %";
 }
 
 std::string describe_pareto_front(const std::vector<CostPoint>& points,

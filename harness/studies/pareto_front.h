@@ -50,6 +50,9 @@ struct ParetoFrontAgreement {
 [[nodiscard]] ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
                                                          const std::vector<CostPoint>& b);
 
+/// "1 %", "1e-6".
+[[nodiscard]] std::string error_text(double error);
+
 /// What the front says, in a sentence or two.
 /// @param titles    of the settings
 /// @param baseline  the setting that times are relative to

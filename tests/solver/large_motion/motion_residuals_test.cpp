@@ -33,6 +33,16 @@ CallableSystem pendulum() {
        .scale = Eigen::Vector2d(1, 1)});
 }
 
+/// Let go at rest, aside and below.
+State start_of(const CallableSystem& system) {
+  State state;
+  state.q = Eigen::Vector2d(0.6, -0.8);
+  state.v = state.a = Eigen::Vector2d::Zero();
+  state.lambda = VectorXd::Zero(1);
+  BOOST_TEST_REQUIRE(make_consistent(system, state, {}, 0.01).solved());
+  return state;
+}
+
 /// Claims another state than the one that generalized-alpha has found.
 class FalseClaim final : public Stepper {
  public:
@@ -64,11 +74,7 @@ class FalseClaim final : public Stepper {
 /// The outcome of ten steps whose last state is claimed to be another.
 Outcome outcome_of(const std::function<void(State&)>& change) {
   const CallableSystem system = pendulum();
-  State state;
-  state.q = Eigen::Vector2d(0.6, -0.8);
-  state.v = state.a = Eigen::Vector2d::Zero();
-  state.lambda = VectorXd::Zero(1);
-  BOOST_TEST_REQUIRE(make_consistent(system, state, {}, 0.01).solved());
+  State state = start_of(system);
   FalseClaim stepper(system, change);
   stepper.begin(state);
   for (int i = 0; i < 10; ++i) {
@@ -104,11 +110,7 @@ BOOST_AUTO_TEST_CASE(a_motion_that_was_found_is_solved_and_changed_ones_are_not)
 
 BOOST_AUTO_TEST_CASE(an_integration_shows_its_residuals) {
   const CallableSystem system = pendulum();
-  State state;
-  state.q = Eigen::Vector2d(0.6, -0.8);
-  state.v = state.a = Eigen::Vector2d::Zero();
-  state.lambda = VectorXd::Zero(1);
-  BOOST_TEST_REQUIRE(make_consistent(system, state, {}, 0.01).solved());
+  State state = start_of(system);
   const IntegrationSummary summary = integrate(system, state, {.end_time = 1, .step = 0.01});
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
   BOOST_TEST(summary.evidence.largest(Residual::constraints) < 1e-13);
