@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -44,10 +45,13 @@ constexpr bool kLimitsMemory = true;
 int status_without_memory = 0;
 const char* line_without_memory = "";
 std::terminate_handler otherwise = nullptr;
+/// What terminates where nothing may be thrown (a directory iterator) holds no exception.
+std::atomic<bool> found_no_memory{false};
 
 [[noreturn]] void end_by_exception() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+    if (found_no_memory) throw std::bad_alloc();
   } catch (const std::bad_alloc&) {
     std::fputs(line_without_memory, stderr);
     _exit(status_without_memory);
@@ -214,6 +218,10 @@ void end_without_memory(int status, const char* line) {
   status_without_memory = status;
   line_without_memory = line;
   if (otherwise == nullptr) otherwise = std::set_terminate(end_by_exception);
+  std::set_new_handler([] {
+    found_no_memory = true;
+    throw std::bad_alloc();
+  });
 }
 
 void end_on_signals(const std::string& line) {

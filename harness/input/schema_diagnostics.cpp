@@ -66,8 +66,10 @@ std::string describe_array(const SchemaRule& root, const SchemaRule& rule) {
 
 std::string describe_choice(const SchemaRule& choice) {
   if (choice.IsString()) return quoted(text_of(choice));
-  rapidjson::StringBuffer text;
-  rapidjson::Writer<rapidjson::StringBuffer> writer(text);
+  using Encoding = rapidjson::UTF8<>;
+  using Text = rapidjson::GenericStringBuffer<Encoding, SchemaAllocator>;
+  Text text;
+  rapidjson::Writer<Text, Encoding, Encoding, SchemaAllocator> writer(text);
   choice.Accept(writer);
   return text.GetString();
 }

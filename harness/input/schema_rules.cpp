@@ -17,23 +17,22 @@ const SchemaRule* keyword(const SchemaRule& rule, const char* name) {
 }
 
 const SchemaRule& load_schema(const std::string& name) {
-  static std::map<std::string, std::pair<std::string, rapidjson::Document>> loaded;
-  const auto [entry, fresh] = loaded.try_emplace(name);
-  if (fresh) {
+  static std::map<std::string, std::pair<std::string, SchemaDocument>> loaded;
+  auto& [text, document] = loaded[name];  // whose strings point into the text
+  if (document.IsNull()) {
     const auto file = data_root() / "cases" / "schema" / (name + ".schema.json");
-    auto& [text, document] = entry->second;  // whose strings point into the text
     text = read_text(file);
     if (document.ParseInsitu(text.data()).HasParseError())
       throw InputError(file.string() + ": expected JSON");
   }
-  return entry->second.second;
+  return document;
 }
 
 const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule) {
   const SchemaRule* reference = keyword(rule, "$ref");
   if (reference == nullptr) return rule;
-  return resolved(
-      root, *rapidjson::Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
+  using Pointer = rapidjson::GenericPointer<SchemaRule, SchemaAllocator>;
+  return resolved(root, *Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
 }
 
 bool wants(const SchemaRule& rule, const char* type) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
+#include <system_error>
 
 #include "harness/results/fields.h"
 
@@ -372,7 +374,8 @@ Results read_results(const Json& json) {
 
 Results read_results(const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+  if (!in)
+    throw std::system_error(EIO, std::generic_category(), file.string() + ": cannot be read");
   try {
     return read_results(Json::parse(in));
   } catch (const Json::parse_error& error) {
