@@ -254,6 +254,12 @@ Check read_check(const std::string& name, const JsonView& place, const Document&
   check.role = read_role(place.text("role"));
   read_criterion(place, document, check);
   require_target(place, check);
+  if (const auto control = place.find("negative_control")) {
+    check.negative_control = {control->text("verdict"), control->text("message"), std::nullopt};
+    if (const auto index = control->find("index"))
+      check.negative_control->index = index->get<std::size_t>();
+    check.why = control->text("why");
+  }
   // What is particular to a variant is stated once, for all its checks.
   const auto variant_text = JsonView(document).get<std::string>("description", "");
   if (check.expectation == Expectation::known_discrepancy && !variant_text.empty()) {

@@ -47,6 +47,13 @@ struct OrderCriterion {
   std::optional<double> richardson_within;
 };
 
+/// What a check that is wrong on purpose must come to.
+struct NegativeControl {
+  std::string verdict;               ///< of its worst entry: "fail" or "error"
+  std::string message;               ///< a part of what is said of it
+  std::optional<std::size_t> index;  ///< of the worst entry, where that is tried
+};
+
 struct Check {
   std::string name, title, quantity, statistic, reference, against_variant, against_quantity;
   std::vector<std::size_t> index, reference_index;  ///< empty: all
@@ -57,6 +64,7 @@ struct Check {
   Expectation expectation = Expectation::agrees;
   std::string why;
   std::optional<OrderCriterion> order;
+  std::optional<NegativeControl> negative_control;
   std::string pointer;  ///< where it stands in the case
 
   [[nodiscard]] bool has_target() const {

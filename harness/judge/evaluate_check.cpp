@@ -217,15 +217,39 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
   return entries.size() > kMaxEntries ? worst_of(std::move(entries)) : entries;
 }
 
-}  // namespace
-
-std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
+std::vector<CheckResult> judge(const Check& check, const CheckContext& context) {
   try {
     if (check.order) return evaluate_order_check(check, context);
     return evaluate_entries(check, collect(check, context));
   } catch (const NotComparable& reason) {
     return {failed_check_result(check, reason.message)};
   }
+}
+
+/// Passes where the worst entry came to what the control asks for.
+CheckResult judge_control(const Check& check, const std::vector<CheckResult>& entries) {
+  CheckResult control = worst_of(entries).front();
+  const NegativeControl& asked = *check.negative_control;
+  const std::string verdict = to_string(control.verdict);
+  const bool holds = verdict == asked.verdict &&
+                     control.message.find(asked.message) != std::string::npos &&
+                     (!asked.index || control.index == asked.index);
+  const std::string found = "'" + verdict + "' (" + control.message + ")";
+  control.message = holds
+                        ? "judged " + found + ", as it must be"
+                        : fmt::format("expected '{}'{} with '{}' (got {})", asked.verdict,
+                                      asked.index ? fmt::format(" of entry {}", *asked.index) : "",
+                                      asked.message, found);
+  control.verdict = holds ? Verdict::pass : Verdict::fail;
+  return control;
+}
+
+}  // namespace
+
+std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
+  std::vector<CheckResult> entries = judge(check, context);
+  if (check.negative_control) return {judge_control(check, entries)};
+  return entries;
 }
 
 }  // namespace trammel::harness

@@ -190,6 +190,17 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
     const bool chosen = check.index.empty() || std::find(check.index.begin(), check.index.end(),
                                                          series.index) != check.index.end();
     if (!chosen) continue;
+    if (!criterion.of_errors &&
+        series.exact != entry_of(find_reference(context, check.pointer + "/reference"),
+                                 check.reference_index, position)) {
+      all.push_back(failed_check_result(
+          check, fmt::format("the refinement's errors are taken against {}, not against {}",
+                             series.reference.empty() ? "no reference" : series.reference,
+                             check.reference)));
+      all.back().index = series.index;
+      ++position;
+      continue;
+    }
     Entry entry{found};
     if (criterion.wave_number) {
       const auto& reference =

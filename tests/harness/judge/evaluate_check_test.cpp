@@ -329,4 +329,22 @@ BOOST_AUTO_TEST_CASE(checks_that_contradict_themselves_are_refused) {
   BOOST_TEST(contains(fault("tolerance", {{"relative", 1e-3}}), "expected the key 'why'"));
 }
 
+BOOST_AUTO_TEST_CASE(a_negative_control_passes_where_the_fault_is_found_and_fails_where_it_is_not) {
+  Bench bench;
+  const auto control = [&](const char* verdict, const char* message, int index) {
+    bench.check["negative_control"] = {
+        {"verdict", verdict}, {"message", message}, {"index", index}, {"why", "w"}};
+    return bench.verdict();
+  };
+  bench.set(1, 20.1);
+  BOOST_TEST(control("fail", "is outside of", 1) == "pass");
+  BOOST_TEST(control("fail", "is outside of", 0) == "fail");
+  BOOST_TEST(control("error", "is outside of", 1) == "fail");
+  BOOST_TEST(control("fail", "another reason", 1) == "fail");
+  bench.set(1, 20);
+  BOOST_TEST(control("fail", "is outside of", 1) == "fail");
+  BOOST_TEST(
+      contains(bench.message, "expected 'fail' of entry 1 with 'is outside of' (got 'pass'"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
