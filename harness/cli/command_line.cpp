@@ -17,6 +17,7 @@
 #include "harness/cli/command_compare.h"
 #include "harness/cli/command_converge.h"
 #include "harness/cli/command_cost.h"
+#include "harness/cli/command_coverage.h"
 #include "harness/cli/command_effects.h"
 #include "harness/cli/command_list.h"
 #include "harness/cli/command_quantities.h"
@@ -46,6 +47,7 @@ Examples:
   trammel converge beam-cantilever          orders, extrapolation, numerical uncertainty
   trammel cost modes                        accuracy against computing time
   trammel claims                            the paper's claims, and a verdict for each
+  trammel coverage --gaps                   what has no independent evidence, and why
   trammel effects scene-soft-platform       influence of each effect on a model
   trammel report                            the whole catalogue as a page
   trammel report ~/my-robot.json            a page of your own case
@@ -70,6 +72,7 @@ class CommandLine {
     define_converge();
     define_cost();
     define_claims();
+    define_coverage();
     define_effects();
     define_report();
   }
@@ -234,6 +237,18 @@ class CommandLine {
     sub->add_flag("--json", json_, "As JSON, with every number");
     sub->callback([this] { command_ = [this] { return claims_command(run_.jobs, json_); }; });
   }
+  void define_coverage() {
+    CLI::App* sub = add(
+        "coverage", "What is verified by what kind of evidence, and what by none",
+        "\nA row for each key and value of the case schema, each pair of an analysis and a part,\n"
+        "element or joint, and each quantity. Exit status 1 where one has neither independent\n"
+        "evidence nor a recorded reason (cases/schema/without_evidence.json).\n\nExamples:\n"
+        "  trammel coverage --gaps\n  trammel coverage trammel-results/results.json");
+    sub->add_option("results", coverage_.results, "Count the series of this results.json, too");
+    sub->add_flag("--gaps", coverage_.gaps, "Only what has no independent evidence");
+    sub->add_flag("--json", coverage_.json, "As JSON");
+    sub->callback([this] { command_ = [this] { return coverage_command(coverage_); }; });
+  }
   void define_effects() {
     CLI::App* sub =
         add("effects",
@@ -302,6 +317,7 @@ class CommandLine {
                   "",
                   false,
                   memory_limit_bytes()};
+  CoverageCommand coverage_;
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   EffectsCommand effects_;
   std::string name_, other_;

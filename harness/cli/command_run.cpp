@@ -13,6 +13,7 @@
 #include "harness/base/text.h"
 #include "harness/cli/command_cost.h"
 #include "harness/cli/print_uncertainty.h"
+#include "harness/coverage/evidence_coverage.h"
 #include "harness/input/catalogue.h"
 #include "harness/judge/evaluate_check.h"
 #include "harness/results/unfinished_folder.h"
@@ -325,6 +326,9 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   results.cost = std::move(cost);
   const ClaimSet claim_set = evaluate_claims(load_claims(), runs);
   results.claims = claim_results(claim_set);
+  results.coverage = evidence_coverage(selection.cases, references);
+  add_reasons(results.coverage);
+  count_series(results, results.coverage);
   write_page(results, runs, command.out, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {

@@ -201,10 +201,14 @@ template <>
 inline constexpr auto kFields<Claims> =
     std::tuple{TRAMMEL_REQUIRED(Claims, title, as_recorded, claims)};
 template <>
+inline constexpr auto kFields<CoverageRow> =
+    std::tuple{TRAMMEL_REQUIRED(CoverageRow, group, feature, evidence),
+               TRAMMEL_OPTIONAL(CoverageRow, reason, series, judged)};
+template <>
 inline constexpr auto kFields<Results> =
     std::tuple{optional("numerical_uncertainty", &Results::uncertainty_coverage),
                TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
-               TRAMMEL_OPTIONAL(Results, cost, claims)};
+               TRAMMEL_OPTIONAL(Results, cost, claims, coverage)};
 
 namespace {
 
@@ -342,6 +346,10 @@ void Place::fail(const std::string& expected) const {
   throw std::runtime_error((where.empty() ? "/" : where) + ": expected " + expected);
 }
 
+nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows) {
+  return to_json(rows);
+}
+
 nlohmann::ordered_json claims_to_json(const Claims& claims) {
   return to_json(claims);
 }
@@ -364,6 +372,11 @@ Environment read_environment(const Json& json) {
 }
 CostStudies read_cost_studies(const Json& json) {
   return from_json<CostStudies>(json);
+}
+
+bool CoverageRow::is_verified() const {
+  return std::any_of(evidence.begin(), evidence.end(),
+                     [](const std::string& kind) { return kind != "self-consistency"; });
 }
 
 Results read_results(const Json& json) {

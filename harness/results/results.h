@@ -106,6 +106,17 @@ struct Claims {
   std::vector<Claim> claims;
 };
 
+/// What kinds of evidence there are for a feature of the program.
+struct CoverageRow {
+  std::string group, feature;  ///< "key", "pair" or "quantity"
+  std::vector<std::string> evidence = {};
+  std::string reason = {};     ///< why none of it is independent
+  int series = 0, judged = 0;  ///< of a quantity: how many the runs hold, and how many are judged
+
+  /// By anything but bounds and the solver's agreement with itself.
+  [[nodiscard]] bool is_verified() const;
+};
+
 struct Results {
   int format = 1;
   Environment environment;
@@ -115,6 +126,7 @@ struct Results {
   std::optional<UncertaintyCoverage> uncertainty_coverage;
   std::optional<CostStudies> cost;  ///< accuracy and computing time, where measured
   std::optional<Claims> claims;
+  std::vector<CoverageRow> coverage;  ///< of the whole catalogue
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
   /// @returns nullptr for an unknown or empty id.
@@ -122,6 +134,7 @@ struct Results {
 };
 
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
+[[nodiscard]] nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows);
 [[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
 
 /// Figures, tables and the like of a case file, which results hold as they stand there.

@@ -7,6 +7,7 @@
 #include "reports/figures/gallery.h"
 #include "reports/sections/claims.h"
 #include "reports/sections/cost.h"
+#include "reports/sections/coverage.h"
 #include "reports/sections/environment.h"
 #include "reports/sections/family.h"
 #include "reports/sections/orders.h"
@@ -33,10 +34,16 @@ constexpr const char* kGenerator = R"(<meta name="generator" content="trammel">)
 Data page_data(const Results& results, const std::vector<Family>& families,
                const std::vector<CostPanel>& panels) {
   Data page = object();
-  for (const char* name :
-       {"summary", "claims", "family", "case", "variants", "figure", "checks", "matrix", "cost",
-        "stress_suite", "targets", "orders", "validation_uncertainty", "references", "counts",
-        "rows", "head", "matrix_row", "cell"})
+  for (const char* name : {"summary",    "claims",
+                           "family",     "case",
+                           "variants",   "figure",
+                           "checks",     "matrix",
+                           "cost",       "stress_suite",
+                           "targets",    "orders",
+                           "coverage",   "validation_uncertainty",
+                           "references", "counts",
+                           "rows",       "head",
+                           "matrix_row", "cell"})
     page.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -49,6 +56,7 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   const Data targets = targets_section(results, families);
   const Data orders = orders_section(results, families);
   const Data uncertainty = validation_uncertainty_section(results, families);
+  const Data coverage = coverage_section(results);
   std::vector<SectionSummary> summaries;
   const auto add_summary = [&](const std::string& title, const std::string& anchor,
                                const Data& section, const char* key) {
@@ -63,6 +71,7 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   add_summary("Published benchmark values", "targets", targets, "words");
   add_summary("Orders of convergence and numerical uncertainty", "orders", orders, "words");
   add_summary("Validation uncertainty", "validation-uncertainty", uncertainty, "words");
+  add_summary("What is verified, and by what", "coverage", coverage, "words");
   page.set("summary", summary_section(results, families, summaries));
   page.set("claims", claims);
   set_flag(page, "has_claims", results.claims.has_value());
@@ -71,6 +80,7 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   page.set("targets", targets);
   page.set("orders", orders);
   page.set("validation_uncertainty", uncertainty);
+  page.set("coverage", coverage);
   Data family_list = list();
   for (const Family& family : families) family_list.push_back(family_section(family, results));
   page.set("families", family_list);

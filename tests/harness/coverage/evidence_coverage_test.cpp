@@ -1,0 +1,89 @@
+#include "harness/coverage/evidence_coverage.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+
+#include "harness/coverage/case_features.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::Folder;
+
+namespace {
+
+/// Evidence of a feature, from one case with one check on displacement_y_m:B.
+std::vector<std::string> evidence(const Json& check, const std::string& feature) {
+  const Folder folder;
+  (void)folder.write({{"id", "truth"},
+                      {"title", "Truth"},
+                      {"kind", "paper"},
+                      {"unit", "m"},
+                      {"values", {1}},
+                      {"source", "me"},
+                      {"uncertainty", {{"absolute", 0}}},
+                      {"place", "here"}});
+  Json json = testing::cantilever();
+  json["checks"] = {{"c", check}};
+  const References references;
+  const auto rows = evidence_coverage({testing::read(folder, json)}, references);
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const auto& one) { return one.feature == feature; });
+  BOOST_REQUIRE((row != rows.end()));
+  return row->evidence;
+}
+
+Json printed_check() {
+  return {{"quantity", "displacement_y_m:B"},
+          {"reference", "truth"},
+          {"role", "verification"},
+          {"tolerance", {{"relative", 1e-3}, {"why", "a reason"}}}};
+}
+
+using List = std::vector<std::string>;
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(evidence_coverage)
+
+BOOST_AUTO_TEST_CASE(keys_and_values_of_a_case_are_named_as_the_schema_names_them) {
+  const CaseFeatures all = features_of_schema();
+  for (const char* feature : {"model.members", "member.taper", "beam = timoshenko", "spring.nodes",
+                              "analysis.modes.rotating", "rotating.axis = x", "effects = shear"})
+    BOOST_TEST(all.count(feature) == 1, feature);
+  Json json = testing::cantilever();
+  json["model"]["members"].begin().value()["beam"] = "timoshenko";
+  const CaseFeatures own = features_of(json);
+  BOOST_TEST(own.count("beam = timoshenko") == 1);
+  BOOST_TEST(own.count("beam = euler-bernoulli") == 0);
+  BOOST_TEST(std::includes(all.begin(), all.end(), own.begin(), own.end()));
+}
+
+BOOST_AUTO_TEST_CASE(a_check_counts_for_its_quantity_and_for_all_that_the_model_uses) {
+  for (const char* feature :
+       {"model.supports", "statics with model.members", "statics: displacement_y_m:NODE"})
+    BOOST_TEST(evidence(printed_check(), feature) == List{"published"},
+               boost::test_tools::per_element());
+  BOOST_TEST(evidence(printed_check(), "statics: displacement_x_m:NODE").empty());
+  BOOST_TEST(evidence(printed_check(), "slider.rail").empty());
+}
+
+BOOST_AUTO_TEST_CASE(bounds_discrepancies_and_negative_controls_are_no_independent_evidence) {
+  const char* feature = "model.supports";
+  BOOST_TEST(evidence({{"quantity", "displacement_y_m:B"},
+                       {"role", "verification"},
+                       {"bound", {{"at_most", 1}, {"why", "w"}}}},
+                      feature) == List{"self-consistency"},
+             boost::test_tools::per_element());
+  Json check = printed_check();
+  check["negative_control"] = {{"verdict", "fail"}, {"message", "m"}, {"why", "w"}};
+  BOOST_TEST(evidence(check, feature).empty());
+  check = printed_check();
+  check.erase("tolerance");
+  check["role"] = "validation";
+  BOOST_TEST(evidence(check, feature).empty());
+  check["expect"] = {{"known_discrepancy", "w"}, {"relative_between", {0.1, 0.2}}};
+  BOOST_TEST(evidence(check, feature).empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
