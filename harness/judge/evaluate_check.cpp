@@ -241,6 +241,7 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
                                       asked.index ? fmt::format(" of entry {}", *asked.index) : "",
                                       asked.message, found);
   control.verdict = holds ? Verdict::pass : Verdict::fail;
+  control.expectation = Expectation::agrees;  // it is no discrepancy from anything
   return control;
 }
 
