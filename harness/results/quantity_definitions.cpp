@@ -75,14 +75,15 @@ newton_residual_N_m  size of the forces out of balance before it
 newton_iterations  Newton iterations at each point, or of the whole motion
 drive_torque_N_m:DRIVE  torque of a drive
 drive_force_N:DRIVE  force of a drive
+[modes large-statics]
+frequency_Hz:MODE  natural frequency; with the mode along a trajectory, over speeds or load factors
+growth_rate_per_s:MODE  real part of the eigenvalue
 [modes]
-frequency_Hz:MODE  natural frequency; with the mode along a trajectory or over several speeds
 frequency_roundoff:MODE  estimate of its relative round-off error
 frequency_gap:MODE  relative distance from the frequency below
 mode_count_below  modes below count_below_Hz, by a Sturm count
 rigid_body_modes  modes without strain energy
 angular_speed_rad_s  angular speed of the rotating frame
-growth_rate_per_s:MODE  real part of the eigenvalue
 stable  1 where no mode grows
 steady_displacement_x_m:NODE  displacement along x in steady rotation
 steady_displacement_y_m:NODE  displacement along y in steady rotation

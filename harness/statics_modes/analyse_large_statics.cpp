@@ -9,6 +9,7 @@
 #include "harness/statics_modes/analyse_statics.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/large_motion/solve/large_statics.h"
+#include "solver/large_motion/solve/small_vibration.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
 
@@ -45,6 +46,19 @@ void record_point(const GeometricallyExactSystem& system, const PathPoint& point
   record.add("newton_iterations", "", static_cast<double>(point.newton.correction.size()));
   if (point.unstable_directions >= 0) {
     record.add("unstable_directions", "", static_cast<double>(point.unstable_directions));
+  }
+}
+
+/// Frequencies about a point of the path; of several points with the mode.
+void record_vibration(const GeometricallyExactSystem& system, const PathPoint& point,
+                      solver::Index count, bool several, StepResult& result, Recorder& record) {
+  const auto found = solver::large_motion::small_vibration(system, point.state, count);
+  result.outcome = found.outcome;
+  result.evidence.add(found.evidence);
+  for (solver::Index i = 0; i < found.frequency.size(); ++i) {
+    const std::string item = several ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", item, found.frequency[i]);
+    record.add("growth_rate_per_s", item, found.growth_rate[i]);
   }
 }
 
@@ -110,8 +124,19 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     if (!path.outcome.solved()) return result;
     recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
   }
-  for (const PathPoint& point : recorded_points)
+  const auto vibrations = analysis.get("vibration_modes", solver::Index{0});
+  if (!large_motion.follower_loads.empty() && vibrations == 0)
+    result.warnings.push_back(
+        {"the number of loads that follow their nodes",
+         static_cast<double>(large_motion.follower_loads.size()), "",
+         "statics cannot tell whether the state is stable (flutter); 'vibration_modes' can"});
+  for (const PathPoint& point : recorded_points) {
     record_point(system, point, record, result.warnings);
+    if (vibrations > 0)
+      record_vibration(system, point, vibrations, case_model.path || recorded_points.size() > 1,
+                       result, record);
+    if (!result.outcome.solved()) return result;
+  }
   if (!case_model.path) {
     record_events(path, record);
     record_newton(recorded_points.back().newton, record);

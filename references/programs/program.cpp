@@ -28,6 +28,11 @@ const std::map<std::string, Program>& programs() {
        {"in-plane frequencies of a free annular plate [Hz] by Bessel functions (Love)",
         "inner_radius_m, outer_radius_m, E_Pa, rho_kg_m3, nu, modes (pairs [waves, number])",
         annular_membrane_program}},
+      {"becks-column",
+       {"cantilever under a force that follows its tip: flutter load, frequencies (Bolotin 1963)",
+        "output (flutter-load | frequencies | growth-rate), load_parameter P L^2/EI, EI_N_m2, "
+        "length_m, mass_kg_per_m",
+        becks_column_program}},
       {"column-buckling",
        {"critical loads of one uniform column (Timoshenko and Gere, chapter 2)",
         "ends, load (end | self-weight), count, EI_N_m2, length_m, weight_N_per_m",

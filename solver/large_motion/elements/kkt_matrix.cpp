@@ -171,6 +171,13 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
   }
 }
 
+void KktMatrix::multiply(const VectorXd& x, VectorXd& product) const {
+  for (Index i = 0; i < x.size(); ++i) work_[permutation_[static_cast<std::size_t>(i)]] = x[i];
+  solution_ = matrix_ * work_;
+  for (Index i = 0; i < x.size(); ++i)
+    product[i] = solution_[permutation_[static_cast<std::size_t>(i)]];
+}
+
 void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {
   solution_.setZero();
   for (Index i = 0; i < x.size(); ++i)

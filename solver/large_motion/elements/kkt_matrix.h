@@ -79,6 +79,9 @@ class KktMatrix {
   /// Solves in place: (b, d) becomes (dq, dlambda).
   void solve(Eigen::Ref<VectorXd> right_hand_side) const;
 
+  /// The left-hand sides of the unknowns x = (q, lambda) where the rows' right-hand sides vanish.
+  void multiply(const VectorXd& x, VectorXd& product) const;
+
   /// Of each equation, the sum of the magnitudes of its terms with the unknowns x = (q, lambda).
   void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;
 

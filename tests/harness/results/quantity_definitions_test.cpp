@@ -97,7 +97,9 @@ std::vector<Json> further_cases() {
       with_analysis(strip, R"({"harmonic": {"from_Hz": 1, "to_Hz": 20, "points": 2, "outputs": )" +
                                kOutputs +
                                R"(, "damping": {"modal": {"ratio": 0.02, "modes": 2}}}})"),
-      with_analysis(strip, R"({"large-statics": {"drives": {"push": {"node": "B", "motion": "x",
+      with_analysis(
+          strip,
+          R"({"large-statics": {"vibration_modes": 1, "drives": {"push": {"node": "B", "motion": "x",
           "law": {"constant_speed": {"speed_per_s": 0.001}}}}}})"),
       with_analysis(strip, R"({"large-motion": {"end_time_s": 0.01, "step_s": 0.001,
           "relative_to": "A", "angles": {"tip": {"node": "B"}}, "drives": {
