@@ -19,6 +19,7 @@
 #include "harness/cli/command_cost.h"
 #include "harness/cli/command_coverage.h"
 #include "harness/cli/command_effects.h"
+#include "harness/cli/command_export.h"
 #include "harness/cli/command_list.h"
 #include "harness/cli/command_quantities.h"
 #include "harness/cli/command_run.h"
@@ -51,6 +52,7 @@ Examples:
   trammel effects scene-soft-platform       influence of each effect on a model
   trammel report                            the whole catalogue as a page
   trammel report ~/my-robot.json            a page of your own case
+  trammel export portal-frame               one computation for another code
 
 Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
 folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
@@ -75,6 +77,8 @@ class CommandLine {
     define_coverage();
     define_effects();
     define_report();
+    define_export();
+    define_solve();
   }
 
   int run(const std::vector<std::string>& arguments) {
@@ -307,6 +311,31 @@ class CommandLine {
     sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
   }
 
+  void define_export() {
+    CLI::App* sub =
+        add("export", "One computation of a case for other codes, with everything resolved",
+            "\nA case file of plain nodes, members with section properties, triangles, rigid "
+            "bodies, supports and\nloads at nodes; 'trammel run' computes the same numbers of "
+            "it.\n\nExamples:\n  trammel export manipulator-modes --variant rigid-platform\n"
+            "  trammel export beam-cantilever --level 2 --out level-2.json");
+    sub->add_option("case", name_, "Name or file of a case")->required();
+    sub->add_option("--variant", export_.choice.variant, "'base' is the case unpatched")
+        ->capture_default_str();
+    sub->add_option("--level", export_.level, "Level of its sweep, from 0; the case by default")
+        ->check(CLI::Range(0, 1000000));
+    sub->add_option("--sweep", export_.choice.sweep, "Which sweep, where it has several");
+    sub->add_option("-o,--out", export_.out, "File of the case; standard output by default");
+    sub->callback([this] { command_ = [this] { return export_command(name_, export_); }; });
+  }
+  void define_solve() {
+    CLI::App* sub = add("solve", "Compute an exported case as an adapter does, into a result file",
+                        "\nExample:\n  trammel export portal-frame --out case.json && "
+                        "trammel solve case.json result.json");
+    sub->add_option("case", name_, "File of a case")->required();
+    sub->add_option("result", other_, "File of its result")->required();
+    sub->callback([this] { command_ = [this] { return solve_command(name_, other_); }; });
+  }
+
   const Renderers& renderers_;
   CLI::App app_{kAbout};
   RunCommand run_{{},
@@ -320,6 +349,7 @@ class CommandLine {
   CoverageCommand coverage_;
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   EffectsCommand effects_;
+  ExportCommand export_;
   std::string name_, other_;
   bool json_ = false;
   std::function<int()> command_;

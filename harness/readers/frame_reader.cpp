@@ -110,6 +110,10 @@ solver::Member read_member(const std::string& name, const JsonView& place,
   member.elements = place.get<solver::Index>("elements", elements);
   member.axially_flexible = read_axial(place);
   if (place.has("ends")) member.ends = {read_end(place["ends"][0]), read_end(place["ends"][1])};
+  if (const auto inertia = place.find("end_inertia_kg_m2")) {
+    for (std::size_t end = 0; end < 2; ++end)
+      member.ends[end].inertia = (*inertia)[end].get<double>();
+  }
   if (place.has("load_N_per_m")) member.load = read_point(place["load_N_per_m"]);
   return member;
 }

@@ -1,0 +1,66 @@
+#include "harness/cli/command_export.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <set>
+
+#include "harness/base/json_file.h"
+#include "harness/base/processes.h"
+#include "harness/input/catalogue.h"
+#include "harness/run/run.h"
+#include "trammel_build.h"
+
+namespace trammel::harness {
+namespace {
+
+/// Those that the case asks for; all where it asks for none.
+Json quantities_json(const Case& given, const Quantities& quantities) {
+  std::set<std::string> asked;
+  if (const auto exported = JsonView(given.document).find("export")) {
+    for (const auto& [number, place] : (*exported)["quantities"].entries())
+      asked.insert(place.text("name"));
+  }
+  Json found = Json::object();
+  for (const auto& [name, quantity] : quantities) {
+    if (!asked.empty() && asked.count(name) == 0) continue;
+    const bool has_gap = !std::all_of(quantity.values.begin(), quantity.values.end(),
+                                      [](double value) { return std::isfinite(value); });
+    if (!has_gap) found[name] = {{"unit", unit_of(name)}, {"values", quantity.values}};
+  }
+  return found;
+}
+
+}  // namespace
+
+int export_command(const std::string& name, const ExportCommand& command) {
+  ExportChoice choice = command.choice;
+  if (command.level >= 0) choice.level = static_cast<std::size_t>(command.level);
+  const std::string text = pretty(export_case(load_named_case(name), choice));
+  if (command.out.empty()) {
+    std::cout << text;
+  } else {
+    write_file(command.out, text);
+  }
+  return 0;
+}
+
+int solve_command(const std::string& case_file, const std::string& result_file) {
+  const Case given = load_case(case_file);
+  RunOptions options;
+  options.variant = kBaseVariant;
+  options.memory_bytes = memory_limit_bytes();
+  const std::vector<Run> runs = run_cases({given}, References(), options);
+  require_complete(runs);
+  const Run& run = runs.front();
+  if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
+  if (run.error == Run::RunError::input) throw InputError(run.reason);
+  write_file(result_file, pretty({{"status", run.status},
+                                  {"reason", run.reason},
+                                  {"quantities", quantities_json(given, run.result.quantities)},
+                                  {"solver", {{"name", "trammel"}, {"version", TRAMMEL_VERSION}}},
+                                  {"cost", {{"seconds", run.wall_s}}}}));
+  return 0;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,201 @@
+#include "harness/export/exported_case.h"
+
+#include <algorithm>
+#include <set>
+
+#include "harness/analysis/analysis.h"
+#include "harness/analysis/registry.h"
+#include "harness/base/content_hash.h"
+#include "harness/base/quantity.h"
+#include "harness/base/text.h"
+#include "harness/export/model_writer.h"
+#include "harness/input/check.h"
+#include "harness/readers/joint_reader.h"
+#include "harness/readers/material_reader.h"
+#include "harness/results/quantity_definitions.h"
+#include "harness/scene/tracking.h"
+#include "harness/scene/with_model_errors.h"
+#include "trammel_build.h"
+
+namespace trammel::harness {
+namespace {
+
+using solver::Effect;
+
+JsonView analysis_place(const Document& document) {
+  return JsonView(document)["analysis"][analysis_kind(document)];
+}
+
+void require_exportable(const Document& document) {
+  const std::vector<std::string> kinds = {"statics",      "buckling", "modes",    "large-statics",
+                                          "large-motion", "harmonic", "transient"};
+  const JsonView place = analysis_place(document);
+  if (std::find(kinds.begin(), kinds.end(), analysis_kind(document)) == kinds.end())
+    throw place.error("expected an analysis that can be exported: " + join(kinds, "or"));
+  const JsonView root(document);
+  if (root.has("model") && root["model"].has("trajectory"))
+    throw root["model"]["trajectory"].error("expected one pose: a trajectory is not exported");
+  if (place.has("track"))
+    throw place["track"].error("expected drives with laws: a tracked path is not exported");
+}
+
+/// What "effects" says in the words of the analysis itself.
+Json stated_analysis(const Document& document, solver::Effects chosen) {
+  Json analysis = document.value().at("analysis");
+  if (!document.value().contains("effects")) return analysis;
+  const JsonView place = analysis_place(document);
+  const bool kept = !place.has("rotating") || chosen.has(Effect::geometric_stiffening);
+  if (chosen.has(Effect::large_displacement) || !kept) {
+    throw JsonView(document)["effects"].error(
+        "expected effects that the analysis has words for: large displacement, and a rotating "
+        "frame without geometric stiffening, are not exported");
+  }
+  for (const EffectKey& key : find_analysis(analysis_kind(document)).effects->keys(place)) {
+    JsonPointer at = JsonPointer() / analysis_kind(document);
+    for (const char* word : key.place) at /= word;
+    analysis[at] = chosen.has(key.effect);
+  }
+  return analysis;
+}
+
+WrittenNames written_names(const Document& document) {
+  const JsonView model = JsonView(document)["model"];
+  WrittenNames names;
+  const auto add = [&](const std::string& name, const JsonView& place) {
+    names.materials.emplace_back(name, read_material(place));
+  };
+  if (const auto materials = model.find("materials"))
+    for (const auto& [name, place] : materials->entries()) add(name, place);
+  if (const auto manipulator = model.find("manipulator")) {
+    for (const char* key : {"material", "platform_material"})
+      if (manipulator->has(key)) add(std::string("manipulator-") + key, (*manipulator)[key]);
+  }
+  if (const auto loads = model.find("loads")) {
+    for (const auto& [name, place] : loads->entries())
+      if (place.has("node")) names.loads.push_back(name);
+  }
+  return names;
+}
+
+/// Parts that have quantities in the case, and not under their name in the exported one.
+std::set<std::string> lost_parts(const Document& document, const solver::Model& model) {
+  std::set<std::string> lost;
+  if (const auto edges = JsonView(document)["model"].find("edges"))
+    for (const auto& edge : edges->entries()) lost.insert(edge.first);
+  for (const solver::Member& member : model.members)
+    if (is_tapered(member))
+      lost.insert({member.name, member.name + ".start", member.name + ".end"});
+  return lost;
+}
+
+/// How many numbers a quantity has, where that is plain.
+Json length_of(const Document& document, const std::string& name) {
+  const std::string kind = analysis_kind(document);
+  if (kind == "statics") return 1;
+  if (kind == "modes" && name == "frequency_Hz") {
+    const JsonView place = analysis_place(document);
+    const bool several =
+        place.has("rotating") && place["rotating"]["angular_speed_rad_s"].json().is_array();
+    if (!several) return place["count"].json();
+  }
+  return nullptr;
+}
+
+/// What the checks judge.
+Json asked_quantities(const Document& document, const std::string& variant,
+                      const std::vector<std::string>& variants, const solver::Model& model) {
+  const std::set<std::string> lost = lost_parts(document, model);
+  Json asked = Json::array();
+  std::set<std::string> seen = {""};
+  for (const Check& check : read_checks(document, variant, variants)) {
+    for (const std::string& name : {check.quantity, check.against_quantity}) {
+      if (!seen.insert(name).second) continue;
+      const std::size_t colon = name.find(':');
+      if (colon != std::string::npos && lost.count(name.substr(colon + 1)) > 0) {
+        throw document.error(check.pointer,
+                             "expected quantities of what the exported model has: '" + name +
+                                 "' is of an edge or a tapered member");
+      }
+      const auto* known = results::find_quantity_definition(name, analysis_kind(document));
+      asked.push_back({{"name", name},
+                       {"unit", unit_of(name)},
+                       {"length", length_of(document, name)},
+                       {"about", known == nullptr ? "" : known->meaning}});
+    }
+  }
+  return asked;
+}
+
+/// All nodes with a name are recorded by default, and now all have one.
+void name_recorded_nodes(const solver::Model& model, Json& analysis) {
+  if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
+  Json& names = analysis["large-motion"]["nodes"] = Json::array();
+  for (const solver::Node& node : model.nodes)
+    if (!node.name.empty()) names.push_back(node.name);
+}
+
+}  // namespace
+
+Document chosen_document(const Case& given, const ExportChoice& choice) {
+  Document document = patched(given, choice.variant);
+  if (!choice.level) return document;
+  const auto sweeps = JsonView(document).find("sweeps");
+  std::vector<std::string> names;
+  if (sweeps)
+    for (const auto& sweep : sweeps->entries()) names.push_back(sweep.first);
+  const std::string name = choice.sweep.empty() && names.size() == 1 ? names[0] : choice.sweep;
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw document.error("/sweeps", "expected the name of a sweep (got '" + printable(name) +
+                                        "'; it has " +
+                                        (names.empty() ? "none" : join(names, "and")) + ")");
+  }
+  std::vector<Level> all = levels(document, name);
+  if (*choice.level >= all.size()) {
+    throw document.error("/sweeps/" + name, "expected a level from 0 to " +
+                                                std::to_string(all.size() - 1) + " (got " +
+                                                std::to_string(*choice.level) + ")");
+  }
+  return all[*choice.level].document;
+}
+
+ExportedScene exported_scene(const Document& document) {
+  require_exportable(document);
+  CaseModel case_model = read_case_model(document);
+  return with_model_errors(document, [&] {
+    if (document.value().contains("effects"))
+      case_model.effects = choose_effects(document, case_model).chosen;
+    ExportedScene scene{build_bare_model(case_model, 0), case_model.joint_elements,
+                        case_model.effects};
+    if (analysis_kind(document).starts_with("large-")) {
+      const JsonView place = analysis_place(document);
+      solver::large_motion::LargeMotionModel driven = scene.joints;
+      read_drives(place, scene.model, driven);
+      release_driven_actuators(place, case_model, driven, scene.model);
+    }
+    return scene;
+  });
+}
+
+Json export_case(const Case& given, const ExportChoice& choice) {
+  const Document document = chosen_document(given, choice);
+  const ExportedScene scene = exported_scene(document);
+  Json analysis = stated_analysis(document, scene.effects);
+  name_recorded_nodes(scene.model, analysis);
+  Json exported = {{"id", given.id()}, {"title", given.title()}};
+  if (document.value().contains("timeout_s")) exported["timeout_s"] = document.value()["timeout_s"];
+  exported["model"] = with_model_errors(
+      document, [&] { return model_json(scene.model, scene.joints, written_names(document)); });
+  exported["analysis"] = std::move(analysis);
+  const bool is_base = choice.variant == kBaseVariant;
+  exported["export"] = {
+      {"case", given.id()},
+      {"variant", is_base ? Json(nullptr) : Json(choice.variant)},
+      {"level", choice.level ? Json(*choice.level) : Json(nullptr)},
+      {"hash", content_hash(document.value().dump())},
+      {"trammel", TRAMMEL_VERSION},
+      {"quantities", asked_quantities(document, choice.variant, given.variants(), scene.model)}};
+  if (!choice.sweep.empty()) exported["export"]["sweep"] = choice.sweep;
+  return exported;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,41 @@
+// ctest: labels=slow timeout=3600
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <iostream>
+#include <map>
+
+#include "harness/export/exported_case.h"
+#include "harness/input/catalogue.h"
+#include "tests/support/harness/export_twin.h"
+
+/// Every case of the catalogue with its variants and levels, exported and computed again.
+using namespace trammel;
+using namespace trammel::harness;
+using namespace trammel::testing;
+
+BOOST_AUTO_TEST_SUITE(catalogue_export)
+
+BOOST_AUTO_TEST_CASE(what_is_exported_of_the_catalogue_has_the_same_numbers) {
+  std::map<std::string, int> refused;
+  int same = 0, close = 0;
+  for (const auto& file : Catalogue().runnable_files()) {
+    const Case given = load_case(file);
+    for (const std::string& variant : given.variants()) {
+      for (const ExportChoice& choice : choices_of(given, variant)) {
+        const ExportTwin twin = export_twin(given, choice);
+        if (!twin.refused.empty()) {
+          ++refused[twin.refused];
+          continue;
+        }
+        ++(twin.difference == 0 ? same : close);
+        if (twin.difference > 0)
+          std::cout << twin.name << " " << twin.difference << " " << twin.worst << std::endl;
+        BOOST_TEST(twin.difference <= 1e-12, twin.name << ": " << twin.worst);
+      }
+    }
+  }
+  std::cout << same << " the same, " << close << " close\n";
+  for (const auto& [reason, count] : refused) std::cout << count << " refused: " << reason << '\n';
+}
+
+BOOST_AUTO_TEST_SUITE_END()

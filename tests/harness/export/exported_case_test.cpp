@@ -1,0 +1,169 @@
+#include "harness/export/exported_case.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "harness/base/json_file.h"
+#include "harness/base/quantity.h"
+#include "harness/input/catalogue.h"
+#include "tests/support/harness/export_twin.h"
+
+/// A resolved case is the same computation, and says all that another code needs.
+using namespace trammel;
+using namespace trammel::harness;
+using namespace trammel::testing;
+
+namespace {
+
+/// @param limit  0: every number to the last bit
+void check_twins(const std::vector<std::string>& names, double limit) {
+  for (const std::string& name : names) {
+    const Case given = load_named_case(name);
+    for (const std::string& variant : given.variants()) {
+      const ExportTwin twin = export_twin(given, {variant});
+      if (contains(twin.refused, "eq25")) continue;
+      BOOST_TEST(twin.refused.empty(), twin.name << ": " << twin.refused);
+      BOOST_TEST(twin.difference <= limit, twin.name << ": " << twin.worst);
+    }
+  }
+}
+
+void require_no_key(const Json& json, const std::set<std::string>& keys) {
+  if (json.is_array() && !json.empty() && json.front().is_structured())
+    for (const Json& item : json) require_no_key(item, keys);
+  if (!json.is_object()) return;
+  for (const auto& [key, value] : json.items()) {
+    BOOST_TEST(keys.count(key) == 0, key);
+    require_no_key(value, keys);
+  }
+}
+
+std::string refusal_of(const Json& json) {
+  const Folder folder;
+  const Case given = read(folder, json);
+  return complaint([&] { (void)export_case(given, {}); });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(exported_case)
+
+BOOST_AUTO_TEST_CASE(plain_models_have_the_same_numbers_to_the_last_bit) {
+  check_twins(
+      {"portal-frame", "manipulator-modes", "ansys-vm21", "buckling-portal", "iftomm-a01-pendulum",
+       "nafems-5h", "nafems-5t", "rotating-cantilever-hub-1", "scene-tightened-strip"},
+      0);
+}
+
+// Pins and axial springs; sliders and drives.
+BOOST_AUTO_TEST_CASE(the_beginning_of_a_motion_has_the_same_numbers_to_the_last_bit) {
+  for (const auto& [name, end] :
+       {std::pair("iftomm-a03-andrews", 1e-3), std::pair("slider-crank-flexible", 0.02)}) {
+    Json json = load_named_case(name).document.value();
+    for (const char* key : {"extends", "checks", "variants", "sweeps"}) json.erase(key);
+    json["analysis"]["large-motion"]["end_time_s"] = end;
+    json["analysis"]["large-motion"].erase("output_step_s");
+    const Folder folder;
+    const ExportTwin twin = export_twin(read(folder, json), {});
+    BOOST_TEST(twin.refused == "");
+    BOOST_TEST(twin.difference == 0, twin.name << ": " << twin.worst);
+  }
+}
+
+// Sections of tapers are written as E and A, whose product is off by a bit; forces on edges are
+// summed at nodes before those of members.
+BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_have_the_same_numbers_to_round_off) {
+  check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
+               "vpcs-sdll10"},
+              1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_left_to_resolve) {
+  const std::set<std::string> keys = {"extends", "variants", "manipulator", "pose",        "edges",
+                                      "blocks",  "sweeps",   "end_section", "rectangle",   "circle",
+                                      "checks",  "effects",  "taper",       "arc_center_m"};
+  for (const char* name : {"manipulator-modes", "tapered-cantilever", "cooks-membrane",
+                           "nafems-ring", "scene-welded-truss"})
+    require_no_key(export_case(load_named_case(name), {}), keys);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_asked_is_what_the_exported_case_gives) {
+  for (const char* name : {"portal-frame", "manipulator-modes", "buckling-portal"}) {
+    const ExportTwin twin = export_twin(load_named_case(name), {});
+    BOOST_TEST(!twin.json["export"]["quantities"].empty());
+    for (const Json& asked : twin.json["export"]["quantities"]) {
+      const auto quantity = asked["name"].get<std::string>();
+      BOOST_REQUIRE_MESSAGE(twin.exported.quantities.count(quantity) == 1, quantity);
+      BOOST_TEST(asked["unit"] == unit_of(quantity));
+      BOOST_TEST(asked["about"] != "", quantity);
+      if (!asked["length"].is_null())
+        BOOST_TEST(asked["length"] == twin.exported.quantities.at(quantity).values.size());
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(exporting_what_was_exported_changes_nothing) {
+  const Folder folder;
+  for (const char* name : {"manipulator-modes", "iftomm-a03-andrews", "cooks-membrane"}) {
+    const Json once = export_case(load_named_case(name), {});
+    const Case again = load_case(folder.write("again.json", once.dump()));
+    const Json twice = export_case(again, {});
+    BOOST_TEST((twice["model"] == once["model"]), name);
+    BOOST_TEST((twice["analysis"] == once["analysis"]), name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_level_of_a_sweep_is_one_case) {
+  const Case given = load_named_case("beam-cantilever");
+  const std::size_t count = given.document.value()["sweeps"]["elements"]["values"].size();
+  const Json finest = export_case(given, {"base", "elements", count - 1});
+  BOOST_TEST(finest["model"]["members"]["AB"]["elements"] ==
+             given.document.value()["sweeps"]["elements"]["values"].back());
+  BOOST_TEST(finest["export"]["level"] == count - 1);
+  BOOST_TEST(finest["export"]["hash"] != export_case(given, {})["export"]["hash"]);
+  const auto message = [&](const ExportChoice& choice) {
+    return complaint([&] { (void)export_case(given, choice); });
+  };
+  BOOST_TEST(contains(message({"base", "elements", count}), "expected a level from 0 to "));
+  BOOST_TEST(contains(message({"base", "steps", 0}), "expected the name of a sweep (got 'steps'"));
+}
+
+BOOST_AUTO_TEST_CASE(what_a_case_file_cannot_say_is_refused_by_name) {
+  Json robot = manipulator();
+  robot["model"]["manipulator"]["joints"]["platform"] = "eq25-mean";
+  BOOST_TEST(contains(refusal_of(robot), "no words for its constraint 'eq25'"));
+  Json moving = manipulator();
+  moving["model"].erase("pose");
+  moving["model"]["trajectory"]["circle"] = {
+      {"center_m", {0.25, 0.144}}, {"radius_m", 0.02}, {"points", 3}, {"step_s", 0.1}};
+  BOOST_TEST(contains(refusal_of(moving), "/model/trajectory: expected one pose"));
+  Json grnn = cantilever();
+  grnn["analysis"] = {{"properties", Json::object()}};
+  BOOST_TEST(contains(refusal_of(grnn), "/analysis/properties: expected an analysis that can be"));
+  Json ring = quarter_ring();
+  ring["checks"]["sum"] = {{"quantity", "reaction_y_N:bottom"},
+                           {"role", "regression"},
+                           {"bound", {{"at_least", 0}, {"why", "it presses"}}}};
+  BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' is of an edge"));
+}
+
+BOOST_AUTO_TEST_CASE(trammel_computes_an_exported_case_as_an_adapter) {
+  const Folder folder;
+  const auto at = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::string program = TRAMMEL_PROGRAM;
+  BOOST_REQUIRE(std::system((program + " export portal-frame --out " + at("c.json")).c_str()) == 0);
+  BOOST_REQUIRE(std::system((program + " solve " + at("c.json") + " " + at("r.json")).c_str()) ==
+                0);
+  const Json result = read_json(at("r.json"));
+  const ExportTwin twin = export_twin(load_named_case("portal-frame"), {});
+  BOOST_TEST(result["status"] == "solved");
+  BOOST_TEST(result["quantities"].size() == twin.json["export"]["quantities"].size());
+  for (const auto& [name, quantity] : result["quantities"].items()) {
+    BOOST_TEST(quantity["unit"] == unit_of(name));
+    BOOST_TEST((quantity["values"] == twin.exported.quantities.at(name).values), name);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "harness/analysis/analysis.h"
+#include "harness/export/exported_case.h"
+#include "tests/support/harness/support.h"
+
+/// An exported case beside the one that it is from.
+namespace trammel::testing {
+
+struct ExportTwin {
+  std::string name;
+  std::string refused = {};  ///< the end of the message, after the pointer
+  Json json = {};            ///< of the exported case
+  AnalysisResult exported = {};
+  double difference =
+      0;  ///< the largest over all quantities, relative to the largest of their head
+  std::string worst = {};
+};
+
+/// The case, and each level of its sweeps.
+inline std::vector<ExportChoice> choices_of(const Case& given, const std::string& variant) {
+  std::vector<ExportChoice> choices = {{variant}};
+  const Document document = patched(given, variant);
+  if (const auto sweeps = JsonView(document).find("sweeps")) {
+    for (const auto& [name, sweep] : sweeps->entries())
+      for (std::size_t k = 0; k < sweep["values"].size(); ++k)
+        choices.push_back({variant, name, k});
+  }
+  return choices;
+}
+
+/// What measures round-off itself, or follows it: the time of the largest among samples that are
+/// equal but for round-off.
+inline bool is_roundoff(const std::string& name) {
+  const auto has = [&](const char* word) { return contains(name, word); };
+  return has("roundoff") || has("_residual") || has("energy_drift") || has("newton_") ||
+         has("estimated_correct_digits") || has("peak_time_s");
+}
+
+/// Sums over edges and numbers of whole tapered members, which the exported case does not have.
+inline bool is_of_lost_part(const std::string& name, const Json& model) {
+  std::string item = name.substr(std::min(name.size(), name.find(':') + 1));
+  if (model.contains("edges") && model.at("edges").contains(item)) return true;
+  item = item.substr(0, item.find('.'));
+  return model.contains("members") && model.at("members").contains(item) &&
+         model.at("members").at(item).contains("end_section");
+}
+
+inline double largest_of_head(const Quantities& all, const std::string& name) {
+  const auto head = [](const std::string& text) { return text.substr(0, text.find(':')); };
+  double largest = 0;
+  for (const auto& [other, quantity] : all) {
+    if (head(other) != head(name)) continue;
+    for (const double value : quantity.values)
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  }
+  return largest;
+}
+
+inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) {
+  for (const auto& [name, quantity] : own) {
+    if (is_roundoff(name) || is_of_lost_part(name, model)) continue;
+    const auto found = twin.exported.quantities.find(name);
+    const bool there = found != twin.exported.quantities.end() &&
+                       found->second.values.size() == quantity.values.size();
+    double difference = there ? 0 : std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; there && i < quantity.values.size(); ++i) {
+      const double a = quantity.values[i], b = found->second.values[i];
+      if (a == b || (std::isnan(a) && std::isnan(b))) continue;
+      difference = std::max(difference, std::abs(a - b) / largest_of_head(own, name));
+    }
+    if (difference <= twin.difference) continue;
+    twin.difference = difference;
+    twin.worst = name;
+  }
+}
+
+/// Exports it, writes that to a file, and computes both.
+inline ExportTwin export_twin(const Case& given, const ExportChoice& choice) {
+  ExportTwin twin{given.id() + ":" + choice.variant};
+  if (choice.level) twin.name += " " + choice.sweep + " " + std::to_string(*choice.level);
+  try {
+    twin.json = export_case(given, choice);
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    twin.refused = text.substr(text.find(": ", text.find(": ") + 1) + 2);
+    return twin;
+  }
+  const Folder folder;
+  const References references;
+  const Document document = chosen_document(given, choice);
+  const AnalysisResult own = analyse(document, references, {false});
+  const Case written = load_case(folder.write("exported.json", twin.json.dump()));
+  twin.exported = analyse(patched(written, "base"), references, {false});
+  if (own.outcome.status != twin.exported.outcome.status) {
+    twin.difference = std::numeric_limits<double>::infinity();
+    twin.worst = twin.exported.outcome.reason;
+  }
+  compare(own.quantities, document.value().at("model"), twin);
+  return twin;
+}
+
+}  // namespace trammel::testing
