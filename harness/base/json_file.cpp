@@ -7,6 +7,7 @@
 #include <fstream>
 #include <new>
 #include <sstream>
+#include <unordered_set>
 
 #include "harness/base/errors.h"
 #include "harness/base/text.h"
@@ -34,11 +35,13 @@ class StrictReader : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
 
   bool key(string_t& name) override {
-    if (open_.back()->contains(name)) {
+    auto& members = open_.back()->get_ref<Json::object_t&>();
+    if (is_known(members, name)) {
       throw InputError(name_, (pointer() / name).to_string(),
                        "expected every key once (got '" + printable(name) + "' twice)");
     }
-    member_ = &(*open_.back())[name];
+    // Not through operator[], which looks through all keys once more.
+    member_ = &static_cast<Json::object_t::Container&>(members).emplace_back(name, nullptr).second;
     return true;
   }
 
@@ -59,6 +62,16 @@ class StrictReader : public nlohmann::json_sax<Json> {
   Json take() { return std::move(root_); }
 
  private:
+  /// Whether the innermost open object has the key: of a large one by a set, which an object of
+  /// 100,000 members needs.
+  bool is_known(const Json::object_t& members, const std::string& name) {
+    constexpr std::size_t few = 32;
+    if (members.size() < few) return members.find(name) != members.end();
+    auto& keys = keys_.back();
+    if (keys.empty())
+      for (const auto& member : members) keys.insert(member.first);
+    return !keys.insert(name).second;
+  }
   /// Of the innermost open object or array.
   [[nodiscard]] JsonPointer pointer() const {
     JsonPointer path;
@@ -89,17 +102,20 @@ class StrictReader : public nlohmann::json_sax<Json> {
                        "expected at most " + std::to_string(kMaxDepth) + " levels of nesting");
     }
     open_.push_back(place(std::move(empty)));
+    keys_.emplace_back();
     return true;
   }
   bool close() {
     open_.pop_back();
+    keys_.pop_back();
     return true;
   }
 
   std::string name_;
   Json root_;
-  Json* member_ = nullptr;   ///< the value of the key read last
-  std::vector<Json*> open_;  ///< objects and arrays from the root inwards
+  Json* member_ = nullptr;                             ///< the value of the key read last
+  std::vector<Json*> open_;                            ///< objects and arrays from the root inwards
+  std::vector<std::unordered_set<std::string>> keys_;  ///< of each; empty where it has few
 };
 
 }  // namespace

@@ -5,6 +5,36 @@
 #include "harness/input/schema.h"
 
 namespace trammel::harness {
+namespace {
+
+/// A value without the keys of objects that are null.
+Json without_nulls(const Json& value) {
+  if (!value.is_object()) return value;
+  Json kept = Json::object();
+  // Not through operator[], whose search makes the work grow with the square of the keys.
+  Json::object_t::Container& members = kept.get_ref<Json::object_t&>();
+  members.reserve(value.size());
+  for (const auto& item : value.items())
+    if (!item.value().is_null()) members.emplace_back(item.key(), without_nulls(item.value()));
+  return kept;
+}
+
+/// RFC 7386; what the target does not have is taken over in one walk.
+void merge(Json& target, const Json& patch) {
+  if (!patch.is_object() || !target.is_object() || target.empty()) {
+    target = without_nulls(patch);
+    return;
+  }
+  for (const auto& item : patch.items()) {
+    if (item.value().is_null()) {
+      target.erase(item.key());
+    } else {
+      merge(target[item.key()], item.value());
+    }
+  }
+}
+
+}  // namespace
 
 void compose(Json& patch, const Json& later) {
   if (!patch.is_object() || !later.is_object()) {
@@ -24,7 +54,7 @@ Document Document::from_json(const std::string& file, const Json& json) {
 void Document::apply_patch(const std::string& file, const std::string& origin, const Json& patch) {
   // Variants are patches themselves, whose nulls mean something later.
   Json variants = value_.value("variants", Json());
-  value_.merge_patch(patch);
+  merge(value_, patch);
   if (const auto stated = patch.find("variants"); stated != patch.end() && stated->is_object()) {
     compose(variants, *stated);
     value_["variants"] = std::move(variants);

@@ -1,13 +1,22 @@
 #include "harness/input/json_view.h"
 
 namespace trammel::harness {
+namespace {
+
+/// The pointer of a member; taken apart and put together again only where the key needs an escape.
+std::string extended(const std::string& pointer, const std::string& key) {
+  if (key.find_first_of("~/") != std::string::npos) return (JsonPointer(pointer) / key).to_string();
+  return pointer + "/" + key;
+}
+
+}  // namespace
 
 bool JsonView::has(const std::string& key) const {
   return json_->is_object() && json_->contains(key);
 }
 
 JsonView JsonView::operator[](const std::string& key) const {
-  return {*document_, json_->at(key), (JsonPointer(pointer_) / key).to_string()};
+  return {*document_, json_->at(key), extended(pointer_, key)};
 }
 
 JsonView JsonView::operator[](std::size_t index) const {
@@ -29,8 +38,8 @@ std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
     return found;
   }
   for (const auto& item : json_->items()) {
-    found.emplace_back(item.key(), JsonView(*document_, item.value(),
-                                            (JsonPointer(pointer_) / item.key()).to_string()));
+    found.emplace_back(item.key(),
+                       JsonView(*document_, item.value(), extended(pointer_, item.key())));
   }
   return found;
 }
