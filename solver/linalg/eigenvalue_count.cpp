@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/eigenpairs.h"
@@ -10,9 +11,9 @@
 namespace trammel::solver {
 
 double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
-                              const Eigen::VectorXd& found) {
+                              const Eigen::VectorXd& found, Factorization&& spent) {
   constexpr double kClearGap = 1e-6;  // of repeated values rounding leaves much less
-  Factorization factorization;
+  Factorization factorization = std::move(spent);
   if (A.rows() == 0) return static_cast<double>(found.size());
   if (found.size() == 0) {  // none at all, however large the shift
     const double size = B.norm();

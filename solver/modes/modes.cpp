@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "solver/assembly/equation_rows.h"
 #include "solver/assembly/strain.h"
@@ -131,11 +132,12 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   solution.outcome = pairs.outcome;
   solution.inertia_count = pairs.inertia_count;
   fill(system, pairs, free.basis, options.count, solution);
-  judge_modes(system, nullptr, solution);
+  judge_modes(system, nullptr, solution, std::move(factorization));
   return solution;
 }
 
-void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution) {
+void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
+                 Factorization&& spent) {
   if (!solution.outcome.solved()) return;
   const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
   for (Index j = 0; j < w2.size(); ++j) {
@@ -143,7 +145,7 @@ void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& s
                           mode_backward_error(system, K_G, solution.shape.col(j), w2[j]));
   }
   const double missed = K_G ? miscounted_eigenvalues(system.K + *K_G, system.M, w2)
-                            : miscounted_eigenvalues(system.K, system.M, w2);
+                            : miscounted_eigenvalues(system.K, system.M, w2, std::move(spent));
   const auto twice = static_cast<double>(dependent_vectors(system.M, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);

@@ -6,6 +6,7 @@
 
 #include "solver/assembly/system.h"
 #include "solver/linalg/eigenpairs.h"
+#include "solver/linalg/factorization.h"
 #include "solver/model/evidence.h"
 
 namespace trammel::solver {
@@ -45,7 +46,9 @@ struct ModalSolution {
 /// Takes the residuals of what is claimed, (K + K_G) x = w^2 M x for every mode and their number,
 /// and lets them decide.
 /// @param K_G  null: none
-void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution);
+/// @param spent  a factorization that is needed no more, for its ordering
+void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
+                 Factorization&& spent = {});
 
 /// Natural frequencies below `frequency` [Hz], copies of repeated ones and rigid motions included,
 /// by the negative pivots of K - (2 pi f)^2 M (Sylvester); nothing where the factorization loses
