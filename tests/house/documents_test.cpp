@@ -1,4 +1,5 @@
 // What README.md and CONTRIBUTING.md say of the house is there.
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <fstream>
@@ -66,6 +67,26 @@ BOOST_AUTO_TEST_CASE(the_readme_names_every_analysis_that_a_case_may_ask_for) {
   for (const auto& item : analyses.items()) {
     BOOST_TEST(readme.find("`" + item.key() + "`") != std::string::npos, item.key());
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_conventions_have_a_row_for_every_analysis_and_name_cases_that_there_are) {
+  const std::string text = text_of("cases/CONVENTIONS.md");
+  const auto schema = nlohmann::json::parse(text_of("cases/schema/case.schema.json"));
+  for (const auto& item : schema.at("definitions").at("analysis").at("properties").items())
+    BOOST_TEST(text.find("\n| `" + item.key() + "` |") != std::string::npos, item.key());
+  std::vector<std::string> cases;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "cases"))
+    cases.push_back(entry.path().stem().string());
+  // The last of four columns names cases.
+  const std::regex last("\n\\|[^|\n]*\\|[^|\n]*\\|[^|\n]*\\|([^|\n]*`[^|\n]*)\\|(?=\n)");
+  std::size_t named = 0;
+  for (const std::string& column : found(text, last)) {
+    for (const std::string& name : found(column, std::regex("`([\\w-]+)`"))) {
+      ++named;
+      BOOST_TEST((std::find(cases.begin(), cases.end(), name) != cases.end()), name);
+    }
+  }
+  BOOST_TEST(named > 40U);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
