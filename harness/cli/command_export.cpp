@@ -7,6 +7,7 @@
 
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
+#include "harness/export/matrix_files.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/run.h"
 #include "trammel_build.h"
@@ -36,7 +37,13 @@ Json quantities_json(const Case& given, const Quantities& quantities) {
 int export_command(const std::string& name, const ExportCommand& command) {
   ExportChoice choice = command.choice;
   if (command.level >= 0) choice.level = static_cast<std::size_t>(command.level);
-  const std::string text = pretty(export_case(load_named_case(name), choice));
+  const Case given = load_named_case(name);
+  if (!command.matrices.empty()) {
+    const Document document = chosen_document(given, choice);
+    write_matrices(document, exported_scene(document), command.matrices);
+    if (command.out.empty()) return 0;
+  }
+  const std::string text = pretty(export_case(given, choice));
   if (command.out.empty()) {
     std::cout << text;
   } else {

@@ -9,8 +9,9 @@ namespace trammel::harness {
 
 struct ExportCommand {
   ExportChoice choice;
-  int level = -1;   ///< of the sweep; -1: the case itself
-  std::string out;  ///< file of the case; empty: standard output
+  int level = -1;        ///< of the sweep; -1: the case itself
+  std::string out;       ///< file of the case; empty: standard output
+  std::string matrices;  ///< folder for matrices and mesh instead of the case, or beside `out`
 };
 
 /// Writes the resolved case. @returns the exit status

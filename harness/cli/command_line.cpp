@@ -317,7 +317,8 @@ class CommandLine {
             "\nA case file of plain nodes, members with section properties, triangles, rigid "
             "bodies, supports and\nloads at nodes; 'trammel run' computes the same numbers of "
             "it.\n\nExamples:\n  trammel export manipulator-modes --variant rigid-platform\n"
-            "  trammel export beam-cantilever --level 2 --out level-2.json");
+            "  trammel export beam-cantilever --level 2 --out level-2.json\n"
+            "  trammel export portal-frame --matrices portal");
     sub->add_option("case", name_, "Name or file of a case")->required();
     sub->add_option("--variant", export_.choice.variant, "'base' is the case unpatched")
         ->capture_default_str();
@@ -325,6 +326,9 @@ class CommandLine {
         ->check(CLI::Range(0, 1000000));
     sub->add_option("--sweep", export_.choice.sweep, "Which sweep, where it has several");
     sub->add_option("-o,--out", export_.out, "File of the case; standard output by default");
+    sub->add_option("--matrices", export_.matrices,
+                    "Folder for K, M, C, T and f (Matrix Market) and the mesh (VTU); the case "
+                    "only beside --out");
     sub->callback([this] { command_ = [this] { return export_command(name_, export_); }; });
   }
   void define_solve() {

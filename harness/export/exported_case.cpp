@@ -8,6 +8,7 @@
 #include "harness/base/content_hash.h"
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
+#include "harness/export/mechanism.h"
 #include "harness/export/model_writer.h"
 #include "harness/input/check.h"
 #include "harness/readers/joint_reader.h"
@@ -24,6 +25,12 @@ using solver::Effect;
 
 JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
+}
+
+/// Those of the manipulator along its path, which stays as it is: the plain words stand beside it.
+bool is_of_mechanism(const std::string& kind) {
+  return kind == "kinematics" || kind == "inverse-dynamics" || kind == "forward-dynamics" ||
+         kind == "elastodynamics";
 }
 
 void require_exportable(const Document& document) {
@@ -126,6 +133,24 @@ Json asked_quantities(const Document& document, const std::string& variant,
   return asked;
 }
 
+Json plain_model(const Document& document, const ExportedScene& scene) {
+  return with_model_errors(
+      document, [&] { return model_json(scene.model, scene.joints, written_names(document)); });
+}
+
+/// With the model of what vibrates at the first point of the path, where something does.
+Json mechanism_of(const Document& document) {
+  const CaseModel case_model = read_case_model(document);
+  if (!case_model.manipulator) throw analysis_place(document).error("expected a manipulator");
+  Json mechanism = mechanism_json(case_model);
+  if (analysis_kind(document) == "elastodynamics") {
+    mechanism["elastic_model"] = with_model_errors(document, [&] {
+      return plain_model(document, {build_bare_model(case_model, 0), case_model.joint_elements});
+    });
+  }
+  return mechanism;
+}
+
 /// All nodes with a name are recorded by default, and now all have one.
 void name_recorded_nodes(const solver::Model& model, Json& analysis) {
   if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
@@ -178,23 +203,30 @@ ExportedScene exported_scene(const Document& document) {
 
 Json export_case(const Case& given, const ExportChoice& choice) {
   const Document document = chosen_document(given, choice);
-  const ExportedScene scene = exported_scene(document);
-  Json analysis = stated_analysis(document, scene.effects);
-  name_recorded_nodes(scene.model, analysis);
+  const Json& whole = document.value();
   Json exported = {{"id", given.id()}, {"title", given.title()}};
-  if (document.value().contains("timeout_s")) exported["timeout_s"] = document.value()["timeout_s"];
-  exported["model"] = with_model_errors(
-      document, [&] { return model_json(scene.model, scene.joints, written_names(document)); });
-  exported["analysis"] = std::move(analysis);
+  if (whole.contains("timeout_s")) exported["timeout_s"] = whole["timeout_s"];
+  const bool of_mechanism = is_of_mechanism(analysis_kind(document));
+  ExportedScene scene;
+  if (of_mechanism) {
+    for (const char* key : {"model", "analysis", "effects"})
+      if (whole.contains(key)) exported[key] = whole[key];
+  } else {
+    scene = exported_scene(document);
+    exported["model"] = plain_model(document, scene);
+    exported["analysis"] = stated_analysis(document, scene.effects);
+    name_recorded_nodes(scene.model, exported["analysis"]);
+  }
   const bool is_base = choice.variant == kBaseVariant;
-  exported["export"] = {
+  Json& about = exported["export"] = {
       {"case", given.id()},
       {"variant", is_base ? Json(nullptr) : Json(choice.variant)},
       {"level", choice.level ? Json(*choice.level) : Json(nullptr)},
-      {"hash", content_hash(document.value().dump())},
+      {"hash", content_hash(whole.dump())},
       {"trammel", TRAMMEL_VERSION},
       {"quantities", asked_quantities(document, choice.variant, given.variants(), scene.model)}};
-  if (!choice.sweep.empty()) exported["export"]["sweep"] = choice.sweep;
+  if (!choice.sweep.empty()) about["sweep"] = choice.sweep;
+  if (of_mechanism) about["mechanism"] = mechanism_of(document);
   return exported;
 }
 

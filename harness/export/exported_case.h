@@ -23,8 +23,8 @@ struct ExportChoice {
 [[nodiscard]] Document chosen_document(const Case& given, const ExportChoice& choice);
 
 /// The scene as its analysis takes it: with its effects, and no lock where an actuator is driven.
-/// @throws InputError  where the protocol does not carry it: analyses of no model or of the rigid
-///                     manipulator, trajectories.
+/// @throws InputError  where it is none of plain parts: analyses of no model or of the manipulator
+///                     along its path, trajectories.
 struct ExportedScene {
   solver::Model model;
   solver::large_motion::LargeMotionModel joints;
@@ -33,7 +33,8 @@ struct ExportedScene {
 [[nodiscard]] ExportedScene exported_scene(const Document& document);
 
 /// The case file: model, analysis, and under "export" where it is from and which quantities are
-/// asked for.
+/// asked for. The manipulator along its path (kinematics, rigid dynamics, elastodynamics) stays
+/// one, and stands there as bodies, joints and a table over time.
 /// @throws InputError  as above, and where a case file has no words for a part or a quantity.
 [[nodiscard]] Json export_case(const Case& given, const ExportChoice& choice);
 

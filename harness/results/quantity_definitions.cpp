@@ -37,14 +37,14 @@ serial_singularity_distance  0 at a serial singularity
 [statics large-statics elastodynamics]
 displacement_x_m:NODE  displacement along x
 displacement_y_m:NODE  displacement along y
-rotation_rad:NODE  rotation
+rotation_rad:NODE  rotation, counterclockwise
 end_rotation_rad:MEMBER.END  rotation of a member's start or end
 axial_force_N:MEMBER.END  axial force, tension positive
-shear_force_N:MEMBER.END  shear force
-bending_moment_N_m:MEMBER.END  bending moment
-reaction_x_N:SUPPORT  reaction along x
-reaction_y_N:SUPPORT  reaction along y
-reaction_moment_N_m:SUPPORT  reaction moment
+shear_force_N:MEMBER.END  shear force, less the slope of the bending moment
+bending_moment_N_m:MEMBER.END  bending moment, positive where the right side on the way to the second node is stretched
+reaction_x_N:SUPPORT  reaction of the ground along x
+reaction_y_N:SUPPORT  reaction of the ground along y
+reaction_moment_N_m:SUPPORT  reaction moment of the ground, counterclockwise
 [statics elastodynamics]
 stress_Pa:MEMBER  largest stress by axial force and bending along a member
 von_mises_stress_Pa:PLATE  largest von Mises stress of a plate

@@ -1,13 +1,17 @@
 #include "harness/export/exported_case.h"
 
+#include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <set>
 
 #include "harness/base/json_file.h"
 #include "harness/base/quantity.h"
+#include "harness/export/matrix_files.h"
 #include "harness/input/catalogue.h"
+#include "tests/support/harness/analysing.h"
 #include "tests/support/harness/export_twin.h"
 
 /// A resolved case is the same computation, and says all that another code needs.
@@ -38,6 +42,28 @@ void require_no_key(const Json& json, const std::set<std::string>& keys) {
     BOOST_TEST(keys.count(key) == 0, key);
     require_no_key(value, keys);
   }
+}
+
+/// A Matrix Market file, whole.
+Eigen::MatrixXd read_matrix(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string head, line;
+  std::getline(in, head);
+  while (in.peek() == '%') std::getline(in, line);
+  Eigen::Index rows = 0, columns = 0, i = 0, k = 0;
+  in >> rows >> columns;
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, columns);
+  double value = 0;
+  if (contains(head, "array")) {
+    while (in >> value) matrix(i++, 0) = value;
+    return matrix;
+  }
+  in >> line;
+  while (in >> i >> k >> value) {
+    matrix(i - 1, k - 1) = value;
+    if (contains(head, "symmetric")) matrix(k - 1, i - 1) = value;
+  }
+  return matrix;
 }
 
 std::string refusal_of(const Json& json) {
@@ -147,6 +173,46 @@ BOOST_AUTO_TEST_CASE(what_a_case_file_cannot_say_is_refused_by_name) {
                            {"role", "regression"},
                            {"bound", {{"at_least", 0}, {"why", "it presses"}}}};
   BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' is of an edge"));
+}
+
+BOOST_AUTO_TEST_CASE(a_manipulator_on_its_path_is_said_as_bodies_joints_and_a_table) {
+  const ExportTwin twin = export_twin(load_named_case("circle-inverse-dynamics"), {});
+  BOOST_TEST(twin.difference == 0, twin.worst);
+  const Json& mechanism = twin.json["export"]["mechanism"];
+  const auto at = [&](const char* joint) {
+    return Eigen::Vector2d(mechanism["joints"][joint]["position_m"][0].get<double>(),
+                           mechanism["joints"][joint]["position_m"][1].get<double>());
+  };
+  for (const auto& [name, body] : mechanism["bodies"].items()) {  // a uniform link's middle
+    if (name == "platform") continue;
+    const Eigen::Vector2d center(body["center_m"][0].get<double>(),
+                                 body["center_m"][1].get<double>());
+    BOOST_TEST((center - (at(name.substr(0, 2).c_str()) + at(name.substr(3).c_str())) / 2).norm() <
+               1e-15);
+  }
+  BOOST_TEST(mechanism["path"]["pose_m_rad"].size() == mechanism["path"]["time_s"].size());
+  const ExportTwin vibrating = export_twin(load_named_case("elastodynamics-order"), {});
+  BOOST_TEST(vibrating.difference == 0, vibrating.worst);
+  BOOST_TEST(vibrating.json["export"]["mechanism"]["elastic_model"].contains("members"));
+}
+
+// The cantilever's tip under its force, by the matrices alone: u = T K^-1 f.
+BOOST_AUTO_TEST_CASE(the_matrices_are_those_of_the_case) {
+  const Folder folder;
+  const Document document = document_of(cantilever());
+  write_matrices(document, exported_scene(document), folder.path() / "m");
+  const Eigen::MatrixXd K = read_matrix(folder.path() / "m/K.mtx");
+  const Eigen::MatrixXd T = read_matrix(folder.path() / "m/T.mtx");
+  BOOST_TEST((K - K.transpose()).norm() == 0);
+  const Eigen::VectorXd u = T * K.ldlt().solve(read_matrix(folder.path() / "m/f.mtx"));
+  const std::string table = read_text(folder.path() / "m/coordinates.csv");
+  const std::size_t line = table.rfind('\n', table.find(",y_m,\"B\"")) + 1;
+  const double tip = only(result_of(cantilever()), "displacement_y_m:B");
+  BOOST_TEST(u[std::stol(table.substr(line)) - 1] == tip, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(read_matrix(folder.path() / "m/M.mtx").rows() == K.rows());
+  BOOST_TEST(!std::filesystem::exists(folder.path() / "m/C.mtx"));
+  const std::string mesh = read_text(folder.path() / "m/mesh.vtu");
+  BOOST_TEST(contains(mesh, "NumberOfPoints=\"5\" NumberOfCells=\"4\""));
 }
 
 BOOST_AUTO_TEST_CASE(trammel_computes_an_exported_case_as_an_adapter) {
