@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""The 3-RRR manipulator of Table 1 in its plane by CalculiX: modes in every variant of its joints at three poses, and 10 N at P.
+
+    planar_manipulator.py OUT      writes OUT/calculix-VARIANT-POSE-frequencies.json and -statics.json
+
+Links are plane stress (CPS8R, two elements through the thickness), so that they shear, bend and have rotary inertia as a body of
+that shape, but do not contract sideways: ccx 2.20 makes a solid of a plane-stress element, whose shear out of the plane hinders
+contraction where the width (30 mm) is not small beside the thickness (1.5 mm), and with Poisson's ratio 0.33 links would bend
+as stiffly as in plane strain, 1 / (1 - nu^2). G is E / (2 (1 + 0.33)). The
+platform is rigid, with the masses of an equilateral plate: a twelfth of it in each corner, the rest in P.
+Each value comes from two meshes; their difference, rounded up, is what is stored as uncertainty (at least 2e-6, because ccx
+prints seven digits).
+"""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+from spatial_manipulator import DEFAULT, geometry
+
+POSES = {"centroid": DEFAULT["pose"], "start": (0.26, 0.144, 0.0), "turned": (0.26, 0.144, math.radians(10))}
+VARIANTS = [f"{a}-{e}-{p}" for a in ("locked", "sprung", "free") for e in ("welded", "hinged") for p in ("hinged", "welded")]
+SPRING = 10.0  # of a sprung actuator [N m/rad]
+MESHES = (24, 40)  # elements along a link
+DEPTH = 2
+
+
+class Deck:
+    def __init__(self):
+        self.nodes, self.elements, self.rest, self.sections, self.bodies = [], [], [], [], 0
+
+    def node(self, x, y):
+        self.nodes.append((x, y))
+        return len(self.nodes)
+
+    def link(self, p, q, n):
+        """Eight-node quadrilaterals from p to q; returns the nodes of its two ends."""
+        length, h = math.dist(p, q), DEFAULT["thickness"]
+        c, s = (q[0] - p[0]) / length, (q[1] - p[1]) / length
+        name = f"L{len(self.sections)}"
+        self.sections += [f"*ORIENTATION,NAME={name}", f"{c:.12g},{s:.12g},0,{-s:.12g},{c:.12g},0",
+                          f"*SOLID SECTION,ELSET={name},MATERIAL=M,ORIENTATION={name}", f"{DEFAULT['width']!r}"]
+        rows = []
+        for i in range(2 * n + 1):
+            offsets = [h * (j / (2 * DEPTH) - 0.5) for j in range(0, 2 * DEPTH + 1, 1 if i % 2 == 0 else 2)]
+            rows.append([self.node(p[0] + c * length * i / (2 * n) - s * z, p[1] + s * length * i / (2 * n) + c * z) for z in offsets])
+        for i in range(0, 2 * n, 2):
+            a, b, d = rows[i:i + 3]
+            for j in range(DEPTH):
+                self.elements.append(("CPS8R", name, [a[2 * j], d[2 * j], d[2 * j + 2], a[2 * j + 2],
+                                                         b[j], d[2 * j + 1], b[j + 1], a[2 * j + 1]]))
+        return rows[0], rows[-1]
+
+    def rigid(self, nodes, place):
+        """Nodes of displacement and of rotation of a rigid body."""
+        self.bodies += 1
+        reference, turn = self.node(*place), self.node(*place)
+        self.rest += [f"*NSET,NSET=R{self.bodies}", *(f"{n}," for n in nodes),
+                      f"*RIGID BODY,NSET=R{self.bodies},REF NODE={reference},ROT NODE={turn}", "*BOUNDARY", f"{turn},1,2"]
+        return reference, turn
+
+    def hinge(self, own, other):
+        for dof in (1, 2):
+            self.rest += ["*EQUATION", "2", f"{own},{dof},1.,{other},{dof},-1."]
+
+
+def build(variant, pose, n):
+    active, elbow, top = variant.split("-")
+    r = {**DEFAULT, "pose": POSES[pose]}
+    base, elbows, corners = geometry(r)
+    deck = Deck()
+    body = [deck.node(*c) for c in corners]
+    feet, welded = [], []
+    for a, b, c, corner in zip(base, elbows, corners, body):
+        start, low = deck.link(a, b, n)
+        high, end = deck.link(b, c, n)
+        feet.append(deck.rigid(start, a))
+        if elbow == "welded":
+            deck.rigid(low + high, b)
+        else:
+            deck.hinge(deck.rigid(low, b)[0], deck.rigid(high, b)[0])
+        if top == "welded":
+            welded += end
+        else:
+            deck.hinge(deck.rigid(end, c)[0], corner)
+    weights = [deck.node(*place) for place in [r["pose"][:2], *corners]]  # nodes that others follow cannot have a mass in ccx
+    p, turn = deck.rigid(body + weights + welded, r["pose"][:2])
+    mass = DEFAULT["rho"] * math.sqrt(3) / 4 * r["side"]**2 * r["plate_thickness"]
+    for i, node in enumerate(weights):
+        name, m = f"M{i}", mass / 12 if i else 0.75 * mass
+        deck.elements.append(("MASS", name, [node]))
+        deck.rest += [f"*MASS,ELSET={name}", f"{m!r}"]
+    deck.rest += ["*BOUNDARY", f"{p},3"]
+    for i, (foot, angle) in enumerate(feet):
+        deck.rest += ["*BOUNDARY", f"{foot},1,2"]
+        if active == "locked":
+            deck.rest.append(f"{angle},3")
+        elif active == "sprung":
+            follower = deck.node(*base[i])  # ccx 2.20 fails with a spring on the rotation of a rigid body itself
+            deck.elements.append(("SPRING1", f"S{i}", [follower]))
+            deck.rest += ["*BOUNDARY", f"{follower},2,3", "*EQUATION", "2", f"{follower},1,1.,{angle},3,-1.", f"*SPRING,ELSET=S{i}", "1", f"{SPRING!r}"]
+    lines = ["*NODE"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes)]
+    for number, (kind, name, nodes) in enumerate(deck.elements, 1):
+        lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
+    E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
+    lines += deck.rest + ["*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}",
+                          f"{G:.12g}", "*DENSITY", f"{DEFAULT['rho']!r}", *deck.sections]
+    return lines, p, turn
+
+
+def run(lines):
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "deck.inp"), "w", encoding="ascii") as file:
+            file.write("\n".join(lines) + "\n")
+        done = subprocess.run(["ccx", "deck"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        if done.returncode or "*ERROR" in done.stdout:
+            raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line][:1])
+        with open(os.path.join(folder, "deck.dat"), encoding="ascii") as file:
+            rows = [line.split() for line in file]
+    return [[float(cell) for cell in row] for row in rows if row and row[0].isdigit()]
+
+
+def frequencies(variant, pose, n):
+    """Eight elastic frequencies [Hz], and how many motions at 0 Hz come before them."""
+    lines, _, _ = build(variant, pose, n)
+    found = [row[3] for row in run(lines + ["*STEP", "*FREQUENCY", "11", "*END STEP"]) if len(row) == 5][:11]
+    rigid = sum(f < 0.5 for f in found)
+    return found[rigid:rigid + 8], rigid
+
+
+def statics(variant, pose, n):
+    """ux, uy [m] and rotation [rad] of P under 10 N along x."""
+    lines, p, turn = build(variant, pose, n)
+    rows = run(lines + [f"*NSET,NSET=P", f"{p},{turn}", "*STEP", "*STATIC", "*CLOAD", f"{p},1,10.", "*NODE PRINT,NSET=P", "U", "*END STEP"])
+    return rows[0][1:3] + [rows[1][3]]
+
+
+def store(folder, name, title, unit, values, change, notes):
+    with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
+        file.write(json.dumps({
+            "$schema": "../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
+            "values": values, "uncertainty": {"relative": change}, "source": "calculix-2.20",
+            "place": "references/programs/calculix/planar_manipulator.py", "notes": notes}, indent=2) + "\n")
+
+
+def main():
+    folder = sys.argv[1]
+    os.makedirs(folder, exist_ok=True)
+    for variant in VARIANTS:
+        for pose in POSES:
+            (coarse, _), (fine, rigid) = (frequencies(variant, pose, n) for n in MESHES)
+            change = max(2e-6, max(abs(a / b - 1) for a, b in zip(coarse, fine)))
+            change = math.ceil(change * 1e6) / 1e6
+            notes = (f"CPS8R, {MESHES[1]} elements along a link and {DEPTH} through it; {MESHES[0]} along it change the values by no "
+                     f"more than the uncertainty. Rigid platform." + (f" {rigid} motions at 0 Hz come before them." if rigid else ""))
+            words = variant.split("-")
+            title = f"3-RRR, actuators {words[0]}, elbows {words[1]}, platform joints {words[2]}, pose {pose}: by CalculiX"
+            store(folder, f"calculix-{variant}-{pose}-frequencies", title, "Hz", fine, change, notes)
+            print(variant, pose, rigid, change, *fine, flush=True)
+            if rigid == 0 and words[0] != "free":
+                a, b = (statics(variant, pose, n) for n in MESHES)
+                change = math.ceil(max(2e-6, max(abs(u - v) for u, v in zip(a[:2], b[:2])) / max(map(abs, b[:2]))) * 1e6) / 1e6
+                store(folder, f"calculix-{variant}-{pose}-displacement", title + ", displacement x, y of P under 10 N along x", "m",
+                      b[:2], change, notes)
+                print("   statics", change, b, flush=True)
+
+
+if __name__ == "__main__":
+    main()
