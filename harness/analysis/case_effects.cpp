@@ -96,10 +96,8 @@ std::string describe_decision(const EffectReason& one, const EffectScope& scope,
 }
 
 /// By estimates, which add up; the smallest goes first.
-Elimination eliminate_by_estimates(const EffectRules& rules, const JsonView& analysis,
-                                   const CaseModel& case_model, const EffectScope& scope,
+Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const EffectScope& scope,
                                    double tolerance, std::vector<EffectReason>& reasons) {
-  solver::EffectEstimates estimates = rules.estimate(analysis, case_model, scope);
   std::stable_sort(estimates.effects.begin(), estimates.effects.end(),
                    [](const auto& a, const auto& b) { return a.change < b.change; });
   std::vector<solver::Effect> order;
@@ -122,16 +120,25 @@ Elimination eliminate_by_estimates(const EffectRules& rules, const JsonView& ana
   return found;
 }
 
-/// What the analysis does not have, by what it is worth at rest.
-void add_beyond_tier(const Document& document, const CaseModel& case_model, EffectChoice& choice) {
-  choice.beyond_tier = large_displacement_at_rest(analysis_place(document), case_model);
-  if (!choice.beyond_tier) return;
+/// What the analysis does not have: by a bound, and where that does not settle it, by what it is
+/// worth at rest where the motion has its extremes.
+void add_beyond_tier(const JsonView& analysis, const CaseModel& case_model,
+                     const solver::EffectEstimates& estimates, EffectChoice& choice) {
+  const double bound = estimates.large_displacement_bound;
+  std::string text = "; geometric stiffening and large displacement would change at most " +
+                     percent(bound) + ", by rotation and buckling load";
+  if (bound <= *choice.tolerance) {
+    choice.beyond_tier = bound;
+  } else if ((choice.beyond_tier =
+                  large_displacement_at_rest(analysis, case_model, estimates.extreme_times))) {
+    text = "; at rest, statics without geometric stiffening and large displacement is off by " +
+           percent(*choice.beyond_tier);
+  }
   for (const solver::Effect effect :
        {solver::Effect::geometric_stiffening, solver::Effect::large_displacement}) {
     EffectReason& one = choice.reasons[static_cast<std::size_t>(effect)];
     one.change = choice.beyond_tier;
-    one.why += "; at rest, statics without geometric stiffening and large displacement is off by " +
-               percent(*choice.beyond_tier);
+    one.why += text;
   }
 }
 
@@ -142,11 +149,13 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
   EffectChoice choice;
   choice.tolerance = tolerance;
   choice.reasons = reasons_without_estimates(scope, scope.applicable, rules, "decided");
+  const JsonView analysis = analysis_place(document);
+  solver::EffectEstimates estimates;
+  if (rules.estimate != nullptr) estimates = rules.estimate(analysis, case_model, scope);
   const Elimination found =
       rules.estimate != nullptr
-          ? eliminate_by_estimates(rules, analysis_place(document), case_model, scope, tolerance,
-                                   choice.reasons)
-          : eliminate_by_measurement(kind, analysis_place(document), case_model, scope, tolerance);
+          ? eliminate_by_estimates(estimates, scope, tolerance, choice.reasons)
+          : eliminate_by_measurement(kind, analysis, case_model, scope, tolerance);
   choice.counters = found.counters;
   choice.chosen = found.outcome.solved() ? found.chosen : scope.applicable;
   for (EffectReason& one : choice.reasons) {
@@ -159,7 +168,8 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
     if (rules.estimate == nullptr)
       one.number = slenderness_number(one.effect, build_model(case_model, 0));
   }
-  if (rules.estimate != nullptr) add_beyond_tier(document, case_model, choice);
+  if (rules.estimate != nullptr && estimates.outcome.solved())
+    add_beyond_tier(analysis, case_model, estimates, choice);
   return choice;
 }
 

@@ -20,10 +20,13 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// a factor of three, and large displacement not much better: what it finds between these shares of
 /// the tolerance is measured on the scene's own mesh.
 constexpr double kSurelyWithin = 0.75, kPlatformSurelyWithin = 0.25;
-constexpr double kSurelyBeyond = 1.25, kLargeSurelyBeyond = 4;
+constexpr double kSurelyBeyond = 1.25;
 /// The same of what linear theory finds for a scene of large displacement, by which nothing stays
 /// on, for the forces that matter may be others there.
 constexpr double kLinearSurelyBeyond = 20;
+/// Linear theory off by more is off by more than the amplification up to a buckling load: beyond
+/// it, where second-order theory searches long for what it does not have.
+constexpr double kLost = 1;
 
 class EliminationOf {
  public:
@@ -136,9 +139,8 @@ class MeshedScene {
   std::vector<std::pair<Effects, std::map<std::size_t, std::optional<Quantities>>>> runs_;
 };
 
-/// At most so many elements a member, and a platform of three triangles; @returns whether there are
-/// fewer than before.
-bool coarsen(CaseModel& scene, solver::Index most) {
+/// At most so many elements a member; @returns whether there are fewer than before.
+bool coarsen_members(CaseModel& scene, solver::Index most) {
   bool coarser = false;
   const auto limit = [&](solver::Index& elements) {
     coarser = coarser || elements > most;
@@ -150,10 +152,21 @@ bool coarsen(CaseModel& scene, solver::Index most) {
     limit(scene.manipulator->proximal[i].elements);
     limit(scene.manipulator->distal[i].elements);
   }
+  return coarser;
+}
+
+/// A platform of three triangles; @returns whether it had more.
+bool coarsen_platform(CaseModel& scene) {
+  if (!scene.manipulator) return false;
   int& refinements = scene.manipulator->platform.refinements;
-  if (scene.manipulator->platform.pin_radius > 0 || refinements == 0) return coarser;
+  if (scene.manipulator->platform.pin_radius > 0 || refinements == 0) return false;
   refinements = 0;
   return true;
+}
+
+bool is_prismatic(const solver::Member& member) {
+  const solver::Section &a = member.section, &b = member.end_section;
+  return a.EA == b.EA && a.EI == b.EI;
 }
 
 /// Those that slenderness alone makes look negligible: measured all at once, they cost one run.
@@ -176,8 +189,13 @@ class Measurement {
     size_ = model_size(model);
     const auto members = std::max<solver::Index>(std::ssize(model.members), 1);
     CaseModel coarse = scene, coarsest = scene;
-    is_coarser_ = coarsen(coarse, 2 + analysis.get<solver::Index>("count", 0) / members);
-    coarsen(coarsest, 1);
+    const bool has_coarser_platform = coarsen_platform(coarse);
+    is_coarser_ = coarsen_members(coarse, 2 + analysis.get<solver::Index>("count", 0) / members) ||
+                  has_coarser_platform;
+    coarsen_members(coarsest, 1);
+    coarsen_platform(coarsest);
+    is_linear_exact_ = &kind == &find_analysis("statics") && !has_coarser_platform &&
+                       std::all_of(model.members.begin(), model.members.end(), is_prismatic);
     coarsest_.emplace(kind, analysis, std::move(coarsest), scope.applicable, size_);
     coarse_.emplace(kind, analysis, std::move(coarse), scope.applicable, size_);
     own_.emplace(kind, analysis, scene, scope.applicable, size_);
@@ -195,7 +213,7 @@ class Measurement {
       try_linearly_ = tried_linearly_ = false;
       found = eliminate(scope_, kOrder, negligible_, tolerance_,
                         [this](Effects active) { return change_with(active); });
-    } while (coarse_->outcome.solved() && add_worst_step(found.chosen));
+    } while (coarse_->outcome.solved() && add_worst_step(found));
     found.outcome = coarse_->outcome;
     found.counters = coarse_->counters;
     found.counters += own_->counters;
@@ -206,7 +224,7 @@ class Measurement {
   /// Of linear theory, from the whole scene.
   std::optional<double> change_by_large_displacement() {
     choose_steps();
-    const double change = coarse_->change(scope_.applicable, linear(scope_.applicable), steps_);
+    const double change = coarsest_->change(scope_.applicable, linear(scope_.applicable), steps_);
     return std::isfinite(change) ? std::optional(change) : std::nullopt;
   }
 
@@ -231,6 +249,13 @@ class Measurement {
   }
 
   double change_with(Effects active) {
+    const bool is_large = scope_.applicable.has(Effect::large_displacement);
+    if (is_large && !active.has(Effect::large_displacement)) {
+      const double shortening = std::pow(largest_rotation(), 2) / 2;
+      if (shortening > tolerance_) return shortening;
+      const double linearly = coarse_->change(scope_.applicable, linear(scope_.applicable), steps_);
+      if (linearly > kLost) return linearly;
+    }
     if (try_linearly_ && active.has(Effect::large_displacement)) {
       const double change = change_from(linear(scope_.applicable), linear(active));
       if (change <= tolerance_) tried_linearly_ = true;
@@ -239,18 +264,28 @@ class Measurement {
     return change_from_whole(active);
   }
 
+  /// Of the whole scene [rad]: what turns by theta shortens by theta^2 / 2 of its length, which
+  /// linear and second-order theory do not know.
+  double largest_rotation() {
+    double largest = 0;
+    const auto whole = coarse_->along(scope_.applicable, steps_);
+    for (const auto& [name, quantity] : whole ? *whole : Quantities()) {
+      if (change_kind(name) == "rotation") largest = std::max(largest, max_abs(quantity.values));
+    }
+    return largest;
+  }
+
   double change_from_whole(Effects active) { return change_from(scope_.applicable, active); }
 
   double change_from(Effects full, Effects active) {
+    if (linear(full) == full && is_linear_exact_) return coarsest_->change(full, active, steps_);
     const double change = coarse_->change(full, active, steps_);
     if (!is_coarser_) return change;
-    const double within =
-        active.has(Effect::platform_flexibility) ? kSurelyWithin : kPlatformSurelyWithin;
-    const bool large =
-        active.has(Effect::large_displacement) || !full.has(Effect::large_displacement);
-    const double beyond = large ? kSurelyBeyond : kLargeSurelyBeyond;
+    const bool stiffens_platform =
+        full.has(Effect::platform_flexibility) && !active.has(Effect::platform_flexibility);
+    const double within = stiffens_platform ? kPlatformSurelyWithin : kSurelyWithin;
     const bool lost = !std::isfinite(change) && linear(active) == active;
-    const bool settled = change <= within * tolerance_ || change > beyond * tolerance_;
+    const bool settled = change <= within * tolerance_ || change > kSurelyBeyond * tolerance_;
     return settled && !lost ? change : change_on_own_mesh(full, active);
   }
 
@@ -259,7 +294,8 @@ class Measurement {
   double change_on_own_mesh(Effects full, Effects active) {
     if (linear(active) == active && !(linear(full) == full)) {
       const double coarse = coarse_->change(full, linear(full), steps_);
-      const double own = own_->change(linear(full), active, steps_);
+      MeshedScene& mesh = is_linear_exact_ ? *coarsest_ : *own_;
+      const double own = mesh.change(linear(full), active, steps_);
       if (coarse + own <= tolerance_ || own - coarse > tolerance_) return coarse + own;
     }
     return own_->change(full, active, steps_);
@@ -293,12 +329,27 @@ class Measurement {
     for (const auto& [extreme, place] : extremes) steps_.insert(place.second);
   }
 
+  /// Whether large displacement is worth so little where linear theory has its extremes that
+  /// second-order theory, which knows buckling, stands for it elsewhere.
+  [[nodiscard]] bool is_nearly_linear(const Elimination& found) const {
+    double change = 0;
+    for (const Effect effect : {Effect::geometric_stiffening, Effect::large_displacement}) {
+      if (found.chosen.has(effect)) continue;
+      change = std::max(change, found.change[static_cast<std::size_t>(effect)].value_or(0));
+    }
+    return change <= tolerance_ / 2;
+  }
+
   /// @returns false where the choice holds at every step that was not looked at before
-  bool add_worst_step(Effects chosen) {
-    if (steps_ == every_step_ || chosen == scope_.applicable) return false;
-    const bool large = chosen.has(Effect::large_displacement);
-    const Effects whole = large ? linear(scope_.applicable) : scope_.applicable;
-    if (large) chosen = linear(chosen);
+  bool add_worst_step(const Elimination& found) {
+    if (steps_ == every_step_ || found.chosen == scope_.applicable) return false;
+    Effects whole = scope_.applicable, chosen = found.chosen;
+    if (chosen.has(Effect::large_displacement)) {
+      whole = linear(whole);
+      chosen = linear(chosen);
+    } else if (is_nearly_linear(found)) {
+      whole = whole.without(Effect::large_displacement);
+    }
     const auto full = coarsest_->along(whole, every_step_);
     if (!full) return false;
     for (const std::size_t step : every_step_) {
@@ -313,6 +364,8 @@ class Measurement {
   double tolerance_;
   double size_;
   Effects negligible_;
+  /// Of prismatic members one element is exact for loads at its ends.
+  bool is_linear_exact_ = false;
   bool is_coarser_ = false, try_linearly_ = true, tried_linearly_ = false;
   std::optional<MeshedScene> coarsest_, coarse_, own_;
   std::set<std::size_t> every_step_, steps_;
@@ -331,7 +384,13 @@ Elimination eliminate_by_measurement(const AnalysisKind& kind, const JsonView& a
   return Measurement(kind, analysis, scene, scope, tolerance).run();
 }
 
-std::optional<double> large_displacement_at_rest(const JsonView& analysis, const CaseModel& scene) {
+std::optional<double> large_displacement_at_rest(const JsonView& analysis, CaseModel scene,
+                                                 const std::vector<double>& times) {
+  std::vector<solver::TrajectoryPoint> points;
+  for (const solver::TrajectoryPoint& point : scene.motion) {
+    if (std::find(times.begin(), times.end(), point.time) != times.end()) points.push_back(point);
+  }
+  if (!points.empty()) scene.motion = std::move(points);
   const AnalysisKind& statics = find_analysis("statics");
   const EffectScope scope = statics.effects->scope(analysis, build_model(scene, 0));
   if (scene.structure.loads.empty() && !scope.applicable.has(Effect::gravity)) return std::nullopt;

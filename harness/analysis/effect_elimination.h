@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "harness/analysis/registry.h"
 
@@ -39,8 +40,9 @@ struct Elimination {
                                                    const EffectScope& scope, double tolerance);
 
 /// What geometric stiffening and large displacement change in statics under the loads at rest, at
-/// the extremes of linear theory along the path; nothing without loads, or without a solution.
+/// these times of the path; nothing without loads, or without a solution.
 [[nodiscard]] std::optional<double> large_displacement_at_rest(const JsonView& analysis,
-                                                               const CaseModel& scene);
+                                                               CaseModel scene,
+                                                               const std::vector<double>& times);
 
 }  // namespace trammel::harness

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <set>
 
+#include "solver/assembly/strain.h"
 #include "solver/effects/energy_shares.h"
 #include "solver/elastodynamics/nominal_motion.h"
 #include "solver/elastodynamics/path_follower.h"
-#include "solver/linalg/factorization.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"
 
@@ -18,7 +20,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr std::size_t kPoses = 2;
+constexpr std::size_t kPoses = 2, kPathSamples = 16;
 constexpr Index kElements = 8;
 
 /// The whole motion, on a mesh that is good enough to decide by.
@@ -63,6 +65,15 @@ struct LargestSizes {
   std::map<Effect, double> share;  ///< of the strain energy, or of that of all loads
 };
 
+/// The motion without an effect; what follows it refers to it.
+struct Light {
+  Light(const ElastodynamicsOptions& whole, Effect effect) : options(whole) {
+    options.design = restrict_effects(options.design, Effects::all().without(effect));
+  }
+  ElastodynamicsOptions options;
+  std::optional<PathFollower> follower;
+};
+
 class MotionEstimates {
  public:
   MotionEstimates(const ElastodynamicsOptions& options, Effects applicable)
@@ -104,22 +115,22 @@ class MotionEstimates {
     if (!estimates_.outcome.solved()) return {};
     max_angular_velocity_ =
         std::max(max_angular_velocity_, largest_angular_velocity(pose.system().motion()));
-    factorization_.compute(pose.system().K());
-    ++estimates_.counters.factorizations;
-    ++estimates_.counters.solves;
-    if (!factorization_.exists() || !(factorization_.smallest_pivot() > 0)) {
+    VectorXd q;
+    if (!pose.solve_statically(pose.load(), q)) {
       estimates_.outcome = {Status::singular, "the stiffness is singular"};
-      return {};
     }
-    return factorization_.solve(pose.load());
+    return q;
   }
 
-  /// The samples at which the quasi-static response is largest.
+  /// The samples, of some spread over the path, at which the quasi-static response is largest.
   std::set<double> extreme_times() {
     PathFollower pose(options_, options_.time.start);
     ResponseSize largest;
     double farthest = 0, hardest = 0;
-    for (const double time : options_.time.sample_times) {
+    const std::vector<double>& samples = options_.time.sample_times;
+    const std::size_t stride = std::max<std::size_t>(1, samples.size() / kPathSamples);
+    for (std::size_t i = 0; i < samples.size(); i += stride) {
+      const double time = samples[i];
       const VectorXd q = quasi_static_response(pose, time, options_.gravity);
       if (!estimates_.outcome.solved()) return {};
       const ResponseSize size = size_of(pose.system(), q);
@@ -127,6 +138,8 @@ class MotionEstimates {
       if (size.energy > largest.energy) hardest = time;
       largest.take_max(size);
     }
+    estimates_.counters += pose.counters();
+    estimates_.extreme_times = {farthest, hardest};
     return {farthest, hardest};
   }
 
@@ -147,8 +160,9 @@ class MotionEstimates {
     const ResponseSize total = size_of(system, q);
     sizes_.response.take_max(total);
     const auto solve = [&](const VectorXd& load) -> VectorXd {
-      ++estimates_.counters.solves;
-      return factorization_.solve(load);
+      VectorXd x;
+      static_cast<void>(pose.solve_statically(load, x));  // as it could before
+      return x;
     };
     const VectorXd inertia = system.M() * a;
     const VectorXd damping =
@@ -166,12 +180,17 @@ class MotionEstimates {
       record_change(effect, {translation_of(system, lost), share * total.energy});
     }
     const VectorXd load = pose.load();
-    without_masses(time, load, system);
-    if (with_modes && estimates_.outcome.solved()) estimate_frequency_changes(system);
-    if (!applicable_.has(Effect::gravity) || !estimates_.outcome.solved()) return;
-    estimates_.outcome = pose.move_to(time, Vector2d::Zero());
-    if (!estimates_.outcome.solved()) return;
-    record_weight(pose, solve(load - pose.load()), total.energy);
+    without_masses(time, load, system, solve);
+    if (with_modes && estimates_.outcome.solved()) {
+      bound_large_displacement(system, q);
+      estimate_frequency_changes(system);
+    }
+    if (applicable_.has(Effect::gravity) && estimates_.outcome.solved()) {
+      estimates_.outcome = pose.move_to(time, Vector2d::Zero());
+      if (!estimates_.outcome.solved()) return;
+      record_weight(pose, solve(load - pose.load()), total.energy);
+    }
+    estimates_.counters += pose.counters();
   }
 
   /// What drags is held by the same loads: only displacements change.
@@ -198,17 +217,45 @@ class MotionEstimates {
   }
 
   /// The same model without masses of links, or the turning of their sections: other loads.
-  void without_masses(double time, const VectorXd& load, const MovingSystem& system) {
+  template <class Solve>
+  void without_masses(double time, const VectorXd& load, const MovingSystem& system,
+                      const Solve& solve) {
     for (const Effect effect : {Effect::link_mass, Effect::rotary_inertia}) {
       if (!applicable_.has(effect)) continue;
-      ElastodynamicsOptions light = options_;
-      light.design = restrict_effects(light.design, Effects::all().without(effect));
-      PathFollower pose(light, time);
-      estimates_.outcome = pose.move_to(time, options_.gravity);
+      auto& light = light_[effect];
+      if (!light) {
+        light = std::make_unique<Light>(options_, effect);
+        light->follower.emplace(light->options, time);
+      }
+      estimates_.outcome = light->follower->move_to(time, options_.gravity);
       if (!estimates_.outcome.solved()) return;
-      ++estimates_.counters.solves;
-      record_change(effect, size_of(system, factorization_.solve(load - pose.load())));
+      record_change(effect, size_of(system, solve(load - light->follower->load())));
     }
+  }
+
+  /// By the largest rotation, and by the largest compression or tension over the buckling load of
+  /// a hinged link: a limb of two links with one free end buckles at a sixteenth of that.
+  void bound_large_displacement(const MovingSystem& moving, const VectorXd& q) {
+    constexpr double kOfRotation = 2, kOfBucklingLoad = 16;
+    const System& system = moving.start();
+    const VectorXd u = system.T * q;
+    double rotation = 0, load = 0;
+    for (Index i = 0; i < u.size(); ++i) {
+      if (system.coordinates.is_rotation[static_cast<std::size_t>(i)])
+        rotation = std::max(rotation, std::abs(u[i]));
+    }
+    for (const FrameElement& e : system.mesh.frame) {
+      if (e.is_bar()) continue;
+      const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+      const double length = e.length * static_cast<double>(member.elements);
+      const Vector6d ends = detail::gather(e.coordinates, u);
+      const double force =
+          e.section.EA / e.length * e.direction.dot(ends.segment<2>(3) - ends.head<2>());
+      load = std::max(load, std::abs(force) * length * length /
+                                (std::numbers::pi * std::numbers::pi * e.section.EI));
+    }
+    estimates_.large_displacement_bound = std::max(
+        {estimates_.large_displacement_bound, kOfRotation * rotation, kOfBucklingLoad * load});
   }
 
   /// The first modes that are no rigid motions, and what the first one's frequency owes to each
@@ -329,7 +376,7 @@ class MotionEstimates {
   ElastodynamicsOptions options_;
   Effects applicable_;
   double rate_;
-  Factorization factorization_;
+  std::map<Effect, std::unique_ptr<Light>> light_;
   LargestSizes sizes_;
   double frequency_ = 0, damping_ = 0, max_angular_velocity_ = 0;
   std::map<Effect, double> frequency_change_;  ///< relative change of the first frequency

@@ -18,6 +18,9 @@ struct EffectEstimate {
 struct EffectEstimates {
   Outcome outcome;  ///< without a linear solution there are no estimates
   std::vector<EffectEstimate> effects;
+  /// At most what large displacement, which the analysis does not have, would change; relative.
+  double large_displacement_bound = 0;
+  std::vector<double> extreme_times;  ///< of the response [s]
   Counters counters;
 };
 
