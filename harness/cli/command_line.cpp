@@ -21,6 +21,7 @@
 #include "harness/cli/command_effects.h"
 #include "harness/cli/command_export.h"
 #include "harness/cli/command_list.h"
+#include "harness/cli/command_paper.h"
 #include "harness/cli/command_quantities.h"
 #include "harness/cli/command_run.h"
 #include "harness/cli/printable_stream.h"
@@ -48,6 +49,7 @@ Examples:
   trammel converge beam-cantilever          orders, extrapolation, numerical uncertainty
   trammel cost modes                        accuracy against computing time
   trammel claims                            the paper's claims, and a verdict for each
+  trammel paper                             which case shows an equation, figure or table of the paper
   trammel coverage --gaps                   what has no independent evidence, and why
   trammel effects scene-soft-platform       influence of each effect on a model
   trammel report                            the whole catalogue as a page
@@ -75,6 +77,7 @@ class CommandLine {
     define_cost();
     define_claims();
     define_coverage();
+    define_paper();
     define_effects();
     define_report();
     define_export();
@@ -252,6 +255,13 @@ class CommandLine {
     sub->add_flag("--gaps", coverage_.gaps, "Only what has no independent evidence");
     sub->add_flag("--json", coverage_.json, "As JSON");
     sub->callback([this] { command_ = [this] { return coverage_command(coverage_); }; });
+  }
+  void define_paper() {
+    CLI::App* sub =
+        add("paper", "The paper item by item: which case shows an equation or a figure",
+            "\nExamples:\n  trammel paper\n  trammel paper trammel-results/results.json");
+    sub->add_option("results", name_, "Show the verdicts of this results.json, too");
+    sub->callback([this] { command_ = [this] { return paper_command(name_); }; });
   }
   void define_effects() {
     CLI::App* sub =

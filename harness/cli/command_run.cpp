@@ -19,6 +19,7 @@
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
 #include "harness/run/output_lock.h"
+#include "harness/run/paper_items.h"
 #include "harness/run/results.h"
 
 namespace trammel::harness {
@@ -326,6 +327,8 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   results.cost = std::move(cost);
   const ClaimSet claim_set = evaluate_claims(load_claims(), runs);
   results.claims = claim_results(claim_set);
+  results.claims->items = load_paper_items(load_claims(), catalogue);
+  judge_paper_items(results, results.claims->items);
   results.coverage = evidence_coverage(selection.cases, references);
   add_reasons(results.coverage);
   count_series(results, results.coverage);

@@ -198,8 +198,16 @@ template <>
 inline constexpr auto kFields<Claim> = std::tuple{TRAMMEL_REQUIRED(
     Claim, id, claim, place, verdict, expected, conclusion, undecidable, interpretations)};
 template <>
-inline constexpr auto kFields<Claims> =
-    std::tuple{TRAMMEL_REQUIRED(Claims, title, as_recorded, claims)};
+inline constexpr auto kFields<PaperItem::Counterpart> =
+    std::tuple{required("case", &PaperItem::Counterpart::case_id),
+               TRAMMEL_OPTIONAL(PaperItem::Counterpart, variant, quantity, figure, verdict)};
+template <>
+inline constexpr auto kFields<PaperItem> =
+    std::tuple{TRAMMEL_REQUIRED(PaperItem, id, section, what),
+               TRAMMEL_OPTIONAL(PaperItem, shown_by, claims, reason, note)};
+template <>
+inline constexpr auto kFields<Claims> = std::tuple{
+    TRAMMEL_REQUIRED(Claims, title, as_recorded, claims), TRAMMEL_OPTIONAL(Claims, items)};
 template <>
 inline constexpr auto kFields<CoverageRow> =
     std::tuple{TRAMMEL_REQUIRED(CoverageRow, group, feature, evidence),

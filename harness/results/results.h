@@ -100,10 +100,24 @@ struct Claim {
   std::vector<ClaimInterpretation> interpretations;
 };
 
+/// An equation, table, figure or statement of the publication, and what shows it.
+struct PaperItem {
+  struct Counterpart {
+    std::string case_id, variant, quantity, figure;  ///< empty: all variants, quantities, no figure
+    std::string verdict;                             ///< in words
+  };
+  std::string id, section, what;  ///< "equation-14"
+  std::vector<Counterpart> shown_by = {};
+  std::vector<std::string> claims = {};
+  std::string reason = {};  ///< why there is no counterpart, or none can be judged
+  std::string note = {};
+};
+
 struct Claims {
   std::string title;
   bool as_recorded = false;  ///< every verdict is the expected one
   std::vector<Claim> claims;
+  std::vector<PaperItem> items = {};
 };
 
 /// What kinds of evidence there are for a feature of the program.

@@ -98,6 +98,44 @@ Data claim_data(const Claim& claim, const Results& results) {
 }
 
 /// "2 confirmed, 4 contradicted, ..."
+/// "Eq. 14", "Table 2", "Figure 7", "Statement".
+std::string item_title(const std::string& id) {
+  const std::string kind = id.substr(0, id.find('-')), number = id.substr(id.find('-') + 1);
+  if (kind == "equation") return "Eq. " + number;
+  if (kind == "statement") return "Statement";
+  return (kind == "table" ? "Table " : "Figure ") + number;
+}
+
+Data item_data(const PaperItem& item, const Claims& claims) {
+  Data data = object();
+  data.set("title", item_title(item.id));
+  data.set("section", item.section);
+  data.set("what", item.what);
+  Data shown = list();
+  for (const auto& one : item.shown_by) {
+    Data entry = object();
+    entry.set("case_id", one.case_id);
+    entry.set("anchor", case_anchor(one.case_id));
+    set_text(entry, "variant", one.variant);
+    set_text(entry, "quantity", one.quantity);
+    set_text(entry, "verdict", one.verdict);
+    shown.push_back(entry);
+  }
+  data.set("shown", shown);
+  Data verdicts = list();
+  for (const Claim& claim : claims.claims) {
+    if (std::find(item.claims.begin(), item.claims.end(), claim.id) == item.claims.end()) continue;
+    Data entry = object();
+    entry.set("claim_id", claim.id);
+    set_verdict(entry, claim.verdict);
+    verdicts.push_back(entry);
+  }
+  data.set("verdicts", verdicts);
+  set_text(data, "reason", item.reason);
+  set_text(data, "note", item.note);
+  return data;
+}
+
 std::string overview(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {
@@ -120,6 +158,11 @@ Data claims_section(const Results& results) {
   section.set("overview", overview(*results.claims));
   Data claims = list();
   for (const Claim& claim : results.claims->claims) claims.push_back(claim_data(claim, results));
+  Data items = list();
+  for (const PaperItem& item : results.claims->items)
+    items.push_back(item_data(item, *results.claims));
+  set_flag(section, "has_items", !results.claims->items.empty());
+  section.set("items", items);
   section.set("list", claims);
   return section;
 }
