@@ -68,19 +68,17 @@ Json stated_analysis(const Document& document, solver::Effects chosen) {
 WrittenNames written_names(const Document& document) {
   const JsonView model = JsonView(document)["model"];
   WrittenNames names;
-  const auto add = [&](const std::string& name, const JsonView& place) {
-    names.materials.emplace_back(name, read_material(place));
-  };
   if (const auto materials = model.find("materials"))
-    for (const auto& [name, place] : materials->entries()) add(name, place);
-  if (const auto manipulator = model.find("manipulator")) {
-    for (const char* key : {"material", "platform_material"})
-      if (manipulator->has(key)) add(std::string("manipulator-") + key, (*manipulator)[key]);
+    for (const auto& [name, place] : materials->entries())
+      names.materials.emplace_back(name, read_material(place));
+  for (const char* key : {"material", "platform_material"}) {
+    if (model.has("manipulator") && model["manipulator"].has(key))
+      names.materials.emplace_back(std::string("manipulator-") + key,
+                                   read_material(model["manipulator"][key]));
   }
-  if (const auto loads = model.find("loads")) {
+  if (const auto loads = model.find("loads"))
     for (const auto& [name, place] : loads->entries())
       if (place.has("node")) names.loads.push_back(name);
-  }
   return names;
 }
 
@@ -97,15 +95,10 @@ std::set<std::string> lost_parts(const Document& document, const solver::Model& 
 
 /// How many numbers a quantity has, where that is plain.
 Json length_of(const Document& document, const std::string& name) {
-  const std::string kind = analysis_kind(document);
-  if (kind == "statics") return 1;
-  if (kind == "modes" && name == "frequency_Hz") {
-    const JsonView place = analysis_place(document);
-    const bool several =
-        place.has("rotating") && place["rotating"]["angular_speed_rad_s"].json().is_array();
-    if (!several) return place["count"].json();
-  }
-  return nullptr;
+  const JsonView place = analysis_place(document);
+  if (analysis_kind(document) == "statics") return 1;
+  const bool is_list = analysis_kind(document) == "modes" && name == "frequency_Hz";
+  return is_list && !place.has("rotating") ? place["count"].json() : Json(nullptr);
 }
 
 /// What the checks judge.

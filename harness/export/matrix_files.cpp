@@ -36,13 +36,6 @@ std::string matrix_market(const SparseMatrix& matrix, bool symmetric, const char
          entries;
 }
 
-std::string matrix_market(const Eigen::VectorXd& vector, const char* what) {
-  std::string text =
-      fmt::format("%%MatrixMarket matrix array real general\n% {}\n{} 1\n", what, vector.size());
-  for (const double value : vector) fmt::format_to(std::back_inserter(text), "{}\n", value);
-  return text;
-}
-
 /// A line for each of u: its number from 1, the motion, and the node or the member's end.
 std::string coordinate_table(const solver::System& system) {
   std::vector<std::string> lines(solver::to_size(system.coordinates.size));
@@ -131,7 +124,7 @@ void write_matrices(const Document& document, const ExportedScene& scene,
     }
   }
   write_file(folder / "T.mtx", matrix_market(system.T, false, "u = T q"));
-  write_file(folder / "f.mtx", matrix_market(system.f, "loads on q [N, N m]"));
+  write_file(folder / "f.mtx", matrix_market(system.f.sparseView(), false, "loads on q [N, N m]"));
   write_file(folder / "coordinates.csv", coordinate_table(system));
   write_file(folder / "mesh.vtu", vtu(system));
 }

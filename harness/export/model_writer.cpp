@@ -1,5 +1,6 @@
 #include "harness/export/model_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -26,15 +27,12 @@ class Parts {
  public:
   explicit Parts(const char* kind) : kind_(kind) {}
 
-  void add(const std::string& name, Json part) {
+  /// Under the name, or the kind with the next number where there is none.
+  void add(std::string name, Json part) {
+    if (name.empty()) name = kind_ + ("-" + std::to_string(json_.size() + 1));
     solver::require(names_.insert(name).second,
                     std::string("two of its ") + kind_ + " have the name '" + name + "'");
-    json_.get_ref<Json::object_t&>().emplace_back(name, std::move(part));
-  }
-  /// The name, or the kind with the next number where it has none.
-  void add_numbered(const std::string& name, Json part) {
-    add(name.empty() ? std::string(kind_) + "-" + std::to_string(json_.size() + 1) : name,
-        std::move(part));
+    json_.get_ref<Json::object_t&>().emplace_back(std::move(name), std::move(part));
   }
   void put_into(Json& model) {
     if (!json_.empty()) model[kind_] = std::move(json_);
@@ -47,17 +45,8 @@ class Parts {
 };
 
 const char* name_of(solver::BeamTheory theory) {
-  switch (theory) {
-    case solver::BeamTheory::rayleigh:
-      return "rayleigh";
-    case solver::BeamTheory::shear:
-      return "shear";
-    case solver::BeamTheory::timoshenko:
-      return "timoshenko";
-    case solver::BeamTheory::euler_bernoulli:
-      break;
-  }
-  return "euler-bernoulli";
+  return std::array{"euler-bernoulli", "rayleigh", "shear",
+                    "timoshenko"}[static_cast<std::size_t>(theory)];
 }
 
 Json end_json(const solver::MemberEnd& end) {
@@ -172,18 +161,17 @@ class ModelWriter {
       bodies.add(body.name, {{"reference", name(body.reference)}, {"nodes", attached}});
     }
     for (const solver::PointMass& mass : model_.masses) {
-      masses.add_numbered("", {{"node", name(mass.node)},
-                               {"mass_kg", mass.mass},
-                               {"inertia_kg_m2", mass.inertia},
-                               {"offset_m", point(mass.offset)}});
+      masses.add("", {{"node", name(mass.node)},
+                      {"mass_kg", mass.mass},
+                      {"inertia_kg_m2", mass.inertia},
+                      {"offset_m", point(mass.offset)}});
     }
     for (const solver::Spring& spring : model_.springs) {
       Json nodes = {name(spring.nodes[0])};
       if (spring.nodes[1] >= 0) nodes.push_back(name(spring.nodes[1]));
-      springs.add_numbered(spring.name,
-                           {{"nodes", nodes},
-                            {"stiffness_N_per_m", point(spring.stiffness.head<2>())},
-                            {"rotational_stiffness_N_m_per_rad", spring.stiffness.z()}});
+      springs.add(spring.name, {{"nodes", nodes},
+                                {"stiffness_N_per_m", point(spring.stiffness.head<2>())},
+                                {"rotational_stiffness_N_m_per_rad", spring.stiffness.z()}});
     }
     bodies.put_into(model);
     masses.put_into(model);
@@ -221,9 +209,8 @@ class ModelWriter {
                           all[i].terms[0].first.node == all[i + 1].terms[0].first.node &&
                           all[i].terms[1].first.node == all[i + 1].terms[1].first.node;
       solver::require(is_pin, "a case file has no words for its constraint '" + all[i].name + "'");
-      pins.add_numbered(
-          all[i].name,
-          {{"nodes", {name(all[i].terms[0].first.node), name(all[i].terms[1].first.node)}}});
+      pins.add(all[i].name,
+               {{"nodes", {name(all[i].terms[0].first.node), name(all[i].terms[1].first.node)}}});
     }
     pins.put_into(model);
   }
@@ -250,7 +237,7 @@ class ModelWriter {
       springs.add(one.name, std::move(spring));
     }
     for (const solver::large_motion::FollowerLoad& one : joints.follower_loads)
-      followers.add_numbered("", load_json(one.node, one.force));
+      followers.add("", load_json(one.node, one.force));
     sliders.put_into(model);
     springs.put_into(model);
     followers.put_into(model);
@@ -260,7 +247,7 @@ class ModelWriter {
     Parts loads("loads");
     for (std::size_t i = 0; i < model_.loads.size(); ++i) {
       const std::string written = i < names_.loads.size() ? names_.loads[i] : "";
-      loads.add_numbered(written, load_json(model_.loads[i].node, model_.loads[i].force));
+      loads.add(written, load_json(model_.loads[i].node, model_.loads[i].force));
     }
     std::map<Index, Eigen::Vector3d> of_edges;
     for (const solver::EdgeLoad& load : model_.edge_loads) {
@@ -271,7 +258,7 @@ class ModelWriter {
             forces[i];
       }
     }
-    for (const auto& [node, force] : of_edges) loads.add_numbered("", load_json(node, force));
+    for (const auto& [node, force] : of_edges) loads.add("", load_json(node, force));
     loads.put_into(model);
   }
 
@@ -284,14 +271,14 @@ class ModelWriter {
 }  // namespace
 
 bool is_tapered(const solver::Member& member) {
-  const solver::Section &a = member.section, &b = member.end_section;
-  const auto differ = [](double x, double y) {
-    return x != y && std::abs(x - y) > 1e-14 * std::abs(x);
+  const auto numbers = [](const solver::Section& s) {
+    return std::array{
+        s.EA, s.EI, s.kappa_GA, s.mass_per_length, s.inertia_per_length, s.area, s.section_modulus};
   };
-  return differ(a.EA, b.EA) || differ(a.EI, b.EI) || differ(a.kappa_GA, b.kappa_GA) ||
-         differ(a.mass_per_length, b.mass_per_length) ||
-         differ(a.inertia_per_length, b.inertia_per_length) || differ(a.area, b.area) ||
-         differ(a.section_modulus, b.section_modulus);
+  const auto a = numbers(member.section), b = numbers(member.end_section);
+  return !std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
+    return x == y || std::abs(x - y) <= 1e-14 * std::abs(x);
+  });
 }
 
 Json model_json(Model model, const solver::large_motion::LargeMotionModel& joints,

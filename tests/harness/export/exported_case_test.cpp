@@ -1,3 +1,4 @@
+// ctest: timeout=300
 #include "harness/export/exported_case.h"
 
 #include <Eigen/Dense>
@@ -53,13 +54,8 @@ Eigen::MatrixXd read_matrix(const std::filesystem::path& file) {
   Eigen::Index rows = 0, columns = 0, i = 0, k = 0;
   in >> rows >> columns;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, columns);
-  double value = 0;
-  if (contains(head, "array")) {
-    while (in >> value) matrix(i++, 0) = value;
-    return matrix;
-  }
   in >> line;
-  while (in >> i >> k >> value) {
+  for (double value = 0; in >> i >> k >> value;) {
     matrix(i - 1, k - 1) = value;
     if (contains(head, "symmetric")) matrix(k - 1, i - 1) = value;
   }
