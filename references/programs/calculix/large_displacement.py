@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""10 N on P of the manipulator of Table 1 with large displacement, by CalculiX: actuators locked, elbows welded, platform hinged.
+
+    large_displacement.py OUT      writes OUT/calculix-large-POSE-displacement.json
+
+Links as in planar_manipulator.py. Equations and rigid bodies do not turn far in ccx 2.20 (Newton's iteration fails), so that feet
+are held node by node, and elbows and the platform are triangles of a material STIFF times as stiff that share the links' nodes: the
+middles of both end faces are one node, and their outermost nodes keep their angle. A section may warp there, by which P gives
+more: the same mesh in linear statics shows by how much, and that is stored as uncertainty.
+"""
+import math
+import os
+import sys
+
+from planar_manipulator import DEFAULT, DEPTH, POSES, Deck, geometry, run, statics, store
+
+STIFF = 1e3
+ALONG = 16
+
+
+def turns_left(nodes, triangle):
+    (x0, y0), (x1, y1), (x2, y2) = (nodes[n - 1] for n in triangle)
+    return (x1 - x0) * (y2 - y0) > (x2 - x0) * (y1 - y0)
+
+
+def build(pose):
+    base, elbows, corners = geometry({**DEFAULT, "pose": POSES[pose]})
+    deck, joints, ends, same = Deck(), [], [], {}
+    for a, b, c in zip(base, elbows, corners):
+        start, low = deck.link(a, b, ALONG)
+        high, end = deck.link(b, c, ALONG)
+        for node in start:
+            deck.rest += ["*BOUNDARY", f"{node},1,2"]
+        same[high[DEPTH]] = low[DEPTH]
+        for k in (0, -1):
+            triangle = [low[DEPTH], low[k], high[k]]
+            joints.append(triangle if turns_left(deck.nodes, triangle) else triangle[::-1])
+        ends.append(end[DEPTH])
+    p = deck.node(*POSES[pose][:2])
+    joints += [[p, ends[i], ends[(i + 1) % 3]] for i in range(3)]
+    elements = [(kind, name, [same.get(n, n) for n in nodes]) for kind, name, nodes in deck.elements] + [("CPS3", "JOINTS", t) for t in joints]
+    lines = ["*NODE"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes)]
+    for number, (kind, name, nodes) in enumerate(elements, 1):
+        lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
+    E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
+    return lines + deck.rest + [
+        "*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}", f"{G:.12g}", *deck.sections,
+        "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*SOLID SECTION,ELSET=JOINTS,MATERIAL=STIFF", f"{DEFAULT['width']!r}"], p
+
+
+def displacement(pose, large):
+    """ux, uy of P [m]."""
+    lines, p = build(pose)
+    rows = run(lines + ["*NSET,NSET=P", f"{p}", "*STEP,NLGEOM,INC=1000" if large else "*STEP", "*STATIC", "0.1,1.", "*CLOAD", f"{p},1,10.",
+                        "*NODE PRINT,NSET=P,FREQUENCY=1000", "U", "*END STEP"])
+    return rows[-1][1:3]
+
+
+def main():
+    folder = sys.argv[1]
+    os.makedirs(folder, exist_ok=True)
+    for pose in POSES:
+        linear, large, rigid = displacement(pose, False), displacement(pose, True), statics("locked-welded-hinged", pose, 24)
+        change = math.ceil(1e5 * math.dist(linear, rigid[:2]) / math.hypot(*linear)) / 1e5
+        store(folder, f"calculix-large-{pose}-displacement",
+              f"3-RRR, actuators locked, elbows welded, platform joints hinged, pose {pose}: by CalculiX, displacement x, y of P under 10 N "
+              "along x, large", "m", large, change,
+              f"CPS8R, {ALONG} elements along a link and {DEPTH} through it; elbows and platform {STIFF:g} times as stiff as the links. The "
+              "uncertainty is how much more P gives in linear statics than with rigid joints.")
+        print(pose, change, linear, large, rigid, flush=True)
+
+
+if __name__ == "__main__":
+    main()
