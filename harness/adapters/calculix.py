@@ -1,0 +1,468 @@
+#!/usr/bin/env python3
+"""CalculiX (ccx 2.20) as an adapter: a case becomes a deck, ccx runs in the working folder, its .dat becomes the result.
+
+What a member becomes:
+- in statics of Euler-Bernoulli beams without springs one user element U1, exact at its nodes. It is right for nothing else: ccx has
+  it in statics alone, with shear it deflects less than without, and springs on its rotations have another stiffness.
+- else a strip of eight-node plane-stress elements, four along each element of the case and one through its depth: CPS8R, and
+  CPS8 in buckling, where CPS8R gives twice the load. The strip is orthotropic: E along it, no contraction, and the shear modulus
+  that the case's beam theory asks for. It has the rotary inertia of its sections: frequencies of Euler-Bernoulli beams come out
+  lower by that.
+Plates become CPS3 and CPS6, a thousand times thinner and stiffer, because ccx makes solids of them whose shear out of the plane
+hinders contraction where the thickness is not small beside the elements. Joints and rigid bodies are equations.
+Section forces and reactions follow from displacements by the slope-deflection equations. ccx prints seven digits: nothing agrees
+better than 1e-7, and reactions only to what that leaves of them.
+"""
+import math
+import subprocess
+
+from trammel_adapter import Cannot, main
+
+SHEAR_RIGID = 3  # shear modulus over E where the beam theory has no shear; more costs digits
+THIN, SLENDER = 5, 0.009  # how many times thinner the strip of an inextensible member is, unless it is as slender as this
+PLATE = 1e3  # how many times thinner and stiffer a plate is
+STRIP = 4  # elements of a strip for each element of the case
+JOINTS = ("welded", "hinged")
+DOF = {"x": 0, "y": 1, "rotation": 2}
+
+
+def card(*cells):
+    """A data line; ccx reads at most twenty characters of a number."""
+    return ",".join(f"{cell:.12e}" if isinstance(cell, float) else str(cell) for cell in cells)
+
+
+class Deck:
+    """Lines of a ccx deck, with numbers for nodes, elements and sets."""
+
+    def __init__(self):
+        self.nodes, self.lines, self.end, self.elements, self.equations, self.supported = [], [], [], 0, {}, set()
+
+    def node(self, x, y):
+        self.nodes.append((x, y))
+        return len(self.nodes)
+
+    def element(self, kind, nodes, name):
+        self.elements += 1
+        self.lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", card(self.elements, *nodes)]
+
+    def mass(self, motions, value):
+        """On a node of its own that follows the motions: ccx 2.20 fails where a mass is on a node that others follow."""
+        if value:
+            node, name = self.node(*self.nodes[motions[0][0] - 1]), f"M{self.elements}"
+            for dof, motion in enumerate(motions, 1):
+                self.equation([(node, dof, 1.0), (*motion, -1.0)])
+            self.fix(node, len(motions) + 1, 3)
+            self.element("MASS", [node], name)
+            self.lines += [f"*MASS,ELSET={name}", card(float(value))]
+
+    def spring(self, ends, value):
+        """Between the first motions (node, dof) and the second, or between the first and the ground."""
+        if value:
+            name = f"S{self.elements}"
+            self.element(f"SPRING{len(ends)}", [node for node, _ in ends], name)
+            self.lines += [f"*SPRING,ELSET={name}", card(*(dof for _, dof in ends)), card(float(value))]
+
+    def equation(self, terms):
+        """sum of factor * motion = 0, solved for the first motion that is left when those that depend already are replaced;
+        with none left it says nothing new."""
+        left = {}
+        for node, dof, factor in terms:
+            for motion, f in self.independent((node, dof)).items():
+                left[motion] = left.get(motion, 0.0) + factor * f
+        free = [m for m, f in left.items() if m not in self.supported and abs(f) > 1e-9]
+        if free:
+            first = free[0] if (free[0] == tuple(terms[0][:2])) else max(free, key=lambda m: abs(left[m]))
+            self.equations[first] = [(m, -f / left[first]) for m, f in left.items() if m != first and f]
+
+    def independent(self, motion):
+        """What a motion is of motions that depend on no others; ccx follows no long chains of equations itself."""
+        if motion not in self.equations:
+            return {motion: 1.0}
+        result = {}
+        for other, factor in self.equations[motion]:
+            for last, f in self.independent(other).items():
+                result[last] = result.get(last, 0.0) + factor * f
+        return result
+
+    def same(self, ends):
+        self.equation([(*ends[0], 1.0), (*ends[1], -1.0)])
+
+    def fix(self, node, dof, last=None):
+        self.lines += ["*BOUNDARY", f"{node},{dof},{last or dof}"]
+
+    def run(self, step, name="deck"):
+        ties = []
+        for node, dof in self.equations:
+            terms = [((node, dof), 1.0)] + [(m, -f) for m, f in self.independent((node, dof)).items() if f]
+            ties += ["*EQUATION", str(len(terms)), *(card(*m, f) for m, f in terms)]
+        head = ["*NODE,NSET=ALL"] + [card(i + 1, float(x), float(y), 0) for i, (x, y) in enumerate(self.nodes)]
+        with open(name + ".inp", "w", encoding="ascii") as file:
+            file.write("\n".join(head + self.lines + ties + self.end + step) + "\n")
+        done = subprocess.run(["ccx", name], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        errors = [line.strip() for line in done.stdout.splitlines() if "*ERROR" in line]
+        if done.returncode or errors:
+            raise RuntimeError(errors[0] if errors else f"ccx ended with {done.returncode}")
+        with open(name + ".dat", encoding="ascii") as file:
+            return file.read().splitlines()
+
+
+def table(lines, title):
+    """Blocks of rows of numbers below lines with this title, each {first number: the others}."""
+    blocks = []
+    for i, line in enumerate(lines):
+        if title in line:
+            rows = {}
+            for row in lines[i + 1:]:
+                cells = row.split()
+                try:
+                    rows[int(cells[0])] = [float(c) for c in cells[1:]]
+                except (ValueError, IndexError):
+                    if rows:
+                        break
+            blocks.append(rows)
+    return blocks
+
+
+def frd_stress(name):
+    """node -> sxx, syy, szz, sxy, ... of the last block of stresses of a .frd file."""
+    stress, inside = {}, False
+    with open(name, encoding="ascii") as file:
+        for line in file:
+            if line.startswith(" -4"):
+                inside = "STRESS" in line
+            elif inside and line.startswith(" -1"):
+                stress[int(line[3:13])] = [float(line[i:i + 12]) for i in range(13, 85, 12)]
+    return stress
+
+
+def placed(member, model):
+    """The member with its length L, direction (dx, dy) and load per length with its weight."""
+    (x0, y0), (x1, y1) = (model["nodes"][n] for n in member.nodes)
+    member.L = math.hypot(x1 - x0, y1 - y0)
+    member.dx, member.dy = (x1 - x0) / member.L, (y1 - y0) / member.L
+    member.sheared = member.beam in ("shear", "timoshenko")
+    weight = [member.rho * member.A * g for g in model.get("gravity_m_s2", [0, 0])]
+    member.load = [a + b for a, b in zip(member.load, weight)]
+    return member
+
+
+def nodal_loads(model):
+    """node -> [Fx, Fy, M] of forces, moments and the weight of point masses."""
+    loads = {}
+    for load in model.get("loads", {}).values():
+        if "node" not in load:
+            raise Cannot("tractions on edges")
+        f = loads.setdefault(load["node"], [0.0, 0.0, 0.0])
+        for i, value in enumerate([*load.get("force_N", [0, 0]), load.get("moment_N_m", 0)]):
+            f[i] += value
+    g = model.get("gravity_m_s2", [0, 0])
+    for mass in model.get("point_masses", {}).values():
+        x, y = mass.get("offset_m", [0, 0])
+        f = loads.setdefault(mass["node"], [0.0, 0.0, 0.0])
+        for i, value in enumerate([g[0], g[1], x * g[1] - y * g[0]]):
+            f[i] += mass["mass_kg"] * value
+    return loads
+
+
+def refuse(model, keys):
+    for key in keys:
+        if model.get(key):
+            raise Cannot(f"no {key}")
+
+
+class Frame:
+    """Nodes, joints, masses, supports and loads of a model; motions[name] holds what carries its x, y and rotation.
+
+    strips: the element that members become, or None for U1. loaded: axial forces matter, so that members stretch even where
+    the case says that they do not; a constraint would carry the force and leave no stress."""
+
+    def __init__(self, case, strips, loaded=False, large=False):
+        model = case.model
+        self.model, self.deck, self.strips, self.loaded, self.large = model, Deck(), strips, loaded or large, large
+        if large:
+            refuse(model, ["rigid_bodies", "pins", "plates", "springs", "point_masses"])
+        self.motions = {name: self.point(*p) for name, p in model["nodes"].items()}
+        self.members = [placed(m, model) for m in case.members()]
+        for node, taken in model.get("supports", {}).items():
+            if node not in self.motions:
+                raise Cannot("supports of edges")
+            self.deck.supported |= {self.motions[node][DOF[t]] for t in taken}
+        for body in model.get("rigid_bodies", {}).values():
+            place = model["nodes"][body["reference"]]
+            for node in body["nodes"]:
+                if node != body["reference"]:
+                    arm = [a - b for a, b in zip(model["nodes"][node], place)]
+                    self.tie(self.motions[node], self.motions[body["reference"]], arm)
+        for pin in model.get("pins", {}).values():
+            for first, second in list(zip(*(self.motions[n] for n in pin["nodes"])))[:2]:
+                self.deck.same([first, second])
+        for spring in model.get("springs", {}).values():
+            ends = [self.motions[n] for n in spring["nodes"]]
+            values = [*spring.get("stiffness_N_per_m", [0, 0]), spring.get("rotational_stiffness_N_m_per_rad", 0)]
+            for i, value in enumerate(values):
+                self.deck.spring([end[i] for end in ends], value)
+        self.ends = {m.name: [self.end(m, i) for i in (0, 1)] for m in self.members}
+        for m in self.members:
+            (self.strip if strips else self.u1)(m)
+        for name, plate in model.get("plates", {}).items():
+            self.plate(name, plate)
+        for mass in model.get("point_masses", {}).values():
+            motion = self.motions[mass["node"]]
+            if any(mass.get("offset_m", [])):
+                motion = self.point(*model["nodes"][mass["node"]])
+                self.tie(motion, self.motions[mass["node"]], mass["offset_m"])
+            self.deck.mass(motion[:2], mass["mass_kg"])
+            self.deck.mass(motion[2:], mass.get("inertia_kg_m2", 0))
+        for node, dof in sorted(self.deck.supported):
+            self.deck.fix(node, dof)
+
+    def plate(self, name, plate):
+        if "triangles" not in plate:
+            raise Cannot("plates that are not yet meshed")
+        m, set_name = self.model["materials"][plate["material"]], f"P{self.deck.elements}"
+        for triangle in plate["triangles"]:
+            self.deck.element(f"CPS{len(triangle)}", [self.motions[n][0][0] for n in triangle], set_name)
+        self.deck.end += [f"*MATERIAL,NAME={set_name}", "*ELASTIC", card(m["E_Pa"] * PLATE, float(m["nu"])),
+                          "*DENSITY", card(max(m["rho_kg_m3"], 1e-9) * PLATE),
+                          f"*SOLID SECTION,ELSET={set_name},MATERIAL={set_name}", card(plate["thickness_m"] / PLATE)]
+
+    def point(self, x, y):
+        node = self.deck.node(x, y)
+        if not self.strips:
+            self.deck.fix(node, 3, 5)
+            return [(node, 1), (node, 2), (node, 6)]
+        turn = self.deck.node(x, y)
+        self.deck.fix(turn, 2, 3)
+        return [(node, 1), (node, 2), (turn, 1)]
+
+    def tie(self, slave, master, arm):
+        """The slave's motions are those of a body that moves with the master's, an arm (x, y) away from it."""
+        for motion, own, lever in zip(slave, master, (-arm[1], arm[0], 0.0)):
+            self.deck.equation([(*motion, 1.0), (*own, -1.0), (*master[2], -lever)])
+
+    def end(self, m, i):
+        """Motions of a member's end: its node's, or its own with a hinge or spring between."""
+        motion = self.motions[m.nodes[i]]
+        if m.ends[i] == "welded":
+            return motion
+        own = self.point(*self.model["nodes"][m.nodes[i]])
+        for k in (0, 1):
+            self.deck.same([own[k], motion[k]])
+        if m.ends[i] != "hinged":
+            self.deck.spring([own[2], motion[2]], m.ends[i])
+        return own
+
+    def u1(self, m):
+        name = f"U{len(self.deck.lines)}"
+        a, b = self.ends[m.name]
+        self.deck.element("U1", [a[0][0], b[0][0]], name)
+        area = m.A * (1e6 if m.inextensible else 1)
+        self.deck.end += [f"*MATERIAL,NAME={name}", "*ELASTIC", card(m.E, m.E / (2 * m.G) - 1),
+                          f"*BEAM SECTION,ELSET={name},MATERIAL={name},SECTION=GENERAL",
+                          card(float(area), float(m.I), 0, float(m.I), 1e6), card(-m.dy, m.dx, 0)]
+
+    def strip(self, m):
+        deck, name = self.deck, f"E{len(self.deck.lines)}"
+        if not m.I:
+            raise Cannot("modes and buckling with members that do not bend")
+        h = math.sqrt(12 * m.I / m.A)
+        thinner = 1.0  # the same E I and mass without rotary inertia; E A does not matter where the member keeps its length
+        if m.inextensible and self.large:
+            thinner = max(1.0, 100 * h / m.L)
+        elif m.inextensible and not self.loaded and m.beam in ("euler-bernoulli", "shear") and h > SLENDER * m.L:
+            thinner = THIN
+        h, E = h / thinner, m.E * thinner**2
+        n = 2 * m.elements * (1 if self.large else STRIP)
+        x0, y0 = self.model["nodes"][m.nodes[0]]
+        rows = []
+        for i in range(n + 1):
+            x, y = x0 + m.dx * m.L * i / n, y0 + m.dy * m.L * i / n
+            rows.append([deck.node(x - m.dy * z, y + m.dx * z) for z in ((-h / 2, 0, h / 2) if i % 2 == 0 else (-h / 2, h / 2))])
+        for i in range(0, n, 2):
+            a, b, c = rows[i:i + 3]
+            deck.element(self.strips, [a[0], c[0], c[2], a[2], b[0], c[1], b[1], a[1]], name)
+        m.rows = rows
+        for i, row in ((0, rows[0]), (1, rows[-1])):
+            if self.large and self.ends[m.name][i][2] not in deck.supported:
+                self.turning_end(m, i)
+                row = row[1:2]
+            for node in row:
+                arm = [a - b for a, b in zip(deck.nodes[node - 1], self.model["nodes"][m.nodes[i]])]
+                self.tie([(node, 1), (node, 2)], self.ends[m.name][i], arm)
+        if m.inextensible and not self.loaded:
+            self.keep_length(m, [row[1] for row in rows[2:-2:2]])
+        G = m.G * m.kappa if m.sheared else SHEAR_RIGID * E
+        deck.end += [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",
+                     card(E, E, E, 0, 0, 0, G, G), card(G), "*DENSITY", card(max(float(m.rho), 1e-9)),
+                     f"*ORIENTATION,NAME={name}", card(m.dx, m.dy, 0, -m.dy, m.dx, 0),
+                     f"*SOLID SECTION,ELSET={name},MATERIAL={name},ORIENTATION={name}", card(m.A / h)]
+
+    def turning_end(self, m, i):
+        """In large displacement equations carry no rotation: an end is held by its middle, and may not be welded to others."""
+        node = m.nodes[i]
+        others = [o for o in self.members if o is not m and node in o.nodes]
+        if m.ends[i] != "hinged" and (others or nodal_loads(self.model).get(node, [0, 0, 0])[2]):
+            raise Cannot("welded joints and moments that turn in large displacement")
+
+    def keep_length(self, m, middle):
+        """Axial displacement is the same all along the member."""
+        start, end = self.ends[m.name]
+        for motion in [[(node, 1), (node, 2)] for node in middle] + [end]:
+            order = sorted([(0, m.dx), (1, m.dy)], key=lambda a: -abs(a[1]))
+            self.deck.equation([(*motion[i], f) for i, f in order] + [(*start[i], -f) for i, f in order])
+
+    def loads(self):
+        """*CLOAD lines: forces, weights, and what distributed loads come to at the nodes."""
+        forces = [(self.motions[n][i], v) for n, f in nodal_loads(self.model).items() for i, v in enumerate(f)]
+        for m in self.members:
+            for i in (0, 1):
+                if not self.strips:
+                    turn = (-m.dy, m.dx)[i] * m.load[i] * m.L**2 / 12
+                    for end, sign in zip(self.ends[m.name], (1, -1)):
+                        forces += [(end[i], m.load[i] * m.L / 2), (end[2], sign * turn)]
+                    continue
+                for k, row in enumerate(m.rows):  # Simpson's rule; on the middle, or on both sides of it
+                    share = (1 if k in (0, len(m.rows) - 1) else 4 if k % 2 else 2) / (3 * (len(m.rows) - 1))
+                    nodes = row if len(row) == 2 else row[1:2]
+                    forces += [((node, i + 1), m.load[i] * m.L * share / len(nodes)) for node in nodes]
+        return [card(node, dof, float(value)) for (node, dof), value in forces if value]
+
+
+def statics(case, options):
+    second = options.get("second_order", False)
+    plain = all(m.beam not in ("shear", "timoshenko") and m.ends[0] in JOINTS and m.ends[1] in JOINTS for m in case.members())
+    euler = "members" in case.model and plain and not second and not {"plates", "springs"} & case.model.keys()
+    frame = Frame(case, None if euler else "CPS8R", loaded=second)
+    if euler:
+        frame.deck.lines.insert(0, "*USER ELEMENT,TYPE=U1,NODES=2,INTEGRATION POINTS=2,MAXDOF=6")
+    out = frame.deck.run(["*STEP,NLGEOM" if second else "*STEP", "*STATIC", "*CLOAD", *frame.loads(), "*NODE PRINT,NSET=ALL", "U",
+                          *(["*EL FILE,OUTPUT=2D", "S"] if case.model.get("plates") else []), "*END STEP"])
+    u = table(out, "displacements")[-1]
+    value = lambda motion: u[motion[0]][motion[1] - 1]
+    q = {f"{key}:{name}": ("rad" if k == 2 else "m", value(motion[k])) for name, motion in frame.motions.items()
+         for k, key in enumerate(("displacement_x_m", "displacement_y_m", "rotation_rad"))}
+    if case.model.get("plates"):
+        stress = frd_stress("deck.frd")
+        for name, motion in frame.motions.items():
+            for k, axes in enumerate(("xx", "yy", None, "xy")):
+                if axes and motion[0][0] in stress:
+                    q[f"stress_{axes}_Pa:{name}"] = ("Pa", stress[motion[0][0]][k] / PLATE)
+    if euler or not second and not any(m.inextensible for m in frame.members):
+        q.update(section_forces(frame, value))
+    return q
+
+
+def section_forces(frame, value):
+    """Forces, moments and stresses at members' ends, and reactions; value(motion) is what ccx displaced."""
+    model, q = frame.model, {}
+    supports = model.get("supports", {})
+    reaction = {n: [-f for f in nodal_loads(model).get(n, [0, 0, 0])] for n in supports}
+    for m in frame.members:
+        ends = [[value(motion) for motion in end] for end in frame.ends[m.name]]
+        forces = end_forces(m, ends)
+        for i, end in enumerate(("start", "end")):
+            signed = [f if i else -f for f in forces[i]]
+            for name, f in zip(("axial_force_N", "shear_force_N", "bending_moment_N_m"), signed):
+                q[f"{name}:{m.name}.{end}"] = ("N m" if "moment" in name else "N", f)
+            q[f"end_rotation_rad:{m.name}.{end}"] = ("rad", ends[i][2])
+            if m.half_depth and m.I:
+                q[f"bending_stress_Pa:{m.name}.{end}"] = ("Pa", signed[2] * m.half_depth / m.I)
+            if m.nodes[i] in reaction:
+                x, y, moment = forces[i]
+                for k, f in enumerate((m.dx * x - m.dy * y, m.dy * x + m.dx * y, moment)):
+                    reaction[m.nodes[i]][k] += f
+        if m.half_depth and m.I and not any(m.load):
+            q[f"stress_Pa:{m.name}"] = ("Pa", max(abs(f[0]) / m.A + abs(f[2]) * m.half_depth / m.I for f in forces))
+    tied = {n for kind in ("rigid_bodies", "pins", "springs") for part in model.get(kind, {}).values() for n in part["nodes"]}
+    for node in supports.keys() - tied:
+        for t in supports[node]:
+            name = {"x": "reaction_x_N", "y": "reaction_y_N", "rotation": "reaction_moment_N_m"}[t]
+            q[f"{name}:{node}"] = ("N m" if t == "rotation" else "N", reaction[node][DOF[t]])
+    return q
+
+
+def large_statics(case, options):
+    refuse(options, ["switch_branch", "whole_path", "drives"])
+    frame = Frame(case, "CPS8R", large=True)
+    steps = []
+    for factor in options.get("load_factors", [1]):
+        scaled = [line.rsplit(",", 1) for line in frame.loads()]
+        steps += ["*STEP,NLGEOM,INC=1000", "*STATIC", "0.05,1.,1e-6,0.2", "*CLOAD",
+                  *(f"{head},{float(value) * factor:.12e}" for head, value in scaled),
+                  "*NODE PRINT,NSET=ALL,FREQUENCY=1000", "U", "*END STEP"]
+    blocks = table(frame.deck.run(steps), "displacements")
+    q = {}
+    for name, motion in frame.motions.items():
+        for key, k in (("displacement_x_m", 0), ("displacement_y_m", 1)):
+            q[f"{key}:{name}"] = ("m", [u[motion[k][0]][motion[k][1] - 1] for u in blocks])
+    for m in frame.members:
+        for node, face in zip(m.nodes, (m.rows[0], m.rows[-1])):
+            q[f"rotation_rad:{node}"] = ("rad", [turn_of(frame.deck.nodes, u, face[0], face[2]) for u in blocks])
+    return q
+
+
+def turn_of(nodes, u, a, b):
+    """Angle by which the line from node a to node b has turned, within half a revolution."""
+    x, y = nodes[b - 1][0] - nodes[a - 1][0], nodes[b - 1][1] - nodes[a - 1][1]
+    dx, dy = x + u[b][0] - u[a][0], y + u[b][1] - u[a][1]
+    return math.atan2(x * dy - y * dx, x * dx + y * dy)
+
+
+def end_forces(m, ends):
+    """Forces of the nodes on a member's two ends, in its axes, by the slope-deflection equations from what ccx displaced."""
+    L = m.L
+    (u1, v1, t1), (u2, v2, t2) = [(m.dx * u + m.dy * v, m.dx * v - m.dy * u, t) for u, v, t in ends]
+    phi = 12 * m.E * m.I / (m.kappa * m.G * m.A * L**2) if m.sheared else 0.0
+    k = m.E * m.I / L**3 / (1 + phi)
+    n = m.E * m.A / L * (1e6 if m.inextensible else 1) * (u2 - u1)
+    shear = k * (12 * (v1 - v2) + 6 * L * (t1 + t2))
+    moments = [k * (6 * L * (v1 - v2) + L**2 * ((4 + phi) * a + (2 - phi) * b)) for a, b in ((t1, t2), (t2, t1))]
+    wx, wy = m.dx * m.load[0] + m.dy * m.load[1], m.dx * m.load[1] - m.dy * m.load[0]
+    return [(-n - wx * L / 2, shear - wy * L / 2, moments[0] - wy * L**2 / 12),
+            (n - wx * L / 2, -shear - wy * L / 2, moments[1] + wy * L**2 / 12)]
+
+
+def modes(case, options):
+    refuse(options, ["reduction", "rotating"])
+    before = []
+    loaded = options.get("prestressed", False)
+    frame = Frame(case, "CPS8R", loaded)
+    if loaded:
+        before = ["*STEP,NLGEOM", "*STATIC", "*CLOAD", *frame.loads(), "*END STEP"]
+    out = frame.deck.run([*before, "*STEP,PERTURBATION" if before else "*STEP", "*FREQUENCY", str(options["count"] + 3), "*END STEP"])
+    squares = [row[0] for row in table(out, "E I G E N V A L U E   O U T P U T")[0].values()]
+    f = [math.sqrt(max(s, 0)) / (2 * math.pi) for s in squares]
+    rigid = sum(value < 1e-4 * f[-1] for value in f)
+    return {"frequency_Hz": ("Hz", [0.0 if i < rigid else value for i, value in enumerate(f[:options["count"]])]),
+            "rigid_body_modes": ("1", rigid)}
+
+
+def buckling(case, options):
+    if case.model.get("plates"):
+        raise Cannot("buckling of plates")
+    frame = Frame(case, "CPS8", loaded=True)
+    count = options.get("count", 3)
+    out = frame.deck.run(["*STEP", "*BUCKLE", str(count), "*CLOAD", *frame.loads(), "*END STEP"])
+    factors = [row[0] for row in table(out, "B U C K L I N G   F A C T O R   O U T P U T")[0].values()]
+    q = {"load_factor": ("1", factors)}
+    for name, load in case.model.get("loads", {}).items():
+        if "force_N" in load:
+            q[f"critical_force_N:{name}"] = ("N", [f * math.hypot(*load["force_N"]) for f in factors])
+    return q
+
+
+ANALYSES = {"statics": statics, "modes": modes, "buckling": buckling, "large-statics": large_statics}
+
+
+def solve(case):
+    if case.kind not in ANALYSES:
+        raise Cannot(f"analysis {case.kind}")
+    refuse(case.model, ["sliders", "axial_springs", "follower_loads"])
+    if case.model.get("plates"):
+        refuse(case.model, ["gravity_m_s2"])
+    found = ANALYSES[case.kind](case, case.options)
+    return {name: found[name] for name in case.asked if name in found}
+
+
+if __name__ == "__main__":
+    main(solve, name="CalculiX", version="2.20")

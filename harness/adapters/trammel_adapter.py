@@ -1,0 +1,142 @@
+"""Reads cases of `trammel export` and writes results for `trammel grade`. One file, no dependencies.
+
+    from trammel_adapter import main, Cannot
+
+    def solve(case):
+        if case.kind != "modes":
+            raise Cannot("only modes")
+        return {"frequency_Hz": ("Hz", [12.5, 31.0])}
+
+    main(solve, name="my code", version="1.0")
+
+README.md beside this file has the whole protocol.
+"""
+import json
+import math
+import sys
+import time
+from dataclasses import dataclass
+
+
+class Cannot(Exception):
+    """This code cannot do that: no failure. The text says why."""
+
+
+@dataclass
+class Member:
+    """A straight frame member of one section; ends are "welded", "hinged" or a spring [N m/rad]."""
+    name: str
+    nodes: tuple            # names of the first and the second node
+    E: float                # Young's modulus [Pa]
+    G: float                # shear modulus [Pa]
+    rho: float              # density [kg/m^3]
+    A: float                # area [m^2]
+    I: float                # second moment [m^4]
+    kappa: float            # shear coefficient
+    half_depth: float       # of the outermost fibre [m]; None where it is not said
+    beam: str               # "euler-bernoulli", "rayleigh", "shear" or "timoshenko"
+    elements: int           # how many elements the case asks for
+    ends: tuple
+    inextensible: bool
+    lumped: bool            # mass
+    load: tuple             # uniform, per length, world axes [N/m]
+
+
+class Case(dict):
+    """A resolved case: the JSON object, with short ways to what adapters ask for."""
+
+    @property
+    def model(self):
+        return self["model"]
+
+    @property
+    def kind(self):
+        """"statics", "modes", "buckling", ..."""
+        return next(iter(self["analysis"]))
+
+    @property
+    def options(self):
+        return self["analysis"][self.kind]
+
+    @property
+    def asked(self):
+        """Units of the quantities that are judged, by name."""
+        return {one["name"]: one["unit"] for one in self["export"]["quantities"]}
+
+    def require(self, kinds, parts, options=()):
+        """Refuses analyses, parts of the model and options (that are not false) beyond these."""
+        if self.kind not in kinds:
+            raise Cannot("no analysis '%s'" % self.kind)
+        for key in self.model:
+            if key not in parts:
+                raise Cannot("no %s" % key)
+        for key, value in self.options.items():
+            if key not in options and value is not False:
+                raise Cannot("no option '%s'" % key)
+
+    def members(self):
+        """All frame members, with the numbers of their sections."""
+        found = []
+        for name, member in self.model.get("members", {}).items():
+            section = self.model["sections"][member["section"]]
+            material = self.model["materials"][section["material"]]
+            if any(member.get("end_inertia_kg_m2", ())):
+                raise Cannot("no inertia at a member's end")
+            ends = tuple(end if isinstance(end, str) else end["spring_N_m_per_rad"]
+                         for end in member.get("ends", ("welded", "welded")))
+            E, nu = material["E_Pa"], material.get("nu", 0.3)
+            found.append(Member(
+                name, tuple(member["nodes"]), E, E / (2 * (1 + nu)), material["rho_kg_m3"],
+                section["area_m2"], section["second_moment_m4"],
+                section.get("shear_coefficient", 5 / 6), section.get("half_depth_m"),
+                member.get("beam", "euler-bernoulli"), member.get("elements", 1), ends,
+                member.get("axial") == "inextensible", member.get("mass_matrix") == "lumped",
+                tuple(member.get("load_N_per_m", (0.0, 0.0)))))
+        return found
+
+
+def to_numpy(file):
+    """A matrix of `trammel export --matrices` (Matrix Market, real) as a dense numpy array."""
+    import numpy
+    with open(file) as lines:
+        words = next(lines).lower().split()
+        rows = (line.split() for line in lines if line.strip() and not line.startswith("%"))
+        shape = [int(word) for word in next(rows)]
+        if "array" in words:
+            return numpy.array([float(row[0]) for row in rows]).reshape(shape, order="F")
+        matrix = numpy.zeros(shape[:2])
+        for row in rows:
+            i, j, value = int(row[0]) - 1, int(row[1]) - 1, float(row[2])
+            matrix[i, j] = value
+            if "symmetric" in words:
+                matrix[j, i] = value
+    return matrix
+
+
+def _result(quantities, name, version, element_order, seconds):
+    checked = {}
+    for key, (unit, values) in quantities.items():
+        listed = [float(value) for value in (values if hasattr(values, "__len__") else [values])]
+        if not all(map(math.isfinite, listed)):
+            raise ValueError("%s is not finite: %r" % (key, listed[:8]))
+        checked[key] = {"unit": unit, "values": listed}
+    return {"status": "solved", "quantities": checked, "cost": {"seconds": seconds},
+            "solver": {"name": name, "version": version, "element_order": element_order}}
+
+
+def main(solve, name, version="", element_order=None):
+    """Runs `adapter CASE.json RESULT.json`: solve(Case) returns {name: (unit, number or numbers)},
+    raises Cannot, or returns a whole result with a "status" of its own."""
+    with open(sys.argv[-2]) as file:
+        case = Case(json.load(file))
+    start, status = time.perf_counter(), 0
+    try:
+        found = solve(case)
+        result = found if "status" in found else _result(
+            found, name, version, element_order, time.perf_counter() - start)
+    except Cannot as reason:
+        result, status = {"status": "cannot", "reason": str(reason),
+                          "solver": {"name": name, "version": version}}, 4
+    with open(sys.argv[-1], "w") as file:
+        json.dump(result, file, allow_nan=False)
+    sys.exit(status)
