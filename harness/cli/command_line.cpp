@@ -20,6 +20,7 @@
 #include "harness/cli/command_coverage.h"
 #include "harness/cli/command_effects.h"
 #include "harness/cli/command_export.h"
+#include "harness/cli/command_grade.h"
 #include "harness/cli/command_list.h"
 #include "harness/cli/command_paper.h"
 #include "harness/cli/command_quantities.h"
@@ -55,6 +56,8 @@ Examples:
   trammel report                            the whole catalogue as a page
   trammel report ~/my-robot.json            a page of your own case
   trammel export portal-frame               one computation for another code
+  trammel grade ./my-adapter -L frame       another code, judged by the same checks
+  trammel report a/results.json b/results.json    several codes side by side
 
 Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
 folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
@@ -82,6 +85,7 @@ class CommandLine {
     define_report();
     define_export();
     define_solve();
+    define_grade();
   }
 
   int run(const std::vector<std::string>& arguments) {
@@ -310,9 +314,13 @@ class CommandLine {
     CLI::App* sub =
         add("report", "Run the whole catalogue, or some cases, and write the page",
             "\nOnly the page of the whole catalogue has the cost studies and the "
-            "claims of the paper.\n\nExamples:\n  trammel report --out report --jobs 4\n"
-            "  trammel report my-robot.json      a page of your own case");
-    sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
+            "claims of the paper.\nOf results files it computes nothing: one becomes a page as it "
+            "stands, several codes\n(trammel run, trammel grade) stand side by side, case by "
+            "code.\n\nExamples:\n  trammel report --out report --jobs 4\n"
+            "  trammel report my-robot.json      a page of your own case\n"
+            "  trammel report trammel-results/results.json trammel-grade/results.json");
+    sub->add_option("cases", run_.cases,
+                    "Names or files of cases, the catalogue by default; or results files");
     sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
     add_jobs(sub);
     add_out(sub, "Folder for the page, its figures and data, results.json and junit.xml");
@@ -349,6 +357,36 @@ class CommandLine {
     sub->add_option("result", other_, "File of its result")->required();
     sub->callback([this] { command_ = [this] { return solve_command(name_, other_); }; });
   }
+  void define_grade() {
+    CLI::App* sub =
+        add("grade", "Let another code compute cases through an adapter, and judge what it answers",
+            "\nThe adapter is a program: adapter CASE.json RESULT.json. It exits with 0, or with 4 "
+            "for\n\"this code cannot do that\"; harness/adapters/README.md shows how to write one. "
+            "Whatever it\ndoes costs its own row. Exit status 1 where something disagrees, breaks "
+            "or takes too long;\nwhat is not given is no failure.\n\nExamples:\n"
+            "  trammel grade ./my-adapter beam-cantilever\n"
+            "  trammel grade \"python3 my_adapter.py --fast\" -L frame --jobs 4 --out graded");
+    sub->add_option("adapter", grade_.command, "Program, or program with arguments in one word")
+        ->required();
+    sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
+    sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
+    sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
+    add_jobs(sub);
+    sub->add_option("-o,--out", grade_.out,
+                    "Folder for results.json, junit.xml, the page, and a folder for each call")
+        ->capture_default_str();
+    add_store(sub, run_.resume, run_.store);
+    add_memory(sub);
+    sub->add_option("--max-time", grade_.limits.wall_s, "Wall time of one call [s]")
+        ->check(CLI::Range(0.01, 1e6))
+        ->capture_default_str();
+    sub->add_option("--max-disk", grade_.limits.disk_bytes, "What one call may write, as 1GB")
+        ->transform(CLI::AsSizeValue(false));
+    sub->callback([this] {
+      run_.out = grade_.out;
+      command_ = [this] { return grade_command(grade_, run_, renderers_); };
+    });
+  }
 
   const Renderers& renderers_;
   CLI::App app_{kAbout};
@@ -364,6 +402,7 @@ class CommandLine {
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   EffectsCommand effects_;
   ExportCommand export_;
+  GradeCommand grade_;
   std::string name_, other_;
   bool json_ = false;
   std::function<int()> command_;

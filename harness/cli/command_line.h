@@ -15,6 +15,10 @@ struct Renderers {
   std::function<void(const std::filesystem::path& results, const std::filesystem::path& junit)>
       junit;
   std::function<bool()> can_draw;  ///< whether there is what a report is drawn with
+  /// The results of several codes side by side.
+  std::function<std::filesystem::path(const std::vector<std::filesystem::path>& results,
+                                      const std::filesystem::path& folder)>
+      codes;
 };
 
 /// What a command says that a signal ends and that has a store.

@@ -6,6 +6,7 @@
 
 #include "harness/base/diagnostic.h"
 #include "harness/base/errors.h"
+#include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
 #include "harness/base/statistic.h"
@@ -15,6 +16,7 @@
 #include "harness/cli/print_uncertainty.h"
 #include "harness/coverage/evidence_coverage.h"
 #include "harness/input/catalogue.h"
+#include "harness/input/schema.h"
 #include "harness/judge/evaluate_check.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
@@ -287,7 +289,36 @@ int report_cases(const RunCommand& command, const Renderers& renderers) {
   return exit_status(runs);
 }
 
+bool is_results_file(const std::string& name) {
+  try {
+    const Json json = std::filesystem::is_regular_file(name) ? read_json(name) : Json();
+    return json.is_object() && json.contains("format") && json.contains("runs");
+  } catch (const InputError&) {
+    return false;  // told where it is read as a case
+  }
+}
+
+/// Computes nothing: one file becomes the page as it stands, several stand side by side.
+int report_results(const std::vector<std::filesystem::path>& files, const std::string& out,
+                   const Renderers& renderers) {
+  for (const auto& file : files)
+    if (const auto fault = find_schema_fault(read_json(file), "results"))
+      throw InputError(file.string(), fault->pointer, fault->message);
+  if (files.size() == 1) require_drawing(renderers);
+  const OutputLock lock(out);
+  const auto page =
+      files.size() == 1 ? renderers.report(files.front(), out) : renderers.codes(files, out);
+  std::cout << "report in " << page.string() << std::endl;
+  return 0;
+}
+
 }  // namespace
+
+std::vector<Case> select_cases(const RunCommand& command) {
+  Selection selection = select(command);
+  if (!selection.broken.empty()) throw InputError(selection.broken.front().reason);
+  return std::move(selection.cases);
+}
 
 int run_command(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
@@ -310,6 +341,13 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
 }
 
 int report_command(const RunCommand& command, const Renderers& renderers) {
+  const std::size_t stored =
+      std::count_if(command.cases.begin(), command.cases.end(), is_results_file);
+  if (stored > 0) {
+    if (stored < command.cases.size() || !command.labels.empty())
+      throw InputError("expected cases, or results files alone");
+    return report_results({command.cases.begin(), command.cases.end()}, command.out, renderers);
+  }
   require_drawing(renderers);
   if (!command.cases.empty() || !command.labels.empty()) return report_cases(command, renderers);
   const OutputLock lock(command.out);

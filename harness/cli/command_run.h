@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "harness/cli/command_line.h"
+#include "harness/input/case.h"
 
 namespace trammel::harness {
 
@@ -18,9 +19,13 @@ struct RunCommand {
   std::size_t memory_bytes = 0;  ///< of one run; 0: no limit
 };
 
+/// The cases that are named, and those with the labels.
+/// @throws InputError  where one of them cannot be read.
+[[nodiscard]] std::vector<Case> select_cases(const RunCommand& command);
 /// Computes cases and judges them. @returns the exit status
 int run_command(const RunCommand& command, const Renderers& renderers);
-/// The page of the whole catalogue with its cost studies and claims, or of the cases named.
+/// The page of the whole catalogue with its cost studies and claims, of the cases named, or of
+/// results files.
 int report_command(const RunCommand& command, const Renderers& renderers);
 
 }  // namespace trammel::harness

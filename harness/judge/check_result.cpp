@@ -41,7 +41,7 @@ const references::Reference& find_reference(const CheckContext& context,
 }
 
 bool fails_gate(Verdict verdict) {
-  return verdict != Verdict::pass && verdict != Verdict::recorded;
+  return verdict != Verdict::pass && verdict != Verdict::recorded && verdict != Verdict::not_given;
 }
 
 double severity(const CheckResult& entry) {

@@ -21,6 +21,12 @@ struct CheckResult : results::Check {
   bool symmetric = false;
 };
 
+/// A solver other than trammel's, as it names itself.
+struct SolverIdentity {
+  std::string name, version;
+  std::optional<double> element_order;  ///< of convergence in the element size
+};
+
 /// What a run's checks are judged with.
 struct CheckContext {
   const Document& document;
@@ -29,6 +35,8 @@ struct CheckContext {
   const References& references;
   /// Quantities of another variant of the case; null where it has none.
   std::function<const Quantities*(const std::string& variant)> variant;
+  /// Null: trammel's own. Of another, what is missing is not given instead of an error.
+  const SolverIdentity* other_solver = nullptr;
 };
 
 /// A judgement that carries the check's name, role and reasons; an error until it is filled in.
@@ -39,7 +47,7 @@ struct CheckContext {
 [[nodiscard]] const references::Reference& find_reference(const CheckContext& context,
                                                           const std::string& pointer);
 
-/// A gate that does not hold: everything but a pass and what is only recorded.
+/// A gate that does not hold: everything but a pass, what is only recorded and what is not given.
 [[nodiscard]] bool fails_gate(Verdict verdict);
 
 /// How far out an entry lies: errors first, then by the share of the window that is used.

@@ -21,6 +21,7 @@ constexpr std::size_t kMaxEntries = 16;
 /// Why a check cannot be judged.
 struct NotComparable {
   std::string message;
+  bool is_missing = false;  ///< what is asked for is not there
 };
 
 std::vector<std::string> names_of(const Quantities& quantities) {
@@ -50,8 +51,9 @@ const std::vector<double>& find_quantity(const Quantities& quantities, const std
   const auto found = quantities.find(name);
   if (found != quantities.end()) return found->second.values;
   const std::string guess = did_you_mean(current_quantity(name), names_of(quantities));
-  throw NotComparable{"no quantity '" + name + "'" + where +
-                      (guess.empty() ? known_kinds(quantities) : guess)};
+  throw NotComparable{
+      "no quantity '" + name + "'" + where + (guess.empty() ? known_kinds(quantities) : guess),
+      true};
 }
 
 std::vector<double> pick(const std::vector<double>& values, const std::vector<std::size_t>& index,
@@ -97,7 +99,7 @@ void pair_with_run(const Check& check, const CheckContext& context, ComparedValu
   if (!check.against_variant.empty()) {
     other = context.variant(check.against_variant);
     where = " in variant '" + check.against_variant + "'";
-    if (other == nullptr) throw NotComparable{"no solution" + where + " to compare with"};
+    if (other == nullptr) throw NotComparable{"no solution" + where + " to compare with", true};
   }
   const std::string name = check.against_quantity.empty() ? check.quantity : check.against_quantity;
   require_unit(check.quantity, unit_of(name), name);
@@ -222,7 +224,9 @@ std::vector<CheckResult> judge(const Check& check, const CheckContext& context) 
     if (check.order) return evaluate_order_check(check, context);
     return evaluate_entries(check, collect(check, context));
   } catch (const NotComparable& reason) {
-    return {failed_check_result(check, reason.message)};
+    CheckResult failed = failed_check_result(check, reason.message);
+    if (reason.is_missing && context.other_solver != nullptr) failed.verdict = Verdict::not_given;
+    return {failed};
   }
 }
 
@@ -248,6 +252,11 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
 }  // namespace
 
 std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
+  if (check.negative_control && context.other_solver != nullptr) {
+    CheckResult control = failed_check_result(check, "a control of the judging itself");
+    control.verdict = Verdict::not_given;
+    return {control};
+  }
   std::vector<CheckResult> entries = judge(check, context);
   if (check.negative_control) return {judge_control(check, entries)};
   return entries;

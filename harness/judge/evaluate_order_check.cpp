@@ -26,13 +26,23 @@ double entry_of(const references::Reference& reference, const std::vector<std::s
 
 class OrderCheckEvaluator {
  public:
-  OrderCheckEvaluator(const Check& check, const Entry& entry)
-      : check_(check), criterion_(*check.order), entry_(entry), found_(entry.found) {
+  OrderCheckEvaluator(const Check& check, const Entry& entry, bool is_other_solver)
+      : check_(check),
+        criterion_(*check.order),
+        entry_(entry),
+        found_(entry.found),
+        is_other_solver_(is_other_solver) {
     for (std::size_t k = 0; k < found_.error.size(); ++k) qualifies_.push_back(qualifies(k));
     meshes_ = static_cast<std::size_t>(std::count(qualifies_.begin(), qualifies_.end(), true));
   }
 
+  /// The constants of trammel's elements say nothing of others.
   [[nodiscard]] std::vector<CheckResult> run() const {
+    if (is_other_solver_) {
+      CheckResult check_result = order();
+      check_result.index = found_.series.index;
+      return {check_result};
+    }
     std::vector<CheckResult> all = {criterion_.two_term_within ? two_term() : order()};
     if (criterion_.leading_term) all.push_back(leading_term());
     if (criterion_.richardson_within) all.push_back(richardson());
@@ -56,6 +66,7 @@ class OrderCheckEvaluator {
     } else if (meshes_ < criterion_.meshes) {
       check_result.message =
           fmt::format("only {} meshes qualify, {} are needed", meshes_, criterion_.meshes);
+      if (is_other_solver_) check_result.verdict = Verdict::not_given;
     } else {
       return false;
     }
@@ -173,12 +184,19 @@ class OrderCheckEvaluator {
   const Convergence& found_;
   std::vector<bool> qualifies_;
   std::size_t meshes_ = 0;
+  bool is_other_solver_ = false;
 };
 
 }  // namespace
 
 std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckContext& context) {
   const OrderCriterion& criterion = *check.order;
+  const bool is_other_solver = context.other_solver != nullptr;
+  if (is_other_solver && !context.other_solver->element_order) {
+    CheckResult unknown = failed_check_result(check, "the adapter declares no element_order");
+    unknown.verdict = Verdict::not_given;
+    return {unknown};
+  }
   std::vector<CheckResult> all;
   std::size_t position = 0;
   for (const Convergence& found : context.convergence) {
@@ -211,7 +229,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
       const auto& reference = find_reference(context, criterion.leading_term->pointer + "/share");
       entry.share = entry_of(reference, {}, position);
     }
-    const auto judged = OrderCheckEvaluator(check, entry).run();
+    const auto judged = OrderCheckEvaluator(check, entry, is_other_solver).run();
     all.insert(all.end(), judged.begin(), judged.end());
     ++position;
   }

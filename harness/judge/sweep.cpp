@@ -73,8 +73,8 @@ std::optional<double> exact_of(const TrackedQuantity& tracked_quantity, std::siz
 }
 
 Series track_entry(const Sweep& sweep, const JsonView& place,
-                   const TrackedQuantity& tracked_quantity, std::size_t index,
-                   std::size_t position) {
+                   const TrackedQuantity& tracked_quantity, std::size_t index, std::size_t position,
+                   const std::optional<double>& element_order) {
   Series series;
   series.sweep = sweep.name;
   series.quantity = tracked_quantity.quantity;
@@ -83,6 +83,10 @@ Series track_entry(const Sweep& sweep, const JsonView& place,
   series.theory = tracked_quantity.theory;
   if (!series.theory && place.has("theory_order")) series.theory = place.number("theory_order");
   if (place.has("lower_order")) series.lower = place.number("lower_order");
+  if (element_order) {
+    series.theory = element_order;
+    series.lower.reset();
+  }
   const std::string measures = place.get<std::string>("refinement_by", "elements");
   for (const SweepLevel& level : sweep.levels) {
     const auto [value, roundoff] = entry_of(level.quantities, tracked_quantity, index);
@@ -112,7 +116,8 @@ double element_size(const std::string& measures, double parameter) {
 
 std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                      const std::vector<Check>& checks, const References& references,
-                                     TrackedQuantities tracked) {
+                                     TrackedQuantities tracked,
+                                     std::optional<double> element_order) {
   const JsonView place = JsonView(document)["sweeps"][sweep.name];
   std::vector<TrackedQuantity> tracked_quantities =
       place.has("quantities") ? named_by_sweep(place["quantities"], references)
@@ -123,7 +128,8 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
     if (is_count(tracked_quantity.quantity)) continue;
     const std::vector<std::size_t> chosen = entries(sweep, tracked_quantity);
     for (std::size_t position = 0; position < chosen.size(); ++position) {
-      const Series series = track_entry(sweep, place, tracked_quantity, chosen[position], position);
+      const Series series =
+          track_entry(sweep, place, tracked_quantity, chosen[position], position, element_order);
       // A zero (a rigid motion) has no relative error.
       if ((series.exact == 0.0 && !series.is_error) || !changes(series)) continue;
       found.push_back(analyse_convergence(series));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,11 @@ enum class TrackedQuantities {
   all     ///< every one that changes with the level
 };
 
+/// @param element_order  of another solver, in place of the orders of the sweep
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,
                                                    const References& references,
-                                                   TrackedQuantities tracked);
+                                                   TrackedQuantities tracked,
+                                                   std::optional<double> element_order = {});
 
 }  // namespace trammel::harness

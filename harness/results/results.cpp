@@ -12,19 +12,23 @@ namespace trammel::results {
 
 template <>
 inline constexpr std::array kNames<Verdict> = {
-    std::pair{"pass", Verdict::pass}, std::pair{"fail", Verdict::fail},
-    std::pair{"error", Verdict::error}, std::pair{"not-run", Verdict::not_run},
-    std::pair{"recorded", Verdict::recorded}};
+    std::pair{"pass", Verdict::pass},         std::pair{"fail", Verdict::fail},
+    std::pair{"error", Verdict::error},       std::pair{"not-run", Verdict::not_run},
+    std::pair{"recorded", Verdict::recorded}, std::pair{"not-given", Verdict::not_given}};
 template <>
 inline constexpr std::array kNames<Expectation> = {
     std::pair{"agrees", Expectation::agrees},
     std::pair{"known-discrepancy", Expectation::known_discrepancy},
     std::pair{"none", Expectation::none}};
 template <>
-inline constexpr std::array kNames<Status> = {
-    std::pair{"solved", Status::solved}, std::pair{"singular", Status::singular},
-    std::pair{"not-converged", Status::not_converged}, std::pair{"error", Status::error},
-    std::pair{"not-run", Status::not_run}};
+inline constexpr std::array kNames<Status> = {std::pair{"solved", Status::solved},
+                                              std::pair{"singular", Status::singular},
+                                              std::pair{"not-converged", Status::not_converged},
+                                              std::pair{"error", Status::error},
+                                              std::pair{"not-run", Status::not_run},
+                                              std::pair{"cannot", Status::cannot},
+                                              std::pair{"crashed", Status::crashed},
+                                              std::pair{"timed-out", Status::timed_out}};
 
 /// t: the difference lies within +-t. [low, high]: between them, null where open.
 template <>
@@ -177,7 +181,10 @@ template <>
 inline constexpr auto kFields<CaseInfo> =
     std::tuple{TRAMMEL_REQUIRED(CaseInfo, title, variants),
                TRAMMEL_OPTIONAL(CaseInfo, description, family, labels, stress_suite, figures,
-                                tables, analysis)};
+                                tables, analysis, hash)};
+template <>
+inline constexpr auto kFields<Solver> =
+    std::tuple{TRAMMEL_REQUIRED(Solver, name, version, command)};
 template <>
 inline constexpr auto kKeyMember<Reference> = &Reference::id;
 template <>
@@ -216,7 +223,7 @@ template <>
 inline constexpr auto kFields<Results> =
     std::tuple{optional("numerical_uncertainty", &Results::uncertainty_coverage),
                TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
-               TRAMMEL_OPTIONAL(Results, cost, claims, coverage)};
+               TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage)};
 
 namespace {
 

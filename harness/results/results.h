@@ -65,6 +65,7 @@ struct CaseInfo {
   std::vector<PlotRequest> figures;
   std::vector<TableRequest> tables;
   std::vector<Variant> variants;
+  std::string hash;  ///< of the case with all that it extends
 
   [[nodiscard]] std::string variant_title(const std::string& variant) const;
 };
@@ -131,12 +132,18 @@ struct CoverageRow {
   [[nodiscard]] bool is_verified() const;
 };
 
+/// A solver other than trammel's, as its adapter names it.
+struct Solver {
+  std::string name, version, command;
+};
+
 struct Results {
   int format = 1;
   Environment environment;
   std::vector<CaseInfo> cases;
   std::vector<Reference> references;
   std::vector<Run> runs;
+  std::optional<Solver> solver;  ///< empty: trammel's own
   std::optional<UncertaintyCoverage> uncertainty_coverage;
   std::optional<CostStudies> cost;  ///< accuracy and computing time, where measured
   std::optional<Claims> claims;

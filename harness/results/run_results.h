@@ -13,10 +13,12 @@ namespace trammel::results {
 using Number = std::optional<double>;  ///< null in the file where it is empty
 using Numbers = std::vector<Number>;
 
-/// recorded: a validation without an expectation, which does not gate.
-enum class Verdict { pass, fail, error, not_run, recorded };
+/// recorded: a validation without an expectation; not given: a quantity that another solver does
+/// not answer. Neither gates.
+enum class Verdict { pass, fail, error, not_run, recorded, not_given };
 enum class Expectation { agrees, known_discrepancy, none };
-enum class Status { solved, singular, not_converged, error, not_run };
+/// The last three of another solver alone: it has no such thing, it broke, it took too long.
+enum class Status { solved, singular, not_converged, error, not_run, cannot, crashed, timed_out };
 
 /// Allowed range of a difference: +-high for a plain tolerance, [low, high] for a range or a bound;
 /// an empty end is unbounded.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/content_hash.h"
 #include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 
@@ -169,10 +170,11 @@ std::vector<results::EffectRow> effects(const Run& run) {
 }
 
 results::Status status(const std::string& status) {
-  for (const auto known : {results::Status::solved, results::Status::singular,
-                           results::Status::not_converged, results::Status::not_run})
+  using results::Status;
+  for (const Status known : {Status::solved, Status::singular, Status::not_converged,
+                             Status::not_run, Status::cannot, Status::crashed, Status::timed_out})
     if (status == to_string(known)) return known;
-  return results::Status::error;
+  return Status::error;
 }
 
 results::Run run_results(const Run& run) {
@@ -211,6 +213,7 @@ results::CaseInfo case_info(const Case& given) {
   if (json.contains("figures")) info.figures = results::read_figures(json["figures"]);
   if (json.contains("tables")) info.tables = results::read_tables(json["tables"]);
   info.analysis = analysis_kind(given.document);
+  info.hash = content_hash(given.document.value().dump());
   for (const std::string& variant : given.variants())
     info.variants.push_back({variant, given.variant_title(variant)});
   return info;

@@ -38,6 +38,11 @@ const char* status_name(solver::Status status) {
   return "error";
 }
 
+/// Ended without an answer of its solver, which a later call may get.
+bool has_broken(const Computation& run) {
+  return run.status == "error" || run.status == "crashed" || run.status == "timed-out";
+}
+
 void mark_failed(Run& run, const std::string& reason, Run::RunError error) {
   run.status = "error";
   run.reason = one_line(reason);
@@ -118,7 +123,15 @@ void compare_for_validation(Task& task, const References& references) {
   task.run.uncertainty_wall_s = watch.wall_s();
 }
 
-std::string answer_of(Task task) {
+std::string answer_of(Task task, const OtherSolver& solver) {
+  if (solver.compute) {
+    run_guarded(task.run, [&] {
+      solver.compute(*task.owner, task.run.variant, task.document, task.checks, task.requested,
+                     task.run);
+    });
+    if (!task.run.result.timings.empty()) task.run.machine = machine_name();
+    return to_bytes(task.run);
+  }
   const References references;
   compute(task, references);
   compare_for_validation(task, references);
@@ -134,8 +147,10 @@ unsigned time_limit_s(const Document& document) {
       std::ceil(std::min(document.value().value("timeout_s", kDefault), kLongest)));
 }
 
-void mark_ended(Task& task, const ProcessOutcome& outcome) {
+void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& options) {
   using Termination = ProcessOutcome::Termination;
+  if (options.solver.compute && outcome.termination != Termination::answered)
+    return mark_failed(task.run, "no answer: " + outcome.text, Run::RunError::none);
   const auto expected = [&](const std::string& pointer, const std::string& what) {
     const std::string found = " (" + task.run.variant + ": " + outcome.text + ")";
     mark_failed(task.run, task.document.error(pointer, "expected " + what + found).what(),
@@ -170,9 +185,11 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     std::filesystem::path file;
     if (task.run.status == "error") continue;
     if (!options.store.empty())
-      file = options.store / computation_name(task.document, task.requested);
+      file = options.store / computation_name(task.document, task.requested, options.solver.hash);
     if (options.resume && find_stored(file, task.run)) continue;
-    work.push_back({[&task] { return answer_of(task); }, time_limit_s(task.document)});
+    const unsigned limit_s =
+        options.solver.compute ? options.solver.time_limit_s : time_limit_s(task.document);
+    work.push_back({[&task, &options] { return answer_of(task, options.solver); }, limit_s});
     open.emplace_back(&task, std::move(file));
   }
   std::error_code error;
@@ -185,8 +202,8 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   return run_in_processes(work, {options.jobs, options.memory_bytes, show},
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
-                            mark_ended(*task, outcome);
-                            if (!file.empty() && task->run.status != "error")
+                            mark_ended(*task, outcome, options);
+                            if (!file.empty() && !has_broken(task->run))
                               write_file(file, outcome.text);
                             ++done;
                             show();
@@ -214,23 +231,20 @@ bool evaluate_status_check(const Task& task, Run& run) {
 void evaluate_checks(Task& task, const std::vector<Task>& tasks, const References& references,
                      const RunOptions& options) {
   Run& run = task.run;
-  if (run.status == "error") {
+  const auto leave_unjudged = [&](const std::string& message, Verdict verdict) {
     for (const Check& check : task.checks) {
-      run.check_results.push_back(failed_check_result(check, "not computed: " + run.reason));
+      run.check_results.push_back(failed_check_result(check, message));
+      run.check_results.back().verdict = verdict;
     }
-    return;
-  }
-  if (run.status == "not-run") {
-    for (const Check& check : task.checks) {
-      run.check_results.push_back(failed_check_result(check, "interrupted"));
-      run.check_results.back().verdict = results::Verdict::not_run;
-    }
-    return;
-  }
+  };
+  if (has_broken(run)) return leave_unjudged("not computed: " + run.reason, Verdict::error);
+  if (run.status == "not-run") return leave_unjudged("interrupted", Verdict::not_run);
+  if (run.status == "cannot") return leave_unjudged("cannot: " + run.reason, Verdict::not_given);
   // Where no solution is what the case expects, there is nothing more to judge.
   if (evaluate_status_check(task, run) && run.status != "solved") return;
   for (const Sweep& sweep : run.sweeps) {
-    auto found = study_sweep(sweep, task.document, task.checks, references, options.tracked);
+    auto found = study_sweep(sweep, task.document, task.checks, references, options.tracked,
+                             run.solver.element_order);
     std::move(found.begin(), found.end(), std::back_inserter(run.convergence));
   }
   const auto quantities_of = [&](const std::string& variant) -> const Quantities* {
@@ -242,13 +256,19 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
     }
     return nullptr;
   };
-  const CheckContext context{task.document, run.result.quantities, run.convergence, references,
-                             quantities_of};
+  const CheckContext context{task.document,   run.result.quantities,
+                             run.convergence, references,
+                             quantities_of,   options.solver.compute ? &run.solver : nullptr};
   for (const Check& check : task.checks) {
     const bool solved = run.status == "solved";
     auto judged =
         solved ? evaluate_check(check, context)
                : std::vector<CheckResult>{failed_check_result(check, "no solution: " + run.status)};
+    // A regression guards trammel against itself.
+    for (CheckResult& result : judged)
+      if (options.solver.compute && check.role == Role::regression &&
+          result.verdict == Verdict::fail)
+        result.verdict = Verdict::recorded;
     std::move(judged.begin(), judged.end(), std::back_inserter(run.check_results));
   }
   // Orders that are wrong on purpose say nothing of the method.

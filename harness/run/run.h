@@ -15,6 +15,18 @@
 /// Runs cases: every (case, variant) is one independent computation.
 namespace trammel::harness {
 
+struct Computation;
+
+/// Another solver in trammel's place.
+struct OtherSolver {
+  /// Computes a case or variant, in a process of its own.
+  std::function<void(const Case& owner, const std::string& variant, const Document& document,
+                     const std::vector<Check>& checks, bool with_sweeps, Computation& computation)>
+      compute;                ///< empty: trammel computes
+  std::string hash;           ///< of all that decides its answers, for the store
+  unsigned time_limit_s = 0;  ///< of processor time
+};
+
 struct RunOptions {
   std::string variant;  ///< empty: all
   unsigned jobs = 1;
@@ -24,11 +36,14 @@ struct RunOptions {
   std::filesystem::path store = {};  ///< folder that computations are kept in; empty: none
   bool resume = false;               ///< takes over what the store has
   std::size_t memory_bytes = 0;      ///< that one computation may use; 0: no limit
+  OtherSolver solver = {};
 };
 
 /// What the process of a run answers: all but the judgement.
 struct Computation {
-  std::string status = "not-run";  ///< solved, singular, not-converged, error or not-run
+  /// solved, singular, not-converged, error or not-run; of another solver also cannot, crashed and
+  /// timed-out
+  std::string status = "not-run";
   std::string reason;
   enum class RunError { none, input, internal };
   RunError error = RunError::none;  ///< of a run with status "error"
@@ -39,6 +54,7 @@ struct Computation {
   double uncertainty_wall_s = 0;                  ///< of `uncertainty`
   std::map<std::string, std::string> references;  ///< files looked for, and their hashes
   std::string machine;                            ///< where it has measured times
+  SolverIdentity solver = {};                     ///< of another solver
 };
 
 /// What came of one variant of a case.

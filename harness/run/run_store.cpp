@@ -91,8 +91,9 @@ TRAMMEL_KEPT(ComparedEntry, check, quantity, unit, reference, index, comparison,
              literal, u_input_literal_sampled)
 TRAMMEL_KEPT(ValidationUncertainty, inputs, samples, failed, literal_samples, literal_failed,
              numerical, entries)
+TRAMMEL_KEPT(SolverIdentity, name, version, element_order)
 TRAMMEL_KEPT(Computation, status, reason, error, result, sweeps, uncertainty, wall_s, cpu_s,
-             uncertainty_wall_s, references, machine)
+             uncertainty_wall_s, references, machine, solver)
 
 TRAMMEL_KEPT(ErrorNorms, max, rms, mean)
 TRAMMEL_KEPT(Timing, cpu_s, median_s, lower_quartile_s, upper_quartile_s, wall_median_s, runs_each)
@@ -168,9 +169,10 @@ Json tried_cases(const Document& document) {
 
 }  // namespace
 
-std::string computation_name(const Document& document, bool requested) {
+std::string computation_name(const Document& document, bool requested,
+                             const std::string& solver_hash) {
   const std::string file = std::filesystem::absolute(document.origin("").file).string();
-  return name_of({requested, file, document.value(), tried_cases(document)});
+  return name_of({requested, file, document.value(), tried_cases(document), solver_hash});
 }
 
 std::string to_bytes(const Computation& computation) {

@@ -11,8 +11,10 @@
 namespace trammel::harness {
 
 /// Name of the file of what is computed of a case or variant: a hash of the case with all that it
-/// extends, its file, the program, and whether it was asked for or only looked at by another.
-[[nodiscard]] std::string computation_name(const Document& document, bool requested);
+/// extends, its file, the program, whether it was asked for or only looked at by another, and of
+/// another solver than trammel's.
+[[nodiscard]] std::string computation_name(const Document& document, bool requested,
+                                           const std::string& solver_hash = "");
 
 /// As a process answers and a file of the store holds it.
 [[nodiscard]] std::string to_bytes(const Computation& computation);

@@ -14,13 +14,14 @@ struct StatusText {
   const char *words, *css, *sign;
 };
 
-constexpr std::array<StatusText, 6> kStatusTexts = {{
+constexpr std::array<StatusText, 7> kStatusTexts = {{
     {CheckStatus::passes, "passes", "passes", "✓"},
     {CheckStatus::known_discrepancy, "does not agree (known)", "known-discrepancy", "≠"},
     {CheckStatus::not_judged, "not judged", "not-judged", "○"},
     {CheckStatus::fails, "fails", "fails", "✗"},
     {CheckStatus::error, "error", "error", "!"},
     {CheckStatus::not_run, "not run", "not-run", "–"},
+    {CheckStatus::not_given, "not given", "not-run", "·"},
 }};
 
 const StatusText& text_of(CheckStatus status) {
@@ -36,6 +37,7 @@ int severity(CheckStatus status) {
     case CheckStatus::fails:
       return 4;
     case CheckStatus::not_run:
+    case CheckStatus::not_given:
       return 3;
     case CheckStatus::not_judged:
       return 2;
@@ -61,6 +63,8 @@ CheckStatus check_status(const Check& check) {
       return CheckStatus::not_run;
     case Verdict::recorded:
       return CheckStatus::not_judged;
+    case Verdict::not_given:
+      return CheckStatus::not_given;
   }
   throw std::logic_error("unknown verdict");
 }
@@ -76,9 +80,13 @@ CheckStatus check_status(const Run& run) {
     case Status::not_converged:
       return expected ? CheckStatus::passes : CheckStatus::fails;
     case Status::error:
+    case Status::crashed:
+    case Status::timed_out:
       return CheckStatus::error;
     case Status::not_run:
       return CheckStatus::not_run;
+    case Status::cannot:
+      return CheckStatus::not_given;
   }
   throw std::logic_error("unknown status");
 }

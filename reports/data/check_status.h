@@ -11,11 +11,12 @@ namespace trammel::reports {
 
 /// The status of a check on the page. A comparison that is recorded as not agreeing is a status of
 /// its own and no pass, although its verdict, which gates, is "pass" while it is as recorded.
-enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run };
-inline constexpr std::array<CheckStatus, 6> kAllCheckStatuses = {
+enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run, not_given };
+inline constexpr std::array<CheckStatus, 7> kAllCheckStatuses = {
     CheckStatus::passes,     CheckStatus::known_discrepancy,
     CheckStatus::not_judged, CheckStatus::fails,
-    CheckStatus::error,      CheckStatus::not_run};
+    CheckStatus::error,      CheckStatus::not_run,
+    CheckStatus::not_given};
 
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
@@ -23,8 +24,8 @@ inline constexpr std::array<CheckStatus, 6> kAllCheckStatuses = {
 /// of them pass, for then the case expects that ending.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
-/// "passes", "does not agree (known)", "not judged", "fails", "error", "not run"; and the class
-/// name in the style sheet; and a sign that does not need colour.
+/// "passes", "does not agree (known)", "not judged", "fails", "error", "not run", "not given"; and
+/// the class name in the style sheet; and a sign that does not need colour.
 [[nodiscard]] std::string to_text(CheckStatus status);
 [[nodiscard]] std::string css_class(CheckStatus status);
 [[nodiscard]] std::string sign(CheckStatus status);

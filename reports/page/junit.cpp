@@ -58,6 +58,7 @@ std::string testcase(const std::string& classname, const std::string& name, doub
       ++tally.errors;
       return with("error");
     case CheckStatus::not_run:
+    case CheckStatus::not_given:
       ++tally.skipped;
       return with("skipped");
     case CheckStatus::known_discrepancy:

@@ -25,6 +25,7 @@ Data environment_section(const Results& results) {
     if (!value.empty()) add(key, value);
   }
   for (const auto& [name, version] : from.libraries) add(name, version);
+  if (results.solver) add("computed by", results.solver->name + " " + results.solver->version);
   data.set("rows", rows);
   return data;
 }

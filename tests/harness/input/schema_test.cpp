@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(an_analysis_is_exactly_one) {
 }
 
 BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
-  for (const char* name : {"case", "cost", "reference", "results"}) {
+  for (const char* name : {"adapter_result", "case", "cost", "reference", "results"}) {
     const Json text =
         read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json"));
     BOOST_TEST(text.contains("description"), name);
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(the_schemas_use_only_what_is_checked) {
       }
     }
   };
-  for (const char* name : {"case", "claims", "cost", "reference", "results"}) {
+  for (const char* name : {"adapter_result", "case", "claims", "cost", "reference", "results"}) {
     visit(read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json")), true);
   }
 }

@@ -1,0 +1,125 @@
+#include "harness/cli/command_grade.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+#include "harness/base/errors.h"
+#include "harness/base/processes.h"
+#include "harness/base/progress.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+#include "harness/cli/command_cost.h"
+#include "harness/grade/grade.h"
+#include "harness/input/catalogue.h"
+#include "harness/results/run_grade.h"
+#include "harness/run/output_lock.h"
+#include "harness/run/results.h"
+
+namespace trammel::harness {
+namespace {
+
+using results::Grade;
+
+/// What adapters leave behind ends with the command, however it ends.
+class Descendants {
+ public:
+  Descendants() { adopt_descendants(); }
+  ~Descendants() { end_descendants(); }
+  Descendants(const Descendants&) = delete;
+  Descendants& operator=(const Descendants&) = delete;
+};
+
+/// The check that decides, or the reason.
+std::string explained(const results::Run& run, Grade grade) {
+  const results::Check* check = results::telling_check(run);
+  if (grade == Grade::not_given) return run.checks.empty() ? "" : run.checks.front().message;
+  if (grade != Grade::agrees && grade != Grade::off && grade != Grade::not_judged) {
+    if (!run.reason.empty()) return run.reason;
+    const auto broken = std::find_if(
+        run.checks.begin(), run.checks.end(),
+        [](const results::Check& candidate) { return candidate.verdict == Verdict::error; });
+    return broken == run.checks.end() ? "" : broken->name + ": " + broken->message;
+  }
+  if (check == nullptr) return run.reason;
+  if (!check->difference || !check->computed || !check->expected)
+    return check->name + (check->message.empty() ? "" : ": " + check->message);
+  const std::string entry = check->index ? fmt::format("[{}]", *check->index) : "";
+  return fmt::format("{}: {}{} {}, expected {}: {}", check->name, check->quantity, entry,
+                     rounded(*check->computed), rounded(*check->expected),
+                     check->measure == "relative"
+                         ? fmt::format("{:+.3g} %", 100 * *check->difference)
+                         : fmt::format("{:+.3g} ({})", *check->difference, check->measure));
+}
+
+/// A row a run, then how many of which grade. @returns whether one counts against the code
+bool print_grades(const std::vector<results::Run>& runs) {
+  Table table({"grade", "case", ">given", ">time", "what decides"});
+  std::map<Grade, std::size_t> counts;
+  for (const results::Run& run : runs) {
+    const Grade grade = results::grade_of(run);
+    ++counts[grade];
+    const auto missing = std::count_if(run.checks.begin(), run.checks.end(), [](const auto& check) {
+      return check.verdict == Verdict::not_given;
+    });
+    const auto all = static_cast<std::ptrdiff_t>(run.checks.size());
+    table.add({to_string(grade),
+               run.case_id + (run.variant == kBaseVariant ? "" : ":" + run.variant),
+               fmt::format("{} of {}", all - missing, all), rounded(run.cost.wall_s, 2) + " s",
+               printable(explained(run, grade), 160)});
+  }
+  table.print(std::cout);
+  std::cout << runs.size() << (runs.size() == 1 ? " run:" : " runs:");
+  bool failure = false;
+  const char* separator = " ";
+  for (const auto& [grade, count] : counts) {
+    std::cout << separator << count << ' ' << to_string(grade);
+    separator = ", ";
+    failure = failure || results::is_failure(grade);
+  }
+  std::cout << '\n';
+  return failure;
+}
+
+results::Solver solver_name(const std::vector<Run>& runs, const std::string& command,
+                            const std::string& program) {
+  for (const Run& run : runs)
+    if (!run.solver.name.empty())
+      return {one_line(run.solver.name), one_line(run.solver.version), command};
+  return {std::filesystem::path(program).stem().string(), "", command};
+}
+
+}  // namespace
+
+int grade_command(const GradeCommand& grade, const RunCommand& run, const Renderers& renderers) {
+  Adapter adapter{adapter_words(grade.command), std::filesystem::absolute(grade.out) / "calls",
+                  grade.limits};
+  adapter.limits.memory_bytes = run.memory_bytes;
+  const bool all = run.cases.empty() && run.labels.empty();
+  const std::vector<Case> cases = all ? Catalogue().load() : select_cases(run);
+  const OutputLock lock(grade.out);
+  end_on_signals(kInterrupted);
+  const References references;
+  const Descendants ended;
+  Progress progress("runs");
+  RunOptions options{run.variant, run.jobs, TrackedQuantities::named, {}};
+  options.progress = [&](std::size_t done, std::size_t of) { progress.show(done, of); };
+  options.store = store_folder(run.out, run.store);
+  options.resume = run.resume;
+  options.solver = solver_of(adapter);
+  const std::vector<Run> runs = run_cases(cases, references, options);
+  results::Results found = results_of(runs, cases, references);
+  found.solver = solver_name(runs, grade.command, adapter.words.front());
+  found.uncertainty_coverage.reset();  // it is a matter of trammel's own refinements
+  const auto file = write_results(found, grade.out);
+  renderers.junit(file, std::filesystem::path(grade.out) / "junit.xml");
+  const bool failure = print_grades(found.runs);
+  const auto page = renderers.codes({file}, grade.out);
+  std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
+  require_complete(runs);
+  return failure ? 1 : 0;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,176 @@
+#include "harness/grade/grade.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <set>
+#include <sstream>
+
+#include "harness/base/content_hash.h"
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/base/text.h"
+#include "harness/export/exported_case.h"
+#include "harness/grade/adapter_answer.h"
+
+namespace trammel::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using Ending = ProgramOutcome::Ending;
+
+constexpr int kCannot = 4;  // the exit status of an adapter whose code has no such thing
+constexpr std::size_t kMaxKeptBytes = std::size_t{16} << 20;  // of the folder of a call
+
+/// The last line that says something.
+std::string last_line(const std::string& output) {
+  std::string line, last;
+  for (std::istringstream lines(output); std::getline(lines, line);)
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  return last.empty() ? "" : ": " + printable(last, 200);
+}
+
+void end_as(Computation& computation, const char* status, const std::string& reason) {
+  computation.status = status;
+  computation.reason = reason;
+}
+
+/// What the ending of the program says, where it is not the answer that does.
+bool ended_without_answer(const ProgramOutcome& outcome, const ProgramLimits& limits,
+                          Computation& computation) {
+  switch (outcome.ending) {
+    case Ending::timed_out:
+      end_as(computation, "timed-out", "not done after " + shortest(limits.wall_s) + " s");
+      return true;
+    case Ending::disk_full:
+      end_as(computation, "crashed",
+             "more than " + std::to_string(limits.disk_bytes >> 20) + " MiB on disk");
+      return true;
+    case Ending::not_started:
+      end_as(computation, "error", std::string("not started: ") + std::strerror(outcome.status));
+      return true;
+    case Ending::signalled:
+      end_as(computation, "crashed",
+             "signal " + std::to_string(outcome.status) + ", " + strsignal(outcome.status) +
+                 last_line(outcome.output));
+      return true;
+    case Ending::exited:
+      break;
+  }
+  if (outcome.status == 0 || outcome.status == kCannot) return false;
+  end_as(computation, "crashed",
+         "exit status " + std::to_string(outcome.status) + last_line(outcome.output));
+  return true;
+}
+
+/// One call in its folder, of which the files stay unless they are many.
+void call(const Adapter& adapter, const fs::path& folder, const Json& json,
+          Computation& computation) {
+  std::error_code error;
+  fs::remove_all(folder, error);
+  fs::create_directories(folder);
+  write_file(folder / "case.json", pretty(json));
+  std::vector<std::string> words = adapter.words;
+  words.push_back((folder / "case.json").string());
+  words.push_back((folder / "result.json").string());
+  const ProgramOutcome outcome = run_limited(words, folder, adapter.limits);
+  computation.wall_s += outcome.wall_s;
+  computation.cpu_s += outcome.cpu_s;
+  try {
+    if (!ended_without_answer(outcome, adapter.limits, computation)) {
+      const bool cannot = outcome.status == kCannot;
+      if (cannot) end_as(computation, "cannot", "exit status 4 without a reason");
+      if (!cannot || fs::exists(folder / "result.json", error))
+        read_adapter_answer(folder / "result.json", json.at("export"), computation);
+      if (cannot) computation.status = "cannot";
+    }
+  } catch (const InputError& broken) {
+    end_as(computation, "error", one_line(broken.what()));
+  }
+  if (folder_bytes(folder, kMaxKeptBytes) > kMaxKeptBytes) {
+    fs::remove_all(folder, error);
+    fs::create_directories(folder, error);
+  }
+  if (fs::is_directory(folder, error)) write_file(folder / "output.txt", outcome.output);
+}
+
+/// The sweeps whose orders are judged, level by level; a level without solution stays empty.
+std::vector<Sweep> swept(const Adapter& adapter, const fs::path& folder, const Case& owner,
+                         const std::string& variant, const Document& document,
+                         const std::vector<Check>& checks, Computation& computation) {
+  std::set<std::string> names;
+  for (const Check& check : checks)
+    if (check.order) names.insert(check.order->sweep);
+  std::vector<Sweep> sweeps;
+  for (const std::string& name : names) {
+    Sweep sweep{name, {}};
+    for (const Level& level : levels(document, name)) {
+      Computation found;
+      const std::size_t number = sweep.levels.size();
+      call(adapter, folder / (name + "-" + std::to_string(number)),
+           export_case(owner, {variant, name, number}), found);
+      computation.wall_s += found.wall_s;
+      computation.cpu_s += found.cpu_s;
+      if (found.status != "solved") found.result.quantities.clear();
+      sweep.levels.push_back({level.parameter, std::move(found.result.quantities)});
+    }
+    sweeps.push_back(std::move(sweep));
+  }
+  return sweeps;
+}
+
+}  // namespace
+
+std::vector<std::string> adapter_words(const std::string& command) {
+  std::vector<std::string> words;
+  if (fs::is_regular_file(command)) {
+    words = {command};
+  } else {
+    std::istringstream text(command);
+    for (std::string word; text >> word;) words.push_back(word);
+  }
+  if (words.empty()) throw InputError("ADAPTER: expected a program");
+  if (words.front().find('/') == std::string::npos && !fs::is_regular_file(words.front())) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');)
+      if (access((fs::path(folder) / words.front()).c_str(), X_OK) == 0) {
+        words.front() = (fs::path(folder) / words.front()).string();
+        break;
+      }
+  }
+  for (std::string& word : words)
+    if (fs::is_regular_file(word)) word = fs::absolute(word).lexically_normal().string();
+  if (!fs::is_regular_file(words.front()) || access(words.front().c_str(), X_OK) != 0)
+    throw InputError("ADAPTER: expected a program that can be executed (got " +
+                     quoted(printable(words.front())) + ")");
+  return words;
+}
+
+OtherSolver solver_of(const Adapter& adapter) {
+  OtherSolver solver;
+  solver.hash = "adapter";
+  for (const std::string& word : adapter.words) solver.hash += " " + word + " " + file_hash(word);
+  solver.compute = [adapter](const Case& owner, const std::string& variant,
+                             const Document& document, const std::vector<Check>& checks,
+                             bool with_sweeps, Computation& computation) {
+    const fs::path folder = adapter.folder / owner.id() / variant;
+    Json json;
+    try {
+      json = export_case(owner, {variant});
+    } catch (const InputError& refused) {
+      return end_as(computation, "cannot", one_line(refused.what()));
+    }
+    call(adapter, folder, json, computation);
+    computation.result.analysis = analysis_kind(document);
+    if (computation.status == "solved" && with_sweeps && computation.solver.element_order)
+      computation.sweeps = swept(adapter, folder, owner, variant, document, checks, computation);
+  };
+  // Wall time is what limits an adapter; this ends one whose watcher has failed.
+  solver.time_limit_s = static_cast<unsigned>(std::min(64 * adapter.limits.wall_s + 1, 1e7));
+  return solver;
+}
+
+}  // namespace trammel::harness
