@@ -29,7 +29,9 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
 
 /// Without "effects": the parts' own words, and the analysis's.
 solver::Effects stated_effects(const Document& document, const EffectScope& scope) {
-  solver::Effects stated = scope.applicable.without(solver::Effect::large_displacement);
+  solver::Effects stated = scope.applicable;
+  if (!scope.required.has(solver::Effect::large_displacement))
+    stated = stated.without(solver::Effect::large_displacement);
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
     const auto specified = find_key(document, effect_key);
     if (specified ? specified->get<bool>() : effect_key.otherwise) continue;
@@ -105,8 +107,8 @@ Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const Eff
     order.push_back(one.effect);
     reasons[static_cast<std::size_t>(one.effect)].number = one.number;
   }
-  // To second order the estimates err by their square and less.
-  constexpr double kSafetyFactor = 0.9;
+  // What moves off its estimate by vibrating came out at a third more.
+  constexpr double kSafetyFactor = 0.7;
   const ChangeWith change_with = [&](solver::Effects active) {
     double change = 0;
     for (const solver::EffectEstimate& one : estimates.effects)
@@ -166,7 +168,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
                                      : "on: the whole scene has no solution to compare with (" +
                                            found.outcome.reason + ")";
     if (rules.estimate == nullptr)
-      one.number = slenderness_number(one.effect, build_model(case_model, 0));
+      one.number = slenderness_number(one.effect, first_model(case_model));
   }
   if (rules.estimate != nullptr && estimates.outcome.solved())
     add_beyond_tier(analysis, case_model, estimates, choice);
@@ -180,7 +182,7 @@ bool knows_effects(const Document& document) {
 }
 
 EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
-  const solver::Model model = build_model(case_model, 0);
+  const solver::Model model = first_model(case_model);
   EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(solver::Effect::platform_flexibility);

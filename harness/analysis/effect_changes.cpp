@@ -40,6 +40,14 @@ std::string change_kind(const std::string& quantity) {
       {"shear_force_", "force"},
       {"bending_moment_", "moment"},
       {"stress_Pa", "stress"},
+      {"bending_stress_Pa", "stress"},
+      {"position_", "position"},
+      {"velocity_", "velocity"},
+      {"angular_velocity_", "angular velocity"},
+      {"acceleration_", "acceleration"},
+      {"angle_rad", "rotation"},
+      {"drive_force_N", "force"},
+      {"drive_torque_N_m", "moment"},
       {"frequency_Hz", "frequency"}};
   for (const auto& [start, kind] : kinds) {
     if (quantity.rfind(start, 0) == 0) return kind;

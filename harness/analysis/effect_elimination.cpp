@@ -7,6 +7,7 @@
 #include <set>
 
 #include "harness/analysis/effect_changes.h"
+#include "harness/base/errors.h"
 
 namespace trammel::harness {
 namespace {
@@ -92,7 +93,8 @@ class MeshedScene {
   double change(Effects whole, Effects effects, const std::set<std::size_t>& steps) {
     const auto full = along(whole, steps), other = along(effects, steps);
     if (!full || !other) return kInfinite;
-    return max_change(changes_between(*full, *other, size_)).value;
+    const Changes changes = changes_between(*full, *other, size_);
+    return changes.empty() ? kInfinite : max_change(changes).value;
   }
 
   /// One after the other; nothing where one is missing.
@@ -117,8 +119,7 @@ class MeshedScene {
     Recorder record;
     scene_.effects = effects;
     try {
-      const StepResult result =
-          std::get<StepAnalysis>(kind_.of_scene)(analysis_, scene_, step, false, record);
+      const StepResult result = run(step, record);
       counters += result.counters;
       const solver::Outcome found =
           solver::outcome_by_evidence(result.outcome, result.evidence, kind_.evidence);
@@ -127,8 +128,17 @@ class MeshedScene {
     } catch (const solver::ModelError&) {  // what is left means nothing without the effect
       if (effects == all_) throw;
       return std::nullopt;
+    } catch (const InputError&) {  // as fewer modes than damping ratios
+      if (effects == all_) throw;
+      return std::nullopt;
     }
     return record.take_quantities();
+  }
+
+  StepResult run(std::size_t step, Recorder& record) const {
+    if (const auto* along_path = std::get_if<PathAnalysis>(&kind_.of_scene))
+      return (*along_path)(analysis_, scene_, false, record);
+    return std::get<StepAnalysis>(kind_.of_scene)(analysis_, scene_, step, false, record);
   }
 
   const AnalysisKind& kind_;
@@ -185,13 +195,17 @@ class Measurement {
   Measurement(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
               const EffectScope& scope, double tolerance)
       : scope_(scope), tolerance_(tolerance) {
-    const solver::Model model = build_model(scene, 0);
+    const solver::Model model = first_model(scene);
     size_ = model_size(model);
     const auto members = std::max<solver::Index>(std::ssize(model.members), 1);
     CaseModel coarse = scene, coarsest = scene;
+    const bool vibrates =
+        kind.effects == &vibration_effects() || kind.effects == &large_motion_effects();
+    const solver::Index elements =
+        vibrates ? 4 : 2 + analysis.get<solver::Index>("count", 0) / members;
+    try_linearly_ = !scope.required.has(Effect::large_displacement);
     const bool has_coarser_platform = coarsen_platform(coarse);
-    is_coarser_ = coarsen_members(coarse, 2 + analysis.get<solver::Index>("count", 0) / members) ||
-                  has_coarser_platform;
+    is_coarser_ = coarsen_members(coarse, elements) || has_coarser_platform;
     coarsen_members(coarsest, 1);
     coarsen_platform(coarsest);
     is_linear_exact_ = &kind == &find_analysis("statics") && !has_coarser_platform &&
@@ -199,7 +213,9 @@ class Measurement {
     coarsest_.emplace(kind, analysis, std::move(coarsest), scope.applicable, size_);
     coarse_.emplace(kind, analysis, std::move(coarse), scope.applicable, size_);
     own_.emplace(kind, analysis, scene, scope.applicable, size_);
-    for (std::size_t step = 0; step < scene.steps(); ++step) every_step_.insert(step);
+    const bool one_by_one = std::holds_alternative<StepAnalysis>(kind.of_scene);
+    for (std::size_t step = 0; step < (one_by_one ? scene.steps() : 1); ++step)
+      every_step_.insert(step);
     negligible_ = negligible_effects(model, scope, tolerance);
   }
 
@@ -344,19 +360,24 @@ class Measurement {
   bool add_worst_step(const Elimination& found) {
     if (steps_ == every_step_ || found.chosen == scope_.applicable) return false;
     Effects whole = scope_.applicable, chosen = found.chosen;
-    if (chosen.has(Effect::large_displacement)) {
+    const bool is_lost = !(coarse_->change(whole, linear(whole), steps_) <= kLost);
+    if (chosen.has(Effect::large_displacement) && !is_lost) {
       whole = linear(whole);
       chosen = linear(chosen);
-    } else if (is_nearly_linear(found)) {
+    } else if (!chosen.has(Effect::large_displacement) && is_nearly_linear(found)) {
       whole = whole.without(Effect::large_displacement);
     }
-    const auto full = coarsest_->along(whole, every_step_);
-    if (!full) return false;
+    MeshedScene& mesh = is_lost ? *coarse_ : *coarsest_;
+    const auto full = mesh.along(whole, every_step_);
+    if (!full) {
+      steps_ = every_step_;
+      return is_lost;
+    }
     for (const std::size_t step : every_step_) {
-      if (!coarsest_->at(chosen, step)) return steps_.insert(step).second;
+      if (!mesh.at(chosen, step)) return steps_.insert(step).second;
     }
     const LargestDifference worst =
-        max_change(changes_between(*full, *coarsest_->along(chosen, every_step_), size_));
+        max_change(changes_between(*full, *mesh.along(chosen, every_step_), size_));
     return worst.value > kSurelyWithin * tolerance_ && steps_.insert(worst.index).second;
   }
 

@@ -13,9 +13,10 @@
 namespace trammel::harness {
 namespace {
 
-/// Of one effect, by analysis: statics, modes, elastodynamics.
+/// Of one effect, by analysis: statics, modes, elastodynamics, other motion.
+using Texts = std::array<const char*, 4>;
 struct EffectWords {
-  std::array<const char*, 3> number, missing;
+  Texts number, missing;
 };
 
 constexpr const char* kStrain = "share of the strain energy";
@@ -23,49 +24,51 @@ constexpr const char* kKinetic = "share of the kinetic energy";
 constexpr const char* kSlenderness = "(r / L)^2, the squared slenderness";
 constexpr const char* kShear = "12 E I / (kappa G A L^2)";
 constexpr const char* kAtRest = "nothing moves in statics";
+constexpr const char* kNoRotary = "the sections have no rotary inertia ('beam')";
+constexpr const char* kNoMass = "no member has a mass";
+constexpr const char* kNotTurning = "the frame does not turn";
+constexpr const char* kNoDamping = "there is no 'damping'";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
 
-constexpr std::array<const char*, 3> all(const char* text) {
-  return {text, text, text};
+constexpr Texts all(const char* text) {
+  return {text, text, text, text};
 }
 
-constexpr std::array<const char*, 3> in_motion(const char* text) {
-  return {"", "", text};
+constexpr Texts in_motion(const char* text) {
+  return {"", "", text, ""};
 }
 
 const EffectWords& words_of(solver::Effect effect) {
   static const std::array<EffectWords, solver::kEffectCount> table = {{
       /* axial flexibility */
-      {{kSlenderness, kSlenderness, kStrain}, all("no member both bends and stretches ('axial')")},
+      {{kSlenderness, kSlenderness, kStrain, kSlenderness},
+       all("no member both bends and stretches ('axial')")},
       /* shear */
-      {{kShear, kShear, kStrain}, all("the members do not shear ('beam')")},
+      {{kShear, kShear, kStrain, kShear}, all("the members do not shear ('beam')")},
       /* rotary inertia */
-      {{"", kSlenderness, kKinetic},
-       {kAtRest, "the sections have no rotary inertia ('beam')",
-        "the sections have no rotary inertia ('beam')"}},
+      {{"", kSlenderness, kKinetic, kSlenderness}, {kAtRest, kNoRotary, kNoRotary, kNoRotary}},
       /* platform flexibility */
       {in_motion(kStrain), all("there is no platform of triangles ('kind')")},
       /* joint compliance */
       {in_motion(kStrain), all("no joint has a spring")},
       /* link mass */
-      {in_motion(kKinetic),
-       {"no member has a weight", "no member has a mass", "no member has a mass"}},
+      {in_motion(kKinetic), {"no member has a weight", kNoMass, kNoMass, kNoMass}},
       /* gravity */
       {in_motion("weights over all loads, in energy"),
        all("nothing has a weight ('gravity_m_s2')")},
       /* inertia */
       {in_motion("(speed of the path over the first frequency)^2"),
-       {kAtRest, "the frame does not turn", "the frame does not turn"}},
+       {kAtRest, kNotTurning, kNotTurning, kNotTurning}},
       /* damping */
       {in_motion("damping ratio of the first mode"),
-       {kAtRest, "modes are those of the undamped model", "there is no 'damping'"}},
+       {kAtRest, "modes are those of the undamped model", kNoDamping, kNoDamping}},
       /* gyroscopic */
       {in_motion("twice the fastest turning over the first frequency"),
-       {kAtRest, "the frame does not turn", "the frame does not turn"}},
+       {kAtRest, kNotTurning, kNotTurning, "what 'rotating_frame' says is kept"}},
       /* geometric stiffening */
-      {all(""), {kLarge, "there are no loads", kLarge}},
+      {all(""), {kLarge, "there are no loads", kLarge, kLarge}},
       /* large displacement */
-      {all(""), {kLarge, "modes are small motions", kLarge}},
+      {all(""), {kLarge, "modes are small motions", kLarge, kLarge}},
   }};
   return table[static_cast<std::size_t>(effect)];
 }
@@ -145,6 +148,42 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   return scope;
 }
 
+/// Where members alone have mass, nothing vibrates without theirs.
+bool has_mass_beside_members(const solver::Model& model) {
+  return std::any_of(model.masses.begin(), model.masses.end(),
+                     [](const solver::PointMass& one) { return one.mass > 0; }) ||
+         std::any_of(model.plates.begin(), model.plates.end(),
+                     [](const solver::Plate& one) { return one.material.rho > 0; });
+}
+
+EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model) {
+  EffectScope scope;
+  scope.applicable = solver::applicable_effects(model).with(solver::Effect::inertia);
+  scope.required = solver::Effects().with(solver::Effect::inertia);
+  if (scope.applicable.has(solver::Effect::link_mass) && !has_mass_beside_members(model))
+    scope.required = scope.required.with(solver::Effect::link_mass);
+  if (analysis.has("damping")) scope.applicable = scope.applicable.with(solver::Effect::damping);
+  dependents_of(scope, solver::Effect::link_mass) =
+      solver::Effects().with(solver::Effect::rotary_inertia);
+  return scope;
+}
+
+EffectScope large_motion_scope(const JsonView& analysis, const solver::Model& model) {
+  EffectScope scope = vibration_scope(analysis, model);
+  if (analysis.has("mass_damping_per_s") || analysis.has("strain_rate_damping_s"))
+    scope.applicable = scope.applicable.with(solver::Effect::damping);
+  for (const solver::Effect effect :
+       {solver::Effect::geometric_stiffening, solver::Effect::large_displacement}) {
+    scope.applicable = scope.applicable.with(effect);
+    scope.required = scope.required.with(effect);
+  }
+  return scope;
+}
+
+std::vector<EffectKey> no_keys(const JsonView&) {
+  return {};
+}
+
 std::vector<EffectKey> modes_keys(const JsonView& analysis) {
   if (analysis.has("rotating")) {
     return {{solver::Effect::gyroscopic, {"rotating", "coriolis"}, true}};
@@ -204,7 +243,7 @@ const char* EffectRules::describe_number(solver::Effect effect) const {
 }
 
 const char* EffectRules::describe_required(solver::Effect effect) const {
-  return effect == solver::Effect::axial_flexibility
+  return effect == solver::Effect::axial_flexibility && estimate != nullptr
              ? "kept, for constraints that turn with the links cost more than it does"
              : "the analysis is of it";
 }
@@ -240,6 +279,22 @@ const EffectRules& elastodynamics_effects() {
       },
       2};
   return rules;
+}
+
+const EffectRules& vibration_effects() {
+  static const EffectRules rules = {no_keys, vibration_scope, nullptr, 3};
+  return rules;
+}
+
+const EffectRules& large_motion_effects() {
+  static const EffectRules rules = {no_keys, large_motion_scope, nullptr, 3};
+  return rules;
+}
+
+solver::Model first_model(const CaseModel& case_model) {
+  const bool only_large = !case_model.joint_elements.line_springs.empty() ||
+                          !case_model.joint_elements.follower_loads.empty();
+  return only_large ? build_bare_model(case_model, 0) : build_model(case_model, 0);
 }
 
 }  // namespace trammel::harness

@@ -49,6 +49,11 @@ struct EffectRules {
 [[nodiscard]] const EffectRules& statics_effects();
 [[nodiscard]] const EffectRules& modes_effects();
 [[nodiscard]] const EffectRules& elastodynamics_effects();
+[[nodiscard]] const EffectRules& vibration_effects();  ///< harmonic and transient response
+[[nodiscard]] const EffectRules& large_motion_effects();
+
+/// The scene's model where its path starts; of what only large motion has, the bare one.
+[[nodiscard]] solver::Model first_model(const CaseModel& case_model);
 
 /// The number without dimension that says beforehand what an effect of slender members is worth;
 /// nothing of other effects.

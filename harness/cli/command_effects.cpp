@@ -120,10 +120,6 @@ void print_verdict(const EffectStudy& study) {
   }
 }
 
-Document random_case(const EffectsCommand& command, std::uint64_t n) {
-  return command.motion ? random_motion(command.seed, n) : random_scene(command.seed, n);
-}
-
 /// What the random scenes of one kind come to.
 struct HitCounts {
   std::size_t scenes = 0, unsolved = 0, within = 0, minimal = 0;
@@ -189,7 +185,7 @@ void count_result(const EffectStudy& study, const std::string& name, HitCounts& 
 int effects_command(const EffectsCommand& command) {
   const bool random = command.name.empty();
   const Document document = [&] {
-    if (random) return random_case(command, command.scene);
+    if (random) return random_scene(command.seed, command.scene);
     const Case given = load_named_case(command.name);
     return patched(given, command.variant.empty() ? kBaseVariant : command.variant);
   }();
@@ -247,7 +243,7 @@ int random_effects_command(const EffectsCommand& command) {
   {
     Progress progress("scenes");
     for (std::uint64_t n = 0; n < command.random; ++n) {
-      const Document document = random_case(command, n);
+      const Document document = random_scene(command.seed, n);
       HitCounts one;
       count_result(study_effects(document, {command.tolerance, false, 0}),
                    document.value().at("id").get<std::string>(), one, misses);

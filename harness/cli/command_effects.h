@@ -11,7 +11,6 @@ struct EffectsCommand {
   std::uint64_t seed = 1;           ///< of random scenes:
   std::uint64_t random = 0;         ///< so many of them,
   std::uint64_t scene = 0;          ///< or this one
-  bool motion = false;              ///< of those in motion
   std::vector<std::string> labels;  ///< or every case of the catalogue with one of these
   double tolerance = 0.01;          ///< where the case does not give one
   int repeats = 7;                  ///< of each measurement of time

@@ -277,9 +277,8 @@ class CommandLine {
             "  trammel effects my-robot.json --tolerance 0.001\n"
             "  trammel effects -L effects                 a table of these cases\n"
             "  trammel effects --random 200 --seed 1      hit rate on random models\n"
-            "  trammel effects --random 200 --motion      of random models in motion\n"
             "  trammel effects --seed 1 --model 17        one of them");
-    sub->add_option("case", name_, "Name or file of a case with statics, modes or elastodynamics");
+    sub->add_option("case", name_, "Name or file of a case whose analysis has effects");
     sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
     sub->add_option("--tolerance", effects_.tolerance,
                     "Relative, where the case's effects are not automatic")
@@ -293,8 +292,6 @@ class CommandLine {
             ->check(CLI::Range(1, 100000));
     auto* scene = sub->add_option("--model", effects_.scene, "Number of one random model");
     sub->add_option("--seed", effects_.seed, "Seed of the random models")->capture_default_str();
-    sub->add_flag("--motion", effects_.motion,
-                  "Random models in motion: circular trajectories and spinning links");
     auto* labels = sub->add_option("-L,--label", effects_.labels,
                                    "Every case with one of these labels, in a table")
                        ->allow_extra_args(false);

@@ -73,9 +73,11 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
   const double low = analysis.number("from_Hz");
   const double high = analysis.number("to_Hz");
   if (!(high > low)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
-  const solver::System system = solver::assemble(build_model(case_model, step));
+  const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
-  const solver::HarmonicDamping damping = read_damping(analysis);
+  const bool damped = case_model.effects.has(solver::Effect::damping) && analysis.has("damping");
+  const solver::HarmonicDamping damping =
+      damped ? read_damping(analysis) : solver::HarmonicDamping();
   try {
     const Response response(system, damping);
     StepResult result{response.of_system().outcome(), {}, std::nullopt};
@@ -95,6 +97,7 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
     }
     record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
     result.counters = response.of_system().counters();
+    if (damped) result.counters.count(solver::Effect::damping, points);
     return result;
   } catch (const solver::ModelError& error) {
     throw(analysis.has("damping") ? analysis["damping"] : analysis).error(error.what());

@@ -9,6 +9,7 @@
 #include "harness/scene/draw_large.h"
 #include "harness/scene/tracking.h"
 #include "solver/large_motion/solve/integrate.h"
+#include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
 
 namespace trammel::harness {
@@ -231,6 +232,9 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);
   read_history(analysis, model, large_motion);
+  const bool damped = case_model.effects.has(solver::Effect::damping) &&
+                      (large_motion.mass_damping > 0 || large_motion.strain_rate_damping > 0);
+  if (!damped) large_motion.mass_damping = large_motion.strain_rate_damping = 0;
   const bool extrapolated = analysis.get("extrapolated", false);
   const bool tracking = analysis.get("track", false);
   if (tracking) {
@@ -261,6 +265,8 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   result.outcome = summary.outcome;
   result.evidence = summary.evidence;
   result.counters = summary.counters;
+  solver::count_tangents(system, summary.iterations, true, result.counters);
+  if (damped) result.counters.count(solver::Effect::damping, summary.iterations);
   result.counters.element_evaluations = system.element_evaluations();
   result.counters.steps = summary.steps + summary.rejected;
   record_summary(summary, log, record);

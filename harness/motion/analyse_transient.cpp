@@ -70,9 +70,9 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
 StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model,
                              std::size_t step, bool draw, Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model at one place");
-  const solver::System system = solver::assemble(build_model(case_model, step));
+  const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
-  const MotionHistory motion = compute_motion(analysis, system);
+  const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
   StepResult result{motion.outcome, motion.counters, std::nullopt, {}, motion.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) return result;

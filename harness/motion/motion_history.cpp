@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "harness/readers/damping_reader.h"
 #include "harness/readers/joint_reader.h"
@@ -127,11 +128,15 @@ solver::PrescribedRotation read_axes(const JsonView& transient) {
 
 class Motion {
  public:
-  Motion(const JsonView& transient, const solver::System& system)
-      : transient_(transient), system_(system), load_(read_load(transient, system.f)) {}
+  Motion(const JsonView& transient, const solver::System& system, bool damped)
+      : transient_(transient),
+        system_(system),
+        damped_(damped),
+        load_(read_load(transient, system.f)) {}
 
   MotionHistory run() {
     history_.counters = system_.counters;
+    if (damped_) history_.counters.count(solver::Effect::damping, 1);
     history_.time = sample_times(transient_);
     initial_ = read_initial(transient_, system_, history_.outcome);
     if (!history_.outcome.solved()) return history_;
@@ -176,9 +181,14 @@ class Motion {
     history_.a = std::move(found.a);
   }
 
+  [[nodiscard]] solver::HarmonicDamping stated_damping(
+      std::optional<solver::Index> modes = std::nullopt) const {
+    return damped_ ? read_damping(transient_, modes) : solver::HarmonicDamping();
+  }
+
   /// False where the damped modes are not found.
   bool damp(solver::EquationOfMotion& equation) {
-    solver::HarmonicDamping damping = read_damping(transient_);
+    solver::HarmonicDamping damping = stated_damping();
     if (damping.modal_ratio.empty()) {
       damp(damping, {}, {}, equation);
       return true;
@@ -187,7 +197,7 @@ class Motion {
         system_, {std::ssize(damping.modal_ratio), solver::EigenMethod::automatic});
     history_.outcome = modes.outcome;
     if (!modes.outcome.solved()) return false;
-    damping = read_damping(transient_, modes.frequency.size());
+    damping = stated_damping(modes.frequency.size());
     damp(damping, 2 * std::numbers::pi * modes.frequency, modes.shape, equation);
     return true;
   }
@@ -213,7 +223,7 @@ class Motion {
     const solver::ModalBasis basis = solver::all_modes(system_.M, system_.K);
     history_.outcome = basis.outcome;
     if (!basis.outcome.solved()) return;
-    const solver::HarmonicDamping damping = read_damping(transient_, basis.omega.size());
+    const solver::HarmonicDamping damping = stated_damping(basis.omega.size());
     Eigen::VectorXd decay = solver::decay_rates(damping.rayleigh, basis.omega);
     for (solver::Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {
       decay[i] += damping.modal_ratio[static_cast<std::size_t>(i)] * basis.omega[i];
@@ -260,6 +270,7 @@ class Motion {
 
   const JsonView& transient_;
   const solver::System& system_;
+  bool damped_;
   solver::PiecewiseLinearLoad load_;
   InitialState initial_;
   MotionHistory history_;
@@ -267,9 +278,11 @@ class Motion {
 
 }  // namespace
 
-MotionHistory compute_motion(const JsonView& transient, const solver::System& system) {
+MotionHistory compute_motion(const JsonView& transient, const solver::System& system,
+                             solver::Effects effects) {
+  const bool damped = effects.has(solver::Effect::damping) && transient.has("damping");
   try {
-    return Motion(transient, system).run();
+    return Motion(transient, system, damped).run();
   } catch (const solver::ModelError& error) {
     throw transient.error(error.what());
   }

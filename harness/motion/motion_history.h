@@ -20,8 +20,9 @@ struct MotionHistory {
   std::int64_t steps = 0;           ///< of the integrator; 0 for superposed modes
 };
 
-/// As the key "transient" of the analysis says.
+/// As the key "transient" of the analysis says, damped where the effects have it.
 /// @throws InputError  for a history or damping without meaning.
-[[nodiscard]] MotionHistory compute_motion(const JsonView& transient, const solver::System& system);
+[[nodiscard]] MotionHistory compute_motion(const JsonView& transient, const solver::System& system,
+                                           solver::Effects effects);
 
 }  // namespace trammel::harness

@@ -330,6 +330,37 @@ Json spinning_link(Draw& draw, Json& scene) {
            {{"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(0.01, 1e3)}}}}}};
 }
 
+/// The response of a scene of modes to a force, from far below the first frequency of its bare beam
+/// or link to beyond it, damped or not.
+Json harmonic(Draw& draw, const std::string& kind, Json& model) {
+  const bool links = model.contains("manipulator");
+  const Json& links_of =
+      links ? model["manipulator"]["links"] : model["sections"]["s"]["rectangle"];
+  const double thickness = links_of["thickness_m"];
+  const Json& nodes = links ? Json() : model["nodes"];
+  const double length = links              ? links_of["proximal_length_m"].get<double>()
+                        : kind == "portal" ? nodes["B"][1].get<double>()
+                                           : nodes["B"][0].get<double>();
+  const std::string node = links                                              ? "P"
+                           : model["nodes"].contains("C") && kind != "portal" ? "C"
+                                                                              : "B";
+  const std::string member = links ? "A1-B1" : node == "C" ? "AC" : "AB";
+  const double omega = 3.516 * thickness / (length * length) * std::sqrt(kE / (12 * kDensity));
+  const double highest = omega / (2 * std::numbers::pi) * draw.logarithmic(0.03, 3);
+  model["loads"] = {{"force", {{"node", node}, {"force_N", draw.direction(1)}}}};
+  Json response = {{"from_Hz", 0.02 * highest},
+                   {"to_Hz", highest},
+                   {"points", 41},
+                   {"outputs",
+                    {"displacement_x_m:" + node, "displacement_y_m:" + node,
+                     "bending_moment_N_m:" + member + ".start", "stress_Pa:" + member}}};
+  if (draw.chance(0.7)) {
+    const double ratio = draw.logarithmic(1e-4, 0.3);
+    response["damping"] = {{"rayleigh", {{"stiffness_s", 2 * ratio / omega}}}};
+  }
+  return {{"harmonic", response}};
+}
+
 /// So that neighbours have nothing in common.
 constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15;
 
@@ -347,35 +378,33 @@ Json effects(Draw& draw) {
 
 }  // namespace
 
-Document random_motion(std::uint64_t seed, std::uint64_t n) {
-  Draw draw((seed + 1) * kSpread + n);
-  const std::string name = "random-motion-" + std::to_string(seed) + "-" + std::to_string(n);
-  const bool spins = draw.chance(0.25);
-  Json scene = {{"id", name}, {"title", spins ? "spinning link" : "manipulator in motion"}};
-  Json model = spins ? spinning_link(draw, scene) : moving_manipulator(draw, scene);
-  scene["model"] = std::move(model);
-  return written(name, scene);
-}
-
 Document random_scene(std::uint64_t seed, std::uint64_t n) {
   Draw draw((seed + 1) * kSpread + n);
-  const bool modes = draw.chance(0.4);
-  const double kind = draw.uniform(0, 1);
   const std::string name = "random-" + std::to_string(seed) + "-" + std::to_string(n);
+  const std::uint64_t turn = n % 10;
+  Json scene = {{"id", name}, {"effects", effects(draw)}};
+  if (turn == 9) {
+    const bool spins = draw.chance(0.1);
+    scene["title"] = spins ? "spinning link" : "manipulator in motion";
+    scene["model"] = spins ? spinning_link(draw, scene) : moving_manipulator(draw, scene);
+    return written(name, scene);
+  }
+  const bool modes = turn >= 5, vibrates = turn == 8;
+  const double kind = vibrates ? draw.uniform(0, 0.65) : draw.uniform(0, 1);
   const bool path = !modes && kind >= 0.8;
-  const char* part = path          ? "path near a singularity"
-                     : kind < 0.35 ? "manipulator"
-                     : kind < 0.5  ? "beam"
-                     : kind < 0.65 ? "portal"
-                                   : "column";
-  Json scene = {{"id", name}, {"title", part + std::string(modes ? ", modes" : ", statics")}};
-  scene["model"] = path          ? near_singular(draw)
-                   : kind < 0.35 ? manipulator(modes, draw)
-                   : kind < 0.5  ? beam(modes, draw)
-                   : kind < 0.65 ? portal(modes, draw)
-                                 : column(modes, draw);
-  scene["analysis"] = analysis(modes, draw);
-  scene["effects"] = effects(draw);
+  const std::string part = path          ? "path near a singularity"
+                           : kind < 0.35 ? "manipulator"
+                           : kind < 0.5  ? "beam"
+                           : kind < 0.65 ? "portal"
+                                         : "column";
+  scene["title"] = part + (vibrates ? ", harmonic" : modes ? ", modes" : ", statics");
+  Json& model = scene["model"];
+  model = path          ? near_singular(draw)
+          : kind < 0.35 ? manipulator(modes, draw)
+          : kind < 0.5  ? beam(modes, draw)
+          : kind < 0.65 ? portal(modes, draw)
+                        : column(modes, draw);
+  scene["analysis"] = vibrates ? harmonic(draw, part, model) : analysis(modes, draw);
   return written(name, scene);
 }
 

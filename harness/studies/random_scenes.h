@@ -6,15 +6,12 @@
 
 namespace trammel::harness {
 
-/// The n-th of the random scenes of a seed, its kind in its title: statics or modes of a
-/// manipulator, a portal frame, a beam or a column up to 0.99 of its buckling load, or statics
-/// along a path near a singularity, whose sizes, loads, joints and tolerances are drawn so that
-/// each effect lies anywhere from far below what is asked for to far above. The same on every
-/// machine.
+/// The n-th of the random scenes of a seed, its kind in its title. Of ten, five are statics (a
+/// manipulator, a portal frame, a beam, a column up to 0.99 of its buckling load, or a path near a
+/// singularity), three are modes, one is harmonic response and one motion: a manipulator along a
+/// circle (elastodynamics), slow or fast, damped or not, or sometimes a link that spins. Sizes,
+/// loads, joints and tolerances are drawn so that each effect lies anywhere from far below what is
+/// asked for to far above. The same on every machine.
 [[nodiscard]] Document random_scene(std::uint64_t seed, std::uint64_t n);
-
-/// The same in motion: a manipulator along a circle (elastodynamics), slow or fast, damped or not,
-/// or the modes of a link that spins.
-[[nodiscard]] Document random_motion(std::uint64_t seed, std::uint64_t n);
 
 }  // namespace trammel::harness

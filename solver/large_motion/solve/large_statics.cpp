@@ -4,19 +4,21 @@
 #include "solver/large_motion/solve/static_path.h"
 
 namespace trammel::solver {
-namespace {
 
-/// Evaluations of a tangent's elements, by effect.
 void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,
-                    Counters& counters) {
+                    bool moving, Counters& counters) {
   const Model& model = system.model();
-  std::int64_t all = static_cast<std::int64_t>(model.triangles.size());
-  std::int64_t stretching = 0, shearing = 0, spring_ends = 0;
+  const auto plates = static_cast<std::int64_t>(model.triangles.size());
+  std::int64_t all = plates, stretching = 0, shearing = 0, turning = 0, heavy = 0, spring_ends = 0;
   for (const Member& member : model.members) {
     all += member.elements;
-    if (member.section.EI > 0 && member.axially_flexible) stretching += member.elements;
-    if (member.section.EI > 0 && has_shear_deformation(member.theory)) shearing += member.elements;
+    if (member.section.mass_per_length > 0) heavy += member.elements;
     for (const MemberEnd& end : member.ends) spring_ends += end.fixity == EndFixity::sprung ? 1 : 0;
+    if (!(member.section.EI > 0)) continue;
+    if (member.axially_flexible) stretching += member.elements;
+    if (has_shear_deformation(member.theory)) shearing += member.elements;
+    const bool turns = has_rotary_inertia(member.theory) && member.section.inertia_per_length > 0;
+    if (turns) turning += member.elements;
   }
   counters.element_evaluations += tangents * all;
   counters.count(Effect::large_displacement, tangents * all);
@@ -24,16 +26,14 @@ void count_tangents(const large_motion::GeometricallyExactSystem& system, std::i
   counters.count(Effect::axial_flexibility, tangents * stretching);
   counters.count(Effect::shear, tangents * shearing);
   counters.count(Effect::joint_compliance, tangents * spring_ends);
-  counters.count(Effect::platform_flexibility,
-                 tangents * static_cast<std::int64_t>(model.triangles.size()));
-  if (model.gravity.isZero(0)) return;
-  counters.count(Effect::gravity, all);
-  for (const Member& member : model.members) {
-    if (member.section.mass_per_length > 0) counters.count(Effect::link_mass, member.elements);
+  counters.count(Effect::platform_flexibility, tangents * plates);
+  if (moving) {
+    counters.count(Effect::inertia, tangents);
+    counters.count(Effect::rotary_inertia, tangents * turning);
   }
+  if (!model.gravity.isZero(0)) counters.count(Effect::gravity, all);
+  if (moving || !model.gravity.isZero(0)) counters.count(Effect::link_mass, heavy);
 }
-
-}  // namespace
 
 StaticSolution static_solution(const large_motion::GeometricallyExactSystem& system,
                                const large_motion::State& state) {
@@ -59,7 +59,7 @@ StaticSolution solve_large_statics(const Model& model,
   solution.outcome = path.outcome;
   solution.evidence = path.evidence;
   solution.counters = path.counters;
-  count_tangents(system, path.counters.factorizations, solution.counters);
+  count_tangents(system, path.counters.factorizations, false, solution.counters);
   return solution;
 }
 

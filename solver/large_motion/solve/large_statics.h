@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "solver/large_motion/system/geometrically_exact_system.h"
 #include "solver/statics/statics.h"
 
@@ -9,6 +11,11 @@ namespace trammel::solver {
 /// reactions, and section forces along the axes of the rotated sections.
 [[nodiscard]] StaticSolution static_solution(const large_motion::GeometricallyExactSystem& system,
                                              const large_motion::State& state);
+
+/// Adds the evaluations of the elements of so many tangents, by effect.
+/// @param moving  with the masses
+void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,
+                    bool moving, Counters& counters);
 
 /// Statics in the geometrically exact tier (solver/large_motion). The load is put on in steps of
 /// automatic size.
