@@ -65,7 +65,7 @@ double max_relative_difference(const Quantities& a, const Quantities& b) {
     const auto other = b.find(name);
     if (other == b.end() || added.roundoff.size() != added.values.size()) continue;
     const std::vector<double>& roundoff = other->second.roundoff;
-    const auto allowed = [&](std::size_t i) {
+    const auto allowed = [&, &added = added](std::size_t i) {
       return std::abs(added.values[i]) *
              (added.roundoff[i] + (i < roundoff.size() ? roundoff[i] : added.roundoff[i]));
     };

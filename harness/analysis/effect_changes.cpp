@@ -68,7 +68,7 @@ Changes changes_between(const Quantities& full, const Quantities& other, double 
       if (kind == "frequency") largest.value = std::numeric_limits<double>::infinity();
       continue;
     }
-    const auto by = [&, scale = scale.at(kind)](std::size_t i) {
+    const auto by = [&, &quantity = quantity, scale = scale.at(kind)](std::size_t i) {
       return kind == "frequency" ? std::abs(quantity.values[i]) : scale;
     };
     const LargestDifference change = largest_difference(quantity.values, found->second.values, by);

@@ -29,7 +29,8 @@ double estimate_norm(Index columns, const std::function<VectorXd(const VectorXd&
 
 double forward_error(const StiffnessFactors& factors, const SparseMatrix& R, const VectorXd& q,
                      const VectorXd& f, const Operator& solve) {
-  const auto& [A, size, C] = factors;
+  const SparseMatrix &A = factors.A, &size = factors.size;
+  const VectorXd& C = factors.C;
   const SparseMatrix ones = size.unaryExpr([](double v) { return v > 0 ? 1.0 : 0.0; });
   const Index m = A.rows(), n = A.cols();
   const double u = kEps / 2;

@@ -72,8 +72,7 @@ Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
     if (!evidence.has(kind) || evidence.largest(kind) <= rule.limit) continue;
     std::ostringstream reason;
     reason << "the residual '" << in_words(rule.name) << "' is " << evidence.largest(kind)
-           << ", above its limit of " << rule.limit
-           << " (" << rule.why << ")";
+           << ", above its limit of " << rule.limit << " (" << rule.why << ")";
     return {Status::not_converged, reason.str()};
   }
   return claimed;
