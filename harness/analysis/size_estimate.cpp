@@ -11,17 +11,29 @@
 namespace trammel::harness {
 namespace {
 
-// Bytes, measured with margin: a coordinate in model, matrices and states; an entry of a factor
-// while it is made; a number that is recorded, written as JSON and drawn.
-constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 60;
+// Bytes, measured with margin (size_estimate_test): a coordinate in model, matrices and states; an
+// entry of a factor while it is made; a number that is recorded, written as JSON and drawn.
+constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 50;
+/// A number of a map, which is rounded and drawn; of samples, which are read from JSON.
+constexpr double kMapNumber = 110, kSampleNumber = 500;
+
+/// Bytes of a coordinate over those of statics, which checks and draws most.
+double share_of(const std::string& kind, const JsonView& analysis, bool in_plane) {
+  if (kind == "manufactured") return 0.5;
+  if (kind != "harmonic" || in_plane) return 1;
+  return analysis.has("damping") ? 0.75 : 0.45;
+}
 
 class Estimator {
  public:
   explicit Estimator(const Document& document) : document_(document), root_(document) {}
 
   SizeEstimate run() {
-    if (root_.has("model")) count_model(root_["model"]);
     const auto [kind, analysis] = root_["analysis"].entries().front();
+    share_in_plane_ = share_of(kind, analysis, true);
+    share_of_members_ = share_of(kind, analysis, false);
+    if (kind == "grnn") numbers_ = 50;
+    if (root_.has("model")) count_model(root_["model"]);
     if (kind == "study") {
       if (analysis.get("trajectory", false)) {  // a document each
         add(path_, points_ * 20 * static_cast<double>(document_.value().dump().size()));
@@ -44,7 +56,8 @@ class Estimator {
     const double entries = count * (in_plane ? 16 * std::log2(count + 2) : 12);
     size_.coordinates += count;
     size_.non_zeros += entries;
-    add(key.pointer(), kCoordinate * count + kEntry * entries);
+    add(key.pointer(), (in_plane ? share_in_plane_ : share_of_members_) *
+                           (kCoordinate * count + kEntry * entries));
   }
 
   void count_model(const JsonView& model) {
@@ -138,14 +151,21 @@ class Estimator {
     } else if (kind == "elastodynamics") {
       add(path_, points_ * n * 300);
     } else if (kind == "sensitivity-map") {
-      const double columns = analysis.number("columns");
+      const double cells = std::pow(analysis.number("columns"), 2);
+      const bool positions = analysis.get("positions", true);
       add(analysis["columns"].pointer(),
-          4 * columns * columns * kNumber *
-              static_cast<double>(analysis["orientations_deg"].size()));
+          40 * cells + (positions ? 4 * kMapNumber * cells : 0) *
+                           static_cast<double>(analysis["orientations_deg"].size()));
+    } else if (kind == "grnn" && analysis.has("samples")) {
+      for (const JsonView& rows :
+           {analysis["samples"]["inputs"], analysis["samples"]["outputs"], analysis["queries"]})
+        add(rows.pointer(), kSampleNumber * static_cast<double>(rows.size() * rows[0].size()));
     } else if (kind == "manufactured" && analysis.has("cells")) {
       const double cells = analysis.number("cells");
       const bool in_plane = analysis.has("membrane");
-      add_coordinates(analysis["cells"], in_plane ? 8 * cells * cells : 3 * cells, in_plane);
+      const double of_cell =
+          in_plane && analysis["membrane"].text("triangles") == "six-node" ? 8 : 2;
+      add_coordinates(analysis["cells"], in_plane ? of_cell * cells * cells : 3 * cells, in_plane);
     }
   }
 
@@ -154,6 +174,7 @@ class Estimator {
   SizeEstimate size_;
   std::map<std::string, double> bytes_;  ///< by the key that calls for them
   double points_ = 1, numbers_ = 100;    ///< of the path; recorded at each
+  double share_in_plane_ = 1, share_of_members_ = 1;
   std::string path_ = "/model";
 };
 

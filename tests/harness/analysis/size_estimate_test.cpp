@@ -1,0 +1,129 @@
+// ctest: labels=slow timeout=900
+#include "harness/analysis/size_estimate.h"
+
+#include <sys/resource.h>
+
+#include <functional>
+#include <sstream>
+
+#include "harness/base/processes.h"
+#include "harness/run/run_store.h"
+#include "tests/support/harness/analysing.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+
+namespace {
+
+struct Memory {
+  double estimated = 0, most = 0;  ///< [B]
+};
+
+/// Of a run as a process of its own, in which all of it happens: nothing is left from others.
+Memory memory_of(const std::function<Json()>& make) {
+  Memory memory;
+  const auto work = [&] {
+    const Document document = testing::document_of(make());
+    const double estimated = estimate_size(document).bytes;
+    Computation computation;
+    computation.result = analyse(document, References(), {true});
+    BOOST_REQUIRE(computation.result.outcome.solved());
+    (void)to_bytes(computation);
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    return std::to_string(estimated) + " " + std::to_string(used.ru_maxrss);
+  };
+  const auto ended = [&](std::size_t, const ProcessOutcome& outcome) {
+    BOOST_REQUIRE((outcome.termination == ProcessOutcome::Termination::answered));
+    std::istringstream(outcome.text) >> memory.estimated >> memory.most;
+    memory.most *= 1024;
+  };
+  BOOST_REQUIRE(run_in_processes({{work, 300}}, {}, ended) == 0);
+  return memory;
+}
+
+void check(const std::string& name, const std::function<Json(int)>& sized,
+           const std::vector<int>& sizes) {
+  const double none = memory_of(testing::cantilever).most;
+  for (const int size : sizes) {
+    const Memory memory = memory_of([&] { return sized(size); });
+    const double ratio = memory.estimated / (memory.most - none);
+    BOOST_TEST((ratio >= 1 && ratio <= 3), name << ' ' << size << ": estimated "
+                                                << memory.estimated / 1e6 << " MB, " << ratio
+                                                << " times what was measured");
+  }
+}
+
+Json harmonic(int elements, int points) {
+  Json json = testing::cantilever();
+  json["model"]["elements"] = elements;
+  json["analysis"] = {{"harmonic",
+                       {{"from_Hz", 1},
+                        {"to_Hz", 20},
+                        {"points", points},
+                        {"outputs", {"displacement_x_m:B", "displacement_y_m:B"}}}}};
+  return json;
+}
+
+Json membrane(int cells, const char* triangles) {
+  const Json material = {{"E_Pa", 7e10}, {"rho_kg_m3", 2700}, {"nu", 0.33}};
+  return {{"id", "membrane"},
+          {"title", "Membrane"},
+          {"analysis",
+           {{"manufactured",
+             {{"cells", cells},
+              {"membrane",
+               {{"field", "clamped"},
+                {"length_m", 0.8},
+                {"height_m", 0.5},
+                {"thickness_m", 0.01},
+                {"material", material},
+                {"triangles", triangles}}}}}}}};
+}
+
+Json samples(int count) {
+  Json json = {{"id", "samples"}, {"title", "Samples"}};
+  Json& network = json["analysis"]["grnn"];
+  network = {{"queries", {{0.5, 1}}}, {"sigma", 1}};
+  for (int i = 0; i < count; ++i) {
+    network["samples"]["inputs"].push_back({0.1 * i, i * i % 7});
+    network["samples"]["outputs"].push_back({i % 13});
+  }
+  return json;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(size_estimate)
+
+BOOST_AUTO_TEST_CASE(what_is_estimated_is_what_is_needed_or_up_to_three_times_that) {
+  check("points of a response", [](int n) { return harmonic(10, n); }, {20000, 40000, 100000});
+  check("elements that vibrate", [](int n) { return harmonic(n, 2); }, {2000, 4000, 8000});
+  const auto damped = [](int n) {
+    Json json = harmonic(n, 2);
+    json["analysis"]["harmonic"]["damping"]["rayleigh"]["stiffness_s"] = 1e-5;
+    return json;
+  };
+  check("elements that vibrate, damped", damped, {2000, 4000, 8000});
+  check("three-node", [](int n) { return membrane(n, "three-node"); }, {96, 144, 192});
+  check("six-node", [](int n) { return membrane(n, "six-node"); }, {48, 72, 96});
+  check("samples", samples, {10000, 20000, 40000});
+  const auto path = [](int n) {
+    Json json = testing::manipulator();
+    json["model"].erase("pose");
+    json["model"]["trajectory"]["circle"] = {
+        {"center_m", {0.25, 0.144}}, {"radius_m", 0.01}, {"points", n}, {"step_s", 0.01},
+        {"angular_speed_rad_s", 1},  {"phi_rad", 0}};
+    json["analysis"] = {{"grnn", {{"train", n / 2}, {"sigma", 0.1}}}};
+    return json;
+  };
+  check("points of a path", path, {2000, 4000, 8000});
+  const auto map = [](int n) {
+    Json json = testing::manipulator();
+    json["analysis"] = {{"sensitivity-map", {{"columns", n}, {"orientations_deg", {0}}}}};
+    return json;
+  };
+  check("positions of a map", map, {60, 80, 100});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
