@@ -36,7 +36,16 @@ std::string kind_of(const Check& check, const Document& document, const Referenc
     return "";
   if (!check.reference.empty())
     return kind_of(references.get(JsonView(document)["checks"][check.name]["reference"]).kind);
-  return analysis_name(document.value()) == "manufactured" ? "manufactured" : "self-consistency";
+  const std::string analysis = analysis_name(document.value());
+  if (analysis == "study" && check.quantity.rfind("relative_error:", 0) == 0) {
+    const Json& kept = document.value().at("analysis").at("study").at("quantities");
+    const std::string name = check.quantity.substr(check.quantity.find(':') + 1);
+    if (kept.contains(name) && kept.at(name).contains("reference")) {
+      const JsonView quantities = JsonView(document)["analysis"]["study"]["quantities"];
+      return kind_of(references.get(quantities[name]["reference"]).kind);
+    }
+  }
+  return analysis == "manufactured" ? "manufactured" : "self-consistency";
 }
 
 /// "modes: frequency_Hz", of a study the analysis that it repeats; empty: of none.

@@ -40,17 +40,20 @@ void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& re
   }
 }
 
-/// Energies, and how far their sum moves from where it started, over the largest of them.
-void record_energy(const solver::ElastodynamicsSolution& solution, Recorder& record) {
+/// Energies, and how far their sum moves from where it started, over the largest of them; of a
+/// quasi-static motion nobody keeps account of the work that loads and actuators do.
+void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_static,
+                   Recorder& record) {
   double size = 0;
   for (const solver::MotionEnergy& energy : solution.energy) {
     record.add("kinetic_energy_J", "", energy.kinetic);
     record.add("strain_energy_J", "", energy.strain);
+    if (quasi_static) continue;
     record.add("load_work_J", "", energy.work);
     record.add("dissipated_energy_J", "", energy.dissipated);
     size = std::max({size, energy.kinetic, energy.strain, std::abs(energy.work)});
   }
-  if (!(size > 0)) return;
+  if (quasi_static || !(size > 0)) return;
   for (const solver::MotionEnergy& energy : solution.energy) {
     record.add("energy_drift", "", (energy.total() - solution.energy.front().total()) / size);
   }
@@ -190,7 +193,7 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
   }
   record_deflection(solution, record);
   record_torques(solution, record);
-  record_energy(solution, record);
+  record_energy(solution, !options.elastic_inertia, record);
   if (options.elastic_inertia) record_excess(solution, record);
   if (analysis.get("step_errors", false)) record_step_errors(options, solution, record);
   if (options.elastic_inertia) record_damping(options.damping, start, record);

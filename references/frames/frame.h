@@ -17,6 +17,8 @@ struct FrameSection {
   Real shear_compliance = 0;  ///< 1 / (kappa G A) [1/N]; 0: Euler-Bernoulli
   Real mass = 0;              ///< rho A [kg/m]
   Real rotary_inertia = 0;    ///< rho I [kg m]; 0: Euler-Bernoulli
+  Real area = 0;              ///< [m^2]
+  Real modulus = 0;           ///< I over the distance of the outermost fibre [m^3]
   Real tension = 0;           ///< axial force in the state about which it vibrates [N]
 };
 

@@ -1,6 +1,7 @@
 #include "references/frames/frame_arguments.h"
 
 #include "references/frames/frame_json.h"
+#include "references/frames/manipulator_design.h"
 #include "references/frames/manipulator_frame.h"
 
 namespace trammel::references {
@@ -24,17 +25,18 @@ void add_loads(const Arguments& arguments, Frame& frame) {
 
 Frame frame_from_arguments(const Arguments& arguments) {
   if (arguments.has("model")) {
-    for (const char* key : {"manipulator", "pose", "loads"}) {
+    for (const char* key : {"manipulator", "pose", "loads", "gravity_m_s2"}) {
       if (arguments.has(key)) arguments.fail(key, "does not go with a model");
     }
     return read_frame(arguments["model"], "/model");
   }
-  const Arguments manipulator(
-      arguments["manipulator"], "/manipulator",
-      {"base_side_m", "links", "platform", "material", "joints", "working_mode"});
   const Arguments pose(arguments["pose"], "/pose", {"x_m", "y_m", "phi_rad"});
-  Frame frame = manipulator_frame(manipulator, pose);
+  Frame frame = manipulator_frame(manipulator_arguments(arguments), pose);
   add_loads(arguments, frame);
+  if (arguments.has("gravity_m_s2")) {
+    const std::vector<Real> g = arguments.numbers("gravity_m_s2", 2);
+    frame.gravity = {g[0], g[1]};
+  }
   return frame;
 }
 

@@ -24,7 +24,7 @@ FrameMaterial read_material(const Arguments& materials, const std::string& name,
 
 CrossSection read_section(const Arguments& materials, const Arguments& section) {
   const FrameMaterial material = read_material(materials, section.text("material"), section);
-  CrossSection data{material, 0, 0, 0};
+  CrossSection data{material, 0, 0, 0, 0};
   if (section.has("rectangle")) {
     const Arguments r(section["rectangle"], section.pointer("rectangle"),
                       {"thickness_m", "width_m"});
@@ -34,9 +34,11 @@ CrossSection read_section(const Arguments& materials, const Arguments& section) 
     const Real diameter = c.positive("diameter_m");
     data.area = pi<Real>() * diameter * diameter / 4;
     data.second_moment = data.area * diameter * diameter / 16;
+    data.half_depth = diameter / 2;
   } else {
     data.area = section.positive("area_m2");
     data.second_moment = section.positive("second_moment_m4");
+    data.half_depth = section.number("half_depth_m", 0);
   }
   data.shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
   return data;

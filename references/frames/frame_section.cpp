@@ -7,6 +7,7 @@ CrossSection rectangle(const FrameMaterial& material, const Real& thickness, con
   section.material = material;
   section.area = thickness * width;
   section.second_moment = section.area * thickness * thickness / 12;
+  section.half_depth = thickness / 2;
   return section;
 }
 
@@ -18,11 +19,16 @@ FrameSection member_section(const CrossSection& data, const Arguments& member) {
   }
   section.EI = m.E * data.second_moment;
   section.mass = m.rho * data.area;
-  if (member.choice("beam", "euler-bernoulli", {"euler-bernoulli", "timoshenko"}) == "timoshenko") {
+  section.area = data.area;
+  if (data.half_depth > 0) section.modulus = data.second_moment / data.half_depth;
+  const std::string beam = member.choice("beam", "euler-bernoulli",
+                                         {"euler-bernoulli", "rayleigh", "shear", "timoshenko"});
+  if (beam == "shear" || beam == "timoshenko") {
     const Real G = m.E / (2 * (1 + m.nu));
     section.shear_compliance = 1 / (data.shear_coefficient * G * data.area);
-    section.rotary_inertia = m.rho * data.second_moment;
   }
+  if (beam == "rayleigh" || beam == "timoshenko")
+    section.rotary_inertia = m.rho * data.second_moment;
   return section;
 }
 

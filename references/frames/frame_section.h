@@ -16,6 +16,7 @@ struct CrossSection {
   FrameMaterial material;
   Real area = 0;                         ///< [m^2]
   Real second_moment = 0;                ///< about the axis of bending [m^4]
+  Real half_depth = 0;                   ///< 0: not known [m]
   Real shear_coefficient = Real(5) / 6;  ///< [-]
 };
 
@@ -23,8 +24,9 @@ struct CrossSection {
 [[nodiscard]] CrossSection rectangle(const FrameMaterial& material, const Real& thickness,
                                      const Real& width);
 
-/// The section of a member by its theory: "beam" (euler-bernoulli, by default, or timoshenko, with
-/// 1/(kappa G A) and rho I) and "axial" (flexible, by default, or inextensible).
+/// The section of a member by its theory: "beam" (euler-bernoulli, by default, shear with
+/// 1/(kappa G A), rayleigh with rho I, timoshenko with both) and "axial" (flexible, by default, or
+/// inextensible).
 /// @throws DerivationError  with the JSON pointer, where the member names another theory.
 [[nodiscard]] FrameSection member_section(const CrossSection& section, const Arguments& member);
 

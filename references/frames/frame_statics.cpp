@@ -37,7 +37,10 @@ class Outputs {
       : frame_(frame), coordinates_(frame, false), statics_(unit_load_statics(frame)) {}
 
   [[nodiscard]] Real value(const std::string& text) const {
+    if (text == "strain_energy_J") return work_of_loads() / 2;
+    if (text == "load_work_J") return work_of_loads();
     const Name name = split(text);
+    if (name.quantity == "stress_Pa") return largest_stress(text, name);
     if (!name.end.empty()) return member_output(text, name);
     const int node = frame_.find_node(name.item);
     if (node < 0) throw DerivationError("/outputs: '" + text + "': there is no such node");
@@ -45,6 +48,11 @@ class Outputs {
                                                              "rotation_rad"};
     static const std::array<const char*, 3> reactions = {"reaction_x_N", "reaction_y_N",
                                                          "reaction_moment_N_m"};
+    if (name.quantity == "deflection_m") {
+      const Real x = statics_.displacement[coordinate(text, node, 0)];
+      const Real y = statics_.displacement[coordinate(text, node, 1)];
+      return sqrt(x * x + y * y);
+    }
     for (int motion = 0; motion < 3; ++motion) {
       if (name.quantity == displacements[motion])
         return statics_.displacement[coordinate(text, node, motion)];
@@ -54,6 +62,17 @@ class Outputs {
   }
 
  private:
+  /// Of the forces and moments on nodes.
+  [[nodiscard]] Real work_of_loads() const {
+    Real work = 0;
+    for (const FrameLoad& load : frame_.loads)
+      for (int motion = 0; motion < 3; ++motion)
+        if (load.force[motion] != 0)
+          work += load.force[motion] *
+                  statics_.displacement[coordinate("strain_energy_J", load.node, motion)];
+    return work;
+  }
+
   [[nodiscard]] int coordinate(const std::string& text, int node, int motion) const {
     const int index = coordinates_.node_index(node, motion);
     if (index < 0) throw DerivationError("/outputs: '" + text + "': this node has no rotation");
@@ -75,11 +94,29 @@ class Outputs {
     if (member < 0) throw DerivationError("/outputs: '" + text + "': there is no such member");
     const int end = name.end == "start" ? 0 : 1;
     if (name.quantity == "axial_force_N") return statics_.members[member].N[end];
+    if (name.quantity == "shear_force_N") return statics_.members[member].V[end];
     if (name.quantity == "bending_moment_N_m") return statics_.members[member].M[end];
     if (name.quantity == "end_rotation_rad") {
       return statics_.displacement[coordinates_.end_index(member, end)];
     }
     throw DerivationError("/outputs: '" + text + "': there is no such quantity");
+  }
+
+  /// |N|/A + |M|/W of a member without a load of its own, whose largest value is at an end.
+  [[nodiscard]] Real largest_stress(const std::string& text, const Name& name) const {
+    const int index = frame_.find_member(name.item);
+    if (index < 0) throw DerivationError("/outputs: '" + text + "': there is no such member");
+    const FrameMember& member = frame_.members[index];
+    if (member.section.modulus == 0 || member.load[0] != 0 || member.load[1] != 0)
+      throw DerivationError("/outputs: '" + text + "': no depth is known, or it is loaded");
+    const MemberForces& forces = statics_.members[index];
+    Real largest = 0;
+    for (int end = 0; end < 2; ++end) {
+      const Real stress =
+          abs(forces.N[end]) / member.section.area + abs(forces.M[end]) / member.section.modulus;
+      if (stress > largest) largest = stress;
+    }
+    return largest;
   }
 
   const Frame& frame_;
@@ -90,7 +127,8 @@ class Outputs {
 }  // namespace
 
 std::vector<double> frame_statics_program(const Json& json) {
-  const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "outputs"});
+  const Arguments arguments(json, "",
+                            {"model", "manipulator", "pose", "loads", "gravity_m_s2", "outputs"});
   const Frame frame = frame_from_arguments(arguments);
   const Outputs outputs(frame);
   std::vector<double> values;

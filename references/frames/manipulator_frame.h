@@ -7,11 +7,8 @@
 /// each B_i is where the circles of radius |A_i B_i| about A_i and |B_i C_i| about C_i meet, on the
 /// side that the working mode names. Nodes A1-A3, B1-B3, C1-C3, P; members A1-B1 ..., B1-C1 ....
 ///
-/// The format is that of the case files' "manipulator": base_side_m, links (proximal_length_m,
-/// distal_length_m, thickness_m, width_m, mass_kg, inertia_kg_m2, beam, shear_coefficient, axial),
-/// platform (kind "rigid", side_m, thickness_m, mass_kg, inertia_kg_m2), material, joints (active
-/// locked / free / spring, elbow and platform welded / hinged / spring, platform also eq25-mean,
-/// eq25-sum), working_mode. One length, one joint of each kind for all limbs.
+/// The numbers are those of `read_manipulator_numbers`; platform kind "rigid"; joints active locked
+/// / free / spring, elbow and platform welded / hinged / spring, platform also eq25-mean, eq25-sum.
 namespace trammel::references {
 
 /// @throws DerivationError  with the JSON pointer, or where a limb cannot reach.

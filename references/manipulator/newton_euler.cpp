@@ -76,9 +76,9 @@ std::array<PointJet, 3> limb_joints(const LimbBodies& limb,
           elbow<Jet<Real>>(base_joint, C, limb.proximal_length, limb.distal_length, limb.mode), C};
 }
 
-std::array<Real, 3> newton_euler_torques(const PlanarManipulator& m,
-                                         const std::array<Jet<Real>, 3>& motion,
-                                         const PlanarWrench& wrench) {
+ManipulatorForces newton_euler_forces(const PlanarManipulator& m,
+                                      const std::array<Jet<Real>, 3>& motion,
+                                      const PlanarWrench& wrench) {
   Dense<Real> A(21, 21);
   std::vector<Real> b(21, Real(0));
   const PointJet P = {motion[0], motion[1]};
@@ -106,7 +106,19 @@ std::array<Real, 3> newton_euler_torques(const PlanarManipulator& m,
   if (!solve_in_place(A, b, Real("1e-40"))) {
     throw DerivationError("the posture is singular: no torques hold it");
   }
-  return {b[torque], b[per_limb + torque], b[2 * per_limb + torque]};
+  ManipulatorForces forces;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t first = per_limb * i;
+    forces.torque[i] = b[first + torque];
+    forces.on_platform[i] = {b[first + at_C], b[first + at_C + 1]};
+  }
+  return forces;
+}
+
+std::array<Real, 3> newton_euler_torques(const PlanarManipulator& manipulator,
+                                         const std::array<Jet<Real>, 3>& motion,
+                                         const PlanarWrench& wrench) {
+  return newton_euler_forces(manipulator, motion, wrench).torque;
 }
 
 }  // namespace trammel::references

@@ -43,6 +43,16 @@ struct PlanarWrench {
 [[nodiscard]] std::array<Point2<Jet<Real>>, 3> limb_joints(const LimbBodies& limb,
                                                            const std::array<Jet<Real>, 3>& motion);
 
+struct ManipulatorForces {
+  std::array<Real, 3> torque;               ///< of the base on the proximal links
+  std::array<Point2<Real>, 3> on_platform;  ///< of the distal links at C_i
+};
+
+/// As `newton_euler_torques`.
+[[nodiscard]] ManipulatorForces newton_euler_forces(const PlanarManipulator& manipulator,
+                                                    const std::array<Jet<Real>, 3>& motion,
+                                                    const PlanarWrench& wrench);
+
 /// Torques of the base on the three proximal links, counterclockwise, in SI.
 /// @param motion  as in `limb_joints`
 /// @throws DerivationError  where a limb cannot reach, or the posture is singular.

@@ -15,6 +15,7 @@
 #include "references/frames/frame_sensitivity.h"
 #include "references/frames/frame_statics.h"
 #include "references/frames/wittrick_williams.h"
+#include "references/manipulator/manipulator_motion.h"
 #include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/nadaraya_watson.h"
 #include "references/numerics/expression.h"
@@ -129,6 +130,12 @@ const std::map<std::string, Program>& programs() {
         "output (angles | velocities), force_N, moment_N_m, gravity_m_s2; at A1 at every query, at "
         "A2, at A3",
         manipulator_grnn_program}},
+      {"manipulator-motion",
+       {"the rigid planar 3-RRR along a path or under constant torques: joints, bodies, powers, "
+        "tensions, singularities",
+        "as manipulator-torques, outputs (active_angle_rad:A1, kinetic_energy_J, ...), at_rest, "
+        "torque_N_m",
+        manipulator_motion_program}},
       {"manipulator-torques",
        {"torques of the rigid planar 3-RRR along a path [N m], Newton and Euler for each of its "
         "seven bodies",

@@ -76,6 +76,16 @@ BOOST_AUTO_TEST_CASE(what_shuts_each_other_out_is_refused_by_name) {
   BOOST_TEST(contains(moves, "stands still"), moves);
 }
 
+BOOST_AUTO_TEST_CASE(a_quasi_static_motion_claims_no_work_of_its_loads) {
+  // it once gave 0 J, nothing dissipated, and a drift of an energy of which that was a part
+  Json json = motion(between("line", 0.01));
+  options(json)["effects"] = {{"elastic_inertia", false}};
+  const AnalysisResult result = result_of(json);
+  BOOST_TEST(values(result, "strain_energy_J").size() == 6U);
+  for (const char* name : {"load_work_J", "dissipated_energy_J", "energy_drift"})
+    BOOST_TEST(result.quantities.count(name) == 0U, name);
+}
+
 BOOST_AUTO_TEST_CASE(steps_beyond_number_are_refused_before_the_first) {
   Json json = motion(between("line", 0.01));
   options(json)["step_s"] = 1e-12;

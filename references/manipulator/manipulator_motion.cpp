@@ -1,0 +1,315 @@
+#include "references/manipulator/manipulator_motion.h"
+
+#include <functional>
+#include <map>
+
+#include "references/manipulator/manipulator_torques.h"
+#include "references/manipulator/platform_path.h"
+#include "references/numerics/dense.h"
+#include "references/numerics/roots.h"
+
+namespace trammel::references {
+
+namespace {
+
+using Motion = std::array<Jet<Real>, 3>;
+using PointJet = Point2<Jet<Real>>;
+
+/// Direction of the line from one point to another, with its derivatives.
+Jet<Real> direction(const PointJet& from, const PointJet& to) {
+  const Jet<Real> x = to[0] - from[0], y = to[1] - from[1];
+  const Real r2 = x.value * x.value + y.value * y.value;
+  const Real rate = (x.value * y.rate - y.value * x.rate) / r2;
+  const Real stretch = (x.value * x.rate + y.value * y.rate) / r2;
+  return {atan2(y.value, x.value), rate,
+          (x.value * y.acceleration - y.value * x.acceleration) / r2 - 2 * rate * stretch};
+}
+
+/// Smallest over largest singular value of a 3 x 3 matrix, from the roots of the characteristic
+/// equation of A^T A in their trigonometric form.
+Real reciprocal_condition(const Dense<Real>& A) {
+  const Dense<Real> S = transpose_product(A, A);
+  const Real mean = (S(0, 0) + S(1, 1) + S(2, 2)) / 3;
+  std::array<std::array<Real, 3>, 3> B;
+  Real p2 = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      B[i][j] = S(i, j) - (i == j ? mean : Real(0));
+      p2 += B[i][j] * B[i][j] / 6;
+    }
+  }
+  const Real p = sqrt(p2), cosine = determinant(B) / (2 * p2 * p);
+  const Real angle = acos(cosine > 1 ? Real(1) : cosine < -1 ? Real(-1) : cosine) / 3;
+  const auto root = [&](int k) { return Real(mean + 2 * p * cos(angle + 2 * k * pi<Real>() / 3)); };
+  return sqrt(root(1) / root(0));
+}
+
+/// Everything at one instant, by the name of its quantity.
+class Instant {
+ public:
+  Instant(const PlanarManipulator& manipulator, const Motion& motion, const PlanarWrench& wrench)
+      : m_(manipulator), motion_(motion), forces_(newton_euler_forces(m_, motion, wrench)) {
+    const char* axes[] = {"x", "y", "phi"};
+    const char* units[] = {"m", "m", "rad"};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::string axis = axes[c], unit = units[c];
+      values_["motion_" + axis + "_" + unit] = motion[c].value;
+      values_["motion_velocity_" + axis + "_" + unit + "_per_s"] = motion[c].rate;
+    }
+    for (const char* power : {"kinetic_energy_J", "kinetic_power_W", "actuator_power_W"})
+      values_[power] = 0;
+    values_["load_power_W"] =
+        wrench.x * motion[0].rate + wrench.y * motion[1].rate + wrench.moment * motion[2].rate;
+    values_["gravity_power_W"] = 0;
+    for (std::size_t i = 0; i < 3; ++i) add_limb(i);
+    const Jet<Real> c = cos(motion[2]), s = sin(motion[2]);
+    const Point2<Real>& center = m_.platform_center;
+    add_body(
+        "platform",
+        {motion[0] + (c * center[0] - s * center[1]), motion[1] + (s * center[0] + c * center[1])},
+        motion[2], m_.platform_mass, m_.platform_inertia);
+    add_singularities();
+  }
+
+  [[nodiscard]] Real value(const std::string& name) const {
+    const auto found = values_.find(name);
+    if (found == values_.end())
+      throw DerivationError("/outputs: '" + name + "': there is no such quantity");
+    return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // round-off alone
+  }
+
+ private:
+  void add_limb(std::size_t i) {
+    const LimbBodies& limb = m_.limbs[i];
+    const auto [A, B, C] = limb_joints(limb, motion_);
+    const std::string n = std::to_string(i + 1);
+    const Jet<Real> active = direction(A, B), passive = direction(B, C);
+    add_angle("active_", ":A" + n, active);
+    add_angle("passive_", ":B" + n, passive);
+    const auto cross = [](const PointJet& o, const PointJet& p, const PointJet& q) {
+      return Real((p[0].value - o[0].value) * (q[1].value - p[1].value) -
+                  (p[1].value - o[1].value) * (q[0].value - p[0].value));
+    };
+    values_["elbow_sine:B" + n] = cross(A, B, C) / (limb.proximal_length * limb.distal_length);
+    const Point2<Real> along = {(B[0].value - C[0].value) / limb.distal_length,
+                                (B[1].value - C[1].value) / limb.distal_length};
+    const Point2<Real>& force = forces_.on_platform[i];
+    values_["distal_tension_N:B" + n + "-C" + n] = along[0] * force[0] + along[1] * force[1];
+    directions_[i] = {-along[0], -along[1]};
+    values_["torque_N_m:A" + n] = values_["holding_torque_N_m:A" + n] = forces_.torque[i];
+    values_["actuator_power_W"] += forces_.torque[i] * active.rate;
+    add_link("A" + n + "-B" + n, A, B, active, limb.proximal, limb.proximal_length);
+    add_link("B" + n + "-C" + n, B, C, passive, limb.distal, limb.distal_length);
+  }
+
+  void add_angle(const std::string& kind, const std::string& joint, const Jet<Real>& angle) {
+    values_[kind + "angle_rad" + joint] = angle.value;
+    values_[kind + "velocity_rad_per_s" + joint] = angle.rate;
+    values_[kind + "acceleration_rad_per_s2" + joint] = angle.acceleration;
+  }
+
+  void add_link(const std::string& name, const PointJet& from, const PointJet& to,
+                const Jet<Real>& angle, const LinkBody& body, const Real& length) {
+    const Real share = body.center / length;
+    add_body(name, {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])},
+             angle, body.mass, body.inertia);
+  }
+
+  void add_body(const std::string& name, const PointJet& center, const Jet<Real>& angle,
+                const Real& mass, const Real& inertia) {
+    values_["kinetic_energy_J"] += inertia * angle.rate * angle.rate / 2;
+    values_["kinetic_power_W"] += inertia * angle.rate * angle.acceleration;
+    for (std::size_t c = 0; c < 2; ++c) {
+      const std::string axis = c == 0 ? "x" : "y";
+      values_["center_" + axis + "_m:" + name] = center[c].value;
+      values_["center_velocity_" + axis + "_m_per_s:" + name] = center[c].rate;
+      values_["center_acceleration_" + axis + "_m_per_s2:" + name] = center[c].acceleration;
+      values_["kinetic_energy_J"] += mass * center[c].rate * center[c].rate / 2;
+      values_["kinetic_power_W"] += mass * center[c].rate * center[c].acceleration;
+      values_["gravity_power_W"] += mass * m_.gravity[c] * center[c].rate;
+    }
+  }
+
+  /// Lines of the distal links in Pluecker coordinates, moments about P over the platform's radius.
+  void add_singularities() {
+    Real squares = 0;
+    for (const LimbBodies& limb : m_.limbs)
+      squares += limb.corner[0] * limb.corner[0] + limb.corner[1] * limb.corner[1];
+    const Real radius = sqrt(squares / 3);
+    Dense<Real> lines(3, 3);
+    Real serial = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point2<Real>& d = directions_[i];
+      const auto C = limb_joints(m_.limbs[i], motion_)[2];
+      lines(i, 0) = d[0];
+      lines(i, 1) = d[1];
+      lines(i, 2) =
+          ((C[0].value - motion_[0].value) * d[1] - (C[1].value - motion_[1].value) * d[0]) /
+          radius;
+      const Real sine = abs(values_["elbow_sine:B" + std::to_string(i + 1)]);
+      if (sine < serial) serial = sine;
+    }
+    values_["parallel_singularity_distance"] = reciprocal_condition(lines);
+    values_["serial_singularity_distance"] = serial;
+  }
+
+  const PlanarManipulator& m_;
+  const Motion motion_;
+  const ManipulatorForces forces_;
+  std::array<Point2<Real>, 3> directions_;
+  std::map<std::string, Real> values_;
+};
+
+/// Accelerations of the platform under given torques: torques are linear in them, so four inverse
+/// problems tell.
+std::vector<Real> accelerations(const PlanarManipulator& m, const PlanarWrench& wrench,
+                                const std::vector<Real>& torque, const std::vector<Real>& state) {
+  const auto torques_at = [&](int moving) {
+    Motion motion;
+    for (int c = 0; c < 3; ++c)
+      motion[c] = {state[c], state[3 + c], moving == c ? Real(1) : Real(0)};
+    return newton_euler_forces(m, motion, wrench).torque;
+  };
+  const auto at_rest = torques_at(-1);
+  Dense<Real> A(3, 3);
+  std::vector<Real> b(3);
+  for (int c = 0; c < 3; ++c) {
+    const auto moved = torques_at(c);
+    for (std::size_t i = 0; i < 3; ++i) A(i, c) = moved[i] - at_rest[i];
+    b[c] = torque[c] - at_rest[c];
+  }
+  if (!solve_in_place(A, b, Real("1e-40"))) throw DerivationError("the posture is singular");
+  return b;
+}
+
+using Rate = std::function<std::vector<Real>(const std::vector<Real>&)>;
+
+/// One step by Gragg's modified midpoint rule with 2, 4, ... 16 substeps, extrapolated (Bulirsch
+/// and Stoer): order 16.
+std::vector<Real> extrapolated_step(const Rate& rate, const std::vector<Real>& y, const Real& h) {
+  const auto sum = [](std::vector<Real> a, const Real& factor, const std::vector<Real>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
+    return a;
+  };
+  const std::vector<Real> start = rate(y);
+  std::vector<std::vector<Real>> table;
+  for (int j = 1; j <= 8; ++j) {
+    const Real step = h / (2 * j);
+    std::vector<Real> before = y, now = sum(y, step, start);
+    for (int k = 1; k < 2 * j; ++k) {
+      std::vector<Real> next = sum(before, 2 * step, rate(now));
+      before = std::move(now);
+      now = std::move(next);
+    }
+    std::vector<Real> found = sum(sum(now, 1, before), step, rate(now));
+    for (Real& value : found) value /= 2;
+    table.push_back(found);
+    for (int i = j - 2; i >= 0; --i) {
+      const Real factor = Real(1) / (Real(j * j) / Real((i + 1) * (i + 1)) - 1);
+      table[i] = sum(sum(table[i + 1], factor, table[i + 1]), -factor, table[i]);
+    }
+  }
+  return table.front();
+}
+
+/// The motion under constant torques at each of the times.
+std::vector<Motion> driven_motions(const PlanarManipulator& m, const PlanarWrench& wrench,
+                                   const std::vector<Real>& torque, const Motion& start,
+                                   const std::vector<Real>& times) {
+  std::vector<Real> state(6);
+  for (int c = 0; c < 3; ++c) {
+    state[c] = start[c].value;
+    state[3 + c] = start[c].rate;
+  }
+  const Rate rate = [&](const std::vector<Real>& y) {
+    std::vector<Real> dy(y.begin() + 3, y.end());
+    const std::vector<Real> a = accelerations(m, wrench, torque, y);
+    dy.insert(dy.end(), a.begin(), a.end());
+    return dy;
+  };
+  std::vector<Motion> motions;
+  Real time = 0;
+  for (const Real& next : times) {
+    if (next > time) state = extrapolated_step(rate, state, next - time);
+    time = next;
+    const std::vector<Real> a = accelerations(m, wrench, torque, state);
+    Motion motion;
+    for (int c = 0; c < 3; ++c) motion[c] = {state[c], state[3 + c], a[c]};
+    motions.push_back(motion);
+  }
+  return motions;
+}
+
+/// Integral of the actuators' |power| over a turn of the circle: constant loads have a potential,
+/// so that it is what kinetic less potential energy rises and falls by between the zeros of power.
+Real absolute_work(const PlanarManipulator& m, const Arguments& trajectory,
+                   const PlanarWrench& wrench) {
+  const Arguments circle(trajectory["circle"], "/trajectory/circle");
+  const Real period = 2 * pi<Real>() / abs(circle.number("angular_speed_rad_s", 1));
+  const auto at = [&](const Real& t) { return Instant(m, platform_motion(trajectory, t), wrench); };
+  const auto power = [&](const Real& t) { return at(t).value("actuator_power_W"); };
+  const auto energy = [&](const Real& t) {
+    const Instant now = at(t);
+    Real weights = 0;
+    for (const char* body : {"A1-B1", "A2-B2", "A3-B3", "B1-C1", "B2-C2", "B3-C3", "platform"}) {
+      const std::string name = body;
+      const std::size_t limb = name == "platform" ? 3 : static_cast<std::size_t>(name[1] - '1');
+      const Real mass = limb == 3        ? m.platform_mass
+                        : name[0] == 'A' ? m.limbs[limb].proximal.mass
+                                         : m.limbs[limb].distal.mass;
+      weights += mass * (m.gravity[0] * now.value("center_x_m:" + name) +
+                         m.gravity[1] * now.value("center_y_m:" + name));
+    }
+    return Real(now.value("kinetic_energy_J") - wrench.x * now.value("motion_x_m") -
+                wrench.y * now.value("motion_y_m") - weights);
+  };
+  constexpr int kIntervals = 64;
+  std::vector<Real> energies;
+  Real before = power(0);
+  for (int k = 1; k <= kIntervals; ++k) {
+    const Real from = period * (k - 1) / kIntervals, to = period * k / kIntervals;
+    const Real now = power(to);
+    if ((before < 0) != (now < 0)) energies.push_back(energy(refined_root(power, from, to)));
+    before = now;
+  }
+  Real work = 0;
+  for (std::size_t i = 0; i < energies.size(); ++i)
+    work += abs(energies[i] - energies[(i + 1) % energies.size()]);
+  return work;
+}
+
+}  // namespace
+
+std::vector<double> manipulator_motion_program(const Json& json) {
+  const Arguments arguments(json, "",
+                            {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m",
+                             "gravity_m_s2", "outputs", "at_rest", "torque_N_m"});
+  const PlanarManipulator manipulator = read_planar_manipulator(arguments);
+  const PlanarWrench wrench = read_wrench(arguments);
+  const Arguments trajectory(arguments["trajectory"], "/trajectory",
+                             {"circle", "line", "rest_to_rest", "spline"});
+  const std::vector<std::string> outputs = arguments.texts("outputs");
+  if (outputs.front() == "cycle_absolute_work_J")
+    return to_doubles({absolute_work(manipulator, trajectory, wrench)});
+  const std::vector<Real> times = arguments.numbers("times_s");
+  std::vector<Motion> motions;
+  if (arguments.has("torque_N_m")) {
+    motions = driven_motions(manipulator, wrench, arguments.numbers("torque_N_m", 3),
+                             platform_motion(trajectory, 0), times);
+  } else {
+    for (const Real& time : times) motions.push_back(platform_motion(trajectory, time));
+  }
+  std::vector<std::vector<Real>> table(outputs.size());
+  for (Motion& motion : motions) {
+    if (arguments.flag("at_rest", false))
+      for (Jet<Real>& coordinate : motion) coordinate = coordinate.value;
+    const Instant now(manipulator, motion, wrench);
+    for (std::size_t i = 0; i < outputs.size(); ++i) table[i].push_back(now.value(outputs[i]));
+  }
+  std::vector<double> values;
+  for (const auto& row : table)
+    for (const double value : to_doubles(row)) values.push_back(value);
+  return values;
+}
+
+}  // namespace trammel::references
