@@ -465,4 +465,4 @@ def solve(case):
 
 
 if __name__ == "__main__":
-    main(solve, name="CalculiX", version="2.20")
+    main(solve, name="CalculiX", version="2.20", digits=7)

@@ -113,7 +113,7 @@ def to_numpy(file):
     return matrix
 
 
-def _result(quantities, name, version, element_order, seconds):
+def _result(quantities, solver, seconds):
     checked = {}
     for key, (unit, values) in quantities.items():
         listed = [float(value) for value in (values if hasattr(values, "__len__") else [values])]
@@ -121,22 +121,22 @@ def _result(quantities, name, version, element_order, seconds):
             raise ValueError("%s is not finite: %r" % (key, listed[:8]))
         checked[key] = {"unit": unit, "values": listed}
     return {"status": "solved", "quantities": checked, "cost": {"seconds": seconds},
-            "solver": {"name": name, "version": version, "element_order": element_order}}
+            "solver": solver}
 
 
-def main(solve, name, version="", element_order=None):
+def main(solve, name, version="", element_order=None, digits=None):
     """Runs `adapter CASE.json RESULT.json`: solve(Case) returns {name: (unit, number or numbers)},
     raises Cannot, or returns a whole result with a "status" of its own."""
     with open(sys.argv[-2]) as file:
         case = Case(json.load(file))
     start, status = time.perf_counter(), 0
+    solver = {"name": name, "version": version, "element_order": element_order, "digits": digits}
     try:
         found = solve(case)
         result = found if "status" in found else _result(
-            found, name, version, element_order, time.perf_counter() - start)
+            found, solver, time.perf_counter() - start)
     except Cannot as reason:
-        result, status = {"status": "cannot", "reason": str(reason),
-                          "solver": {"name": name, "version": version}}, 4
+        result, status = {"status": "cannot", "reason": str(reason), "solver": solver}, 4
     with open(sys.argv[-1], "w") as file:
         json.dump(result, file, allow_nan=False)
     sys.exit(status)

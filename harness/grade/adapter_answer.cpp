@@ -58,9 +58,12 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked,
   computation.reason = one_line(json.value("reason", ""));
   if (json.contains("solver")) {
     const Json& solver = json.at("solver");
-    computation.solver = {solver.at("name").get<std::string>(), solver.value("version", ""), {}};
+    computation.solver = {
+        solver.at("name").get<std::string>(), solver.value("version", ""), {}, {}};
     if (solver.contains("element_order") && !solver.at("element_order").is_null())
       computation.solver.element_order = solver.at("element_order").get<double>();
+    if (solver.contains("digits") && !solver.at("digits").is_null())
+      computation.solver.digits = solver.at("digits").get<int>();
   }
   std::vector<std::string> known;
   for (const Json& one : asked.at("quantities")) known.push_back(one.at("name"));

@@ -25,6 +25,7 @@ struct CheckResult : results::Check {
 struct SolverIdentity {
   std::string name, version;
   std::optional<double> element_order;  ///< of convergence in the element size
+  std::optional<int> digits;            ///< significant ones that it prints
 };
 
 /// What a run's checks are judged with.

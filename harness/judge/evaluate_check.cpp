@@ -154,6 +154,16 @@ std::string outside(const Check& check, double value, const Window& window) {
   return where;
 }
 
+/// The window of a measure with half a unit of the last digit that a solver prints on either side.
+Window widened(const Window& window, const Check& check, const CheckResult& entry, int digits) {
+  if (*entry.computed == 0) return window;
+  const double leading = std::floor(std::log10(std::abs(*entry.computed)));
+  double half_unit = 0.5 * std::pow(10.0, leading + 1 - digits);
+  if (check.measure == Measure::relative || check.measure == Measure::ratio)
+    half_unit /= std::abs(*entry.expected);
+  return {window.low - half_unit, window.high + half_unit};
+}
+
 /// Judges one entry into `entry`, whose computed and expected values are set.
 void evaluate_entry(const Check& check, const Window* window, double uncertainty,
                     CheckResult& entry) {
@@ -204,7 +214,8 @@ std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
   return {worst_result};
 }
 
-std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValues& pairs) {
+std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValues& pairs,
+                                          const SolverIdentity* other_solver) {
   std::vector<CheckResult> entries;
   for (std::size_t i = 0; i < pairs.computed.size(); ++i) {
     CheckResult entry = start_check_result(check);
@@ -213,6 +224,9 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
     if (!pairs.expected.empty()) entry.expected = pairs.expected[i];
     const Window* window =
         check.windows.empty() ? nullptr : &check.windows[check.windows.size() == 1 ? 0 : i];
+    std::optional<Window> printed;
+    if (window != nullptr && other_solver != nullptr && other_solver->digits)
+      window = &printed.emplace(widened(*window, check, entry, *other_solver->digits));
     evaluate_entry(check, window, pairs.uncertainty.empty() ? 0 : pairs.uncertainty[i], entry);
     entries.push_back(std::move(entry));
   }
@@ -222,7 +236,7 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
 std::vector<CheckResult> judge(const Check& check, const CheckContext& context) {
   try {
     if (check.order) return evaluate_order_check(check, context);
-    return evaluate_entries(check, collect(check, context));
+    return evaluate_entries(check, collect(check, context), context.other_solver);
   } catch (const NotComparable& reason) {
     CheckResult failed = failed_check_result(check, reason.message);
     if (reason.is_missing && context.other_solver != nullptr) failed.verdict = Verdict::not_given;

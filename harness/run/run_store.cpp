@@ -91,7 +91,7 @@ TRAMMEL_KEPT(ComparedEntry, check, quantity, unit, reference, index, comparison,
              literal, u_input_literal_sampled)
 TRAMMEL_KEPT(ValidationUncertainty, inputs, samples, failed, literal_samples, literal_failed,
              numerical, entries)
-TRAMMEL_KEPT(SolverIdentity, name, version, element_order)
+TRAMMEL_KEPT(SolverIdentity, name, version, element_order, digits)
 TRAMMEL_KEPT(Computation, status, reason, error, result, sweeps, uncertainty, wall_s, cpu_s,
              uncertainty_wall_s, references, machine, solver)
 

@@ -34,6 +34,7 @@ struct Bench {
   Quantities quantities = {{"frequency_Hz", {{10, 20, 30}, {}}}};
   Quantities other = {{"frequency_Hz", {{5, 10, 15}, {}}}};
   bool has_other = true;
+  const SolverIdentity* other_solver = nullptr;
 
   std::vector<CheckResult> judge_all() {
     (void)folder->write(reference);
@@ -44,7 +45,8 @@ struct Bench {
     const auto checks = read_checks(document, "base", {"base", "other"});
     const References references;
     const auto variant = [&](const std::string&) { return has_other ? &other : nullptr; };
-    return evaluate_check(checks.at(0), {document, quantities, {}, references, variant});
+    return evaluate_check(checks.at(0),
+                          {document, quantities, {}, references, variant, other_solver});
   }
   /// The worst verdict, with its message.
   std::string verdict() {
@@ -345,6 +347,18 @@ BOOST_AUTO_TEST_CASE(a_negative_control_passes_where_the_fault_is_found_and_fail
   BOOST_TEST(control("fail", "is outside of", 1) == "fail");
   BOOST_TEST(
       contains(bench.message, "expected 'fail' of entry 1 with 'is outside of' (got 'pass'"));
+}
+
+BOOST_AUTO_TEST_CASE(a_code_that_prints_four_digits_is_judged_by_four) {
+  Bench bench;
+  bench.check["tolerance"]["relative"] = 1e-12;
+  bench.set(1, 20.004);
+  BOOST_TEST(bench.verdict() == "fail");
+  const SolverIdentity prints_four{"code", "1", {}, 4};
+  bench.other_solver = &prints_four;
+  BOOST_TEST(bench.verdict() == "pass");
+  bench.set(1, 20.006);  // half a unit of 20.01 is 0.005
+  BOOST_TEST(bench.verdict() == "fail");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
