@@ -48,6 +48,10 @@ BOOST_AUTO_TEST_CASE(what_is_off_is_never_evaluated_in_the_whole_catalogue) {
     for (const std::string& variant : given.variants()) {
       const Document document = at_one_point(patched(given, variant));
       if (!knows_effects(document)) continue;
+      // Long motions that leave nothing off would count it for minutes.
+      const std::string kind = analysis_kind(document);
+      const bool moves = kind == "transient" || kind == "harmonic" || kind == "large-motion";
+      if (moves && !document.value().contains("effects")) continue;
       BOOST_TEST_CONTEXT(given.id() << ":" << variant) {
         check_counters(document, references);
         const EffectScope scope = effect_scope(document, read_case_model(document));
