@@ -183,16 +183,21 @@ MeasuredStudy choose_setting(const CostCommand& command, const CostOptions& opti
   if (command.what.size() != 1 || !command.sweeps.empty())
     throw InputError("--accuracy: expected one case beside it, and no --sweep");
   const Case given = load_case(find_one(command.what.front(), {}));
+  const fs::path store = store_folder(command.out, command.store);
   AccuracySearch search;
   {
     Progress progress("settings tried");
     const auto show = [&](std::size_t tried) { progress.show(tried, 0); };
+    const auto compute = [&](const Setting& setting, int time_limit_s) {
+      return run_or_find(setting, time_limit_s, references, store, command.resume);
+    };
     search = search_accuracy(given, command.variant.empty() ? kBaseVariant : command.variant,
-                             {command.accuracy, command.quantities, command.time_limit_s},
-                             references, show);
+                             {command.accuracy, command.quantities, command.time_limit_s}, compute,
+                             show);
   }
   print_search(search);
-  MeasuredStudy measured = measure(search.study, options, references);
+  MeasuredStudy measured =
+      measure_or_find(search.study, options, references, store, command.resume);
   print(measured);
   print_choice(search, measured, command.accuracy);
   return measured;
@@ -207,10 +212,18 @@ TimingOptions timing_of(const CostCommand& command) {
 
 }  // namespace
 
+fs::path store_folder(const std::string& out, const std::string& store) {
+  if (!store.empty()) return store;
+  fs::path folder = fs::path(out) / "store";
+  if (fs::is_symlink(folder))
+    throw InputError("--out " + out + ": expected no link named 'store' (--store follows one)");
+  return folder;
+}
+
 int cost_command(const CostCommand& command, const Renderers& renderers) {
   require_drawing(renderers);
   const OutputLock lock(command.out);
-  if (command.accuracy == 0) end_on_signals(kInterrupted);
+  end_on_signals(kInterrupted);
   const References references;
   const SweepExtent extent = command.quick ? SweepExtent::quick : SweepExtent::full;
   CostOptions options{timing_of(command), {}};

@@ -28,10 +28,8 @@ struct CostCommand {
 };
 
 /// The folder that computations are kept in.
-[[nodiscard]] inline std::filesystem::path store_folder(const std::string& out,
-                                                        const std::string& store) {
-  return store.empty() ? std::filesystem::path(out) / "store" : std::filesystem::path(store);
-}
+/// @throws InputError  where a link would lead out of `out`.
+[[nodiscard]] std::filesystem::path store_folder(const std::string& out, const std::string& store);
 
 /// What accuracy costs in time. @returns the exit status
 int cost_command(const CostCommand& command, const Renderers& renderers);

@@ -177,9 +177,10 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
   }
 }
 
-/// Does what the store does not have. @returns the signal that ended it early, else 0
+/// Does what the store does not have, last what was under way most often when a call was
+/// interrupted: a long run keeps no other one from being done.
+/// @returns the signal that ended it early, else 0
 int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
-  std::vector<ProcessTask> work;
   std::vector<std::pair<Task*, std::filesystem::path>> open;
   for (Task& task : tasks) {
     std::filesystem::path file;
@@ -187,14 +188,23 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     if (!options.store.empty())
       file = options.store / computation_name(task.document, task.requested, options.solver.hash);
     if (options.resume && find_stored(file, task.run)) continue;
-    const unsigned limit_s =
-        options.solver.compute ? options.solver.time_limit_s : time_limit_s(task.document);
-    work.push_back({[&task, &options] { return answer_of(task, options.solver); }, limit_s});
     open.emplace_back(&task, std::move(file));
   }
   std::error_code error;
   if (!options.store.empty()) std::filesystem::create_directories(options.store, error);
   if (!options.store.empty()) drop_unused(options.store);
+  if (options.resume)
+    std::stable_sort(open.begin(), open.end(), [](const auto& a, const auto& b) {
+      return unfinished_starts(a.second) < unfinished_starts(b.second);
+    });
+  std::vector<ProcessTask> work;
+  for (const auto& [task, file] : open)
+    work.push_back(
+        {[&options, run = task, stored = file] {
+           if (!stored.empty()) mark_started(stored);
+           return answer_of(*run, options.solver);
+         },
+         options.solver.compute ? options.solver.time_limit_s : time_limit_s(task->document)});
   std::size_t done = tasks.size() - work.size();
   const auto show = [&] {
     if (options.progress) options.progress(done, tasks.size());
@@ -203,6 +213,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
                             mark_ended(*task, outcome, options);
+                            if (!file.empty()) forget_starts(file);
                             if (!file.empty() && !has_broken(task->run))
                               write_file(file, outcome.text);
                             ++done;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -99,6 +100,7 @@ TRAMMEL_KEPT(ErrorNorms, max, rms, mean)
 TRAMMEL_KEPT(Timing, cpu_s, median_s, lower_quartile_s, upper_quartile_s, wall_median_s, runs_each)
 TRAMMEL_KEPT(RelativeTime, median, low, high)
 TRAMMEL_KEPT(MeasuredSetting, status, reason, error, timing, relative, cpu_s, counters)
+TRAMMEL_KEPT(SandboxedRun, termination, reason, values, quantities, counters, cpu_s)
 
 namespace {
 
@@ -140,18 +142,24 @@ std::string name_of(const Json& all_that_decides) {
   return content_hash(all.dump(-1, ' ', false, Json::error_handler_t::replace)) + ".cbor";
 }
 
+void add_setting(const Setting& setting, Json& all) {
+  all.push_back(setting.document.value());
+  for (const ObservedQuantity& one : setting.observed)
+    all.push_back({one.quantity, one.addend, one.statistic, one.index, one.is_error, one.exact});
+}
+
 std::string name_of(const CostStudy& study, const TimingOptions& timing) {
   Json all = {machine_name(),    timing.repeats,     timing.seed,
               timing.shortest_s, study.time_limit_s, study.baseline,
               study.norm,        study.scale.kind,   study.scale.number};
-  const auto add = [&](const Setting& setting) {
-    all.push_back(setting.document.value());
-    for (const ObservedQuantity& one : setting.observed)
-      all.push_back({one.quantity, one.addend, one.statistic, one.index, one.is_error, one.exact});
-  };
-  std::for_each(study.settings.begin(), study.settings.end(), add);
-  if (study.reference_solution) add(*study.reference_solution);
+  for (const Setting& setting : study.settings) add_setting(setting, all);
+  if (study.reference_solution) add_setting(*study.reference_solution, all);
   return name_of(all);
+}
+
+/// A byte for each call that has begun the computation of that file.
+std::filesystem::path started(std::filesystem::path file) {
+  return file.replace_extension(".started");
 }
 
 /// Cases that an analysis of other cases tries.
@@ -196,6 +204,21 @@ bool find_stored(const std::filesystem::path& file, Computation& computation) {
   return true;
 }
 
+std::size_t unfinished_starts(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(started(file), error);
+  return error ? 0 : static_cast<std::size_t>(bytes);
+}
+
+void mark_started(const std::filesystem::path& file) {
+  std::ofstream(started(file), std::ios::app) << '.';
+}
+
+void forget_starts(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(started(file), error);
+}
+
 MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
                               const References& references, const std::filesystem::path& store,
                               bool resume) {
@@ -221,11 +244,31 @@ MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
   return measured;
 }
 
+SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const References& references,
+                         const std::filesystem::path& store, bool resume) {
+  Json all = Json::array({"setting"});
+  add_setting(setting, all);
+  const std::filesystem::path file = store / name_of(all);
+  try {
+    if (resume) {
+      const SandboxedRun kept = without_hash(read_text(file)).get<SandboxedRun>();
+      mark_used(file);
+      return kept;
+    }
+  } catch (const std::exception&) {  // as above
+  }
+  const SandboxedRun run = run_sandboxed(setting, time_limit_s, references);
+  std::filesystem::create_directories(store);
+  if (run.termination == SandboxedRun::Termination::solved) write_file(file, with_hash(run));
+  return run;
+}
+
 void drop_unused(const std::filesystem::path& store) {
   std::error_code error;
   const auto oldest = std::filesystem::file_time_type::clock::now() - std::chrono::days(30);
   for (const auto& entry : std::filesystem::directory_iterator(store, error))
-    if (entry.path().extension() == ".cbor" && entry.last_write_time(error) < oldest)
+    if ((entry.path().extension() == ".cbor" || entry.path().extension() == ".started") &&
+        entry.last_write_time(error) < oldest)
       std::filesystem::remove(entry.path(), error);
 }
 

@@ -5,6 +5,7 @@
 
 #include "harness/run/run.h"
 #include "harness/studies/cost.h"
+#include "harness/studies/sandboxed_run.h"
 
 /// What runs came to, kept for a later call: a file a run, named by a hash of all that decides it.
 /// CBOR (RFC 8949) after its own hash: every double as it was, also those that are no number.
@@ -25,11 +26,22 @@ namespace trammel::harness {
 ///          they are now, and with times of this machine.
 [[nodiscard]] bool find_stored(const std::filesystem::path& file, Computation& computation);
 
+/// How many calls have begun the computation of that file and were ended before it was.
+[[nodiscard]] std::size_t unfinished_starts(const std::filesystem::path& file);
+void mark_started(const std::filesystem::path& file);
+void forget_starts(const std::filesystem::path& file);
+
 /// As `measure`, or what the store holds of the same settings, by the same program and options, on
 /// this machine, with the references as they are now.
 [[nodiscard]] MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
                                             const References& references,
                                             const std::filesystem::path& store, bool resume);
+
+/// As `run_sandboxed`, or the solution that the store holds of the same setting by the same
+/// program.
+[[nodiscard]] SandboxedRun run_or_find(const Setting& setting, int time_limit_s,
+                                       const References& references,
+                                       const std::filesystem::path& store, bool resume);
 
 /// Removes what no call has written or found for 30 days.
 void drop_unused(const std::filesystem::path& store);

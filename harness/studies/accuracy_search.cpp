@@ -10,7 +10,6 @@
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
 #include "harness/studies/cost.h"
-#include "harness/studies/sandboxed_run.h"
 
 namespace trammel::harness {
 namespace {
@@ -58,12 +57,12 @@ std::vector<Option> combined(const std::vector<Option>& a, const std::vector<Opt
 class Search {
  public:
   Search(const Case& given, const std::string& variant, const AccuracyRequest& request,
-         const References& references, const std::function<void(std::size_t)>& progress)
+         const ComputeSetting& compute, const std::function<void(std::size_t)>& progress)
       : base_(patched(given, variant)),
         json_(base_.value()),
         analysis_(analysis_kind(base_)),
         request_(request),
-        references_(references),
+        compute_(compute),
         progress_(progress) {
     found_.study = empty_study(given, variant);
   }
@@ -84,9 +83,11 @@ class Search {
  private:
   /// As the case has it, or of its kinds those that a user looks at first.
   std::vector<ObservedQuantity> observed_quantities() {
-    const AnalysisResult result = analyse(base_, references_, {false});
-    if (!result.outcome.solved())
-      throw base_.error("/analysis", "expected a case that is solved: " + result.outcome.reason);
+    Setting as_it_stands;
+    as_it_stands.document = base_;
+    const SandboxedRun result = compute_within_limit(as_it_stands);
+    if (!solved(result))
+      throw base_.error("/analysis", "expected a case that is solved: " + result.reason);
     static const std::vector<std::string> kUsual = {"frequency_Hz",     "load_factor",
                                                     "displacement_x_m", "displacement_y_m",
                                                     "position_x_m",     "position_y_m"};
@@ -94,11 +95,10 @@ class Search {
     std::vector<ObservedQuantity> observed;
     for (const std::string& wanted : asked ? request_.quantities : kUsual) {
       bool any = false;
-      for (const auto& [name, quantity] : result.quantities) {
+      for (const auto& [name, values] : result.quantities) {
         if (name != wanted && name.substr(0, name.find(':')) != wanted) continue;
         any = true;
-        if (std::any_of(quantity.values.begin(), quantity.values.end(),
-                        [](double value) { return value != 0; }))
+        if (std::any_of(values.begin(), values.end(), [](double value) { return value != 0; }))
           observed.push_back({name, "", "", {}, false, {}});
       }
       if (asked && !any) {
@@ -256,15 +256,19 @@ class Search {
     return false;
   }
 
+  SandboxedRun compute_within_limit(const Setting& tried) const {
+    const double left = std::max(1.0, request_.time_limit_s - watch_.wall_s());
+    return compute_(tried, static_cast<int>(std::ceil(left)));
+  }
+
   const SandboxedRun& run(const Option& model, Place at) {
     const auto [place, is_new] = runs_.try_emplace({model.title, at.mesh, at.step});
     if (!is_new) return place->second;
     Json patch;
     const Setting tried = setting(model, at, patch);
-    const double left = std::max(1.0, request_.time_limit_s - watch_.wall_s());
     try {
       tried.document.validate("case");
-      place->second = run_sandboxed(tried, static_cast<int>(std::ceil(left)), references_);
+      place->second = compute_within_limit(tried);
     } catch (const InputError& error) {
       place->second.reason = error.what();
     }
@@ -370,7 +374,7 @@ class Search {
   const Json& json_;
   std::string analysis_;
   const AccuracyRequest& request_;
-  const References& references_;
+  const ComputeSetting& compute_;
   const std::function<void(std::size_t)>& progress_;
   Stopwatch watch_;
   AccuracySearch found_;
@@ -385,9 +389,9 @@ class Search {
 }  // namespace
 
 AccuracySearch search_accuracy(const Case& given, const std::string& variant,
-                               const AccuracyRequest& request, const References& references,
+                               const AccuracyRequest& request, const ComputeSetting& compute,
                                const std::function<void(std::size_t)>& progress) {
-  return Search(given, variant, request, references, progress).run();
+  return Search(given, variant, request, compute, progress).run();
 }
 
 }  // namespace trammel::harness

@@ -6,6 +6,7 @@
 
 #include "harness/input/case.h"
 #include "harness/studies/cost_study.h"
+#include "harness/studies/sandboxed_run.h"
 
 /// Which settings of a case reach an accuracy: mesh, beam theory, tier of statics, integrator and
 /// step are varied as far as the analysis has them, without a study being written.
@@ -36,12 +37,15 @@ struct AccuracySearch {
   bool out_of_time = false;     ///< not everything was tried
 };
 
+/// How a setting is computed within so many seconds of processor time: in a process of its own.
+using ComputeSetting = std::function<SandboxedRun(const Setting& setting, int time_limit_s)>;
+
 /// @param progress  gets how many settings were tried
 /// @throws InputError  where the case itself is not solved, has no such quantity or nothing of it
 ///                     can be varied.
 [[nodiscard]] AccuracySearch search_accuracy(const Case& given, const std::string& variant,
                                              const AccuracyRequest& request,
-                                             const References& references,
+                                             const ComputeSetting& compute,
                                              const std::function<void(std::size_t)>& progress);
 
 }  // namespace trammel::harness

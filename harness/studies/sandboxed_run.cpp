@@ -26,6 +26,9 @@ Json answer(const Setting& setting, const References& references) {
       return json;
     }
     json["values"] = observe(result.quantities, setting.observed);
+    json["quantities"] = Json::object();
+    for (const auto& [name, quantity] : result.quantities)
+      if (setting.observed.empty()) json["quantities"][name] = quantity.values;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -33,6 +36,13 @@ Json answer(const Setting& setting, const References& references) {
   }
   if (!json.contains("cpu_s")) json["cpu_s"] = watch.cpu_s();
   return json;
+}
+
+std::vector<double> numbers(const Json& list) {
+  std::vector<double> values;
+  for (const Json& value : list)
+    values.push_back(value.is_null() ? std::nan("") : value.get<double>());
+  return values;
 }
 
 SandboxedRun read_answer(const std::string& text) {
@@ -51,12 +61,9 @@ SandboxedRun read_answer(const std::string& text) {
     sandboxed.reason = json.at("failure").get<std::string>();
     return sandboxed;
   }
-  for (const Json& list : json.at("values")) {
-    sandboxed.values.emplace_back();
-    for (const Json& value : list) {
-      sandboxed.values.back().push_back(value.is_null() ? std::nan("") : value.get<double>());
-    }
-  }
+  for (const Json& list : json.at("values")) sandboxed.values.push_back(numbers(list));
+  for (const auto& item : json.at("quantities").items())
+    sandboxed.quantities[item.key()] = numbers(item.value());
   sandboxed.termination = SandboxedRun::Termination::solved;
   return sandboxed;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "harness/studies/cost_study.h"
 #include "solver/assembly/system.h"
@@ -14,6 +16,7 @@ struct SandboxedRun {
   Termination termination = Termination::failed;
   std::string reason;  ///< of a failure
   Observations values;
+  std::map<std::string, std::vector<double>> quantities;  ///< all, where none is observed
   solver::Counters counters;
   double cpu_s = 0;
 };

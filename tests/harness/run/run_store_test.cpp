@@ -90,6 +90,23 @@ BOOST_AUTO_TEST_CASE(a_resumed_run_gives_the_same_results_times_included) {
   BOOST_TEST(run_all(folder, json, true).results == first);
 }
 
+BOOST_AUTO_TEST_CASE(what_was_under_way_at_an_interruption_is_resumed_last) {
+  const Folder folder;
+  const Json json = cases(folder, 100);
+  const Document base = patched(testing::read(folder, json), kBaseVariant);
+  const fs::path store = folder.path() / "store", first = store / computation_name(base, true);
+  fs::create_directories(store);
+  mark_started(first);
+  mark_started(first);
+  BOOST_TEST(unfinished_starts(first) == 2U);
+  (void)run_all(folder, json, true);
+  BOOST_TEST(unfinished_starts(first) == 0U);
+  const auto files = entries(store);
+  BOOST_TEST(files.size() == 3U);
+  for (const fs::path& file : files)
+    BOOST_TEST(fs::last_write_time(file) <= fs::last_write_time(first), file);
+}
+
 BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
   const Folder folder;
   const Json json = cases(folder, 100);

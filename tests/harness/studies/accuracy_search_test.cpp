@@ -16,7 +16,10 @@ namespace {
 AccuracySearch searched(const Json& json, const AccuracyRequest& request) {
   const Folder folder;
   const References references;
-  return search_accuracy(load_case(folder.write(json)), kBaseVariant, request, references, {});
+  const auto compute = [&](const Setting& setting, int time_limit_s) {
+    return run_sandboxed(setting, time_limit_s, references);
+  };
+  return search_accuracy(load_case(folder.write(json)), kBaseVariant, request, compute, {});
 }
 
 Json with_modes() {
@@ -75,6 +78,13 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_searched_is_said_and_time_ends_the_search) {
                       }),
                       "expected a case that is solved"));
   BOOST_TEST(searched(with_modes(), {1e-9, {}, 1e-9}).out_of_time);
+}
+
+BOOST_AUTO_TEST_CASE(a_case_that_does_not_end_is_ended_with_the_search) {
+  BOOST_TEST(contains(complaint([&] {
+                        (void)searched(testing::endless(), {1e-3, {}, 1});
+                      }),
+                      "not done after 1 s of processor time"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
