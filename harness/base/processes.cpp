@@ -160,7 +160,11 @@ class ProcessPool {
     std::cout.flush();
     std::fflush(nullptr);
     const pid_t parent = getpid(), child = fork();
-    if (child == 0) compute(task, memory_bytes, parent, ends[1]);
+    if (child == 0) {  // which needs what descriptors there are
+      for (const Child& other : children_) close(other.answer);
+      for (const int unused : {ends[0], signals_}) close(unused);
+      compute(task, memory_bytes, parent, ends[1]);
+    }
     const int error = errno;
     close(ends[1]);
     if (child < 0) close(ends[0]);

@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "harness/base/processes.h"
 #include "harness/cli/command_line.h"
 #include "reports/drawing/figure.h"
@@ -6,6 +9,10 @@
 #include "reports/page/report.h"
 
 int main(int argc, char** argv) {
+  // Where a standard stream is closed, no file that is opened later takes its place.
+  int null = 0;
+  while (null >= 0 && null <= STDERR_FILENO) null = open("/dev/null", O_RDONLY);
+  close(null);
   trammel::harness::end_without_memory(2, "trammel: expected a machine with more free memory\n");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return trammel::harness::run_command_line(

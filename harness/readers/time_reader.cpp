@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "harness/base/text.h"
+
 namespace trammel::harness {
 namespace {
 
@@ -30,7 +32,7 @@ solver::TimeScheme read_time_scheme(const JsonView& scheme) {
 void require_step_count(const JsonView& step, double duration) {
   const double steps = std::ceil(duration / step.get<double>() * (1 - 1e-12));
   if (steps <= 1e7) return;
-  throw step.error("expected at most ten million steps (got " + std::to_string(steps) + ")");
+  throw step.error("expected at most ten million steps (got " + rounded(steps, 3) + ")");
 }
 
 solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {

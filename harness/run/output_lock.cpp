@@ -67,6 +67,10 @@ void OutputLock::acquire() {
                        ": expected a folder that no other call writes (" +
                        (holder.empty() ? "another" : holder) + " does)");
     }
+    if (fstat(descriptor_, &mine) == 0 && !S_ISREG(mine.st_mode)) {
+      close(descriptor_);
+      throw InputError("--out " + folder_.string() + ": expected a file in the place of its lock");
+    }
     // Its last holder may have removed the file after it was opened here.
     if (fstat(descriptor_, &mine) == 0 && lstat(file_.c_str(), &there) == 0 &&
         mine.st_ino == there.st_ino && ftruncate(descriptor_, 0) == 0)

@@ -68,10 +68,15 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
   std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
     return std::pair(a == last, a) < std::pair(b == last, b);
   });
-  for (const fs::path& file : files)
-    if (fs::symlink_status(to / file).type() == fs::file_type::directory)
+  for (const fs::path& file : files) {
+    const fs::path path = to / file, folder = path.parent_path();
+    if (fs::is_directory(fs::symlink_status(path)))
       throw std::system_error(EISDIR, std::generic_category(),
-                              (to / file).string() + ": a folder stands where a file is written");
+                              path.string() + ": a folder stands where a file is written");
+    if (fs::is_regular_file(fs::symlink_status(folder)))
+      throw std::system_error(ENOTDIR, std::generic_category(),
+                              folder.string() + ": a file stands where a folder is written");
+  }
   const SignalsWait wait;
   for (const fs::path& file : files) {
     const fs::path folder = (to / file).parent_path();

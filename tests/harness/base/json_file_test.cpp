@@ -58,6 +58,13 @@ BOOST_AUTO_TEST_CASE(what_is_written_reads_back_the_same_bit_for_bit) {
   BOOST_TEST((parse_json(pretty(json), "x.json") == json));
 }
 
+BOOST_AUTO_TEST_CASE(what_stands_behind_a_null_character_is_not_passed_over) {
+  const std::string text("{}\0 and more", 12);
+  BOOST_CHECK_EXCEPTION((void)parse_json(text, "a.json"), InputError, [](const InputError& error) {
+    return testing::contains(error.what(), "a.json: expected the end of the JSON (got '\\u0000'");
+  });
+}
+
 BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
   const testing::Folder folder;
   write_file(folder.path() / "a.json", "[1]");

@@ -168,6 +168,27 @@ BOOST_AUTO_TEST_CASE(a_second_call_into_one_folder_is_told_who_writes_it) {
   BOOST_TEST((left == std::set<std::string>{"junit.xml", "results.json", "store"}));
 }
 
+BOOST_AUTO_TEST_CASE(what_stands_in_the_place_of_lock_or_store_is_neither_waited_for_nor_followed) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const auto told = [&](const std::string& before) {
+    return run(folder, "run cantilever.json --out out", before + " && timeout 20").err;
+  };
+  BOOST_TEST(told("mkdir out && mkfifo out/.trammel-lock") ==
+             "--out out: expected a file in the place of its lock\n");
+  BOOST_TEST(told("rm out/.trammel-lock && mkdir mine && ln -s ../mine out/store") ==
+             "--out out: expected no link named 'store' (--store follows one)\n");
+}
+
+BOOST_AUTO_TEST_CASE(no_file_takes_the_place_of_a_closed_standard_output) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const Outcome outcome =
+      run(folder, "run cantilever.json --out out", "sh -c 'exec \"$@\" >&-' sh");
+  BOOST_TEST(outcome.status == 2);
+  BOOST_TEST(contains(outcome.err, "expected a standard output that can be written"));
+}
+
 BOOST_AUTO_TEST_CASE(a_report_without_gnuplot_is_refused_before_any_work) {
   const Folder folder;
   (void)folder.write(judged(101));

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <set>
+#include <system_error>
 
 #include "reports/drawing/figure.h"
 #include "tests/support/reports/markup.h"
@@ -225,6 +226,11 @@ BOOST_AUTO_TEST_CASE(a_report_that_fails_or_is_replaced_leaves_whole_what_stands
   trammel::reports::write_report(workspace.results(all), out);
   BOOST_TEST(fs::is_empty(elsewhere));
   BOOST_TEST(count() == files);
+  // A file is the user's own.
+  fs::remove_all(out / "checks");
+  std::ofstream(out / "checks") << "mine";
+  BOOST_CHECK_THROW(trammel::reports::write_report(workspace.results(all), out), std::system_error);
+  BOOST_TEST(text_of(out / "checks") == "mine");
 }
 
 BOOST_AUTO_TEST_CASE(no_folder_of_a_report_becomes_a_command_of_gnuplot) {
