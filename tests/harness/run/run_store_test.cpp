@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(what_was_under_way_at_an_interruption_is_resumed_last) {
   const auto files = entries(store);
   BOOST_TEST(files.size() == 3U);
   for (const fs::path& file : files)
-    BOOST_TEST(fs::last_write_time(file) <= fs::last_write_time(first), file);
+    BOOST_TEST((fs::last_write_time(file) <= fs::last_write_time(first)), file);
 }
 
 BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
