@@ -181,6 +181,7 @@ def main():
     parser.add_argument("library", help="to be loaded before the C library (inject.cpp)")
     parser.add_argument("--count", type=int, default=20, help="values of n where memory or disk fails")
     words = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # which a shell lets its background ignore
     faults = Faults()
     with tempfile.TemporaryDirectory(prefix="trammel-faults-") as folder:
         for command in ("run", "report"):

@@ -49,6 +49,7 @@ def catalogue(program):
 def main():
     program, words = sys.argv[1], sys.argv[2:]
     words = words or catalogue(program)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # which a shell lets its background ignore
     chance = random.Random(1)
     with tempfile.TemporaryDirectory(prefix="trammel-resume-") as folder:
         whole, out = pathlib.Path(folder, "whole"), pathlib.Path(folder, "out")
