@@ -363,9 +363,10 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
                                          command.resume, error_messages);
   results::Results results = results_of(runs, selection.cases, references);
   results.cost = std::move(cost);
-  const ClaimSet claim_set = evaluate_claims(load_claims(), runs);
+  const Document claims = load_claims();
+  const ClaimSet claim_set = evaluate_claims(claims, runs);
   results.claims = claim_results(claim_set);
-  results.claims->items = load_paper_items(load_claims(), catalogue);
+  results.claims->items = load_paper_items(claims, catalogue);
   judge_paper_items(results, results.claims->items);
   results.coverage = evidence_coverage(selection.cases, references);
   add_reasons(results.coverage);

@@ -9,6 +9,7 @@
 #include "harness/results/run_grade.h"
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
+#include "reports/page/render.h"
 #include "reports/text/files.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
@@ -236,13 +237,7 @@ std::filesystem::path write_codes(const std::vector<std::filesystem::path>& resu
   set_flag(page, "several", codes.size() > 1);
   page.set("extent",
            count(planned.size(), "run") + " of the catalogue, " + count(codes.size(), "code"));
-  kainjow::mustache::mustache text(template_text("codes.mustache"));
-  std::string html = text.render(page);
-  if (!text.is_valid()) throw std::logic_error("codes.mustache: " + text.error_message());
-  std::replace_if(
-      html.begin(), html.end(), [](char c) { return is_control(c) && c != '\n' && c != '\t'; },
-      ' ');
-  write_file(out / "index.html", html);
+  write_file(out / "index.html", render("codes.mustache", page));
   return out / "index.html";
 }
 

@@ -5,6 +5,7 @@
 
 #include "harness/results/unfinished_folder.h"
 #include "reports/figures/gallery.h"
+#include "reports/page/render.h"
 #include "reports/sections/claims.h"
 #include "reports/sections/cost.h"
 #include "reports/sections/coverage.h"
@@ -90,17 +91,6 @@ Data page_data(const Results& results, const std::vector<Family>& families,
   return page;
 }
 
-std::string render(const Data& data) {
-  kainjow::mustache::mustache page(template_text("page.mustache"));
-  std::string html = page.render(data);
-  if (!page.is_valid()) throw std::logic_error("page.mustache: " + page.error_message());
-  // What HTML cannot hold.
-  std::replace_if(
-      html.begin(), html.end(), [](char c) { return is_control(c) && c != '\n' && c != '\t'; },
-      ' ');
-  return html;
-}
-
 /// What an earlier report in the same folder has written and links to.
 std::vector<fs::path> earlier_files(const fs::path& out) {
   std::vector<fs::path> files;
@@ -142,7 +132,7 @@ fs::path write_report(const fs::path& results_json, const fs::path& out) {
     number_figures(figures);
     draw(figures, part / "figures");
     write_checks(families, part / "checks");
-    write_file(part / "index.html", render(page_data(results, families, panels)));
+    write_file(part / "index.html", render("page.mustache", page_data(results, families, panels)));
     replace_files(part, out, "index.html", earlier_files(out));
   } catch (...) {
     std::error_code ignored;

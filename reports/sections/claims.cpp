@@ -97,7 +97,6 @@ Data claim_data(const Claim& claim, const Results& results) {
   return data;
 }
 
-/// "2 confirmed, 4 contradicted, ..."
 /// "Eq. 14", "Table 2", "Figure 7", "Statement".
 std::string item_title(const std::string& id) {
   const std::string kind = id.substr(0, id.find('-')), number = id.substr(id.find('-') + 1);
@@ -136,6 +135,7 @@ Data item_data(const PaperItem& item, const Claims& claims) {
   return data;
 }
 
+/// "2 confirmed, 4 contradicted, ..."
 std::string overview(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "reports/text/html.h"
+
+namespace trammel::reports {
+
+/// A template filled in, without the control characters that HTML cannot hold.
+/// @throws std::logic_error  where the template is broken.
+[[nodiscard]] std::string render(const std::string& template_name, const Data& data);
+
+}  // namespace trammel::reports
