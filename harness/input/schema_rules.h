@@ -1,6 +1,6 @@
 #pragma once
 
-#if defined(__SSE2__) && !defined(__SANITIZE_ADDRESS__)  // reads 16 bytes at a time
+#if defined(__SSE2__)  // reads 16 bytes at a time
 #define RAPIDJSON_SSE2
 #endif
 #include <rapidjson/document.h>
