@@ -82,12 +82,8 @@ class MeshedScene {
 
   /// Nothing where there is no solution.
   const std::optional<Quantities>& at(Effects effects, std::size_t step) {
-    auto run = std::find_if(runs_.begin(), runs_.end(),
-                            [&](const auto& one) { return one.first == effects; });
-    if (run == runs_.end()) run = runs_.insert(runs_.end(), {effects, {}});
-    const auto [place, missing] = run->second.try_emplace(step);
-    if (missing) place->second = compute(effects, step);
-    return place->second;
+    compute_missing(effects, {step});
+    return of(effects).at(step);
   }
 
   double change(Effects whole, Effects effects, const std::set<std::size_t>& steps) {
@@ -99,9 +95,10 @@ class MeshedScene {
 
   /// One after the other; nothing where one is missing.
   std::optional<Quantities> along(Effects effects, const std::set<std::size_t>& steps) {
+    compute_missing(effects, steps);
     Quantities all;
     for (const std::size_t step : steps) {
-      const auto& found = at(effects, step);
+      const auto& found = of(effects).at(step);
       if (!found) return std::nullopt;
       for (const auto& [name, quantity] : *found) {
         auto& values = all[name].values;
@@ -115,15 +112,44 @@ class MeshedScene {
   solver::Counters counters;
 
  private:
-  std::optional<Quantities> compute(Effects effects, std::size_t step) {
+  using ByStep = std::map<std::size_t, std::optional<Quantities>>;
+
+  ByStep& of(Effects effects) {
+    auto run = std::find_if(runs_.begin(), runs_.end(),
+                            [&](const auto& one) { return one.first == effects; });
+    if (run == runs_.end()) run = runs_.insert(runs_.end(), {effects, {}});
+    return run->second;
+  }
+
+  void compute_missing(Effects effects, const std::set<std::size_t>& steps) {
+    ByStep& run = of(effects);
+    std::vector<std::size_t> missing;
+    for (const std::size_t step : steps)
+      if (run.count(step) == 0) missing.push_back(step);
+    if (missing.empty()) return;
+    if (kind_.of_points.at == nullptr) {
+      for (const std::size_t step : missing) run[step] = compute(effects, {step});
+      return;
+    }
+    const auto all = compute(effects, missing);
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+      auto& one = run[missing[i]];
+      if (all) one.emplace();
+      for (const auto& [name, quantity] : all ? *all : Quantities())
+        (*one)[name].values = {quantity.values[i]};
+    }
+  }
+
+  std::optional<Quantities> compute(Effects effects, const std::vector<std::size_t>& steps) {
     Recorder record;
     scene_.effects = effects;
     try {
-      const StepResult result = run(step, record);
+      const StepResult result = run(steps, record);
       counters += result.counters;
       const solver::Outcome found =
           solver::outcome_by_evidence(result.outcome, result.evidence, kind_.evidence);
-      if (effects == all_ && outcome.solved()) outcome = outcome_at_path_point(scene_, step, found);
+      if (effects == all_ && outcome.solved())
+        outcome = outcome_at_path_point(scene_, steps.front(), found);
       if (!found.solved()) return std::nullopt;
     } catch (const solver::ModelError&) {  // what is left means nothing without the effect
       if (effects == all_) throw;
@@ -135,10 +161,11 @@ class MeshedScene {
     return record.take_quantities();
   }
 
-  StepResult run(std::size_t step, Recorder& record) const {
+  StepResult run(const std::vector<std::size_t>& steps, Recorder& record) const {
+    if (kind_.of_points.at != nullptr) return kind_.of_points.at(analysis_, scene_, steps, record);
     if (const auto* along_path = std::get_if<PathAnalysis>(&kind_.of_scene))
       return (*along_path)(analysis_, scene_, false, record);
-    return std::get<StepAnalysis>(kind_.of_scene)(analysis_, scene_, step, false, record);
+    return std::get<StepAnalysis>(kind_.of_scene)(analysis_, scene_, steps.front(), false, record);
   }
 
   const AnalysisKind& kind_;
@@ -146,7 +173,7 @@ class MeshedScene {
   CaseModel scene_;
   Effects all_;
   double size_;
-  std::vector<std::pair<Effects, std::map<std::size_t, std::optional<Quantities>>>> runs_;
+  std::vector<std::pair<Effects, ByStep>> runs_;
 };
 
 /// At most so many elements a member; @returns whether there are fewer than before.
@@ -214,8 +241,11 @@ class Measurement {
     coarse_.emplace(kind, analysis, std::move(coarse), scope.applicable, size_);
     own_.emplace(kind, analysis, scene, scope.applicable, size_);
     const bool one_by_one = std::holds_alternative<StepAnalysis>(kind.of_scene);
-    for (std::size_t step = 0; step < (one_by_one ? scene.steps() : 1); ++step)
-      every_step_.insert(step);
+    has_points_ = kind.of_points.count != nullptr;
+    const std::size_t steps = has_points_  ? kind.of_points.count(analysis)
+                              : one_by_one ? scene.steps()
+                                           : 1;
+    for (std::size_t step = 0; step < steps; ++step) every_step_.insert(step);
     negligible_ = negligible_effects(model, scope, tolerance);
   }
 
@@ -317,6 +347,9 @@ class Measurement {
     return own_->change(full, active, steps_);
   }
 
+  /// Of every step: one element a member does not vibrate.
+  MeshedScene& overview() { return has_points_ ? *coarse_ : *coarsest_; }
+
   /// Where linear theory has its largest displacements and forces, or its lowest and highest first
   /// frequency.
   void choose_steps() {
@@ -324,7 +357,7 @@ class Measurement {
       steps_ = every_step_;
       return;
     }
-    const auto found = coarsest_->along(linear(scope_.applicable), every_step_);
+    const auto found = overview().along(linear(scope_.applicable), every_step_);
     if (!found) {
       steps_ = every_step_;
       return;
@@ -338,22 +371,12 @@ class Measurement {
       const std::string kind = change_kind(name);
       for (std::size_t i = 0; i < quantity.values.size(); ++i) {
         const double size = std::abs(quantity.values[i]);
-        if (kind == "displacement" || kind == "force") look(kind, size, i);
+        if (kind == "displacement" || kind == "force" || (has_points_ && kind != "frequency"))
+          look(kind, size, i);
         if (name == "frequency_Hz:1") look("highest", size, i), look("lowest", -size, i);
       }
     }
     for (const auto& [extreme, place] : extremes) steps_.insert(place.second);
-  }
-
-  /// Whether large displacement is worth so little where linear theory has its extremes that
-  /// second-order theory, which knows buckling, stands for it elsewhere.
-  [[nodiscard]] bool is_nearly_linear(const Elimination& found) const {
-    double change = 0;
-    for (const Effect effect : {Effect::geometric_stiffening, Effect::large_displacement}) {
-      if (found.chosen.has(effect)) continue;
-      change = std::max(change, found.change[static_cast<std::size_t>(effect)].value_or(0));
-    }
-    return change <= tolerance_ / 2;
   }
 
   /// @returns false where the choice holds at every step that was not looked at before
@@ -364,20 +387,18 @@ class Measurement {
     if (chosen.has(Effect::large_displacement) && !is_lost) {
       whole = linear(whole);
       chosen = linear(chosen);
-    } else if (!chosen.has(Effect::large_displacement) && is_nearly_linear(found)) {
-      whole = whole.without(Effect::large_displacement);
     }
-    MeshedScene& mesh = is_lost ? *coarse_ : *coarsest_;
+    MeshedScene& mesh = is_lost ? *coarse_ : overview();
     const auto full = mesh.along(whole, every_step_);
     if (!full) {
       steps_ = every_step_;
       return is_lost;
     }
-    for (const std::size_t step : every_step_) {
+    const auto other = mesh.along(chosen, every_step_);
+    for (const std::size_t step : other ? std::set<std::size_t>() : every_step_) {
       if (!mesh.at(chosen, step)) return steps_.insert(step).second;
     }
-    const LargestDifference worst =
-        max_change(changes_between(*full, *mesh.along(chosen, every_step_), size_));
+    const LargestDifference worst = max_change(changes_between(*full, *other, size_));
     return worst.value > kSurelyWithin * tolerance_ && steps_.insert(worst.index).second;
   }
 
@@ -386,7 +407,7 @@ class Measurement {
   double size_;
   Effects negligible_;
   /// Of prismatic members one element is exact for loads at its ends.
-  bool is_linear_exact_ = false;
+  bool is_linear_exact_ = false, has_points_ = false;
   bool is_coarser_ = false, try_linearly_ = true, tried_linearly_ = false;
   std::optional<MeshedScene> coarsest_, coarse_, own_;
   std::set<std::size_t> every_step_, steps_;

@@ -21,6 +21,13 @@ using PathAnalysis = StepResult (*)(const JsonView& analysis, const CaseModel& c
 using CaseAnalysis = StepResult (*)(const Document& document, const References& references,
                                     bool draw, Recorder& record);
 
+/// Of an analysis that goes through points of its own, as frequencies: at some of them alone.
+struct PointAnalysis {
+  std::size_t (*count)(const JsonView& analysis) = nullptr;  ///< null: it has none
+  StepResult (*at)(const JsonView& analysis, const CaseModel& case_model,
+                   const std::vector<std::size_t>& points, Recorder& record) = nullptr;
+};
+
 struct AnalysisKind {
   const char* name;  ///< the key below "analysis"
   std::variant<std::monostate, StepAnalysis, PathAnalysis> of_scene;
@@ -31,6 +38,7 @@ struct AnalysisKind {
   const char* without_model = "";  ///< what stands for the model then, in words
   /// What a result must show before it counts as solved; empty: it solves no equation of its own.
   std::vector<solver::Residual> evidence = {};
+  PointAnalysis of_points = {};
 
   [[nodiscard]] bool needs_model(const Document& document) const;
 };

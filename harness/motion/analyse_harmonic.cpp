@@ -15,23 +15,26 @@ class Response {
 
   [[nodiscard]] const solver::HarmonicSolver& of_system() const { return response_; }
 
-  void record_at(double frequency, const std::vector<Output>& outputs, Recorder& record,
-                 StepResult& result) const {
-    const Eigen::VectorXcd q = response_.at(frequency);
+  /// @returns the response; empty at a resonance without damping
+  Eigen::VectorXcd record_at(double frequency, const std::vector<Output>& outputs,
+                             Recorder& record) const {
+    Eigen::VectorXcd q = response_.at(frequency);
     record.add("frequency_Hz", "", frequency);
     solver::HarmonicAmplitudes amplitudes;
-    if (q.size() > 0) {
-      amplitudes = solver::harmonic_amplitudes(system_, q, frequency);
-      result.evidence.add(solver::Residual::equilibrium, response_.backward_error(q, frequency));
-    }
+    if (q.size() > 0) amplitudes = solver::harmonic_amplitudes(system_, q, frequency);
     for (const Output& output : outputs) {
-      if (q.size() == 0) {  // resonance without damping
+      if (q.size() == 0) {
         record.add_gap(output.name, "");
       } else {
         record.add(output.name, "", amplitude_of(output, system_.model, amplitudes, frequency));
       }
     }
+    return q;
+  }
+
+  void add_evidence(const Eigen::VectorXcd& q, double frequency, StepResult& result) const {
     if (q.size() == 0) return;
+    result.evidence.add(solver::Residual::equilibrium, response_.backward_error(q, frequency));
     for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})
       warn_of_rotation(largest_rotation(system_, system_.T * part), result.warnings);
   }
@@ -65,43 +68,89 @@ class Response {
   solver::HarmonicSolver response_;
 };
 
+/// The case's system and its response.
+class HarmonicScene {
+ public:
+  HarmonicScene(const JsonView& analysis, const CaseModel& case_model, std::size_t step)
+      : low_(analysis.number("from_Hz")),
+        high_(analysis.number("to_Hz")),
+        points_(harmonic_points(analysis)),
+        damped_(case_model.effects.has(solver::Effect::damping) && analysis.has("damping")) {
+    if (case_model.path) throw analysis.error("expected a model at one place");
+    if (!(high_ > low_)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
+    system = solver::assemble(build_model(case_model, step), case_model.effects);
+    outputs = read_outputs(analysis["outputs"], system.model);
+    try {
+      response.emplace(system, damped_ ? read_damping(analysis) : solver::HarmonicDamping());
+    } catch (const solver::ModelError& error) {
+      throw(analysis.has("damping") ? analysis["damping"] : analysis).error(error.what());
+    }
+  }
+
+  [[nodiscard]] StepResult result() const {
+    return {response->of_system().outcome(), {}, std::nullopt};
+  }
+
+  void record_at(std::size_t point, bool with_evidence, Recorder& record,
+                 StepResult& result) const {
+    const double share = static_cast<double>(point) / static_cast<double>(points_ - 1);
+    const double frequency = low_ + (high_ - low_) * share;
+    const Eigen::VectorXcd q = response->record_at(frequency, outputs, record);
+    if (with_evidence) response->add_evidence(q, frequency, result);
+    if (damped_) result.counters.count(solver::Effect::damping, 1);
+  }
+
+  /// @returns its frequency
+  double record_peak(const Output& output, Recorder& record) const {
+    return response->record_peak(low_, high_, output, record);
+  }
+
+  solver::System system;
+  std::vector<Output> outputs;
+  std::optional<Response> response;
+
+ private:
+  double low_, high_;
+  std::size_t points_;
+  bool damped_;
+};
+
 }  // namespace
+
+std::size_t harmonic_points(const JsonView& analysis) {
+  return static_cast<std::size_t>(analysis.get<solver::Index>("points", 101));
+}
+
+StepResult analyse_harmonic_at(const JsonView& analysis, const CaseModel& case_model,
+                               const std::vector<std::size_t>& points, Recorder& record) {
+  const HarmonicScene scene(analysis, case_model, 0);
+  StepResult result = scene.result();
+  if (!result.outcome.solved()) return result;
+  for (const std::size_t point : points)
+    scene.record_at(point, point == points.front(), record, result);
+  result.counters += scene.response->of_system().counters();
+  return result;
+}
 
 StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, Recorder& record) {
-  if (case_model.path) throw analysis.error("expected a model at one place");
-  const double low = analysis.number("from_Hz");
-  const double high = analysis.number("to_Hz");
-  if (!(high > low)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
-  const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
-  const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
-  const bool damped = case_model.effects.has(solver::Effect::damping) && analysis.has("damping");
-  const solver::HarmonicDamping damping =
-      damped ? read_damping(analysis) : solver::HarmonicDamping();
-  try {
-    const Response response(system, damping);
-    StepResult result{response.of_system().outcome(), {}, std::nullopt};
-    if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
-    if (!result.outcome.solved()) return result;
-    const auto points = analysis.get<solver::Index>("points", 101);
-    for (solver::Index i = 0; i < points; ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(points - 1);
-      response.record_at(low + (high - low) * share, outputs, record, result);
-    }
-    for (const Output& output : outputs) {
-      const double at = response.record_peak(low, high, output, record);
-      if (result.drawing && &output == &outputs.front()) response.draw_at(at, *result.drawing);
-    }
-    for (solver::Index i = 0; i < response.of_system().frequencies().size(); ++i) {
-      record.add("natural_frequency_Hz", "", response.of_system().frequencies()[i]);
-    }
-    record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
-    result.counters = response.of_system().counters();
-    if (damped) result.counters.count(solver::Effect::damping, points);
-    return result;
-  } catch (const solver::ModelError& error) {
-    throw(analysis.has("damping") ? analysis["damping"] : analysis).error(error.what());
+  const HarmonicScene scene(analysis, case_model, step);
+  const Response& response = *scene.response;
+  StepResult result = scene.result();
+  if (draw) result.drawing = draw_model(scene.system, case_model.manipulator.has_value());
+  if (!result.outcome.solved()) return result;
+  const std::size_t points = harmonic_points(analysis);
+  for (std::size_t point = 0; point < points; ++point) scene.record_at(point, true, record, result);
+  for (const Output& output : scene.outputs) {
+    const double at = scene.record_peak(output, record);
+    if (result.drawing && &output == &scene.outputs.front()) response.draw_at(at, *result.drawing);
   }
+  for (solver::Index i = 0; i < response.of_system().frequencies().size(); ++i) {
+    record.add("natural_frequency_Hz", "", response.of_system().frequencies()[i]);
+  }
+  record.add("degrees_of_freedom", "", static_cast<double>(scene.system.K.rows()));
+  result.counters += response.of_system().counters();
+  return result;
 }
 
 }  // namespace trammel::harness
