@@ -51,6 +51,12 @@ std::string quoted(const std::string& word) {
   return std::string("'").append(word).append("'");
 }
 
+std::string shell_quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
 std::string join(const std::vector<std::string>& items, const std::string& last) {
   std::string text;
   for (std::size_t i = 0; i < items.size(); ++i) {

@@ -22,6 +22,9 @@ namespace trammel::harness {
 /// "'word'"
 [[nodiscard]] std::string quoted(const std::string& word);
 
+/// A word that a shell reads as it stands.
+[[nodiscard]] std::string shell_quoted(const std::string& word);
+
 /// "a, b or c"
 [[nodiscard]] std::string join(const std::vector<std::string>& items, const std::string& last);
 

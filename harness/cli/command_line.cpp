@@ -9,6 +9,7 @@
 #include <new>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/base/processes.h"
@@ -25,6 +26,7 @@
 #include "harness/cli/command_paper.h"
 #include "harness/cli/command_quantities.h"
 #include "harness/cli/command_run.h"
+#include "harness/cli/command_shards.h"
 #include "harness/cli/printable_stream.h"
 #include "harness/input/former_names.h"
 #include "trammel_build.h"
@@ -58,6 +60,7 @@ Examples:
   trammel export portal-frame               one computation for another code
   trammel grade ./my-adapter -L frame       another code, judged by the same checks
   trammel report a/results.json b/results.json    several codes side by side
+  trammel slurm --shards 40 --out results         the catalogue on a cluster
 
 Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
 folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
@@ -86,6 +89,8 @@ class CommandLine {
     define_export();
     define_solve();
     define_grade();
+    define_merge();
+    define_slurm();
   }
 
   int run(const std::vector<std::string>& arguments) {
@@ -144,6 +149,12 @@ class CommandLine {
         ->transform(CLI::AsSizeValue(false));
   }
 
+  void add_costs(CLI::App* sub) {
+    sub->add_option("--costs", run_.costs,
+                    "results.json of an earlier run, whose times balance the shards; the same file "
+                    "for all of them");
+  }
+
   void define_list() {
     CLI::App* sub = add("list", "The cases of the catalogue",
                         "\nExamples:\n  trammel list\n  trammel list -L manipulator --json");
@@ -178,8 +189,13 @@ class CommandLine {
     add_out(sub, "Folder for results.json and junit.xml");
     add_store(sub, run_.resume, run_.store);
     add_memory(sub);
+    sub->add_option("--shard", run_.shard,
+                    "K/N: only the K-th of N parts, for 'trammel merge'; without cases and labels "
+                    "of the whole catalogue")
+        ->excludes("--store");
+    add_costs(sub);
     sub->callback([this] {
-      if (run_.cases.empty() && run_.labels.empty()) {
+      if (run_.cases.empty() && run_.labels.empty() && run_.shard.empty()) {
         throw CLI::RequiredError("a case or a label");
       }
       command_ = [this] { return run_command(run_, renderers_); };
@@ -385,6 +401,44 @@ class CommandLine {
     });
   }
 
+  void define_merge() {
+    CLI::App* sub = add(
+        "merge", "The shards of a run, computed apart, as one",
+        "\nAll shards of one selection, each once, by this program. Judges what they computed as\n"
+        "'trammel run' does; what ended in an error is tried again.\n\nExample:\n"
+        "  trammel run -L beam --shard 1/2 --out a\n  trammel run -L beam --shard 2/2 --out b\n"
+        "  trammel merge a b --out results");
+    sub->add_option("shards", run_.cases, "Folders that 'trammel run --shard' has written")
+        ->required();
+    add_jobs(sub);
+    add_out(sub, "Folder for results.json and junit.xml");
+    add_memory(sub);
+    sub->callback([this] {
+      command_ = [this] {
+        const std::vector<std::string> folders = std::exchange(run_.cases, {});
+        return merge_command(folders, run_, renderers_);
+      };
+    });
+  }
+  void define_slurm() {
+    CLI::App* sub =
+        add("slurm", "A script that runs shards as a Slurm job array, merges them and reports",
+            "\nSent again, it computes only what is missing (harness/README.md).\n\nExample:\n"
+            "  trammel slurm --shards 40 -L manipulator --jobs 8 --out /scratch/results > job.sh\n"
+            "  sh job.sh");
+    sub->add_option("--shards", slurm_.shards, "Jobs of the array")
+        ->required()
+        ->check(CLI::Range(1, 100000));
+    sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
+    sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
+    sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
+    add_jobs(sub);
+    sub->add_option("--time", slurm_.time, "Limit of a job, as sbatch reads it, such as 2:00:00");
+    add_costs(sub);
+    add_out(sub, "Folder that all nodes see");
+    sub->callback([this] { command_ = [this] { return slurm_command(slurm_, run_); }; });
+  }
+
   const Renderers& renderers_;
   CLI::App app_{kAbout};
   RunCommand run_{{},
@@ -400,6 +454,7 @@ class CommandLine {
   EffectsCommand effects_;
   ExportCommand export_;
   GradeCommand grade_;
+  SlurmCommand slurm_;
   std::string name_, other_;
   bool json_ = false;
   std::function<int()> command_;

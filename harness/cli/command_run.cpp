@@ -23,6 +23,7 @@
 #include "harness/run/output_lock.h"
 #include "harness/run/paper_items.h"
 #include "harness/run/results.h"
+#include "harness/run/shards.h"
 
 namespace trammel::harness {
 namespace {
@@ -69,15 +70,20 @@ void require_variant(const std::vector<Case>& cases, const std::string& variant)
   for (const Case& test_case : cases) (void)patched(test_case, variant);
 }
 
-std::vector<Run> compute(const Selection& selection, const References& references,
-                         const RunCommand& command) {
-  Progress progress("runs");
+RunOptions options_of(const RunCommand& command, Progress& progress) {
   RunOptions options{command.variant, command.jobs, TrackedQuantities::named, {}};
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   options.store = store_folder(command.out, command.store);
   options.resume = command.resume;
+  options.any_machine = command.any_machine;
   options.memory_bytes = command.memory_bytes;
-  std::vector<Run> runs = run_cases(selection.cases, references, options);
+  return options;
+}
+
+std::vector<Run> compute(const Selection& selection, const References& references,
+                         const RunCommand& command) {
+  Progress progress("runs");
+  std::vector<Run> runs = run_cases(selection.cases, references, options_of(command, progress));
   runs.insert(runs.end(), selection.broken.begin(), selection.broken.end());
   return runs;
 }
@@ -237,9 +243,12 @@ std::filesystem::path write_all(const results::Results& found, const std::filesy
   return file;
 }
 
-/// The cases that are named, and those with the labels.
+/// The cases that are named, and those with the labels; the whole catalogue where there are
+/// neither.
 Selection select(const RunCommand& command) {
   const Catalogue catalogue;
+  if (command.cases.empty() && command.labels.empty())
+    return load(catalogue.runnable_files(), catalogue);
   std::vector<std::filesystem::path> files;
   for (const std::string& name : command.cases) files.push_back(catalogue.find_case(name));
   Selection selection = load(files, catalogue);
@@ -312,6 +321,34 @@ int report_results(const std::vector<std::filesystem::path>& files, const std::s
   return 0;
 }
 
+/// What was asked for, by words that mean the same in another folder.
+Json selection_of(const RunCommand& command) {
+  Json cases = Json::array();
+  for (const std::string& name : command.cases)
+    cases.push_back(std::filesystem::exists(name) ? std::filesystem::absolute(name).string()
+                                                  : name);
+  return {{"cases", cases}, {"labels", command.labels}, {"variant", command.variant}};
+}
+
+/// Computes a part of what is selected and judges nothing.
+int compute_shard(const RunCommand& command) {
+  Shard shard = shard_from(command.shard);
+  if (!command.costs.empty()) shard.costs = earlier_costs(command.costs);
+  const Selection selection = select(command);
+  const OutputLock lock(command.out);
+  end_on_signals(kInterrupted);
+  const std::filesystem::path done = std::filesystem::path(command.out) / kShardFile;
+  std::filesystem::remove(done);
+  Progress progress("runs");
+  const ShardRuns found = run_shard(selection.cases, options_of(command, progress), shard);
+  print_run_errors(found.runs);
+  require_complete(found.runs);
+  write_shard(command.out, shard, selection_of(command), found);
+  std::cout << "shard " << command.shard << ": " << found.runs.size() << " of " << found.in_all
+            << " computations in " << command.out << "; 'trammel merge' judges them\n";
+  return 0;
+}
+
 }  // namespace
 
 std::vector<Case> select_cases(const RunCommand& command) {
@@ -321,6 +358,7 @@ std::vector<Case> select_cases(const RunCommand& command) {
 }
 
 int run_command(const RunCommand& command, const Renderers& renderers) {
+  if (!command.shard.empty()) return compute_shard(command);
   const Selection selection = select(command);
   const OutputLock lock(command.out);
   end_on_signals(kInterrupted);
@@ -353,7 +391,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   const OutputLock lock(command.out);
   end_on_signals(kInterrupted);
   const Catalogue catalogue;
-  const Selection selection = load(catalogue.runnable_files(), catalogue);
+  const Selection selection = select(command);
   const References references;
   const std::vector<Run> runs = compute(selection, references, command);
   require_complete(runs);

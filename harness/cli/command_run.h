@@ -17,9 +17,13 @@ struct RunCommand {
   std::string store = {};  ///< folder; empty: in `out`
   bool resume = false;
   std::size_t memory_bytes = 0;  ///< of one run; 0: no limit
+  std::string shard = {};        ///< "K/N": only that part, for `trammel merge`
+  std::string costs = {};        ///< results.json that shards are balanced by
+  bool any_machine = false;      ///< resumes also with times of another machine
 };
 
-/// The cases that are named, and those with the labels.
+/// The cases that are named, and those with the labels; the whole catalogue where there are
+/// neither.
 /// @throws InputError  where one of them cannot be read.
 [[nodiscard]] std::vector<Case> select_cases(const RunCommand& command);
 /// Computes cases and judges them. @returns the exit status

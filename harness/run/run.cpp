@@ -12,6 +12,7 @@
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
 #include "harness/run/run_store.h"
+#include "harness/run/shards.h"
 #include "harness/studies/run_sweeps.h"
 
 namespace trammel::harness {
@@ -95,6 +96,15 @@ std::vector<Task> prepare_case(const Case& owner, const std::string& chosen) {
     const bool there = std::any_of(tasks.begin(), tasks.end(),
                                    [&](const Task& task) { return task.run.variant == variant; });
     if (!there) tasks.push_back(prepare(owner, variant, false));
+  }
+  return tasks;
+}
+
+std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string& chosen) {
+  std::vector<Task> tasks;
+  for (const Case& owner : cases) {
+    std::vector<Task> case_tasks = prepare_case(owner, chosen);
+    std::move(case_tasks.begin(), case_tasks.end(), std::back_inserter(tasks));
   }
   return tasks;
 }
@@ -187,7 +197,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     if (task.run.status == "error") continue;
     if (!options.store.empty())
       file = options.store / computation_name(task.document, task.requested, options.solver.hash);
-    if (options.resume && find_stored(file, task.run)) continue;
+    if (options.resume && find_stored(file, task.run, options.any_machine)) continue;
     open.emplace_back(&task, std::move(file));
   }
   std::error_code error;
@@ -292,11 +302,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
 
 std::vector<Run> run_cases(const std::vector<Case>& cases, const References& references,
                            const RunOptions& options) {
-  std::vector<Task> tasks;
-  for (const Case& owner : cases) {
-    std::vector<Task> case_tasks = prepare_case(owner, options.variant);
-    std::move(case_tasks.begin(), case_tasks.end(), std::back_inserter(tasks));
-  }
+  std::vector<Task> tasks = prepare_all(cases, options.variant);
   const int signal = compute_all(tasks, options);
   for (Task& task : tasks) {
     for (const auto& [file, hash] : task.run.references)
@@ -310,6 +316,29 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
     if (task.requested) runs.push_back(std::move(task.run));
   }
   return runs;
+}
+
+ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options, const Shard& shard) {
+  std::vector<Task> tasks = prepare_all(cases, options.variant);
+  std::vector<std::string> names;
+  for (const Task& task : tasks)
+    names.push_back(task.run.case_id + ":" + task.run.variant +
+                    (task.requested ? "" : " (compared with)"));
+  const std::vector<std::size_t> shards = balanced(names, shard.costs, shard.count);
+  std::vector<Task> own;
+  ShardRuns found;
+  found.in_all = tasks.size();
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (shards[i] != shard.number) continue;
+    own.push_back(std::move(tasks[i]));
+    found.names.push_back(names[i]);
+  }
+  const int signal = compute_all(own, options);
+  for (Task& task : own) {
+    if (task.run.status == "not-run") task.run.interrupted_by = signal;
+    found.runs.push_back(std::move(task.run));
+  }
+  return found;
 }
 
 AnalysisResult solution_of(const Case& owner, const std::string& variant) {

@@ -27,6 +27,12 @@ struct OtherSolver {
   unsigned time_limit_s = 0;  ///< of processor time
 };
 
+/// One of so many parts that a long call is computed in.
+struct Shard {
+  std::size_t number = 1, count = 1;
+  std::map<std::string, double> costs;  ///< by name of computation; any unit
+};
+
 struct RunOptions {
   std::string variant;  ///< empty: all
   unsigned jobs = 1;
@@ -35,6 +41,7 @@ struct RunOptions {
   std::function<void(std::size_t done, std::size_t all)> progress;
   std::filesystem::path store = {};  ///< folder that computations are kept in; empty: none
   bool resume = false;               ///< takes over what the store has
+  bool any_machine = false;          ///< also times of another machine
   std::size_t memory_bytes = 0;      ///< that one computation may use; 0: no limit
   OtherSolver solver = {};
 };
@@ -71,6 +78,15 @@ struct Run : Computation {
 /// from being done are "not-run".
 [[nodiscard]] std::vector<Run> run_cases(const std::vector<Case>& cases,
                                          const References& references, const RunOptions& options);
+
+/// What a shard of `run_cases` came to, computations that only other runs' checks look at included.
+struct ShardRuns {
+  std::vector<Run> runs;           ///< not judged; in the store
+  std::vector<std::string> names;  ///< of the runs, each of one shard only
+  std::size_t in_all = 0;          ///< computations of all shards
+};
+[[nodiscard]] ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options,
+                                  const Shard& shard);
 
 /// What a variant comes to, in a process of its own, without sweeps and checks.
 /// @throws InputError  where it has no solution, as `Interrupted` where a signal comes.

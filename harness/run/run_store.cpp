@@ -191,11 +191,12 @@ Computation computation_from(const std::string& bytes) {
   return without_hash(bytes).get<Computation>();
 }
 
-bool find_stored(const std::filesystem::path& file, Computation& computation) {
+bool find_stored(const std::filesystem::path& file, Computation& computation, bool any_machine) {
   try {
     Computation found = computation_from(read_text(file));
     if (!stand(found.references)) return false;
-    if (!found.result.timings.empty() && found.machine != machine_name()) return false;
+    const bool timed = !any_machine && !found.result.timings.empty();
+    if (timed && found.machine != machine_name()) return false;
     computation = std::move(found);
   } catch (const std::exception&) {
     return false;  // half a file, or of another version

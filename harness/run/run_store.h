@@ -23,8 +23,9 @@ namespace trammel::harness {
 [[nodiscard]] Computation computation_from(const std::string& bytes);
 
 /// @returns whether the file holds a computation that still stands: whole, with the references as
-///          they are now, and with times of this machine.
-[[nodiscard]] bool find_stored(const std::filesystem::path& file, Computation& computation);
+///          they are now, and with times of this machine unless any will do.
+[[nodiscard]] bool find_stored(const std::filesystem::path& file, Computation& computation,
+                               bool any_machine = false);
 
 /// How many calls have begun the computation of that file and were ended before it was.
 [[nodiscard]] std::size_t unfinished_starts(const std::filesystem::path& file);

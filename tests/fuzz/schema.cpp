@@ -9,7 +9,7 @@ namespace trammel::fuzz {
 namespace {
 
 bool is_of_type(const Json& value, const std::string& type) {
-  if (type == "integer") return value.is_number() && value == value.get<std::int64_t>();
+  if (type == "integer") return value.is_number_integer();
   return type == "object"   ? value.is_object()
          : type == "array"  ? value.is_array()
          : type == "number" ? value.is_number()

@@ -1,0 +1,145 @@
+#include "harness/run/shards.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "harness/base/json_file.h"
+#include "harness/run/results.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Four computations, one of them only compared with, and one that ends in an error.
+std::vector<Case> cases(const Folder& folder) {
+  Json json = testing::cantilever();
+  json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};
+  json["variants"]["two"]["model"]["elements"] = 2;
+  json["variants"]["unsolvable"]["model"]["members"]["AB"]["nodes"] = {"A", "C"};
+  json["checks"]["longer"] = {{"quantity", "displacement_y_m:B"},
+                              {"against_variant", "long"},
+                              {"role", "verification"},
+                              {"tolerance", {{"relative", 10}, {"why", "only that it is there"}}}};
+  return {testing::read(folder, json)};
+}
+
+std::string results_text(const std::vector<Run>& runs, const std::vector<Case>& all) {
+  Json json = to_json(results_of(runs, all, References()));
+  json["environment"].erase("date");
+  for (Json& run : json["runs"]) run.erase("cost");
+  return json.dump();
+}
+
+RunOptions into(const fs::path& folder) {
+  RunOptions options;
+  options.store = folder / kStoreFolder;
+  return options;
+}
+
+std::vector<fs::path> computed_shards(const Folder& folder, const std::vector<Case>& all,
+                                      std::size_t count) {
+  std::vector<fs::path> folders;
+  for (std::size_t number = 1; number <= count; ++number) {
+    folders.push_back(folder.path() / std::to_string(number));
+    const Shard shard{number, count, {}};
+    write_shard(folders.back(), shard, {{"labels", {"x"}}},
+                run_shard(all, into(folders.back()), shard));
+  }
+  return folders;
+}
+
+void change(const fs::path& folder, const char* key, const Json& value) {
+  Json json = read_json(folder / kShardFile);
+  json[key] = value;
+  write_file(folder / kShardFile, json.dump());
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(shards)
+
+BOOST_AUTO_TEST_CASE(a_shard_is_k_of_n) {
+  BOOST_TEST(shard_from("2/8").number == 2U);
+  BOOST_TEST(shard_from("8/8").count == 8U);
+  for (const char* bad : {"", "2", "0/3", "4/3", "1/100001", "-1/3", "1/3 ", "1/", "/3", "a/b"})
+    BOOST_TEST(contains(complaint([&] { (void)shard_from(bad); }), "expected K/N"), bad);
+}
+
+BOOST_AUTO_TEST_CASE(shards_cost_alike_and_do_not_depend_on_the_order_of_names) {
+  std::vector<std::string> names;
+  std::map<std::string, double> costs;
+  double sum = 0, largest = 0;
+  for (int i = 0; i < 200; ++i) {
+    names.push_back("case-" + std::to_string(i));
+    if (i % 10 == 0) continue;  // those are of usual cost
+    costs[names.back()] = 1 + (i * i) % 97;
+  }
+  const auto load_of = [&](const std::vector<std::size_t>& shards) {
+    std::map<std::size_t, double> load;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (costs.count(names[i]) > 0) load[shards[i]] += costs[names[i]];
+    return load;
+  };
+  for (const auto& [name, cost] : costs) {
+    sum += cost;
+    largest = std::max(largest, cost);
+  }
+  const auto shards = balanced(names, costs, 7);
+  BOOST_TEST(load_of(shards).size() == 7U);
+  for (const auto& [number, load] : load_of(shards)) BOOST_TEST(load < 4.0 / 3 * sum / 7);
+  std::vector<std::string> reversed(names.rbegin(), names.rend());
+  const auto again = balanced(reversed, costs, 7);
+  BOOST_TEST(std::vector<std::size_t>(again.rbegin(), again.rend()) == shards,
+             boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
+  const Folder folder;
+  const std::vector<Case> all = cases(folder);
+  const std::string whole = results_text(run_cases(all, References(), {}), all);
+  const auto folders = computed_shards(folder, all, 3);
+  RunOptions options = into(folder.path() / "merged");
+  BOOST_TEST(merge_shards({folders[2], folders[0], folders[1]}, options.store)["labels"][0] == "x");
+  options.resume = options.any_machine = true;
+  std::size_t done_before = 0;
+  options.progress = [&](std::size_t done, std::size_t) {
+    if (done_before == 0) done_before = done;
+  };
+  BOOST_TEST(results_text(run_cases(all, References(), options), all) == whole);
+  BOOST_TEST(done_before == 4U);  // the first told is the one that ends in an error
+}
+
+BOOST_AUTO_TEST_CASE(shards_that_are_no_whole_are_refused) {
+  const Folder folder;
+  const auto folders = computed_shards(folder, cases(folder), 2);
+  const fs::path store = folder.path() / "merged";
+  const auto said = [&](const std::vector<fs::path>& some) {
+    return complaint([&] { (void)merge_shards(some, store); });
+  };
+  BOOST_TEST(said(folders) == "");
+  BOOST_TEST(contains(said({folders[0]}), "missing: 2"));
+  BOOST_TEST(contains(said({folders[0], folders[0], folders[1]}), "each shard once"));
+  BOOST_TEST(contains(said({folders[0], folder.path()}), "that is done"));
+  const std::string second = read_text(folders[1] / kShardFile);
+  const auto said_with = [&](const char* key, const Json& value) {
+    change(folders[1], key, value);
+    const std::string line = said(folders);
+    write_file(folders[1] / kShardFile, second);
+    return line;
+  };
+  BOOST_TEST(contains(said_with("program", "another"), "expected this program"));
+  BOOST_TEST(contains(said_with("of", 3), "/of: expected what"));
+  BOOST_TEST(contains(said_with("selection", "all"), "/selection: expected what"));
+  BOOST_TEST(contains(said_with("shard", 0), "/shard: expected a positive number"));
+  BOOST_TEST(contains(said_with("computations", Json::array()), "in all shards (got"));
+  const Json names = read_json(folders[0] / kShardFile)["computations"];
+  BOOST_TEST(contains(said_with("computations", names), "each computation in one shard"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
