@@ -6,8 +6,8 @@
 #include "harness/base/errors.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/print_uncertainty.h"
 #include "harness/input/catalogue.h"
+#include "harness/printing/print_uncertainty.h"
 #include "harness/run/run.h"
 
 namespace trammel::harness {

@@ -10,8 +10,8 @@
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/print_effects.h"
 #include "harness/input/catalogue.h"
+#include "harness/printing/print_effects.h"
 #include "harness/studies/effect_study.h"
 #include "harness/studies/random_scenes.h"
 

@@ -27,8 +27,8 @@
 #include "harness/cli/command_quantities.h"
 #include "harness/cli/command_run.h"
 #include "harness/cli/command_shards.h"
-#include "harness/cli/printable_stream.h"
 #include "harness/input/former_names.h"
+#include "harness/printing/printable_stream.h"
 #include "trammel_build.h"
 
 namespace trammel::harness {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "harness/analysis/effect_elimination.h"
-#include "harness/cli/print_effects.h"
+#include "harness/printing/print_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/reference_library.h"
 #include "harness/studies/effect_study.h"

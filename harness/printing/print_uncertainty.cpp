@@ -1,4 +1,4 @@
-#include "harness/cli/print_uncertainty.h"
+#include "harness/printing/print_uncertainty.h"
 
 #include <map>
 #include <ostream>

@@ -1,4 +1,4 @@
-#include "harness/cli/print_effects.h"
+#include "harness/printing/print_effects.h"
 
 #include <iostream>
 
