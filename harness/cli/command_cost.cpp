@@ -247,7 +247,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   results.cost = cost_results(measured, extent, options.timing);
   const fs::path unfinished = fs::path(command.out) / results::kUnfinishedFolder;
   fs::create_directories(unfinished);
-  const fs::path page = renderers.report(write_results(results, unfinished), command.out);
+  const fs::path page = renderers.report(write_results(results, unfinished), command.out, false);
   std::cout << "results in " << (fs::path(command.out) / "results.json").string() << "\npage in "
             << page.string() << std::endl;
   const bool any_lost =

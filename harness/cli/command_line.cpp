@@ -55,8 +55,8 @@ Examples:
   trammel paper                             which case shows an equation, figure or table of the paper
   trammel coverage --gaps                   what has no independent evidence, and why
   trammel effects scene-soft-platform       influence of each effect on a model
-  trammel report                            the whole catalogue as a page
-  trammel report ~/my-robot.json            a page of your own case
+  trammel report                            the whole catalogue as a report
+  trammel report ~/my-robot.json            a report of your own case
   trammel export portal-frame               one computation for another code
   trammel grade ./my-adapter -L frame       another code, judged by the same checks
   trammel report a/results.json b/results.json    several codes side by side
@@ -324,19 +324,22 @@ class CommandLine {
     });
   }
   void define_report() {
-    CLI::App* sub =
-        add("report", "Run the whole catalogue, or some cases, and write the page",
-            "\nOnly the page of the whole catalogue has the cost studies and the "
-            "claims of the paper.\nOf results files it computes nothing: one becomes a page as it "
-            "stands, several codes\n(trammel run, trammel grade) stand side by side, case by "
-            "code.\n\nExamples:\n  trammel report --out report --jobs 4\n"
-            "  trammel report my-robot.json      a page of your own case\n"
-            "  trammel report trammel-results/results.json trammel-grade/results.json");
+    CLI::App* sub = add(
+        "report", "Run the whole catalogue, or some cases, and write the report",
+        "\nOnly the report of the whole catalogue has the cost studies and the "
+        "claims of the paper.\nOf results files it computes nothing: one becomes a report as it "
+        "stands, several codes\n(trammel run, trammel grade) stand side by side, case by "
+        "code.\n\nExamples:\n  trammel report --out report --jobs 4\n"
+        "  trammel report my-robot.json      a report of your own case\n"
+        "  trammel report trammel-results/results.json --single-file\n"
+        "  trammel report trammel-results/results.json trammel-grade/results.json");
     sub->add_option("cases", run_.cases,
                     "Names or files of cases, the catalogue by default; or results files");
     sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
     add_jobs(sub);
-    add_out(sub, "Folder for the page, its figures and data, results.json and junit.xml");
+    add_out(sub, "Folder for the pages, their figures and data, results.json and junit.xml");
+    sub->add_flag("--single-file", run_.single_file,
+                  "Also report.html: all in one file of at most 6 MB, to be mailed");
     add_store(sub, run_.resume, run_.store);
     add_memory(sub);
     sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });

@@ -10,7 +10,7 @@ namespace trammel::harness {
 /// What the harness cannot know: how results become a page and a JUnit file.
 struct Renderers {
   std::function<std::filesystem::path(const std::filesystem::path& results,
-                                      const std::filesystem::path& folder)>
+                                      const std::filesystem::path& folder, bool single_file)>
       report;
   std::function<void(const std::filesystem::path& results, const std::filesystem::path& junit)>
       junit;

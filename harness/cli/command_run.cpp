@@ -275,11 +275,12 @@ void print_failed_runs(const std::vector<Run>& runs) {
 }
 
 /// The page of these results, and where it is.
-void write_page(const results::Results& found, const std::vector<Run>& runs, const std::string& out,
-                const Renderers& renderers) {
-  const auto unfinished = std::filesystem::path(out) / results::kUnfinishedFolder;
+void write_page(const results::Results& found, const std::vector<Run>& runs,
+                const RunCommand& command, const Renderers& renderers) {
+  const auto unfinished = std::filesystem::path(command.out) / results::kUnfinishedFolder;
   std::filesystem::create_directories(unfinished);
-  const auto page = renderers.report(write_all(found, unfinished, renderers), out);
+  const auto page =
+      renderers.report(write_all(found, unfinished, renderers), command.out, command.single_file);
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
   print_run_errors(runs);
@@ -294,7 +295,7 @@ int report_cases(const RunCommand& command, const Renderers& renderers) {
   const std::vector<Run> runs = compute(selection, references, command);
   require_complete(runs);
   print_failed_runs(runs);
-  write_page(results_of(runs, selection.cases, references), runs, command.out, renderers);
+  write_page(results_of(runs, selection.cases, references), runs, command, renderers);
   return exit_status(runs);
 }
 
@@ -308,15 +309,16 @@ bool is_results_file(const std::string& name) {
 }
 
 /// Computes nothing: one file becomes the page as it stands, several stand side by side.
-int report_results(const std::vector<std::filesystem::path>& files, const std::string& out,
-                   const Renderers& renderers) {
+int report_results(const RunCommand& command, const Renderers& renderers) {
+  const std::vector<std::filesystem::path> files(command.cases.begin(), command.cases.end());
   for (const auto& file : files)
     if (const auto fault = find_schema_fault(read_json(file), "results"))
       throw InputError(file.string(), fault->pointer, fault->message);
   if (files.size() == 1) require_drawing(renderers);
-  const OutputLock lock(out);
-  const auto page =
-      files.size() == 1 ? renderers.report(files.front(), out) : renderers.codes(files, out);
+  const OutputLock lock(command.out);
+  const auto page = files.size() == 1
+                        ? renderers.report(files.front(), command.out, command.single_file)
+                        : renderers.codes(files, command.out);
   std::cout << "report in " << page.string() << std::endl;
   return 0;
 }
@@ -384,7 +386,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   if (stored > 0) {
     if (stored < command.cases.size() || !command.labels.empty())
       throw InputError("expected cases, or results files alone");
-    return report_results({command.cases.begin(), command.cases.end()}, command.out, renderers);
+    return report_results(command, renderers);
   }
   require_drawing(renderers);
   if (!command.cases.empty() || !command.labels.empty()) return report_cases(command, renderers);
@@ -409,7 +411,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   results.coverage = evidence_coverage(selection.cases, references);
   add_reasons(results.coverage);
   count_series(results, results.coverage);
-  write_page(results, runs, command.out, renderers);
+  write_page(results, runs, command, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {
     if (claim.as_expected()) continue;

@@ -102,7 +102,10 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder) {
     if (drawn.find("</svg>") == std::string::npos)  // it does not say why: the disk may be full
       throw std::system_error(EIO, std::generic_category(), path.string() + ": not drawn whole");
     figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
-    write_file(path, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n" + figure->svg);
+    write_file(
+        path,
+        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<?xml-stylesheet href=\"figure.css\"?>\n" +
+            figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
   }
 }

@@ -91,6 +91,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     append(first ? gallery.shown : gallery.folded, std::move(figures));
     first = first && !any;
   }
+  for (Figure& figure : gallery.folded) figure.is_linked = true;
   return gallery;
 }
 
@@ -159,30 +160,34 @@ std::vector<Family> plan_families(const Results& results) {
   return families;
 }
 
-std::vector<Figure*> all_figures(std::vector<Family>& families) {
-  std::vector<Figure*> figures;
+std::vector<std::vector<Figure*>> figures_by_page(std::vector<Family>& families) {
+  std::vector<std::vector<Figure*>> pages;
   const auto add = [&](std::vector<Figure>& from) {
-    for (Figure& figure : from) figures.push_back(&figure);
+    for (Figure& figure : from) pages.back().push_back(&figure);
   };
   for (Family& family : families) {
+    pages.emplace_back();
     add(family.overview);
     for (const CaseInfo* info : family.cases) {
       Gallery& gallery = family.galleries.at(info->id);
+      pages.emplace_back();
       add(gallery.shown);
       add(gallery.folded);
     }
   }
-  return figures;
+  return pages;
 }
 
-void number_figures(const std::vector<Figure*>& figures) {
+void number_figures(const std::vector<std::vector<Figure*>>& pages) {
   std::set<std::string> used;
-  int number = 0;
-  for (Figure* figure : figures) {
-    const std::string wanted = figure->id;
-    for (int copy = 2; !used.insert(figure->id).second; ++copy)
-      figure->id = wanted + "-" + std::to_string(copy);
-    figure->number = ++number;
+  for (const std::vector<Figure*>& figures : pages) {
+    int number = 0;
+    for (Figure* figure : figures) {
+      const std::string wanted = figure->id;
+      for (int copy = 2; !used.insert(figure->id).second; ++copy)
+        figure->id = wanted + "-" + std::to_string(copy);
+      figure->number = ++number;
+    }
   }
 }
 

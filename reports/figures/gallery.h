@@ -34,10 +34,11 @@ struct Family {
 /// Cases that were not run are left out.
 [[nodiscard]] std::vector<Family> plan_families(const Results& results);
 
-/// Every figure of all families in the order of the page.
-[[nodiscard]] std::vector<Figure*> all_figures(std::vector<Family>& families);
+/// The figures of each page of the families: what the cases of a family have in common, and each
+/// case.
+[[nodiscard]] std::vector<std::vector<Figure*>> figures_by_page(std::vector<Family>& families);
 
-/// Numbers figures in this order and makes their names unique.
-void number_figures(const std::vector<Figure*>& figures);
+/// Numbers the figures of each page from 1 and makes their names unique over all of them.
+void number_figures(const std::vector<std::vector<Figure*>>& pages);
 
 }  // namespace trammel::reports

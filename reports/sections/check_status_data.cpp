@@ -26,14 +26,17 @@ Data counts_list(const Counts& counts) {
   return out;
 }
 
+std::string case_link(const std::string& id) {
+  return "cases/" + slug(id) + ".html";
+}
 std::string case_anchor(const std::string& id) {
   return "case-" + slug(id);
 }
-std::string family_anchor(const std::string& id) {
-  return "family-" + slug(id);
+std::string family_link(const std::string& id) {
+  return "families/" + slug(id) + ".html";
 }
-std::string reference_anchor(const std::string& id) {
-  return "ref-" + slug(id);
+std::string reference_link(const std::string& id) {
+  return "references.html#ref-" + slug(id);
 }
 
 }  // namespace trammel::reports

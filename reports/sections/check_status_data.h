@@ -13,8 +13,10 @@ void set_check_status(Data& data, CheckStatus status);
 /// Counts as a list of {n, status_text, status_class, sign, percent} without the zeros.
 [[nodiscard]] Data counts_list(const Counts& counts);
 
-[[nodiscard]] std::string case_anchor(const std::string& id);
-[[nodiscard]] std::string family_anchor(const std::string& id);
-[[nodiscard]] std::string reference_anchor(const std::string& id);
+/// Where a page and a place on it stand, seen from the folder of the report.
+[[nodiscard]] std::string case_link(const std::string& id);
+[[nodiscard]] std::string case_anchor(const std::string& id);  ///< where one file holds all
+[[nodiscard]] std::string family_link(const std::string& id);
+[[nodiscard]] std::string reference_link(const std::string& id);
 
 }  // namespace trammel::reports

@@ -69,10 +69,10 @@ Data interpretation_data(const ClaimInterpretation& interpretation, const Result
                                     [&](const Run& run) { return run.case_id == entry.case_id; });
     if (!listed || std::find(seen.begin(), seen.end(), entry.case_id) != seen.end()) continue;
     seen.push_back(entry.case_id);
-    Data case_link = object();
-    case_link.set("case_id", entry.case_id);
-    case_link.set("case_anchor", case_anchor(entry.case_id));
-    cases.push_back(case_link);
+    Data data_of_case = object();
+    data_of_case.set("case_id", entry.case_id);
+    data_of_case.set("case_link", case_link(entry.case_id));
+    cases.push_back(data_of_case);
   }
   data.set("cases", cases);
   return data;
@@ -114,7 +114,7 @@ Data item_data(const PaperItem& item, const Claims& claims) {
   for (const auto& one : item.shown_by) {
     Data entry = object();
     entry.set("case_id", one.case_id);
-    entry.set("anchor", case_anchor(one.case_id));
+    entry.set("case_link", case_link(one.case_id));
     set_text(entry, "variant", one.variant);
     set_text(entry, "quantity", one.quantity);
     set_text(entry, "verdict", one.verdict);

@@ -51,7 +51,7 @@ std::vector<CaseCost> costs(const std::vector<Family>& families) {
 Data row_of(const CaseCost& cost, double longest) {
   Data row = object();
   row.set("case_title", cost.info->title);
-  row.set("case_anchor", case_anchor(cost.info->id));
+  row.set("case_link", case_link(cost.info->id));
   row.set("runs", std::to_string(cost.runs));
   row.set("wall", duration(cost.wall_s));
   row.set("cpu", duration(cost.cpu_s));
@@ -186,8 +186,10 @@ void set_overview(Data& section, const std::vector<CostPanel>& panels) {
 std::vector<CostPanel> plan_cost(const Results& results) {
   std::vector<CostPanel> panels;
   if (!results.cost) return panels;
-  for (const CostStudy& study : results.cost->studies)
+  for (const CostStudy& study : results.cost->studies) {
     panels.push_back({&study, cost_figure(study)});
+    panels.back().figure.is_linked = true;
+  }
   return panels;
 }
 

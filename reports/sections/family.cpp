@@ -15,12 +15,14 @@ namespace trammel::reports {
 
 Data figure_data(const Figure& figure) {
   Data data = object();
-  data.set("id", "fig-" + figure.id);
+  data.set("id", figure.id);
   data.set("number", std::to_string(figure.number));
   data.set("figure_title", figure.title);
   set_text(data, "caption", figure.caption);
   data.set("svg", figure.svg);
   data.set("file", "figures/" + figure.id);
+  data.set("size", std::to_string(figure.width) + " / " + std::to_string(figure.height));
+  set_text(data, "link", figure.is_linked ? "figures/" + figure.id + ".svg" : "");
   return data;
 }
 
@@ -90,39 +92,52 @@ Data texts(const std::vector<std::string>& strings) {
   return out;
 }
 
-Data case_data(const CaseInfo& info, const Family& family, const Results& results) {
+/// What the contents and the page of its family say of a case.
+Data case_entry(const CaseInfo& info, const Family& family) {
   const std::vector<const Run*> runs = family.runs_of(info.id);
-  const Gallery& gallery = family.galleries.at(info.id);
   Data data = object();
-  data.set("anchor", case_anchor(info.id));
+  data.set("case_link", case_link(info.id));
   data.set("case_id", info.id);
   data.set("case_title", info.title);
   data.set("short_title", family.short_title(info));
-  set_text(data, "description", info.description);
-  data.set("labels", texts(info.labels));
   set_text(data, "variants_count", runs.size() > 1 ? count(runs.size(), "variant") : "");
   data.set("counts", counts_list(counts_of(runs)));
   set_check_status(data, overall(runs));
-  data.set("endings", endings(info, runs));
-  data.set("warnings", warnings(info, runs));
-  set_effects(data, runs);
-  data.set("problems", texts(gallery.problems));
-  set_flag(data, "has_figures", !gallery.shown.empty());
-  data.set("figures", figures_data(gallery.shown));
-  set_text(data, "folded_figures_title",
-           gallery.folded.empty() ? "" : count(gallery.folded.size(), "further figure"));
-  data.set("folded_figures", figures_data(gallery.folded));
-  data.set("tables", case_tables(info, runs, results));
-  data.set("variant_tables", variant_tables(info, runs));
-  data.set("csv", "checks/" + slug(info.id) + ".csv");
   return data;
 }
 
 }  // namespace
 
+Data case_section(const CaseInfo& info, const Family& family, const Results& results) {
+  const std::vector<const Run*> runs = family.runs_of(info.id);
+  const Gallery& gallery = family.galleries.at(info.id);
+  Data data = case_entry(info, family);
+  data.set("case_anchor", case_anchor(info.id));
+  data.set("family_title", family.title);
+  data.set("family_link", family_link(family.id));
+  set_text(data, "description", info.description);
+  data.set("labels", texts(info.labels));
+  data.set("endings", endings(info, runs));
+  data.set("warnings", warnings(info, runs));
+  set_effects(data, runs);
+  data.set("problems", texts(gallery.problems));
+  set_flag(data, "has_figures", !gallery.shown.empty() || !gallery.problems.empty());
+  data.set("figures", figures_data(gallery.shown));
+  set_text(data, "folded_figures_title",
+           gallery.folded.empty() ? "" : count(gallery.folded.size(), "further figure"));
+  data.set("folded_figures", figures_data(gallery.folded));
+  data.set("tables", case_tables(info, runs, results));
+  const Data tables = variant_tables(info, runs);
+  set_flag(data, "has_variant_tables", tables.is_non_empty_list());
+  data.set("variant_tables", tables);
+  data.set("csv", "checks/" + slug(info.id) + ".csv");
+  return data;
+}
+
 Data family_section(const Family& family, const Results& results) {
   Data data = object();
-  data.set("anchor", family_anchor(family.id));
+  data.set("family_anchor", "family-" + slug(family.id));
+  data.set("family_link", family_link(family.id));
   data.set("family_title", family.title);
   const std::string cases_count = count(family.cases.size(), "case");
   data.set("cases_count", cases_count);
@@ -131,9 +146,11 @@ Data family_section(const Family& family, const Results& results) {
   set_check_status(data, overall(family.runs));
   set_flag(data, "has_overview", !family.overview.empty());
   data.set("overview", figures_data(family.overview));
-  data.set("matrices", comparison_matrices(family, results));
+  const Data matrices = comparison_matrices(family, results);
+  set_flag(data, "has_common", !family.overview.empty() || matrices.is_non_empty_list());
+  data.set("matrices", matrices);
   Data cases = list();
-  for (const CaseInfo* info : family.cases) cases.push_back(case_data(*info, family, results));
+  for (const CaseInfo* info : family.cases) cases.push_back(case_entry(*info, family));
   data.set("cases", cases);
   return data;
 }

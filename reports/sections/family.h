@@ -7,7 +7,10 @@
 
 namespace trammel::reports {
 
-/// One family with its cases, tables and (drawn) figures.
+/// A case with its tables and (drawn) figures.
+[[nodiscard]] Data case_section(const CaseInfo& info, const Family& family, const Results& results);
+
+/// A family with what its cases have in common, and a line for each of them.
 [[nodiscard]] Data family_section(const Family& family, const Results& results);
 
 /// A drawn figure for its template.

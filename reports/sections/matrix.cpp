@@ -147,7 +147,7 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
   const QuantityLabel quantity = parse_quantity(subject.quantity);
   Data matrix = object();
   matrix.set("title", reference ? reference->title : subject.reference);
-  set_text(matrix, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(matrix, "reference_link", reference ? reference_link(reference->id) : "");
   matrix.set("quantity", axis_label(to_text(quantity), quantity.unit));
   matrix.set("conclusion", conclusion(subject, family, results));
   matrix.set("entry_word", entry_word(subject));

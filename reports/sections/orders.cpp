@@ -202,7 +202,7 @@ Data family_of(const Family& family, Totals& totals) {
     if (!any) continue;
     Data case_data = object();
     case_data.set("case_title", family.short_title(*info));
-    case_data.set("case_anchor", case_anchor(info->id));
+    case_data.set("case_link", case_link(info->id));
     case_data.set("rows", rows);
     cases.push_back(case_data);
   }

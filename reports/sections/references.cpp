@@ -61,7 +61,7 @@ Data used_by(const Results& results, const std::string& id) {
     if (reference != id || !seen.insert(case_id).second) return;
     Data data = object();
     data.set("case_title", results.case_info(case_id).title);
-    data.set("case_anchor", case_anchor(case_id));
+    data.set("case_link", case_link(case_id));
     out.push_back(data);
   };
   for (const Run& run : results.runs) {
@@ -73,7 +73,7 @@ Data used_by(const Results& results, const std::string& id) {
 
 Data provenance(const Reference& reference, const Results& results) {
   Data data = object();
-  data.set("anchor", reference_anchor(reference.id));
+  data.set("anchor", "ref-" + slug(reference.id));
   data.set("reference_id", reference.id);
   data.set("reference_title", reference.title);
   data.set("kind", kind_meaning(reference.kind));

@@ -89,7 +89,7 @@ Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
         [&](const Figure& drawn) { return drawn.id == slug(info.id + "-" + request.id); });
     if (figure == gallery.shown.end()) continue;
     Data picture = object();
-    picture.set("id", figure->id);
+    picture.set("link", case_link(info.id) + "#fig-" + figure->id);
     picture.set("number", std::to_string(figure->number));
     pictures.push_back(picture);
   }
@@ -109,7 +109,7 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
   Data data = object();
   data.set("item", std::to_string(info.stress_suite->item));
   data.set("case_title", title_of(info));
-  data.set("case_anchor", case_anchor(info.id));
+  data.set("case_link", case_link(info.id));
   data.set("pictures", pictures_of(info, family.galleries.at(info.id)));
   Data rows = list();
   for (const std::string& check : info.stress_suite->indicators) {

@@ -1,6 +1,8 @@
 #include "reports/sections/summary.h"
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
@@ -73,7 +75,7 @@ Data role_table(const Results& results) {
 Data item(const CaseInfo& info, const Run& run, const std::string& what, const std::string& text) {
   Data data = object();
   data.set("case_title", info.title);
-  data.set("case_anchor", case_anchor(info.id));
+  data.set("case_link", case_link(info.id));
   set_text(data, "variant_title", info.variants.size() > 1 ? info.variant_title(run.variant) : "");
   set_text(data, "what", what);
   set_text(data, "text", text);
@@ -103,6 +105,38 @@ Data failures(const Results& results, std::size_t& unexpected_endings) {
   return out;
 }
 
+/// What known discrepancies are about, each once however many variants are compared with it.
+struct Targets {
+  std::set<std::tuple<std::string, double, int>>
+      printed;  ///< reference, value, which of equal ones
+  std::set<std::tuple<std::string, std::string, std::string, int>> stated;  ///< case, check, entry
+
+  void add(const Run& run, const Check& check, const Results& results) {
+    const Reference* reference = results.reference(check.reference);
+    if (reference == nullptr || !check.expected) {
+      stated.insert({run.case_id, check.name, check.quantity, check.index.value_or(-1)});
+      return;
+    }
+    const bool equal =
+        std::count(reference->values.begin(), reference->values.end(), check.expected) > 1;
+    printed.insert({check.reference, *check.expected, equal ? check.index.value_or(-1) : -1});
+  }
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    if (!printed.empty()) text = count(printed.size(), "printed number");
+    if (!stated.empty()) text += (text.empty() ? "" : " and ") + count(stated.size(), "statement");
+    return text;
+  }
+};
+
+Targets targets_of(const Results& results) {
+  Targets targets;
+  for (const Run& run : results.runs)
+    for (const Check& check : run.checks)
+      if (check_status(check) == CheckStatus::known_discrepancy) targets.add(run, check, results);
+  return targets;
+}
+
 /// Differences with one and the same reason.
 struct Reason {
   std::string text;
@@ -118,6 +152,7 @@ struct KnownDiscrepancy {
   std::size_t checks = 0;
   std::vector<const CaseInfo*> cases;
   std::vector<Reason> reasons;
+  Targets targets = {};
 };
 
 template <typename Item, typename Is>
@@ -150,8 +185,9 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Results& results,
           return known.family == &family && known.first->name == check.name &&
                  known.first->reference == check.reference && known.first->measure == check.measure;
         };
-        add(find_or_add(out, same, KnownDiscrepancy{&family, &check, 0, {}, {}}), *run, check,
-            results.case_info(run->case_id));
+        auto& known = find_or_add(out, same, KnownDiscrepancy{&family, &check, 0, {}, {}});
+        add(known, *run, check, results.case_info(run->case_id));
+        known.targets.add(*run, check, results);
       }
     }
   }
@@ -213,16 +249,16 @@ Data known_data(const KnownDiscrepancy& known, const Results& results) {
   for (const CaseInfo* info : known.cases) {
     Data entry = object();
     entry.set("case_title", info->title);
-    entry.set("case_anchor", case_anchor(info->id));
+    entry.set("case_link", case_link(info->id));
     cases.push_back(entry);
   }
   data.set("cases", cases);
   data.set("what", known_title(*known.first, reference));
-  set_text(data, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(data, "reference_link", reference ? reference_link(reference->id) : "");
   set_text(data, "span", span_text(known));
   std::string extent = count(known.checks, "check");
   if (variants > 1) extent += " of " + count(variants, "variant");
-  data.set("extent", extent);
+  data.set("extent", extent + " with " + known.targets.text());
   const bool single_reason = known.reasons.size() == 1;
   set_text(data, "reason",
            single_reason ? known.reasons.front().text
@@ -238,15 +274,17 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
   Data out = list();
   for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
     std::size_t checks = 0;
+    Targets targets;
     Data entries = list();
     for (to = from; to < all.size() && all[to].family == all[from].family; ++to) {
       checks += all[to].checks;
+      targets.printed.insert(all[to].targets.printed.begin(), all[to].targets.printed.end());
+      targets.stated.insert(all[to].targets.stated.begin(), all[to].targets.stated.end());
       entries.push_back(known_data(all[to], results));
     }
     Data family = object();
     family.set("family_title", all[from].family->title);
-    family.set("extent",
-               count(to - from, "discrepancy", "discrepancies") + " in " + count(checks, "check"));
+    family.set("extent", targets.text() + " in " + count(checks, "check"));
     family.set("known", entries);
     out.push_back(family);
   }
@@ -265,7 +303,8 @@ Data section_summaries(const std::vector<SectionSummary>& summaries) {
   return out;
 }
 
-std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
+std::string verdict_text(const Counts& counts, std::size_t unexpected_endings,
+                         const Targets& targets) {
   const std::size_t fails = count_of(counts, CheckStatus::fails);
   const std::size_t errors = count_of(counts, CheckStatus::error);
   if (total(counts) == 0) return "No checks were made.";
@@ -282,8 +321,8 @@ std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
     return "Every check of what is given passes.";
   if (known == 0) return "Every check passes.";
   return "Every check with an expected agreement passes; " +
-         count(known, "comparison does not agree", "comparisons do not agree") +
-         " with the publication, as recorded.";
+         count(known, "comparison", "comparisons") + " with " + targets.text() +
+         " of the publication " + (known == 1 ? "does" : "do") + " not agree, as recorded.";
 }
 
 std::string overview_text(const Results& results, const std::vector<Family>& families,
@@ -295,7 +334,9 @@ std::string overview_text(const Results& results, const std::vector<Family>& fam
                      count(total(counts), "check") + " made. ";
   if (const std::size_t known = count_of(counts, CheckStatus::known_discrepancy))
     text += count(known, "comparison does", "comparisons do") +
-            " not agree with the reference; the difference is as recorded, the reasons are below. ";
+            " not agree; as recorded, for the reasons below. Many are one and the same target met "
+            "by variant after variant: " +
+            targets_of(results).text() + ". ";
   text += count(count_of(counts, CheckStatus::passes), "check passes", "checks pass") +
           " within the stated tolerance.";
   if (const std::size_t recorded = count_of(counts, CheckStatus::not_judged))
@@ -315,7 +356,7 @@ Data summary_section(const Results& results, const std::vector<Family>& families
   Data summary = object();
   const Data failure_list = failures(results, unexpected_endings);
   const bool good = all_checks_pass(counts) && unexpected_endings == 0 && total(counts) > 0;
-  summary.set("verdict", verdict_text(counts, unexpected_endings));
+  summary.set("verdict", verdict_text(counts, unexpected_endings, targets_of(results)));
   const bool all_agree = count_of(counts, CheckStatus::known_discrepancy) == 0;
   summary.set("verdict_class", css_class(!good       ? CheckStatus::fails
                                          : all_agree ? CheckStatus::passes

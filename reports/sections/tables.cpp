@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "harness/results/quantity_definitions.h"
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
+#include "reports/drawing/figure.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
@@ -39,10 +41,19 @@ std::string range_text(const Check& check) {
   return (check.known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
+/// Of a table: what its rows look up, and the names whose first check carries their anchor.
+struct Rows {
+  const Results& results;
+  bool is_linked = false;
+  std::set<std::string> named = {};
+};
+
 /// One check with all its entries: name, reference and reason stand once for all of them, and so
 /// does the tolerance if they share it.
-Data group_of(const Check& check, const Results& results, const Data& rows, std::size_t n) {
+Data group_of(const Check& check, Rows& table, const Data& rows, std::size_t n) {
   Data group = object();
+  const bool first = table.is_linked && table.named.insert(check.name).second;
+  set_text(group, "check_anchor", first ? slug(check.name) : "");
   group.set("rows", rows);
   for (const Data& row : rows.list_value()) n += row.get("message")->is_string() ? 1 : 0;
   group.set("rowspan", std::to_string(n));
@@ -54,9 +65,9 @@ Data group_of(const Check& check, const Results& results, const Data& rows, std:
   set_flag(group, "shared", true);
   set_text(group, "range", range_text(check));
   set_text(group, "why", check.why);
-  const Reference* reference = results.reference(check.reference);
+  const Reference* reference = table.results.reference(check.reference);
   set_text(group, "reference", reference ? reference->title : check.reference);
-  set_text(group, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(group, "reference_link", reference ? reference_link(reference->id) : "");
   return group;
 }
 
@@ -71,11 +82,11 @@ bool same_reason(const Check& a, const Check& b) {
 }
 
 /// Every entry, or the worst of many. Entries with reasons of their own stand apart.
-void add_group(Data& groups, const CheckGroup& group, const Results& results) {
+void add_group(Data& groups, const CheckGroup& group, Rows& table) {
   if (group.checks.size() > kMaxEntries) {
     Data rows = list();
     rows.push_back(row_of(group.worst(), worst_entry(group)));
-    groups.push_back(group_of(group.worst(), results, rows, 1));
+    groups.push_back(group_of(group.worst(), table, rows, 1));
     return;
   }
   for (std::size_t from = 0, to = 0; from < group.checks.size(); from = to) {
@@ -90,7 +101,7 @@ void add_group(Data& groups, const CheckGroup& group, const Results& results) {
       set_text(row, "own_range", shared ? "" : range_text(check));
       rows.push_back(row);
     }
-    Data data = group_of(first, results, rows, to - from);
+    Data data = group_of(first, table, rows, to - from);
     set_flag(data, "shared", shared);
     groups.push_back(data);
   }
@@ -99,7 +110,8 @@ void add_group(Data& groups, const CheckGroup& group, const Results& results) {
 Data run_data(const CaseInfo& info, const Run& run, bool many) {
   Data data = object();
   set_text(data, "variant", many ? info.variant_title(run.variant) : "");
-  set_text(data, "variant_id", many ? run.variant : "");
+  data.set("variant_anchor", slug(run.variant));
+  data.set("run_words", info.id + (run.variant == "base" ? "" : " --variant " + run.variant));
   set_text(data, "ending", run.status == Status::solved ? "" : to_string(run.status));
   set_text(data, "reason", run.reason);
   set_check_status(data, check_status(run));
@@ -116,14 +128,14 @@ std::size_t rows_in(const std::vector<const Run*>& runs) {
 }
 
 /// All runs one after another.
-Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, const Results& results) {
+Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
   Data table = list();
   for (const Run* run : runs) {
     // A variant that others are measured against, and that ended well, has no rows.
     if (run->checks.empty() && run->status == Status::solved) continue;
     Data data = run_data(info, *run, runs.size() > 1);
     Data groups = list();
-    for (const CheckGroup& group : group_checks(*run)) add_group(groups, group, results);
+    for (const CheckGroup& group : group_checks(*run)) add_group(groups, group, linked);
     data.set("groups", groups);
     table.push_back(data);
   }
@@ -131,8 +143,7 @@ Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, const
 }
 
 /// For every check the worst of all variants and entries.
-Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs,
-                 const Results& results) {
+Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
   struct Worst {
     const Check* check;
     const Run* run;
@@ -161,10 +172,10 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs,
     if (runs.size() > 1) entry += (entry.empty() ? "" : ", ") + info.variant_title(w.run->variant);
     Data rows = list();
     rows.push_back(row_of(*w.check, entry));
-    groups.push_back(group_of(*w.check, results, rows, 1));
+    groups.push_back(group_of(*w.check, linked, rows, 1));
   }
   Data run = object();
-  for (const char* key : {"variant", "variant_id", "ending", "reason"}) set_text(run, key, "");
+  for (const char* key : {"variant", "ending", "reason"}) set_text(run, key, "");
   run.set("groups", groups);
   Data table = list();
   table.push_back(run);
@@ -180,13 +191,14 @@ Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
   for (const Run* run : runs) checks += run->checks.size();
   set_flag(tables, "has_checks", checks > 0);
   const bool few = rows_in(runs) <= kMaxUnfoldedChecks;
-  tables.set("runs", few ? full_table(info, runs, results) : worst_table(info, runs, results));
+  tables.set("runs", few ? full_table(info, runs, {results, true})
+                         : worst_table(info, runs, {results, true}));
   set_flag(tables, "has_folded", !few);
   if (few) return tables;
   std::string title = "All " + count(checks, "check");
   if (runs.size() > 1) title += " of " + count(runs.size(), "variant");
   tables.set("folded_title", title);
-  tables.set("folded_runs", full_table(info, runs, results));
+  tables.set("folded_runs", full_table(info, runs, {results}));
   return tables;
 }
 

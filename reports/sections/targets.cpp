@@ -116,7 +116,7 @@ Data row_of(const Target& target, const CaseInfo& info, const Results& results) 
 Data case_of(const CaseInfo& info, const std::vector<Target>& targets, const Results& results) {
   Data data = object();
   data.set("case_title", info.title);
-  data.set("case_anchor", case_anchor(info.id));
+  data.set("case_link", case_link(info.id));
   Data rows = list();
   for (const Target& target : targets) rows.push_back(row_of(target, info, results));
   data.set("rows", rows);

@@ -144,11 +144,11 @@ Data table_of(const ComparisonSubject& subject, bool is_only, const Results& res
   const Reference* reference = results.reference(subject.reference);
   Data table = object();
   table.set("title", reference ? reference->title : subject.reference);
-  set_text(table, "reference_anchor", reference ? reference_anchor(reference->id) : "");
+  set_text(table, "reference_link", reference ? reference_link(reference->id) : "");
   set_text(table, "unit", reference ? display_unit(reference->unit) : "");
   set_text(table, "check", is_only ? "" : display_name(subject.check));
   table.set("case_title", subject.info->title);
-  table.set("case_anchor", case_anchor(subject.info->id));
+  table.set("case_link", case_link(subject.info->id));
   const bool modes = subject.quantity.rfind("frequency", 0) == 0;
   Data columns = list();
   for (const auto& [entry, target] : subject.targets) {

@@ -11,9 +11,12 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Opens the sample's report at this width and checks what must hold at every width.
-void check_at(int width) {
-  const auto page = sample_report() / "index.html";
+constexpr const char* kPages[] = {"index.html", "families/manipulator-modes.html",
+                                  "cases/manipulator-modes-centred.html", "references.html"};
+
+/// Opens a page of the sample's report at this width and checks what must hold at every width.
+void check_at(int width, const std::string& name) {
+  const auto page = sample_report() / name;
   const auto figures = static_cast<int>(occurrences(text_of(page), "<svg "));
   const Visit seen = visit_framed(page, width);
   BOOST_TEST(measured(seen, "width") == width);
@@ -30,11 +33,11 @@ void check_at(int width) {
 BOOST_AUTO_TEST_SUITE(browser)
 
 BOOST_AUTO_TEST_CASE(report_opens_without_errors_and_shows_every_figure_on_a_desk) {
-  check_at(1280);
+  for (const char* page : kPages) check_at(1280, page);
 }
 
 BOOST_AUTO_TEST_CASE(report_fits_a_phone_without_scrolling_sideways) {
-  check_at(400);
+  for (const char* page : kPages) check_at(400, page);
 }
 
 BOOST_AUTO_TEST_CASE(a_broken_script_would_be_noticed) {

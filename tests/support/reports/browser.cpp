@@ -51,6 +51,8 @@ Visit visit_framed(const fs::path& page, int width) {
   const Workspace workspace;
   std::string text = text_of(page);
   text.replace(text.rfind("</body>"), 7, kProbeScript);
+  if (const std::size_t head = text.find("<head>"); head != std::string::npos)
+    text.insert(head + 6, "<base href=\"file://" + page.parent_path().string() + "/\">");
   std::ofstream(workspace.path() / "inside.html") << text;
   const fs::path outside = workspace.path() / "outside.html";
   std::ofstream(outside) << frame << width << "px\"></iframe></body></html>";

@@ -39,6 +39,20 @@ std::string text_of(const fs::path& file) {
   return out.str();
 }
 
+std::map<std::string, std::string> pages_of(const fs::path& report) {
+  std::map<std::string, std::string> pages;
+  for (const auto& entry : fs::recursive_directory_iterator(report))
+    if (entry.path().extension() == ".html")
+      pages[fs::relative(entry.path(), report).string()] = text_of(entry.path());
+  return pages;
+}
+
+std::string text_of_pages(const fs::path& report) {
+  std::string text;
+  for (const auto& [path, page] : pages_of(report)) text += page;
+  return text;
+}
+
 const fs::path& sample_report() {
   static const Workspace workspace;
   static const fs::path folder = [] {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -24,6 +25,10 @@ class Workspace {
 };
 
 [[nodiscard]] std::string text_of(const std::filesystem::path& file);
+
+/// The pages of a report by their paths below its folder, and all of them as one text.
+[[nodiscard]] std::map<std::string, std::string> pages_of(const std::filesystem::path& report);
+[[nodiscard]] std::string text_of_pages(const std::filesystem::path& report);
 
 /// The report of the sample, made once for all tests of this program.
 [[nodiscard]] const std::filesystem::path& sample_report();

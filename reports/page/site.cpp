@@ -1,0 +1,305 @@
+#include "reports/page/site.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "reports/page/links.h"
+#include "reports/page/render.h"
+#include "reports/sections/check_status_data.h"
+#include "reports/sections/claims.h"
+#include "reports/sections/coverage.h"
+#include "reports/sections/environment.h"
+#include "reports/sections/family.h"
+#include "reports/sections/orders.h"
+#include "reports/sections/references.h"
+#include "reports/sections/stress_suite.h"
+#include "reports/sections/summary.h"
+#include "reports/sections/targets.h"
+#include "reports/sections/validation_uncertainty.h"
+#include "reports/text/html.h"
+#include "reports/text/number.h"
+#include "reports/text/templates.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t kMaxSingleBytes = 6'000'000;  ///< what a mail may carry
+constexpr const char *kMark = "<!--drawing ", *kBody = "<!--body-->", *kLeftOut = "<!--left out-->";
+
+/// A section of the index: key of its data, anchor, title, and the key of its summary.
+struct IndexSection {
+  const char *key, *anchor, *title, *summary;
+};
+constexpr std::array<IndexSection, 7> kIndexSections = {{
+    {"claims", "claims", "The paper's claims", "overview"},
+    {"cost", "cost", "Accuracy and computing time", "words"},
+    {"stress_suite", "stress-suite", "Stress suite", "words"},
+    {"targets", "targets", "Published benchmark values", "words"},
+    {"orders", "orders", "Orders of convergence and numerical uncertainty", "words"},
+    {"validation_uncertainty", "validation-uncertainty", "Validation uncertainty", "words"},
+    {"coverage", "coverage", "What is verified, and by what", "words"},
+}};
+
+/// What every template finds; headings below a page's title start with h`level`.
+Data page_data(bool single, int level) {
+  Data data = object();
+  for (const char* name :
+       {"summary", "claims", "variants", "figure", "checks", "matrix", "cost", "stress_suite",
+        "targets", "orders", "coverage", "validation_uncertainty", "counts", "rows", "head",
+        "matrix_row", "cell"})
+    data.set(std::string(name) + "_partial",
+             kainjow::mustache::partial(
+                 [file = std::string(name) + ".mustache"] { return template_text(file); }));
+  set_flag(data, "single", single);
+  data.set("level", std::to_string(level));
+  data.set("sublevel", std::to_string(level + 1));
+  return data;
+}
+
+const IndexSection* section_there(const Data& index, const IndexSection& section) {
+  const Data& data = *index.get(section.key);
+  const Data* words = data.get(section.summary);
+  const Data* rows = data.get("has_rows");
+  const bool there = words != nullptr && words->is_string() && (!rows || rows->is_true());
+  return there ? &section : nullptr;
+}
+
+Data index_data(const Results& results, const std::vector<Family>& families,
+                const std::vector<CostPanel>& panels, bool single) {
+  Data index = page_data(single, 2);
+  index.set("environment", environment_section(results));
+  index.set("claims", claims_section(results));
+  index.set("cost", cost_section(results, families, panels));
+  index.set("stress_suite", stress_suite_section(families));
+  index.set("targets", targets_section(results, families));
+  index.set("orders", orders_section(results, families));
+  index.set("validation_uncertainty", validation_uncertainty_section(results, families));
+  index.set("coverage", coverage_section(results));
+  set_flag(index, "has_claims", results.claims.has_value());
+  set_flag(index, "has_runs", !results.runs.empty() || panels.empty());
+  std::vector<SectionSummary> summaries;
+  for (const IndexSection& section : kIndexSections)
+    if (section_there(index, section))
+      summaries.push_back({section.title, section.anchor,
+                           index.get(section.key)->get(section.summary)->string_value()});
+  index.set("summary", summary_section(results, families, summaries));
+  return index;
+}
+
+/// The sections of the index for the contents of every page.
+Data index_contents(const Data& index) {
+  Data out = list();
+  const auto add = [&](const char* title, const std::string& anchor) {
+    Data entry = object();
+    entry.set("title", title);
+    entry.set("link", "index.html#" + anchor);
+    out.push_back(entry);
+  };
+  if (index.get("has_runs")->is_true()) add("Summary", "summary");
+  for (const IndexSection& section : kIndexSections)
+    if (section_there(index, section) || section.anchor == std::string("cost"))
+      add(section.title, section.anchor);
+  return out;
+}
+
+/// The families for the contents; on a page of its own, a family has its cases open.
+Data family_contents(const std::vector<Data>& sections, const std::string& path) {
+  Data out = list();
+  for (const Data& section : sections) {
+    Data family = object();
+    for (const char* key :
+         {"family_link", "family_title", "cases_count", "status_text", "status_class", "sign"})
+      family.set(key, *section.get(key));
+    bool open = section.get("family_link")->string_value() == path;
+    set_flag(family, "is_here", open);
+    Data cases = list();
+    for (Data entry : section.get("cases")->list_value()) {
+      const bool here = entry.get("case_link")->string_value() == path;
+      open = open || here;
+      set_flag(entry, "is_here", here);
+      cases.push_back(entry);
+    }
+    set_flag(family, "open", open);
+    set_flag(family, "has_cases", open || path == "index.html");
+    family.set("cases", cases);
+    out.push_back(family);
+  }
+  return out;
+}
+
+/// The frame around all bodies.
+struct Frame {
+  const Results& results;
+  Data contents;
+  std::vector<Data> families;  ///< their sections
+  bool single;
+
+  /// @param own  title, subtitle, way up and status of the page
+  [[nodiscard]] std::string around(const std::string& path, Data own,
+                                   const std::string& body) const {
+    own.set("environment", environment_section(results));
+    own.set("sections", contents);
+    own.set("families", family_contents(families, path));
+    set_flag(own, "is_index", path == "index.html");
+    set_flag(own, "at_references", path == "references.html");
+    set_flag(own, "has_references", !results.references.empty());
+    set_flag(own, "single", single);
+    own.set("style", template_text("figure.css") + template_text("style.css"));
+    own.set("script", template_text("page.js"));
+    own.set("body", body);
+    own.set("left_out", kLeftOut);
+    return render("page.mustache", own);
+  }
+};
+
+Data titled(const std::string& title) {
+  Data data = object();
+  data.set("heading", title);
+  data.set("page_title", title);
+  for (const char* key : {"subtitle", "above", "status_class"}) set_text(data, key, "");
+  return data;
+}
+
+Data titled_index(const Data& index) {
+  const bool runs = index.get("has_runs")->is_true();
+  Data data = titled(runs ? "Verification and validation report" : "Accuracy and computing time");
+  data.set("subtitle", "Flexible-link planar parallel manipulators");
+  if (runs) data.set("page_title", *index.get("summary")->get("verdict"));
+  return data;
+}
+
+Data titled_by(const Data& section, const char* title) {
+  Data data = titled(section.get(title)->string_value());
+  for (const char* key : {"status_class", "status_text", "sign"}) data.set(key, *section.get(key));
+  return data;
+}
+
+std::string family_body(const Data& section, bool single) {
+  Data data = page_data(single, single ? 3 : 2);
+  data.set("family", section);
+  return render("family.mustache", data);
+}
+
+std::string case_body(const Data& section, bool single) {
+  Data data = page_data(single, single ? 4 : 2);
+  data.set("case", section);
+  return render("case.mustache", data);
+}
+
+std::string references_body(const Results& results, bool single) {
+  Data data = page_data(single, 2);
+  data.set("references", references_section(results));
+  return render("references.mustache", data);
+}
+
+/// Marks and drawings, by the page that they stand on.
+using DrawingsByPage = std::vector<std::vector<std::pair<std::string, std::string>>>;
+
+void replace(std::string& html, const std::string& mark, const std::string& text) {
+  html.replace(html.find(mark), mark.size(), text);
+}
+
+/// Takes in drawings by their marks, the first of each page before the second of any, as long as
+/// the text stays below `max_bytes`. @returns how many are left out.
+std::size_t take_in(std::string& html, const DrawingsByPage& pages, std::size_t max_bytes) {
+  std::map<std::string, std::string> fitting;
+  std::size_t size = html.size(), left_out = 0, longest = 0;
+  for (const auto& page : pages) longest = std::max(longest, page.size());
+  for (std::size_t rank = 0; rank < longest; ++rank) {
+    for (const auto& page : pages) {
+      if (rank >= page.size()) continue;
+      const auto& [mark, svg] = page[rank];
+      const bool fits = size + svg.size() <= max_bytes;
+      fitting[mark] = fits ? svg : "<p class=\"muted\">This drawing is left out.</p>";
+      size += fits ? svg.size() : 0;
+      left_out += fits ? 0 : 1;
+    }
+  }
+  std::string out;
+  std::size_t from = 0;
+  for (std::size_t at = 0; (at = html.find(kMark, from)) != std::string::npos;) {
+    const std::size_t end = html.find('>', at) + 1;
+    out.append(html, from, at - from) += fitting.at(html.substr(at, end - at));
+    from = end;
+  }
+  html = out.append(html, from);
+  return left_out;
+}
+
+}  // namespace
+
+std::vector<SiteFile> site_files(const Results& results, const std::vector<Family>& families,
+                                 const std::vector<CostPanel>& panels) {
+  const Data index = index_data(results, families, panels, false);
+  Frame frame{results, index_contents(index), {}, false};
+  for (const Family& family : families) frame.families.push_back(family_section(family, results));
+  std::vector<SiteFile> files;
+  const auto add = [&](const std::string& path, const Data& title, const std::string& body) {
+    files.push_back({path, linked_from(frame.around(path, title, body), path)});
+  };
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    const Data& section = frame.families[f];
+    add(family_link(families[f].id), titled_by(section, "family_title"),
+        family_body(section, false));
+    for (const CaseInfo* info : families[f].cases) {
+      const Data data = case_section(*info, families[f], results);
+      Data title = titled_by(data, "case_title");
+      title.set("above", families[f].title);
+      title.set("above_link", family_link(families[f].id));
+      add(case_link(info->id), title, case_body(data, false));
+    }
+  }
+  if (!results.references.empty())
+    add("references.html", titled("References"), references_body(results, false));
+  add("index.html", titled_index(index), render("index.mustache", index));
+  files.push_back({"style.css", template_text("style.css")});
+  files.push_back({"figures/figure.css", template_text("figure.css")});
+  files.push_back({"report.js", template_text("page.js")});
+  return files;
+}
+
+std::string single_page(const Results& results, std::vector<Family> families,
+                        std::vector<CostPanel> panels) {
+  DrawingsByPage drawings(1);
+  const auto take_out = [&](Figure& figure) {
+    const std::string mark = kMark + figure.id + ">";
+    figure.is_linked = false;
+    drawings.back().emplace_back(mark, std::exchange(figure.svg, mark));
+  };
+  for (CostPanel& panel : panels) take_out(panel.figure);
+  for (Family& family : families) {
+    drawings.emplace_back();
+    for (Figure& figure : family.overview) take_out(figure);
+    for (auto& [id, gallery] : family.galleries) {
+      drawings.emplace_back();
+      for (Figure& figure : gallery.shown) take_out(figure);
+    }
+  }
+  const Data index = index_data(results, families, panels, true);
+  Frame frame{results, index_contents(index), {}, true};
+  std::string body = linked_within(render("index.mustache", index), "index.html");
+  for (const Family& family : families) {
+    frame.families.push_back(family_section(family, results));
+    body += linked_within(family_body(frame.families.back(), true), family_link(family.id));
+    for (const CaseInfo* info : family.cases)
+      body +=
+          linked_within(case_body(case_section(*info, family, results), true), case_link(info->id));
+  }
+  if (!results.references.empty())
+    body += linked_within(references_body(results, true), "references.html");
+  Data title = titled_index(index);
+  std::string html = linked_within(frame.around("index.html", title, kBody), "index.html");
+  replace(html, kBody, body);
+  const std::size_t left_out = take_in(html, drawings, kMaxSingleBytes);
+  std::string note =
+      "All of it in one file: without the figures of further variants and the tables of every "
+      "check where they are long";
+  if (left_out > 0) note += ", and without " + count(left_out, "drawing") + " for its size";
+  replace(html, kLeftOut, note + ". The report in many pages has them.");
+  return html;
+}
+
+}  // namespace trammel::reports
