@@ -4,24 +4,33 @@
 What a member becomes:
 - in statics of Euler-Bernoulli beams without springs one user element U1, exact at its nodes. It is right for nothing else: ccx has
   it in statics alone, with shear it deflects less than without, and springs on its rotations have another stiffness.
-- else a strip of eight-node plane-stress elements, four along each element of the case and one through its depth: CPS8R, and
-  CPS8 in buckling, where CPS8R gives twice the load. The strip is orthotropic: E along it, no contraction, and the shear modulus
-  that the case's beam theory asks for. It has the rotary inertia of its sections: frequencies of Euler-Bernoulli beams come out
-  lower by that.
-Plates become CPS3 and CPS6, a thousand times thinner and stiffer, because ccx makes solids of them whose shear out of the plane
-hinders contraction where the thickness is not small beside the elements. Joints and rigid bodies are equations.
-Section forces and reactions follow from displacements by the slope-deflection equations. ccx prints seven digits: nothing agrees
-better than 1e-7, and reactions only to what that leaves of them.
+- else a strip of eight-node plane-stress elements along the member: CPS8R, and CPS8 in buckling, where CPS8R gives twice the load.
+  The strip is orthotropic: E along it, no contraction, and the shear modulus that the case's beam theory asks for. Where the theory
+  has no rotary inertia, its mass lies in a core of its depth.
+Plates become CPS3 and CPS6 whose material contracts in their plane alone, with the mass that their interpolation asks for. Joints
+and rigid bodies are equations. Motion in time is a sum of modes.
+Section forces and reactions follow from displacements by the slope-deflection equations: in statics with all digits, from the restart
+file; elsewhere with the seven that ccx prints.
+What is left: a strip is an elastic body. Where it is loaded along its axis, N / EA of the critical load or of the frequency is missing
+or in excess; what is rigid in shear costs digits the more, the more slender the strip is (1e-5 at a length of 130 times the depth).
 """
 import math
+import os
+import struct
 import subprocess
 
 from trammel_adapter import Cannot, main
 
-SHEAR_RIGID = 3  # shear modulus over E where the beam theory has no shear; more costs digits
-THIN, SLENDER = 5, 0.009  # how many times thinner the strip of an inextensible member is, unless it is as slender as this
-PLATE = 1e3  # how many times thinner and stiffer a plate is
-STRIP = 4  # elements of a strip for each element of the case
+
+SHEAR_RIGID = (8, 300)  # least and most of the shear modulus over E where the beam theory has no shear; slender strips lose digits by it
+THIN, SLENDER = 3, 0.009  # how many times thinner the strip of an inextensible member is, unless it is as slender as this
+CORE, NO_ROTARY = 0.2, ("euler-bernoulli", "shear")  # in modes these have their mass in a core of that share of the depth
+STIFF = 1e4  # how many times the axial stiffness of an inextensible member is, where it is U1
+ALONG = {"CPS8R": 2, "CPS8": 4}  # elements of a strip for each element of the case
+DIGITS = 7  # that ccx prints
+MODES = 20  # of motions in time
+MOTION = {"displacements": ("displacement_x_m", "displacement_y_m", "rotation_rad"),
+          "velocities": ("velocity_x_m_per_s", "velocity_y_m_per_s", "angular_velocity_rad_per_s")}
 JOINTS = ("welded", "hinged")
 DOF = {"x": 0, "y": 1, "rotation": 2}
 
@@ -29,6 +38,10 @@ DOF = {"x": 0, "y": 1, "rotation": 2}
 def card(*cells):
     """A data line; ccx reads at most twenty characters of a number."""
     return ",".join(f"{cell:.12e}" if isinstance(cell, float) else str(cell) for cell in cells)
+
+
+class Singular(Exception):
+    """ccx finds its matrix singular: a mechanism."""
 
 
 class Deck:
@@ -45,22 +58,27 @@ class Deck:
         self.elements += 1
         self.lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", card(self.elements, *nodes)]
 
+    def follower(self, motions):
+        """A node whose first degrees of freedom follow the motions: ccx 2.20 fails where masses and springs are on nodes that
+        others follow."""
+        node = self.node(*self.nodes[motions[0][0] - 1])
+        for dof, motion in enumerate(motions, 1):
+            self.equation([(node, dof, 1.0), (*motion, -1.0)])
+        self.fix(node, len(motions) + 1, 3)
+        return node
+
     def mass(self, motions, value):
-        """On a node of its own that follows the motions: ccx 2.20 fails where a mass is on a node that others follow."""
         if value:
-            node, name = self.node(*self.nodes[motions[0][0] - 1]), f"M{self.elements}"
-            for dof, motion in enumerate(motions, 1):
-                self.equation([(node, dof, 1.0), (*motion, -1.0)])
-            self.fix(node, len(motions) + 1, 3)
-            self.element("MASS", [node], name)
+            name = f"M{self.elements}"
+            self.element("MASS", [self.follower(motions)], name)
             self.lines += [f"*MASS,ELSET={name}", card(float(value))]
 
     def spring(self, ends, value):
         """Between the first motions (node, dof) and the second, or between the first and the ground."""
         if value:
             name = f"S{self.elements}"
-            self.element(f"SPRING{len(ends)}", [node for node, _ in ends], name)
-            self.lines += [f"*SPRING,ELSET={name}", card(*(dof for _, dof in ends)), card(float(value))]
+            self.element(f"SPRING{len(ends)}", [self.follower([end]) for end in ends], name)
+            self.lines += [f"*SPRING,ELSET={name}", card(*[1] * len(ends)), card(float(value))]
 
     def equation(self, terms):
         """sum of factor * motion = 0, solved for the first motion that is left when those that depend already are replaced;
@@ -99,6 +117,10 @@ class Deck:
         with open(name + ".inp", "w", encoding="ascii") as file:
             file.write("\n".join(head + self.lines + ties + self.end + step) + "\n")
         done = subprocess.run(["ccx", name], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        if done.returncode and os.path.exists("spooles.out"):
+            with open("spooles.out", encoding="ascii", errors="replace") as file:
+                if "singular" in file.read():
+                    raise Singular
         errors = [line.strip() for line in done.stdout.splitlines() if "*ERROR" in line]
         if done.returncode or errors:
             raise RuntimeError(errors[0] if errors else f"ccx ended with {done.returncode}")
@@ -121,6 +143,22 @@ def table(lines, title):
                         break
             blocks.append(rows)
     return blocks
+
+
+def unrounded(name, u, nodes):
+    """u with all digits where the restart file has a record of displacements that agrees with what is printed."""
+    with open(name, "rb") as file:
+        data = file.read()
+    at, found = 0, {}
+    while at < len(data):
+        (length,) = struct.unpack_from("<i", data, at)
+        for size in (4, 7):  # numbers of a node: one more than its degrees of freedom
+            if not found and length % (8 * size) == 0 and length >= 8 * size * max(nodes):
+                v = {n: struct.unpack_from(f"<{size - 1}d", data, at + 12 + 8 * size * (n - 1)) for n in nodes}
+                if all(abs(a - b) <= 1e-6 * abs(a) for n in nodes for a, b in zip(u[n], v[n])):
+                    found = v
+        at += length + 8
+    return {**u, **found}
 
 
 def frd_stress(name):
@@ -164,6 +202,16 @@ def nodal_loads(model):
     return loads
 
 
+def material(name, E, G, rho, nu=0.0):
+    """Contracts in the plane alone: out of it, ccx gives neighbouring elements one contraction, which hinders it."""
+    return [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", card(E, E, E, nu, 0, 0, G, G), card(G),
+            "*DENSITY", card(max(float(rho), 1e-9))]
+
+
+def middle(row):
+    return row[len(row) // 2]
+
+
 def refuse(model, keys):
     for key in keys:
         if model.get(key):
@@ -176,13 +224,14 @@ class Frame:
     strips: the element that members become, or None for U1. loaded: axial forces matter, so that members stretch even where
     the case says that they do not; a constraint would carry the force and leave no stress."""
 
-    def __init__(self, case, strips, loaded=False, large=False):
+    def __init__(self, case, strips, loaded=False, large=False, core=False):
         model = case.model
-        self.model, self.deck, self.strips, self.loaded, self.large = model, Deck(), strips, loaded or large, large
+        self.model, self.deck, self.strips, self.loaded, self.large, self.core = model, Deck(), strips, loaded or large, large, core
         if large:
             refuse(model, ["rigid_bodies", "pins", "plates", "springs", "point_masses"])
-        self.motions = {name: self.point(*p) for name, p in model["nodes"].items()}
         self.members = [placed(m, model) for m in case.members()]
+        welded = {n for m in self.members for n, end in zip(m.nodes, m.ends) if end == "welded"}
+        self.motions = {name: self.point(*p, name in welded) for name, p in model["nodes"].items()}
         for node, taken in model.get("supports", {}).items():
             if node not in self.motions:
                 raise Cannot("supports of edges")
@@ -204,8 +253,11 @@ class Frame:
         self.ends = {m.name: [self.end(m, i) for i in (0, 1)] for m in self.members}
         for m in self.members:
             (self.strip if strips else self.u1)(m)
+        self.corners = {}
         for name, plate in model.get("plates", {}).items():
             self.plate(name, plate)
+        for node, value in self.corners.items():
+            self.deck.mass(self.motions[node][:2], value)
         for mass in model.get("point_masses", {}).values():
             motion = self.motions[mass["node"]]
             if any(mass.get("offset_m", [])):
@@ -217,19 +269,29 @@ class Frame:
             self.deck.fix(node, dof)
 
     def plate(self, name, plate):
+        """ccx integrates the mass of three-node triangles at their middle, and they have no inertia about it. Three quarters of that
+        and a twelfth of the mass in each corner are their consistent mass."""
         if "triangles" not in plate:
             raise Cannot("plates that are not yet meshed")
         m, set_name = self.model["materials"][plate["material"]], f"P{self.deck.elements}"
+        E, nu, rho = float(m["E_Pa"]), float(m["nu"]), float(m["rho_kg_m3"])
+        share = 1.0
         for triangle in plate["triangles"]:
             self.deck.element(f"CPS{len(triangle)}", [self.motions[n][0][0] for n in triangle], set_name)
-        self.deck.end += [f"*MATERIAL,NAME={set_name}", "*ELASTIC", card(m["E_Pa"] * PLATE, float(m["nu"])),
-                          "*DENSITY", card(max(m["rho_kg_m3"], 1e-9) * PLATE),
-                          f"*SOLID SECTION,ELSET={set_name},MATERIAL={set_name}", card(plate["thickness_m"] / PLATE)]
+            if len(triangle) == 3 and self.core:
+                (ax, ay), (bx, by), (cx, cy) = (self.model["nodes"][n] for n in triangle)
+                twelfth, share = rho * plate["thickness_m"] * abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 24, 0.75
+                for n in triangle:
+                    self.corners[n] = self.corners.get(n, 0.0) + twelfth
+        self.deck.end += material(set_name, E, E / (2 * (1 + nu)), rho * share, nu)
+        self.deck.end += [f"*SOLID SECTION,ELSET={set_name},MATERIAL={set_name}", card(float(plate["thickness_m"]))]
 
-    def point(self, x, y):
+    def point(self, x, y, welded=True):
+        """Motions of a point; its rotation is that of a node beside it where no U1 is welded to it, which has one in ccx."""
         node = self.deck.node(x, y)
         if not self.strips:
-            self.deck.fix(node, 3, 5)
+            self.deck.fix(node, 3, 5 if welded else 3)
+        if not self.strips and welded:
             return [(node, 1), (node, 2), (node, 6)]
         turn = self.deck.node(x, y)
         self.deck.fix(turn, 2, 3)
@@ -256,7 +318,7 @@ class Frame:
         name = f"U{len(self.deck.lines)}"
         a, b = self.ends[m.name]
         self.deck.element("U1", [a[0][0], b[0][0]], name)
-        area = m.A * (1e6 if m.inextensible else 1)
+        area = m.A * (STIFF if m.inextensible else 1)
         self.deck.end += [f"*MATERIAL,NAME={name}", "*ELASTIC", card(m.E, m.E / (2 * m.G) - 1),
                           f"*BEAM SECTION,ELSET={name},MATERIAL={name},SECTION=GENERAL",
                           card(float(area), float(m.I), 0, float(m.I), 1e6), card(-m.dy, m.dx, 0)]
@@ -269,33 +331,42 @@ class Frame:
         thinner = 1.0  # the same E I and mass without rotary inertia; E A does not matter where the member keeps its length
         if m.inextensible and self.large:
             thinner = max(1.0, 100 * h / m.L)
-        elif m.inextensible and not self.loaded and m.beam in ("euler-bernoulli", "shear") and h > SLENDER * m.L:
+        elif m.inextensible and self.strips == "CPS8R" and h > SLENDER * m.L:
             thinner = THIN
         h, E = h / thinner, m.E * thinner**2
-        n = 2 * m.elements * (1 if self.large else STRIP)
+        n = 2 * max(4, m.elements * (1 if self.large else ALONG[self.strips]))
+        rigidity = min(max(1 if m.inextensible and thinner == 1 else SHEAR_RIGID[0], 2.6e8 * (h / m.L)**4), SHEAR_RIGID[1])
+        core = CORE * math.sqrt(min(1, SHEAR_RIGID[0] / rigidity))
         x0, y0 = self.model["nodes"][m.nodes[0]]
+        faces = [-h / 2, -core * h / 2, core * h / 2, h / 2] if self.core and m.beam in NO_ROTARY else [-h / 2, h / 2]
         rows = []
         for i in range(n + 1):
             x, y = x0 + m.dx * m.L * i / n, y0 + m.dy * m.L * i / n
-            rows.append([deck.node(x - m.dy * z, y + m.dx * z) for z in ((-h / 2, 0, h / 2) if i % 2 == 0 else (-h / 2, h / 2))])
+            between = [(a + b) / 2 for a, b in zip(faces, faces[1:])] if i % 2 == 0 else []
+            rows.append([deck.node(x - m.dy * z, y + m.dx * z) for z in sorted(faces + between)])
         for i in range(0, n, 2):
             a, b, c = rows[i:i + 3]
-            deck.element(self.strips, [a[0], c[0], c[2], a[2], b[0], c[1], b[1], a[1]], name)
+            for k in range(len(faces) - 1):
+                deck.element(self.strips, [a[2 * k], c[2 * k], c[2 * k + 2], a[2 * k + 2], b[k], c[2 * k + 1], b[k + 1], a[2 * k + 1]],
+                             name + ("C" if k == 1 else ""))
         m.rows = rows
         for i, row in ((0, rows[0]), (1, rows[-1])):
             if self.large and self.ends[m.name][i][2] not in deck.supported:
                 self.turning_end(m, i)
-                row = row[1:2]
+                row = [middle(row)]
             for node in row:
                 arm = [a - b for a, b in zip(deck.nodes[node - 1], self.model["nodes"][m.nodes[i]])]
                 self.tie([(node, 1), (node, 2)], self.ends[m.name][i], arm)
         if m.inextensible and not self.loaded:
-            self.keep_length(m, [row[1] for row in rows[2:-2:2]])
-        G = m.G * m.kappa if m.sheared else SHEAR_RIGID * E
-        deck.end += [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",
-                     card(E, E, E, 0, 0, 0, G, G), card(G), "*DENSITY", card(max(float(m.rho), 1e-9)),
-                     f"*ORIENTATION,NAME={name}", card(m.dx, m.dy, 0, -m.dy, m.dx, 0),
-                     f"*SOLID SECTION,ELSET={name},MATERIAL={name},ORIENTATION={name}", card(m.A / h)]
+            self.keep_length(m, [middle(row) for row in rows[2:-2:2]])
+        G = m.G * m.kappa if m.sheared else E * rigidity
+        cored = len(faces) > 2
+        heaviest = max((p["mass_kg"] for p in self.model.get("point_masses", {}).values()), default=0)
+        mass = max(m.rho, 1e-6 * heaviest / (m.A * m.L) if self.core else 0)  # without mass its modes are too fast for ccx
+        deck.end += [f"*ORIENTATION,NAME={name}", card(m.dx, m.dy, 0, -m.dy, m.dx, 0)]
+        for part, rho in ((name, 0 if cored else mass), (name + "C", mass / core))[:1 + cored]:
+            deck.end += material(part, E, G, rho)
+            deck.end += [f"*SOLID SECTION,ELSET={part},MATERIAL={part},ORIENTATION={name}", card(m.A / h)]
 
     def turning_end(self, m, i):
         """In large displacement equations carry no rotation: an end is held by its middle, and may not be welded to others."""
@@ -323,7 +394,7 @@ class Frame:
                     continue
                 for k, row in enumerate(m.rows):  # Simpson's rule; on the middle, or on both sides of it
                     share = (1 if k in (0, len(m.rows) - 1) else 4 if k % 2 else 2) / (3 * (len(m.rows) - 1))
-                    nodes = row if len(row) == 2 else row[1:2]
+                    nodes = row[len(row) // 2 - 1:len(row) // 2 + 1] if len(row) % 2 == 0 else [middle(row)]
                     forces += [((node, i + 1), m.load[i] * m.L * share / len(nodes)) for node in nodes]
         return [card(node, dof, float(value)) for (node, dof), value in forces if value]
 
@@ -335,18 +406,22 @@ def statics(case, options):
     frame = Frame(case, None if euler else "CPS8R", loaded=second)
     if euler:
         frame.deck.lines.insert(0, "*USER ELEMENT,TYPE=U1,NODES=2,INTEGRATION POINTS=2,MAXDOF=6")
-    out = frame.deck.run(["*STEP,NLGEOM" if second else "*STEP", "*STATIC", "*CLOAD", *frame.loads(), "*NODE PRINT,NSET=ALL", "U",
+    out = frame.deck.run(["*STEP,NLGEOM" if second else "*STEP", "*STATIC", "*RESTART,WRITE,FREQUENCY=1",
+                          "*CLOAD", *frame.loads(), "*NODE PRINT,NSET=ALL", "U",
                           *(["*EL FILE,OUTPUT=2D", "S"] if case.model.get("plates") else []), "*END STEP"])
-    u = table(out, "displacements")[-1]
+    ends = [motions for pair in frame.ends.values() for motions in pair]
+    u = unrounded("deck.rout", table(out, "displacements")[-1], {n for m in [*frame.motions.values(), *ends] for n, _ in m})
     value = lambda motion: u[motion[0]][motion[1] - 1]
     q = {f"{key}:{name}": ("rad" if k == 2 else "m", value(motion[k])) for name, motion in frame.motions.items()
-         for k, key in enumerate(("displacement_x_m", "displacement_y_m", "rotation_rad"))}
+         for k, key in enumerate(MOTION["displacements"])}
     if case.model.get("plates"):
+        q["compliance_J"] = ("J", sum(f * value(frame.motions[n][k]) for n, forces in nodal_loads(case.model).items()
+                                      for k, f in enumerate(forces) if f))
         stress = frd_stress("deck.frd")
         for name, motion in frame.motions.items():
             for k, axes in enumerate(("xx", "yy", None, "xy")):
                 if axes and motion[0][0] in stress:
-                    q[f"stress_{axes}_Pa:{name}"] = ("Pa", stress[motion[0][0]][k] / PLATE)
+                    q[f"stress_{axes}_Pa:{name}"] = ("Pa", stress[motion[0][0]][k])
     if euler or not second and not any(m.inextensible for m in frame.members):
         q.update(section_forces(frame, value))
     return q
@@ -414,7 +489,7 @@ def end_forces(m, ends):
     (u1, v1, t1), (u2, v2, t2) = [(m.dx * u + m.dy * v, m.dx * v - m.dy * u, t) for u, v, t in ends]
     phi = 12 * m.E * m.I / (m.kappa * m.G * m.A * L**2) if m.sheared else 0.0
     k = m.E * m.I / L**3 / (1 + phi)
-    n = m.E * m.A / L * (1e6 if m.inextensible else 1) * (u2 - u1)
+    n = m.E * m.A / L * (STIFF if m.inextensible else 1) * (u2 - u1)
     shear = k * (12 * (v1 - v2) + 6 * L * (t1 + t2))
     moments = [k * (6 * L * (v1 - v2) + L**2 * ((4 + phi) * a + (2 - phi) * b)) for a, b in ((t1, t2), (t2, t1))]
     wx, wy = m.dx * m.load[0] + m.dy * m.load[1], m.dx * m.load[1] - m.dy * m.load[0]
@@ -426,13 +501,15 @@ def modes(case, options):
     refuse(options, ["reduction", "rotating"])
     before = []
     loaded = options.get("prestressed", False)
-    frame = Frame(case, "CPS8R", loaded)
+    frame = Frame(case, "CPS8R", loaded, core=True)
     if loaded:
         before = ["*STEP,NLGEOM", "*STATIC", "*CLOAD", *frame.loads(), "*END STEP"]
     out = frame.deck.run([*before, "*STEP,PERTURBATION" if before else "*STEP", "*FREQUENCY", str(options["count"] + 3), "*END STEP"])
     squares = [row[0] for row in table(out, "E I G E N V A L U E   O U T P U T")[0].values()]
     f = [math.sqrt(max(s, 0)) / (2 * math.pi) for s in squares]
-    rigid = sum(value < 1e-4 * f[-1] for value in f)
+    if "members" not in case.model and frame.corners:
+        case.element_order = 2  # six-node triangles have 4, or what corners leave of it
+    rigid = sum(value < 1e-4 * max(f[:options["count"]]) for value in f)
     return {"frequency_Hz": ("Hz", [0.0 if i < rigid else value for i, value in enumerate(f[:options["count"]])]),
             "rigid_body_modes": ("1", rigid)}
 
@@ -451,7 +528,57 @@ def buckling(case, options):
     return q
 
 
-ANALYSES = {"statics": statics, "modes": modes, "buckling": buckling, "large-statics": large_statics}
+def transient(case, options):
+    """By modes, whose motion ccx takes exactly between the corners of the load; a mass on a spring by the trapezoidal rule."""
+    refuse(options, ["rotating_frame", "error_control"])
+    if options.get("initial_state", "at-rest") != "at-rest" or options.get("damping", {}).keys() - {"rayleigh"}:
+        raise Cannot("that initial state or damping")
+    frame, end = Frame(case, "CPS8R", core=True), options["duration_s"]
+    samples = options.get("samples") or round(end / options["step_s"])
+    inner = max(1, math.ceil(end / samples / options["step_s"] - 1e-6))
+    history = options.get("load_history", {"time_s": [0], "factor": [1]})
+    modal = "members" in case.model
+    if not modal and len(set(history["time_s"])) < len(history["time_s"]):
+        raise Cannot("jumps of a load on a mass on a spring")
+    corners = [(t + 1e-9 * end * (i and t == history["time_s"][i - 1]), f) for i, (t, f) in enumerate(zip(*history.values()))]
+    frame.deck.lines += ["*AMPLITUDE,NAME=H", *(card(float(t), float(f)) for t, f in corners + [(2 * end, corners[-1][1])])]
+    wanted = {f"{head}:{name}": (title, motion[k]) for name, motion in frame.motions.items() for title, heads in MOTION.items()
+              for k, head in enumerate(heads)}
+    wanted = {name: where for name, where in wanted.items() if any(name in asked for asked in case.asked)}
+    nodes = sorted({str(motion[0]) for _, motion in wanted.values()})
+    if not nodes:
+        raise Cannot("what is asked for of that motion")
+    rayleigh = options.get("damping", {}).get("rayleigh", {})
+    damped = ["*MODAL DAMPING,RAYLEIGH", card(1, MODES, *(float(rayleigh.get(key, 0)) for key in ("mass_per_s", "stiffness_s")))]
+    if rayleigh and not modal or any(any(m.load) for m in frame.members):
+        raise Cannot("a damped mass on a spring; loads along members in motion, of which ccx 2.20 takes a part")
+    step = ["*MODAL DYNAMIC"] if modal else ["*DYNAMIC,DIRECT,ALPHA=0."]
+    out = frame.deck.run([
+        *(["*STEP", "*FREQUENCY,STORAGE=YES", str(MODES), "*END STEP"] if modal else []), f"*STEP,INC={samples * inner + 9}", *step,
+        card(end / samples / inner, float(end)), *(damped if rayleigh else []), "*CLOAD,AMPLITUDE=H", *frame.loads(),
+        "*NSET,NSET=ASKED", *(f"{node}," for node in nodes), f"*NODE PRINT,NSET=ASKED,FREQUENCY={inner}", "U,V", "*END STEP"])
+    q, times = {}, [end * i / samples for i in range(samples + 1)]
+    for name, (title, (node, dof)) in wanted.items():
+        values = [0.0] + [rows[node][dof - 1] for rows in table(out, title)]
+        if len(values) != samples + 1:
+            raise RuntimeError(f"{len(values)} samples of {name}")
+        unit = ("rad" if "rotation" in name or "angular" in name else "m") + ("/s" if title == "velocities" else "")
+        largest, when = peak(times, values)
+        q.update({name: (unit, values), "peak_" + name: (unit, largest), "peak_time_s:" + name: ("s", when)})
+    return q
+
+
+def peak(times, values):
+    """The largest magnitude, with its sign, by a parabola through the largest sample and its neighbours; and when."""
+    i = max(range(len(values)), key=lambda k: abs(values[k]))
+    if i in (0, len(values) - 1):
+        return values[i], times[i]
+    a, b, c = values[i - 1:i + 2]
+    shift = 0.5 * (a - c) / (a - 2 * b + c)
+    return b - 0.25 * (a - c) * shift, times[i] + shift * (times[1] - times[0])
+
+
+ANALYSES = {"statics": statics, "modes": modes, "buckling": buckling, "large-statics": large_statics, "transient": transient}
 
 
 def solve(case):
@@ -460,9 +587,12 @@ def solve(case):
     refuse(case.model, ["sliders", "axial_springs", "follower_loads"])
     if case.model.get("plates"):
         refuse(case.model, ["gravity_m_s2"])
-    found = ANALYSES[case.kind](case, case.options)
+    try:
+        found = ANALYSES[case.kind](case, case.options)
+    except Singular:
+        return {"status": "singular", "reason": "ccx finds its matrix singular"}
     return {name: found[name] for name in case.asked if name in found}
 
 
 if __name__ == "__main__":
-    main(solve, name="CalculiX", version="2.20", digits=7)
+    main(solve, name="CalculiX", version="2.20", digits=DIGITS)

@@ -44,6 +44,7 @@ class Member:
 
 class Case(dict):
     """A resolved case: the JSON object, with short ways to what adapters ask for."""
+    element_order = None    # that of what this case asks for, where solve() says it
 
     @property
     def model(self):
@@ -133,6 +134,7 @@ def main(solve, name, version="", element_order=None, digits=None):
     solver = {"name": name, "version": version, "element_order": element_order, "digits": digits}
     try:
         found = solve(case)
+        solver["element_order"] = case.element_order or element_order
         result = found if "status" in found else _result(
             found, solver, time.perf_counter() - start)
     except Cannot as reason:
