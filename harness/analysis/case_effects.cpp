@@ -97,9 +97,12 @@ std::string describe_decision(const EffectReason& one, const EffectScope& scope,
   return "decided";
 }
 
-/// By estimates, which add up; the smallest goes first.
-Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const EffectScope& scope,
-                                   double tolerance, std::vector<EffectReason>& reasons) {
+/// By estimates, which add up; the smallest goes first. What they leave out is measured where they
+/// may come near the tolerance.
+Elimination eliminate_by_estimates(const JsonView& analysis, const CaseModel& case_model,
+                                   const AnalysisKind& kind, solver::EffectEstimates& estimates,
+                                   const EffectScope& scope, double tolerance,
+                                   std::vector<EffectReason>& reasons) {
   std::stable_sort(estimates.effects.begin(), estimates.effects.end(),
                    [](const auto& a, const auto& b) { return a.change < b.change; });
   std::vector<solver::Effect> order;
@@ -107,18 +110,21 @@ Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const Eff
     order.push_back(one.effect);
     reasons[static_cast<std::size_t>(one.effect)].number = one.number;
   }
-  // What moves off its estimate by vibrating came out at a third more.
-  constexpr double kSafetyFactor = 0.7;
-  const ChangeWith change_with = [&](solver::Effects active) {
+  const ChangeWith estimated = [&](solver::Effects active) {
     double change = 0;
     for (const solver::EffectEstimate& one : estimates.effects)
       if (!active.has(one.effect)) change += one.change;
-    return change / kSafetyFactor;
+    return change;
   };
   Elimination found;
-  if (estimates.outcome.solved()) found = eliminate(scope, order, {}, tolerance, change_with);
+  if (estimates.outcome.solved()) found = eliminate(scope, order, {}, tolerance, estimated);
   found.outcome = estimates.outcome;
   found.counters = estimates.counters;
+  constexpr double kNear = 0.5;
+  const bool is_settled =
+      estimated(found.chosen) * estimates.amplification_bound <= kNear * tolerance;
+  if (found.outcome.solved() && !(found.chosen == scope.applicable) && !is_settled)
+    put_back_by_measurement(kind, analysis, case_model, scope, order, tolerance, estimated, found);
   return found;
 }
 
@@ -156,7 +162,8 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
   if (rules.estimate != nullptr) estimates = rules.estimate(analysis, case_model, scope);
   const Elimination found =
       rules.estimate != nullptr
-          ? eliminate_by_estimates(estimates, scope, tolerance, choice.reasons)
+          ? eliminate_by_estimates(analysis, case_model, kind, estimates, scope, tolerance,
+                                   choice.reasons)
           : eliminate_by_measurement(kind, analysis, case_model, scope, tolerance);
   choice.counters = found.counters;
   choice.chosen = found.outcome.solved() ? found.chosen : scope.applicable;

@@ -1,7 +1,9 @@
 #include "solver/effects/dynamic_effect_estimates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -22,6 +24,8 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kPoses = 2, kPathSamples = 16;
 constexpr Index kElements = 8;
+/// (W / w1)^2 of a path whose harmonics come near no resonance.
+constexpr double kSlow = 0.1;
 
 /// The whole motion, on a mesh that is good enough to decide by.
 ElastodynamicsOptions coarsened(ElastodynamicsOptions options) {
@@ -80,7 +84,7 @@ class MotionEstimates {
       : options_(coarsened(options)), applicable_(applicable), rate_(path_rate(options)) {}
 
   EffectEstimates run() {
-    for (const double time : extreme_times()) estimate_at(time, true);
+    for (const double time : estimate_along_path()) estimate_at(time, true);
     for (std::size_t k = 0; k < kPoses; ++k) {
       const double share = (static_cast<double>(k) + 0.5) / kPoses;
       estimate_at(options_.time.start + share * (options_.time.end - options_.time.start), false);
@@ -122,8 +126,9 @@ class MotionEstimates {
     return q;
   }
 
-  /// The samples, of some spread over the path, at which the quasi-static response is largest.
-  std::set<double> extreme_times() {
+  /// What goes with rates, at samples of some spread over the path.
+  /// @returns those at which the quasi-static response is largest
+  std::set<double> estimate_along_path() {
     PathFollower pose(options_, options_.time.start);
     ResponseSize largest;
     double farthest = 0, hardest = 0;
@@ -131,9 +136,8 @@ class MotionEstimates {
     const std::size_t stride = std::max<std::size_t>(1, samples.size() / kPathSamples);
     for (std::size_t i = 0; i < samples.size(); i += stride) {
       const double time = samples[i];
-      const VectorXd q = quasi_static_response(pose, time, options_.gravity);
+      const ResponseSize size = estimate_rates_at(pose, time);
       if (!estimates_.outcome.solved()) return {};
-      const ResponseSize size = size_of(pose.system(), q);
       if (size.translation > largest.translation) farthest = time;
       if (size.energy > largest.energy) hardest = time;
       largest.take_max(size);
@@ -143,44 +147,56 @@ class MotionEstimates {
     return {farthest, hardest};
   }
 
+  /// Inertia, damping and gyroscopic forces. @returns the size of the response
+  ResponseSize estimate_rates_at(PathFollower& pose, double time) {
+    const double step = rate_ > 0 ? 1e-3 / rate_ : 1e-4 * (options_.time.end - options_.time.start);
+    std::array<VectorXd, 3> q;  // before, after, now
+    for (const double offset : {-1, 1, 0}) {
+      VectorXd& at = q[offset < 0 ? 0 : offset > 0 ? 1 : 2];
+      at = quasi_static_response(pose, time + offset * step, options_.gravity);
+      if (!estimates_.outcome.solved()) return {};
+    }
+    const VectorXd v = (q[1] - q[0]) / (2 * step);
+    const VectorXd a = (q[1] - 2 * q[2] + q[0]) / (step * step);
+    const MovingSystem& system = pose.system();
+    const VectorXd inertia = system.M() * a;
+    const VectorXd damping =
+        options_.damping.mass * (system.M() * v) + options_.damping.stiffness * (system.K() * v);
+    record_drag(system, solve(pose, damping), solve(pose, inertia));
+    record_change(Effect::gyroscopic,
+                  size_of(system, solve(pose, system.gyroscopic_matrix() * v +
+                                                  system.centrifugal_and_euler_matrix() * q[2])));
+    const ResponseSize size = size_of(system, q[2]);
+    sizes_.response.take_max(size);
+    return size;
+  }
+
+  /// At a pose where a load has just been solved for.
+  [[nodiscard]] static VectorXd solve(PathFollower& pose, const VectorXd& load) {
+    VectorXd x;
+    static_cast<void>(pose.solve_statically(load, x));
+    return x;
+  }
+
+  /// What the loads of one pose say: flexibilities, masses and weights.
   void estimate_at(double time, bool with_modes) {
     if (!estimates_.outcome.solved()) return;
     PathFollower pose(options_, time);
-    const double step = rate_ > 0 ? 1e-3 / rate_ : 1e-4 * (options_.time.end - options_.time.start);
-    const VectorXd before = quasi_static_response(pose, time - step, options_.gravity);
-    if (!estimates_.outcome.solved()) return;
-    const VectorXd after = quasi_static_response(pose, time + step, options_.gravity);
-    if (!estimates_.outcome.solved()) return;
     const VectorXd q = quasi_static_response(pose, time, options_.gravity);
     if (!estimates_.outcome.solved()) return;
-    const VectorXd v = (after - before) / (2 * step);
-    const VectorXd a = (after - 2 * q + before) / (step * step);
     const MovingSystem& system = pose.system();
-    const SparseMatrix& K = system.K();
     const ResponseSize total = size_of(system, q);
     sizes_.response.take_max(total);
-    const auto solve = [&](const VectorXd& load) -> VectorXd {
-      VectorXd x;
-      static_cast<void>(pose.solve_statically(load, x));  // as it could before
-      return x;
-    };
-    const VectorXd inertia = system.M() * a;
-    const VectorXd damping =
-        options_.damping.mass * (system.M() * v) + options_.damping.stiffness * (K * v);
-    record_drag(system, solve(damping), solve(inertia));
-    record_change(Effect::gyroscopic,
-                  size_of(system, solve(system.gyroscopic_matrix() * v +
-                                        system.centrifugal_and_euler_matrix() * q)));
-    const double energy = q.dot(K * q);
+    const double energy = q.dot(system.K() * q);
     const EnergyShares shares(system.start(), q, energy);
     for (const Effect effect : flexibilities()) {
       const double share = energy > 0 ? shares.elastic(effect) : 0;
       sizes_.share[effect] = std::max(sizes_.share[effect], share);
-      const VectorXd lost = solve(system.start().T.transpose() * shares.forces(effect));
+      const VectorXd lost = solve(pose, system.start().T.transpose() * shares.forces(effect));
       record_change(effect, {translation_of(system, lost), share * total.energy});
     }
     const VectorXd load = pose.load();
-    without_masses(time, load, system, solve);
+    without_masses(time, load, pose);
     if (with_modes && estimates_.outcome.solved()) {
       bound_large_displacement(system, q);
       estimate_frequency_changes(system);
@@ -188,7 +204,7 @@ class MotionEstimates {
     if (applicable_.has(Effect::gravity) && estimates_.outcome.solved()) {
       estimates_.outcome = pose.move_to(time, Vector2d::Zero());
       if (!estimates_.outcome.solved()) return;
-      record_weight(pose, solve(load - pose.load()), total.energy);
+      record_weight(pose, solve(pose, load - pose.load()), total.energy);
     }
     estimates_.counters += pose.counters();
   }
@@ -217,9 +233,7 @@ class MotionEstimates {
   }
 
   /// The same model without masses of links, or the turning of their sections: other loads.
-  template <class Solve>
-  void without_masses(double time, const VectorXd& load, const MovingSystem& system,
-                      const Solve& solve) {
+  void without_masses(double time, const VectorXd& load, PathFollower& pose) {
     for (const Effect effect : {Effect::link_mass, Effect::rotary_inertia}) {
       if (!applicable_.has(effect)) continue;
       auto& light = light_[effect];
@@ -229,7 +243,7 @@ class MotionEstimates {
       }
       estimates_.outcome = light->follower->move_to(time, options_.gravity);
       if (!estimates_.outcome.solved()) return;
-      record_change(effect, size_of(system, solve(load - light->follower->load())));
+      record_change(effect, size_of(pose.system(), solve(pose, load - light->follower->load())));
     }
   }
 
@@ -305,15 +319,16 @@ class MotionEstimates {
     }
   }
 
-  /// Whether a load sets in at once: the plate takes it before the links do.
-  [[nodiscard]] bool is_suddenly_loaded() const {
-    return !options_.time.quasi_static_start && !options_.wrench.isZero(0);
-  }
-
   /// How long a vibration lasts.
   [[nodiscard]] double vibration_duration(double omega, double damping) const {
     const double time = options_.time.end - options_.time.start;
     return damping > 0 ? std::min(time, 1 / (std::numbers::e * damping * omega)) : time;
+  }
+
+  /// How long a resonance grows.
+  [[nodiscard]] double resonance_duration() const {
+    const double time = options_.time.end - options_.time.start;
+    return damping_ > 0 ? std::min(time, 1 / (damping_ * frequency_)) : time;
   }
 
   /// Of a change that the quasi-static response shows; nothing moves without a load.
@@ -334,6 +349,11 @@ class MotionEstimates {
     const double r = rate_ / frequency_;
     const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
     const double time = options_.time.end - options_.time.start;
+    if (!options_.time.quasi_static_start) {
+      estimates_.amplification_bound = std::numeric_limits<double>::infinity();
+    } else if (r * r > kSlow) {
+      estimates_.amplification_bound = frequency_ * resonance_duration() / 2;
+    }
     // Half a period later what started on q_s is twice as far from the response beside it.
     const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
     const double duration_in_phase = vibration_duration(frequency_, damping_) * frequency_;
@@ -366,8 +386,6 @@ class MotionEstimates {
           }
           change += vibration_share *
                     std::min(2.0, std::abs(frequency_change_[effect]) * duration_in_phase);
-          if (effect == Effect::platform_flexibility && is_suddenly_loaded())
-            change = std::max(change, 1.0);
       }
       estimates_.effects.push_back({effect, number, change});
     }

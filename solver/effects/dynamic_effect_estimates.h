@@ -23,8 +23,10 @@ namespace trammel::solver {
 /// inertia set in at once), loses step with itself by the change of w1 that the effect means
 /// (Rayleigh), for as long as it lasts, the smaller of T and 1 / (e z w1); undamped it does not die
 /// away, by 1 - exp(-z w1 T); gyroscopic forces turn the first modes into each other at the rate
-/// x_i^T (G + S / w_i) x_j / 2, for no longer than they keep step, 1 / |w_i - w_j|. A load that
-/// sets in at once is taken by the plate before the links, whose forces it changes wholly.
+/// x_i^T (G + S / w_i) x_j / 2, for no longer than they keep step, 1 / |w_i - w_j|. On
+/// a path as fast that a harmonic of it may resonate, r^2 > 0.1, that makes at most min(1 / (2 z),
+/// w1 T / 2) of them; a load that sets in at once sets all modes vibrating, of which this knows
+/// one.
 ///   Source: quasi-static expansion, e.g. L. Meirovitch, Analytical Methods in Vibrations (1967).
 /// @param options  the whole motion, gyroscopic terms included; what `applicable` lacks is not
 /// there

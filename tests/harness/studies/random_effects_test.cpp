@@ -31,9 +31,18 @@ BOOST_AUTO_TEST_CASE(harmonic_decisions_take_a_few_frequencies) {
   BOOST_TEST(study.choice.counters.factorizations < 0.3 * study.full.counters.factorizations);
 }
 
+/// A load that sets in at once sets every mode vibrating, where estimates know the first: forces
+/// were off by 33 times the tolerance without a stiff joint, and by 2.4 without rotary inertia.
+BOOST_AUTO_TEST_CASE(what_estimates_leave_out_of_a_sudden_start_is_measured) {
+  for (const auto& [seed, number] : {std::pair(1, 139), std::pair(2, 19)}) {
+    const EffectStudy study = study_effects(random_scene(seed, number), {0.01, false, 0});
+    BOOST_TEST(study.within_tolerance(), "scene " << seed << ", " << number);
+    BOOST_TEST(study.is_minimal(), "scene " << seed << ", " << number);
+  }
+}
+
 /// Of 100 scenes, near buckling loads and singularities and in motion too, automatic effects are
-/// within the tolerance of the whole scene, and in 90 % none of them could be left out. Of motions,
-/// whose estimates add up as bounds, one in four has some that could.
+/// within the tolerance of the whole scene, and in 90 % none of them could be left out.
 BOOST_AUTO_TEST_CASE(automatic_effects_hold_and_are_minimal_on_random_scenes) {
   constexpr int kScenes = 100;
   int minimal = 0, solved = 0;
