@@ -33,6 +33,11 @@ bool is_of_mechanism(const std::string& kind) {
          kind == "elastodynamics";
 }
 
+/// A network on samples of its own has no model, and nothing to resolve.
+bool is_of_samples(const Document& document) {
+  return analysis_kind(document) == "grnn" && analysis_place(document).has("samples");
+}
+
 void require_exportable(const Document& document) {
   const std::vector<std::string> kinds = {"statics",      "buckling", "modes",    "large-statics",
                                           "large-motion", "harmonic", "transient"};
@@ -85,6 +90,7 @@ WrittenNames written_names(const Document& document) {
 /// Parts that have quantities in the case, and not under their name in the exported one.
 std::set<std::string> lost_parts(const Document& document, const solver::Model& model) {
   std::set<std::string> lost;
+  if (!JsonView(document).has("model")) return lost;
   if (const auto edges = JsonView(document)["model"].find("edges"))
     for (const auto& edge : edges->entries()) lost.insert(edge.first);
   for (const solver::Member& member : model.members)
@@ -201,7 +207,7 @@ Json export_case(const Case& given, const ExportChoice& choice) {
   if (whole.contains("timeout_s")) exported["timeout_s"] = whole["timeout_s"];
   const bool of_mechanism = is_of_mechanism(analysis_kind(document));
   ExportedScene scene;
-  if (of_mechanism) {
+  if (of_mechanism || is_of_samples(document)) {
     for (const char* key : {"model", "analysis", "effects"})
       if (whole.contains(key)) exported[key] = whole[key];
   } else {

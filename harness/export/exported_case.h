@@ -34,7 +34,8 @@ struct ExportedScene {
 
 /// The case file: model, analysis, and under "export" where it is from and which quantities are
 /// asked for. The manipulator along its path (kinematics, rigid dynamics, elastodynamics) stays
-/// one, and stands there as bodies, joints and a table over time.
+/// one, and stands there as bodies, joints and a table over time. A network on samples of its own
+/// is exported as it is.
 /// @throws InputError  as above, and where a case file has no words for a part or a quantity.
 [[nodiscard]] Json export_case(const Case& given, const ExportChoice& choice);
 

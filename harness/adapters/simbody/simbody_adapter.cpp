@@ -1,0 +1,482 @@
+/// Simbody 3.7 as an adapter: rigid bodies with pins in motion, and the rigid manipulator along its
+/// path.
+///
+/// Bodies that are pinned to the ground turn about that pin; the others move freely in the plane
+/// and are held by pins, each of two planes of one body that a point of the other lies in. Motion
+/// is integrated by Runge, Kutta and Merson to 1e-9. Torques of the manipulator are what Simbody
+/// asks for to let its proximal links have the acceleration of the path.
+#include <Simbody.h>
+
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+namespace {
+
+using Json = nlohmann::json;
+using SimTK::MobilizedBody;
+using SimTK::Motion;
+using SimTK::Real;
+using SimTK::State;
+using SimTK::Vec3;
+
+constexpr double kAccuracy = 1e-9;
+
+struct Cannot : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What stands under a key; an empty object where it is not there.
+const Json& section(const Json& json, const char* key) {
+  static const Json empty = Json::object();
+  return json.contains(key) && json.at(key).is_object() ? json.at(key) : empty;
+}
+
+Vec3 point(const Json& at) {
+  return {at.at(0).get<double>(), at.at(1).get<double>(), 0};
+}
+
+/// Positions of a mobilized body's point and of its pins, in its own frame.
+struct Place {
+  MobilizedBody body;
+  Vec3 station;
+};
+
+struct System {
+  SimTK::MultibodySystem system;
+  SimTK::SimbodyMatterSubsystem matter{system};
+  SimTK::GeneralForceSubsystem forces{system};
+
+  /// In the plane, about `center`, in a frame that is parallel to the ground's at the start.
+  static SimTK::Body::Rigid rigid(double mass, const Vec3& center, double inertia) {
+    const SimTK::Inertia about_center(inertia, inertia, inertia);
+    return SimTK::Body::Rigid(
+        SimTK::MassProperties(mass, center, about_center.shiftFromMassCenter(center, mass)));
+  }
+
+  /// A point of one body stays at a point of the other.
+  void pin(Place first, Place second) {
+    for (const int axis : {0, 1}) {
+      const SimTK::UnitVec3 normal{SimTK::CoordinateAxis(axis)};
+      SimTK::Constraint::PointInPlane(first.body, normal, first.station[axis], second.body,
+                                      second.station);
+    }
+  }
+
+  MobilizedBody turning(const SimTK::Body& body, const Vec3& in_ground) {
+    return MobilizedBody::Pin(matter.Ground(), in_ground, body, Vec3(0));
+  }
+  MobilizedBody moving(const SimTK::Body& body, const Vec3& in_ground) {
+    return MobilizedBody::Planar(matter.Ground(), in_ground, body, Vec3(0));
+  }
+};
+
+double turn(const MobilizedBody& body, const State& state) {
+  return body.isGround() ? 0 : body.getOneQ(state, 0);
+}
+
+double rate(const MobilizedBody& body, const State& state) {
+  return body.isGround() ? 0 : body.getOneU(state, 0);
+}
+
+void refuse(const Json& json, const std::set<std::string>& known, const char* what) {
+  for (const auto& item : json.items())
+    if (known.count(item.key()) == 0 && item.value() != Json(false))
+      throw Cannot(std::string("no ") + what + " '" + item.key() + "'");
+}
+
+/// Nodes, rigid bodies, masses, supports, pins, springs and loads of a case's model.
+struct Mechanism : System {
+  static constexpr std::size_t kMaxBodies = 20;  // more in closed loops take minutes
+  std::map<std::string, Place> places;
+
+  Vec3 at(const Json& model, const std::string& node) { return point(model.at("nodes").at(node)); }
+
+  explicit Mechanism(const Json& model) {
+    refuse(model,
+           {"nodes", "rigid_bodies", "point_masses", "supports", "pins", "axial_springs", "loads",
+            "gravity_m_s2"},
+           "part");
+    std::map<std::string, std::set<std::string>> groups;
+    std::set<std::string> grouped;
+    for (const auto& item : section(model, "rigid_bodies").items()) {
+      std::set<std::string>& nodes = groups[item.key()];
+      nodes = item.value().at("nodes").get<std::set<std::string>>();
+      nodes.insert(item.value().at("reference").get<std::string>());
+      grouped.insert(nodes.begin(), nodes.end());
+    }
+    for (const auto& item : model.at("nodes").items())
+      if (grouped.count(item.key()) == 0) groups["node " + item.key()] = {item.key()};
+    if (groups.size() > kMaxBodies) throw Cannot("no more than 20 bodies");
+    for (const auto& [name, nodes] : groups) add_group(model, nodes);
+    for (const auto& item : section(model, "pins").items())
+      pin(places.at(item.value().at("nodes").at(0)), places.at(item.value().at("nodes").at(1)));
+    add_forces(model);
+  }
+
+  /// Nodes that move as one body: on the ground, about a node of it that is held, or freely.
+  void add_group(const Json& model, const std::set<std::string>& nodes) {
+    std::string held;
+    bool fixed = false;
+    for (const std::string& node : nodes) {
+      const Json taken = section(model, "supports").value(node, Json::array());
+      if (taken.empty()) continue;
+      if (taken.size() == 1 || !held.empty()) throw Cannot("no such supports");
+      held = node;
+      fixed = taken.size() == 3 || nodes.size() == 1;
+    }
+    const Vec3 origin = held.empty() ? at(model, *nodes.begin()) : at(model, held);
+    double mass = 0;
+    Vec3 moment(0);
+    std::vector<std::pair<double, Vec3>> parts;
+    double inertia = 0;
+    for (const auto& item : section(model, "point_masses").items()) {
+      const Json& part = item.value();
+      if (nodes.count(part.at("node")) == 0) continue;
+      const Vec3 arm =
+          at(model, part.at("node")) + point(part.value("offset_m", Json{0, 0})) - origin;
+      mass += part.at("mass_kg").get<double>();
+      moment += part.at("mass_kg").get<double>() * arm;
+      parts.emplace_back(part.at("mass_kg").get<double>(), arm);
+      inertia += part.value("inertia_kg_m2", 0.0);
+    }
+    if (mass == 0 && !fixed) throw Cannot("no bodies without mass");
+    const Vec3 center = mass > 0 ? Vec3(moment / mass) : Vec3(0);
+    for (const auto& [m, arm] : parts) inertia += m * (arm - center).normSqr();
+    MobilizedBody body = matter.Ground();
+    if (!fixed && held.empty() && inertia == 0) throw Cannot("no free points with mass alone");
+    if (!fixed) {
+      const SimTK::Body::Rigid solid = rigid(mass, center, inertia);
+      body = held.empty() ? moving(solid, origin) : turning(solid, origin);
+    }
+    for (const std::string& node : nodes)
+      places[node] = {body, fixed ? at(model, node) : at(model, node) - origin};
+  }
+
+  void add_forces(const Json& model) {
+    const Json g = model.value("gravity_m_s2", Json{0, 0});
+    if (point(g).norm() > 0) SimTK::Force::UniformGravity(forces, matter, point(g));
+    for (const auto& item : section(model, "axial_springs").items()) {
+      const Json& spring = item.value();
+      refuse(spring, {"nodes", "stiffness_N_per_m", "rest_length_m"}, "spring with");
+      const Place& a = places.at(spring.at("nodes").at(0));
+      const Place& b = places.at(spring.at("nodes").at(1));
+      SimTK::Force::TwoPointLinearSpring(forces, a.body, a.station, b.body, b.station,
+                                         spring.at("stiffness_N_per_m").get<double>(),
+                                         spring.at("rest_length_m").get<double>());
+    }
+    for (const auto& item : section(model, "loads").items()) {
+      const Json& load = item.value();
+      refuse(load, {"node", "force_N", "moment_N_m"}, "load with");
+      const Place& place = places.at(load.at("node"));
+      if (place.body.isGround()) continue;
+      SimTK::Force::ConstantForce(forces, place.body, place.station,
+                                  point(load.value("force_N", Json{0, 0})));
+      SimTK::Force::ConstantTorque(forces, place.body, Vec3(0, 0, load.value("moment_N_m", 0.0)));
+    }
+  }
+
+  /// Velocities that the case gives stay, and the others follow.
+  void start(const Json& given, State& state) {
+    std::vector<std::pair<MobilizedBody, Real>> known;
+    for (const auto& item : given.items()) {
+      refuse(item.value(), {"x_m_per_s", "rotation_rad_per_s"}, "initial");
+      const Place& place = places.at(item.key());
+      if (place.body.isGround() || place.body.getNumU(state) != 1)
+        throw Cannot("no initial velocities but of bodies that turn about the ground");
+      known.emplace_back(place.body,
+                         item.value().contains("x_m_per_s")
+                             ? -item.value()["x_m_per_s"].get<double>() / place.station[1]
+                             : item.value()["rotation_rad_per_s"].get<double>());
+    }
+    for (auto& [body, value] : known) body.lockAt(state, value, Motion::Velocity);
+    system.realize(state, SimTK::Stage::Position);
+    system.prescribe(state);
+    system.projectU(state, kAccuracy);
+    for (auto& [body, value] : known) body.unlock(state);
+  }
+};
+
+using Answer = std::map<std::string, std::vector<double>>;
+
+void keep(const Mechanism& mechanism, const Json& angles, const State& state, Answer& answer) {
+  for (const auto& [name, place] : mechanism.places) {
+    const Vec3 p = place.body.findStationLocationInGround(state, place.station);
+    const Vec3 v = place.body.findStationVelocityInGround(state, place.station);
+    answer["position_x_m:" + name].push_back(p[0]);
+    answer["position_y_m:" + name].push_back(p[1]);
+    answer["velocity_x_m_per_s:" + name].push_back(v[0]);
+    answer["velocity_y_m_per_s:" + name].push_back(v[1]);
+  }
+  for (const auto& item : angles.items()) {
+    const MobilizedBody& body = mechanism.places.at(item.value().at("node")).body;
+    double angle = item.value().value("initial_rad", 0.0) + turn(body, state),
+           speed = rate(body, state);
+    if (item.value().contains("from")) {
+      const MobilizedBody& from = mechanism.places.at(item.value()["from"]).body;
+      angle -= turn(from, state);
+      speed -= rate(from, state);
+    }
+    answer["angle_rad:" + item.key()].push_back(angle);
+    answer["angle_rate_rad_per_s:" + item.key()].push_back(speed);
+  }
+}
+
+Answer motion(const Json& model, const Json& options) {
+  refuse(options,
+         {"end_time_s", "step_s", "output_step_s", "extrapolated", "nodes", "initial_velocities",
+          "angles", "integrator", "spectral_radius", "tolerance"},
+         "option");
+  Mechanism mechanism(model);
+  SimTK::State state = mechanism.system.realizeTopology();
+  mechanism.system.realizeModel(state);
+  mechanism.start(section(options, "initial_velocities"), state);
+  SimTK::RungeKuttaMersonIntegrator integrator(mechanism.system);
+  integrator.setAccuracy(kAccuracy);
+  integrator.setConstraintTolerance(kAccuracy);
+  integrator.initialize(state);
+  const Json& angles = section(options, "angles");
+  Answer answer;
+  const double end = options.at("end_time_s").get<double>();
+  const double step = options.value("output_step_s", options.at("step_s").get<double>());
+  for (int i = 0; i * step < end * (1 + 1e-12); ++i) {
+    while (integrator.getTime() < i * step) integrator.stepTo(i * step);
+    mechanism.system.realize(integrator.getState(), SimTK::Stage::Velocity);
+    keep(mechanism, angles, integrator.getState(), answer);
+  }
+  return answer;
+}
+
+/// The manipulator as "export": {"mechanism"} has it: three chains from the ground, and the
+/// platform.
+struct Manipulator : System {
+  std::map<std::string, MobilizedBody> bodies;
+  std::map<std::string, Vec3>
+      centers;  ///< in a frame that is parallel to the ground's at the start
+  Json mechanism;
+
+  explicit Manipulator(const Json& exported) : mechanism(exported) {
+    for (const char* i : {"1", "2", "3"}) {
+      const std::string n(i);
+      const Vec3 a = joint("A" + n), b = joint("B" + n);
+      const std::string low = "A" + n + "-B" + n, high = "B" + n + "-C" + n;
+      bodies[low] = turning(solid(low, a), a);
+      bodies[high] = MobilizedBody::Pin(bodies[low], b - a, solid(high, b), Vec3(0));
+    }
+    const Vec3 p =
+        point(mechanism["path"]["pose_m_rad"][0]);  // the path is that of P, not of the center
+    bodies["platform"] = moving(solid("platform", p), p);
+    for (const char* i : {"1", "2", "3"}) {
+      const std::string n(i);
+      const Vec3 c = joint("C" + n);
+      pin({bodies["platform"], c - p}, {bodies["B" + n + "-C" + n], c - joint("B" + n)});
+    }
+  }
+
+  Vec3 joint(const std::string& name) const {
+    return point(mechanism["joints"][name]["position_m"]);
+  }
+  Vec3 center(const std::string& name) const {
+    return point(mechanism["bodies"][name]["center_m"]);
+  }
+  SimTK::Body::Rigid solid(const std::string& name, const Vec3& origin) {
+    const Json& body = mechanism["bodies"][name];
+    centers[name] = center(name) - origin;
+    return rigid(body["mass_kg"].get<double>(), centers[name], body["inertia_kg_m2"].get<double>());
+  }
+};
+
+void lock(const std::vector<MobilizedBody>& bodies, State& state,
+          const std::vector<SimTK::Vector>& to, Motion::Level level) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].lockAt(state, to[i], level);
+}
+
+SimTK::Vector planar(const Json& row) {  // Simbody's order: the angle first
+  SimTK::Vector v(3);
+  v[0] = row[2].get<double>();
+  v[1] = row[0].get<double>();
+  v[2] = row[1].get<double>();
+  return v;
+}
+
+/// The state at a point of the path: the platform's motion is given, the links' follow.
+void follow(Manipulator& m, const Json& path, std::size_t i, const SimTK::Vector& q0,
+            State& state) {
+  const MobilizedBody platform = m.bodies["platform"];
+  lock({platform}, state, {SimTK::Vector(planar(path["pose_m_rad"][i]) - q0)}, Motion::Position);
+  m.system.realize(state, SimTK::Stage::Time);
+  m.system.prescribe(state);
+  m.system.projectQ(state, 1e-14);
+  platform.unlock(state);
+  lock({platform}, state, {planar(path["velocity_per_s"][i])}, Motion::Velocity);
+  m.system.realize(state, SimTK::Stage::Position);
+  m.system.prescribe(state);
+  m.system.projectU(state, 1e-14);
+  platform.unlock(state);
+  lock({platform}, state, {planar(path["acceleration_per_s2"][i])}, Motion::Acceleration);
+  m.system.realize(state, SimTK::Stage::Acceleration);
+}
+
+/// Angles, rates, accelerations and centers of the links.
+void keep_motion(const Manipulator& m, const State& state, Answer& answer) {
+  for (const auto& [name, body] : m.bodies) {
+    const double start = m.mechanism["bodies"][name]["angle_rad"].get<double>();
+    const bool proximal = name[0] == 'A';
+    if (name != "platform") {
+      const std::string kind = proximal ? "active_" : "passive_", end = ":" + name.substr(0, 2);
+      const double below = proximal ? 0 : turn(body.getParentMobilizedBody(), state);
+      answer[kind + "angle_rad" + end].push_back(start + below + turn(body, state));
+      answer[kind + "velocity_rad_per_s" + end].push_back(body.getBodyAngularVelocity(state)[2]);
+      answer[kind + "acceleration_rad_per_s2" + end].push_back(
+          body.getBodyAngularAcceleration(state)[2]);
+    }
+    const Vec3& at = m.centers.at(name);
+    const Vec3 p = body.findStationLocationInGround(state, at),
+               v = body.findStationVelocityInGround(state, at),
+               a = body.findStationAccelerationInGround(state, at);
+    for (const int k : {0, 1}) {
+      const std::string axis = k == 0 ? "x" : "y";
+      answer["center_" + axis + "_m:" + name].push_back(p[k]);
+      answer["center_velocity_" + axis + "_m_per_s:" + name].push_back(v[k]);
+      answer["center_acceleration_" + axis + "_m_per_s2:" + name].push_back(a[k]);
+    }
+  }
+  answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(state));
+}
+
+/// The torques that let the proximal links have the accelerations of the path.
+void keep_torques(Manipulator& m, State& state, Answer& answer) {
+  std::vector<MobilizedBody> active;
+  std::vector<SimTK::Vector> accelerations;
+  for (const char* name : {"A1-B1", "A2-B2", "A3-B3"}) {
+    active.push_back(m.bodies[name]);
+    accelerations.push_back(active.back().getUDotAsVector(state));
+  }
+  m.bodies["platform"].unlock(state);
+  lock(active, state, accelerations, Motion::Acceleration);
+  m.system.realize(state, SimTK::Stage::Acceleration);
+  SimTK::Vector torques;
+  m.matter.findMotionForces(state, torques);
+  double power = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double torque = -active[i].getOneFromUPartition(state, 0, torques);
+    power += torque * rate(active[i], state);
+    answer["torque_N_m:A" + std::to_string(i + 1)].push_back(torque);
+    active[i].unlock(state);
+  }
+  answer["actuator_power_W"].push_back(power);
+}
+
+void load(Manipulator& m, const Json& model) {
+  const Json g = model.value("gravity_m_s2", Json{0, 0});
+  if (g.is_array() && point(g).norm() > 0)
+    SimTK::Force::UniformGravity(m.forces, m.matter, point(g));
+  for (const auto& item : section(model, "loads").items()) {
+    if (item.value().is_null()) continue;
+    refuse(item.value(), {"node", "force_N", "moment_N_m"}, "load with");
+    if (item.value().at("node") != "P") throw Cannot("no loads but on P");
+    SimTK::Force::ConstantForce(m.forces, m.bodies["platform"], Vec3(0),
+                                point(item.value().value("force_N", Json{0, 0})));
+    SimTK::Force::ConstantTorque(m.forces, m.bodies["platform"],
+                                 Vec3(0, 0, item.value().value("moment_N_m", 0.0)));
+  }
+}
+
+/// From the first point of the path, under torques that stay.
+Answer driven(const Json& model, const Json& mechanism, const Json& options) {
+  refuse(options, {"torque_N_m", "tolerance"}, "option");
+  if (!options.contains("torque_N_m")) throw Cannot("torques that follow a path");
+  Manipulator m(mechanism);
+  load(m, model);
+  for (const int i : {0, 1, 2}) {
+    const std::string n = std::to_string(i + 1);
+    SimTK::Force::MobilityConstantForce(m.forces, m.bodies["A" + n + "-B" + n], 0,
+                                        options["torque_N_m"][i].get<double>());
+  }
+  State state = m.system.realizeTopology();
+  m.system.realizeModel(state);
+  const Json& path = mechanism["path"];
+  follow(m, path, 0, planar(path["pose_m_rad"][0]), state);
+  const MobilizedBody platform = m.bodies["platform"];
+  platform.unlock(state);
+  SimTK::RungeKuttaMersonIntegrator integrator(m.system);
+  integrator.setAccuracy(kAccuracy / 100);
+  integrator.setConstraintTolerance(kAccuracy / 100);
+  integrator.initialize(state);
+  Answer answer;
+  for (const Json& time : path["time_s"]) {
+    while (integrator.getTime() < time.get<double>()) integrator.stepTo(time.get<double>());
+    const State& now = integrator.getState();
+    m.system.realize(now, SimTK::Stage::Velocity);
+    const Vec3 p = platform.getBodyOriginLocation(now), v = platform.getBodyOriginVelocity(now);
+    answer["motion_x_m"].push_back(p[0]);
+    answer["motion_y_m"].push_back(p[1]);
+    answer["motion_phi_rad"].push_back(path["pose_m_rad"][0][2].get<double>() +
+                                       turn(platform, now));
+    answer["motion_velocity_x_m_per_s"].push_back(v[0]);
+    answer["motion_velocity_y_m_per_s"].push_back(v[1]);
+    answer["motion_velocity_phi_rad_per_s"].push_back(rate(platform, now));
+    answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(now));
+  }
+  return answer;
+}
+
+Answer along_path(const Json& model, const Json& mechanism, const Json& options, bool torques) {
+  refuse(options, {"bodies", "torque_residuals"}, "option");
+  Manipulator m(mechanism);
+  if (torques) load(m, model);
+  State state = m.system.realizeTopology();
+  m.system.realizeModel(state);
+  const Json& path = mechanism["path"];
+  const SimTK::Vector start = planar(path["pose_m_rad"][0]);
+  Answer answer;
+  for (std::size_t i = 0; i < path["time_s"].size(); ++i) {
+    follow(m, path, i, start, state);
+    keep_motion(m, state, answer);
+    if (torques) keep_torques(m, state, answer);
+    m.bodies["platform"].unlock(state);
+  }
+  return answer;
+}
+
+Answer solve(const Json& given) {
+  const std::string kind = given["analysis"].begin().key();
+  const Json& options = given["analysis"].begin().value();
+  if (kind == "large-motion") return motion(given["model"], options);
+  if (kind == "inverse-dynamics" || kind == "kinematics")
+    return along_path(given["model"], given["export"]["mechanism"], options, kind[0] == 'i');
+  if (kind == "forward-dynamics")
+    return driven(given["model"], given["export"]["mechanism"], options);
+  throw Cannot("no analysis '" + kind + "'");
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 3) {
+    std::cerr << "simbody CASE.json RESULT.json\n";
+    return 2;
+  }
+  const Json given = Json::parse(std::ifstream(words[1]));
+  Json result = {{"status", "solved"}, {"solver", {{"name", "Simbody"}, {"version", "3.7"}}}};
+  int status = 0;
+  try {
+    const Answer answer = solve(given);
+    for (const Json& one : given["export"]["quantities"]) {
+      const auto found = answer.find(one["name"].get<std::string>());
+      if (found != answer.end())
+        result["quantities"][found->first] = {{"unit", one["unit"]}, {"values", found->second}};
+    }
+    if (!result.contains("quantities")) throw Cannot("nothing that is asked for");
+  } catch (const Cannot& reason) {
+    result["status"] = "cannot";
+    result["reason"] = reason.what();
+    status = 4;
+  }
+  std::ofstream(words[2]) << result;
+  return status;
+}
