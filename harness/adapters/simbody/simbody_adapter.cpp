@@ -3,7 +3,7 @@
 ///
 /// Bodies that are pinned to the ground turn about that pin; the others move freely in the plane
 /// and are held by pins, each of two planes of one body that a point of the other lies in. Motion
-/// is integrated by Runge, Kutta and Merson to 1e-9. Torques of the manipulator are what Simbody
+/// is integrated by Runge, Kutta and Merson to 2e-10. Torques of the manipulator are what Simbody
 /// asks for to let its proximal links have the acceleration of the path.
 #include <Simbody.h>
 
@@ -24,7 +24,7 @@ using SimTK::Real;
 using SimTK::State;
 using SimTK::Vec3;
 
-constexpr double kAccuracy = 1e-9;
+constexpr double kAccuracy = 2e-10;
 
 struct Cannot : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -310,12 +310,12 @@ void follow(Manipulator& m, const Json& path, std::size_t i, const SimTK::Vector
   lock({platform}, state, {SimTK::Vector(planar(path["pose_m_rad"][i]) - q0)}, Motion::Position);
   m.system.realize(state, SimTK::Stage::Time);
   m.system.prescribe(state);
-  m.system.projectQ(state, 1e-14);
+  m.system.projectQ(state, 1e-13);
   platform.unlock(state);
   lock({platform}, state, {planar(path["velocity_per_s"][i])}, Motion::Velocity);
   m.system.realize(state, SimTK::Stage::Position);
   m.system.prescribe(state);
-  m.system.projectU(state, 1e-14);
+  m.system.projectU(state, 1e-13);
   platform.unlock(state);
   lock({platform}, state, {planar(path["acceleration_per_s2"][i])}, Motion::Acceleration);
   m.system.realize(state, SimTK::Stage::Acceleration);
@@ -404,8 +404,8 @@ Answer driven(const Json& model, const Json& mechanism, const Json& options) {
   const MobilizedBody platform = m.bodies["platform"];
   platform.unlock(state);
   SimTK::RungeKuttaMersonIntegrator integrator(m.system);
-  integrator.setAccuracy(kAccuracy / 100);
-  integrator.setConstraintTolerance(kAccuracy / 100);
+  integrator.setAccuracy(kAccuracy / 10);
+  integrator.setConstraintTolerance(kAccuracy / 10);
   integrator.initialize(state);
   Answer answer;
   for (const Json& time : path["time_s"]) {
