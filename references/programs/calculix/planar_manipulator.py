@@ -137,12 +137,12 @@ def statics(variant, pose, n):
     return rows[0][1:3] + [rows[1][3]]
 
 
-def store(folder, name, title, unit, values, change, notes):
+def store(folder, name, title, unit, values, change, notes, place="references/programs/calculix/planar_manipulator.py"):
     with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
         file.write(json.dumps({
             "$schema": "../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
             "values": values, "uncertainty": {"relative": change}, "source": "calculix-2.20",
-            "place": "references/programs/calculix/planar_manipulator.py", "notes": notes}, indent=2) + "\n")
+            "place": place, "notes": notes}, indent=2) + "\n")
 
 
 def main():
