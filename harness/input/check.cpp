@@ -183,6 +183,8 @@ void read_expectation(const JsonView& place, Check& check) {
   check.windows =
       is_value ? windows_around(place[key], place.number("within")) : read_windows(place[key]);
   require_discrepancy(place[key], check);
+  if (place.has("validation_verdicts"))
+    place["validation_verdicts"].json().get_to(check.validation_verdicts);
 }
 
 void require_target(const JsonView& place, const Check& check) {

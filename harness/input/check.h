@@ -65,7 +65,8 @@ struct Check {
   std::string why;
   std::optional<OrderCriterion> order;
   std::optional<NegativeControl> negative_control;
-  std::string pointer;  ///< where it stands in the case
+  std::vector<std::string> validation_verdicts;  ///< of V&V 20, by entry; empty: not recorded
+  std::string pointer;                           ///< where it stands in the case
 
   [[nodiscard]] bool has_target() const {
     return !reference.empty() || !against_variant.empty() || !against_quantity.empty();

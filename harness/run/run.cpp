@@ -249,6 +249,25 @@ bool evaluate_status_check(const Task& task, Run& run) {
   return run.status == expected;
 }
 
+/// Whether the comparisons of V&V 20 end as recorded, as a check of its own.
+void evaluate_validation_verdicts(const Check& check, Run& run) {
+  if (check.validation_verdicts.empty()) return;
+  CheckResult result = start_check_result(check);
+  result.name += ".validation";
+  result.measure = "validation";
+  result.reference.clear();
+  result.expectation = Expectation::none;
+  result.why = "the verdicts of ASME V&V 20 that were found to follow";
+  std::vector<std::string> found;
+  for (const ComparedEntry& entry : run.uncertainty.entries)
+    if (entry.check == check.name) found.push_back(to_string(entry.validation.verdict));
+  result.verdict = found == check.validation_verdicts ? Verdict::pass : Verdict::fail;
+  if (result.verdict == Verdict::fail)
+    result.message =
+        "expected " + join(check.validation_verdicts, "and") + " (got " + join(found, "and") + ")";
+  run.check_results.push_back(std::move(result));
+}
+
 void evaluate_checks(Task& task, const std::vector<Task>& tasks, const References& references,
                      const RunOptions& options) {
   Run& run = task.run;
@@ -292,6 +311,8 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
         result.verdict = Verdict::recorded;
     std::move(judged.begin(), judged.end(), std::back_inserter(run.check_results));
   }
+  if (!options.solver.compute && run.status == "solved")
+    for (const Check& check : task.checks) evaluate_validation_verdicts(check, run);
   // Orders that are wrong on purpose say nothing of the method.
   if (std::any_of(task.checks.begin(), task.checks.end(),
                   [](const Check& check) { return check.negative_control.has_value(); }))

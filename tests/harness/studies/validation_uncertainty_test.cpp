@@ -170,4 +170,19 @@ BOOST_AUTO_TEST_CASE(an_input_needs_one_half_width) {
                                "expected either 'half_width' or 'reference'"));
 }
 
+BOOST_AUTO_TEST_CASE(a_verdict_other_than_the_recorded_one_fails) {
+  const Folder folder;
+  Json json = beam(folder, 0);
+  Json& expect = json["checks"]["printed"]["expect"];
+  expect = {{"agrees", "the model is exact"}, {"relative_between", {-0.01, 0.01}}};
+  expect["validation_verdicts"] = {"within-uncertainty"};
+  const Run as_recorded = run(testing::read(folder, json));
+  BOOST_TEST(exit_status({as_recorded}) == 0);
+  BOOST_TEST(as_recorded.check_results.back().name == "printed.validation");
+  expect["validation_verdicts"] = {"model-error"};
+  BOOST_TEST(exit_status({run(testing::read(folder, json))}) == 1);
+  expect["validation_verdicts"] = {"within-uncertainty", "within-uncertainty"};
+  BOOST_TEST(exit_status({run(testing::read(folder, json))}) == 1);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
