@@ -9,24 +9,6 @@ namespace {
 
 using solver::Residual;
 
-/// Step by step along the path; ends where a step has no solution.
-StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
-                         const CaseModel& case_model, bool draw, Recorder& record) {
-  StepResult all;
-  for (std::size_t step = 0; step < case_model.steps(); ++step) {
-    record_path(case_model, step, record);
-    StepResult found = analyse_step(analysis, case_model, step, draw && step == 0, record);
-    all.counters += found.counters;
-    all.evidence.add(found.evidence);
-    add_warnings(all.warnings, found.warnings);
-    if (found.drawing) all.drawing = std::move(found.drawing);
-    if (found.outcome.solved()) continue;
-    all.outcome = outcome_at_path_point(case_model, step, found.outcome);
-    break;
-  }
-  return all;
-}
-
 StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
                          const CaseModel& case_model, bool draw, Recorder& record) {
   if (const auto* along_path = std::get_if<PathAnalysis>(&kind.of_scene))

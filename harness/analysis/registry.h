@@ -11,9 +11,6 @@
 /// All analyses in one table: what each is called, computes and knows.
 namespace trammel::harness {
 
-/// At one step of the scene's path.
-using StepAnalysis = StepResult (*)(const JsonView& analysis, const CaseModel& case_model,
-                                    std::size_t step, bool draw, Recorder& record);
 /// Along the whole of it.
 using PathAnalysis = StepResult (*)(const JsonView& analysis, const CaseModel& case_model,
                                     bool draw, Recorder& record);

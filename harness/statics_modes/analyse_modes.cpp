@@ -1,5 +1,6 @@
 #include "harness/statics_modes/analyse_modes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
@@ -7,6 +8,7 @@
 #include "solver/modes/modes.h"
 #include "solver/modes/prestressed_modes.h"
 #include "solver/modes/reduction.h"
+#include "solver/poses/pose_modes.h"
 
 namespace trammel::harness {
 namespace {
@@ -43,10 +45,32 @@ solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_m
   return solver::solve_prestressed_modes(system, options).modes;
 }
 
-}  // namespace
+/// @param item  the mode, along a path
+void record_modes(const Eigen::VectorXd& frequency, const Eigen::VectorXd& roundoff, bool path,
+                  Recorder& record) {
+  for (solver::Index i = 0; i < frequency.size(); ++i) {
+    const std::string item = path ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", item, frequency[i], roundoff[i]);
+    record.add("frequency_roundoff", item, roundoff[i]);
+    if (i == 0) continue;
+    const double apart = frequency[i] - frequency[i - 1];
+    record.add("frequency_gap", item, apart == 0 ? 0 : apart / frequency[i]);
+  }
+}
 
-StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
-                         bool draw, Recorder& record) {
+std::optional<Drawing> draw_modes(const CaseModel& case_model, const solver::System& system,
+                                  const solver::ModalSolution& modes) {
+  std::optional<Drawing> drawing = draw_model(system, case_model.manipulator.has_value());
+  if (!drawing || !modes.outcome.solved()) return drawing;
+  for (solver::Index i = 0; i < std::min(kMaxDrawnShapes, modes.frequency.size()); ++i) {
+    drawing->shapes.push_back(
+        draw_shape(system, modes.shape.col(i), mode_label(i, modes.frequency[i], "Hz")));
+  }
+  return drawing;
+}
+
+StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
+                            bool draw, Recorder& record) {
   if (analysis.has("rotating")) {
     refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
@@ -59,21 +83,9 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
       analysis, case_model, solver::assemble(build_model(case_model, step), case_model.effects));
   const solver::ModalSolution modes = modes_of(analysis, case_model, system);
   StepResult result{modes.outcome, modes.counters, std::nullopt, {}, modes.evidence};
-  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
+  if (draw) result.drawing = draw_modes(case_model, system, modes);
   if (!modes.outcome.solved()) return result;
-  for (solver::Index i = 0; i < modes.frequency.size(); ++i) {
-    const std::string item = case_model.path ? std::to_string(i + 1) : "";
-    record.add("frequency_Hz", item, modes.frequency[i], modes.roundoff[i]);
-    record.add("frequency_roundoff", item, modes.roundoff[i]);
-    if (i > 0) {
-      const double apart = modes.frequency[i] - modes.frequency[i - 1];
-      record.add("frequency_gap", item, apart == 0 ? 0 : apart / modes.frequency[i]);
-    }
-    if (result.drawing && i < kMaxDrawnShapes) {
-      result.drawing->shapes.push_back(
-          draw_shape(system, modes.shape.col(i), mode_label(i, modes.frequency[i], "Hz")));
-    }
-  }
+  record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);
   if (analysis.has("count_below_Hz")) {
     const std::optional<solver::Index> below =
         solver::sturm_count(system, analysis.number("count_below_Hz"));
@@ -82,6 +94,60 @@ StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, 
   record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;
+}
+
+/// Whether the modes follow the pose: a manipulator on a path, alone, at rest and without loads
+/// that stiffen it.
+bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
+  const solver::Model& others = case_model.structure;
+  return case_model.path && case_model.manipulator && !analysis.has("rotating") &&
+         !analysis.has("reduction") && !analysis.has("count_below_Hz") &&
+         !case_model.effects.has(solver::Effect::geometric_stiffening) && others.nodes.empty() &&
+         others.members.empty() && others.triangles.empty() && others.rigid_bodies.empty() &&
+         others.masses.empty() && others.springs.empty() && others.supports.empty() &&
+         others.constraints.empty() && case_model.joint_elements.sliders.empty() &&
+         case_model.joint_elements.line_springs.empty() &&
+         case_model.joint_elements.follower_loads.empty() &&
+         read_modes_options(analysis).method == solver::EigenMethod::automatic;
+}
+
+StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& case_model, bool draw,
+                                  Recorder& record) {
+  std::vector<solver::Pose> poses;
+  for (const solver::TrajectoryPoint& point : case_model.motion) poses.push_back(point.pose);
+  const solver::ModesOptions options = read_modes_options(analysis);
+  const solver::PoseModes modes = solver::solve_pose_modes(
+      *case_model.manipulator, poses, {.count = options.count, .active = case_model.effects});
+  StepResult result;
+  result.counters = modes.counters;
+  if (draw) {
+    const solver::System first = solver::assemble(build_model(case_model, 0), case_model.effects);
+    result.drawing = draw_modes(case_model, first, solver::solve_modes(first, options));
+  }
+  for (std::size_t step = 0; step < poses.size(); ++step) {
+    record_path(case_model, step, record);
+    result.evidence.add(modes.evidence[step]);
+    if (!modes.outcome[step].solved()) {
+      result.outcome = outcome_at_path_point(case_model, step, modes.outcome[step]);
+      break;
+    }
+    const auto column = static_cast<solver::Index>(step);
+    const auto found = modes.frequency.rows() - modes.frequency.col(column).array().isNaN().count();
+    record_modes(modes.frequency.col(column).head(found), modes.roundoff.col(column).head(found),
+                 true, record);
+    record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count[step]));
+    record.add("degrees_of_freedom", "", static_cast<double>(modes.free_coordinates));
+  }
+  return result;
+}
+
+}  // namespace
+
+StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, bool draw,
+                         Recorder& record) {
+  return follows_pose(analysis, case_model)
+             ? analyse_modes_of_poses(analysis, case_model, draw, record)
+             : analyse_steps(analyse_modes_at, analysis, case_model, draw, record);
 }
 
 }  // namespace trammel::harness

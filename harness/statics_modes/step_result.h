@@ -7,6 +7,7 @@
 #include "harness/base/recorder.h"
 #include "harness/base/timing.h"
 #include "harness/base/warning.h"
+#include "harness/input/json_view.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
 #include "solver/assembly/system.h"
@@ -24,6 +25,14 @@ struct StepResult {
   solver::Evidence evidence = {};  ///< residuals that decide whether it counts as solved
   std::vector<Warning> warnings = {};
 };
+
+/// At one step of the scene's path.
+using StepAnalysis = StepResult (*)(const JsonView& analysis, const CaseModel& case_model,
+                                    std::size_t step, bool draw, Recorder& record);
+
+/// Step by step along the path; ends where a step has no solution.
+[[nodiscard]] StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
+                                       const CaseModel& case_model, bool draw, Recorder& record);
 
 inline constexpr solver::Index kMaxDrawnShapes = 12;
 

@@ -68,6 +68,7 @@ T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode
 /// Why the limb cannot reach, or empty.
 std::string out_of_reach(std::size_t i, double a, double b, double r) {
   const double roundoff = 4 * kEps * (a + b + r);
+  if (r - (a + b) <= roundoff && std::abs(a - b) - r <= roundoff && r > roundoff) return {};
   std::ostringstream why;
   why.precision(6);
   if (r - (a + b) > roundoff) {
@@ -113,15 +114,15 @@ std::array<Vector2d, 3> equilateral_platform(double side) {
 
 void check_geometry(const ManipulatorGeometry& g) {
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string n = std::to_string(i + 1);
-    if (!finite(g.base[i])) throw ModelError("base point A" + n + " is not finite");
-    if (!finite(g.platform[i])) throw ModelError("platform point C" + n + " is not finite");
+    const auto n = [i] { return std::to_string(i + 1); };
+    if (!finite(g.base[i])) throw ModelError("base point A" + n() + " is not finite");
+    if (!finite(g.platform[i])) throw ModelError("platform point C" + n() + " is not finite");
     if (!(g.proximal[i] > 0) || !std::isfinite(g.proximal[i]))
-      throw ModelError("the proximal length of limb " + n + " must be positive");
+      throw ModelError("the proximal length of limb " + n() + " must be positive");
     if (!(g.distal[i] > 0) || !std::isfinite(g.distal[i]))
-      throw ModelError("the distal length of limb " + n + " must be positive");
+      throw ModelError("the distal length of limb " + n() + " must be positive");
     if (std::abs(g.working_mode[i]) != 1)
-      throw ModelError("the working mode of limb " + n + " must be 1 or -1");
+      throw ModelError("the working mode of limb " + n() + " must be 1 or -1");
   }
   if (radius(g) == 0) throw ModelError("the platform points C1, C2 and C3 all lie in P");
 }
