@@ -23,12 +23,14 @@ def turns_left(nodes, triangle):
     return (x1 - x0) * (y2 - y0) > (x2 - x0) * (y1 - y0)
 
 
-def build(pose):
+def build(pose, flexible=False):
+    """The deck, the node P and the nodes of the three feet; a flexible platform is of its own material and thickness."""
     base, elbows, corners = geometry({**DEFAULT, "pose": POSES[pose]})
-    deck, joints, ends, same = Deck(), [], [], {}
+    deck, joints, ends, feet, same = Deck(), [], [], [], {}
     for a, b, c in zip(base, elbows, corners):
         start, low = deck.link(a, b, ALONG)
         high, end = deck.link(b, c, ALONG)
+        feet.append(start)
         for node in start:
             deck.rest += ["*BOUNDARY", f"{node},1,2"]
         same[high[DEPTH]] = low[DEPTH]
@@ -37,20 +39,25 @@ def build(pose):
             joints.append(triangle if turns_left(deck.nodes, triangle) else triangle[::-1])
         ends.append(end[DEPTH])
     p = deck.node(*POSES[pose][:2])
-    joints += [[p, ends[i], ends[(i + 1) % 3]] for i in range(3)]
-    elements = [(kind, name, [same.get(n, n) for n in nodes]) for kind, name, nodes in deck.elements] + [("CPS3", "JOINTS", t) for t in joints]
+    platform = [[p, ends[i], ends[(i + 1) % 3]] for i in range(3)]
+    elements = [(kind, name, [same.get(n, n) for n in nodes]) for kind, name, nodes in deck.elements] + [
+        ("CPS3", name, t) for name, triangles in (("JOINTS", joints), ("PLATFORM", platform)) for t in triangles]
     lines = ["*NODE"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes)]
     for number, (kind, name, nodes) in enumerate(elements, 1):
         lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
     E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
+    plate, width = ((E, DEFAULT["nu"]), DEFAULT["plate_thickness"]) if flexible else ((E * STIFF, 0.0), DEFAULT["width"])
     return lines + deck.rest + [
         "*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}", f"{G:.12g}", *deck.sections,
-        "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*SOLID SECTION,ELSET=JOINTS,MATERIAL=STIFF", f"{DEFAULT['width']!r}"], p
+        "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*SOLID SECTION,ELSET=JOINTS,MATERIAL=STIFF", f"{DEFAULT['width']!r}",
+        "*MATERIAL,NAME=PLATE", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",  # contracts in its plane alone: out of it, ccx hinders that
+        "{0},{0},{0},{1},0,0,{2:.12g},{2:.12g}".format(*plate, plate[0] / 2 / (1 + plate[1])), f"{plate[0] / 2 / (1 + plate[1]):.12g}",
+        "*SOLID SECTION,ELSET=PLATFORM,MATERIAL=PLATE", f"{width!r}"], p, feet
 
 
 def displacement(pose, large):
     """ux, uy of P [m]."""
-    lines, p = build(pose)
+    lines, p, _ = build(pose)
     rows = run(lines + ["*NSET,NSET=P", f"{p}", "*STEP,NLGEOM,INC=1000" if large else "*STEP", "*STATIC", "0.1,1.", "*CLOAD", f"{p},1,10.",
                         "*NODE PRINT,NSET=P,FREQUENCY=1000", "U", "*END STEP"])
     return rows[-1][1:3]

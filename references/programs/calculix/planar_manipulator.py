@@ -110,7 +110,8 @@ def build(variant, pose, n):
     return lines, p, turn
 
 
-def run(lines):
+def run(lines, totals=False):
+    """Rows of the .dat that begin with a number, in whole; with totals also those of three numbers."""
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "deck.inp"), "w", encoding="ascii") as file:
             file.write("\n".join(lines) + "\n")
@@ -119,7 +120,8 @@ def run(lines):
             raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line][:1])
         with open(os.path.join(folder, "deck.dat"), encoding="ascii") as file:
             rows = [line.split() for line in file]
-    return [[float(cell) for cell in row] for row in rows if row and row[0].isdigit()]
+    return [[float(cell) for cell in row] for row in rows
+            if row and (row[0].isdigit() or totals and len(row) == 3 and row[0][-4:-2] in ("E+", "E-"))]
 
 
 def frequencies(variant, pose, n):

@@ -161,14 +161,23 @@ BOOST_AUTO_TEST_CASE(what_a_case_file_cannot_say_is_refused_by_name) {
   moving["model"]["trajectory"]["circle"] = {
       {"center_m", {0.25, 0.144}}, {"radius_m", 0.02}, {"points", 3}, {"step_s", 0.1}};
   BOOST_TEST(contains(refusal_of(moving), "/model/trajectory: expected one pose"));
-  Json grnn = cantilever();
-  grnn["analysis"] = {{"properties", Json::object()}};
-  BOOST_TEST(contains(refusal_of(grnn), "/analysis/properties: expected an analysis that can be"));
+  moving["analysis"] = {{"grnn", {{"sigma", 1}}}};
+  BOOST_TEST(contains(refusal_of(moving), "/analysis/grnn: expected an analysis that can be"));
+  Json properties = cantilever();
+  properties["analysis"] = {{"properties", Json::object()}};
+  BOOST_TEST(contains(refusal_of(properties), "/analysis/properties: expected an analysis that"));
   Json ring = quarter_ring();
   ring["checks"]["sum"] = {{"quantity", "reaction_y_N:bottom"},
                            {"role", "regression"},
                            {"bound", {{"at_least", 0}, {"why", "it presses"}}}};
   BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' is of an edge"));
+}
+
+BOOST_AUTO_TEST_CASE(a_network_on_samples_of_its_own_needs_no_model) {
+  const ExportTwin twin = export_twin(load_named_case("grnn-example"), {});
+  BOOST_TEST(twin.refused == "");
+  BOOST_TEST(twin.difference == 0);
+  BOOST_TEST(!twin.json.contains("model"));
 }
 
 BOOST_AUTO_TEST_CASE(a_manipulator_on_its_path_is_said_as_bodies_joints_and_a_table) {

@@ -102,7 +102,7 @@ inline ExportTwin export_twin(const Case& given, const ExportChoice& choice) {
     twin.difference = std::numeric_limits<double>::infinity();
     twin.worst = twin.exported.outcome.reason;
   }
-  compare(own.quantities, document.value().at("model"), twin);
+  compare(own.quantities, document.value().value("model", Json::object()), twin);
   return twin;
 }
 
