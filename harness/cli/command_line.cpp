@@ -25,6 +25,7 @@
 #include "harness/cli/command_list.h"
 #include "harness/cli/command_paper.h"
 #include "harness/cli/command_quantities.h"
+#include "harness/cli/command_references.h"
 #include "harness/cli/command_run.h"
 #include "harness/cli/command_shards.h"
 #include "harness/input/former_names.h"
@@ -45,6 +46,7 @@ Examples:
   trammel list                              what there is
   trammel describe manipulator-modes        what a case models, checks and compares with
   trammel quantities                        what each analysis computes, with units
+  trammel references --csv                  every stored value with its source
   trammel run manipulator-modes             all its variants, with verdicts
   trammel run -L verification --jobs 4      every case with that label
   trammel run ~/my-robot.json               a case file of your own
@@ -77,6 +79,7 @@ class CommandLine {
     define_list();
     define_describe();
     define_quantities();
+    define_references();
     define_run();
     define_compare();
     define_converge();
@@ -176,6 +179,22 @@ class CommandLine {
                     "Name or file of a case, which is computed; all analyses by "
                     "default");
     sub->callback([this] { command_ = [this] { return quantities_command(name_); }; });
+  }
+  void define_references() {
+    CLI::App* sub =
+        add("references", "The stored references: values, units, uncertainty, provenance",
+            "\nExamples:\n  trammel references\n  trammel references --csv > references.csv\n"
+            "  trammel references table-2-ansys --json");
+    sub->add_option("names", run_.cases, "Names of references; all by default");
+    auto* csv = sub->add_flag("--csv", csv_, "A row for each value, with its source in words");
+    sub->add_flag("--json", json_, "As JSON")->excludes(csv);
+    sub->callback([this] {
+      command_ = [this] {
+        return list_references(run_.cases, csv_    ? ReferenceFormat::csv
+                                           : json_ ? ReferenceFormat::json
+                                                   : ReferenceFormat::table);
+      };
+    });
   }
   void define_run() {
     CLI::App* sub = add("run", "Compute cases and evaluate their checks",
@@ -459,7 +478,7 @@ class CommandLine {
   GradeCommand grade_;
   SlurmCommand slurm_;
   std::string name_, other_;
-  bool json_ = false;
+  bool json_ = false, csv_ = false;
   std::function<int()> command_;
 };
 

@@ -578,4 +578,19 @@ BOOST_AUTO_TEST_CASE(a_disk_that_is_full_leaves_the_former_report) {
   BOOST_TEST(broken_off >= 4);
 }
 
+BOOST_AUTO_TEST_CASE(references_have_a_row_a_value_and_their_source) {
+  const Folder folder;
+  const Outcome json = run(folder, "references --json"), csv = run(folder, "references --csv");
+  std::size_t values = 0;
+  for (const Json& reference : Json::parse(json.out)) values += reference["values"].size();
+  BOOST_TEST(values > 4000U);
+  BOOST_TEST(lines(csv.out) == values + 1);
+  const Outcome one = run(folder, "references table-2-ansys --csv");
+  BOOST_TEST(lines(one.out) == 7U);
+  BOOST_TEST(contains(one.out, "paper,\"Hz\",5,64.514,5e-04,64.514,\"K. V. Varalakshmi"));
+  const Outcome wrong = run(folder, "references tabel-2-ansys");
+  BOOST_TEST(wrong.status == 2);
+  BOOST_TEST(contains(wrong.err, "did you mean 'table-2-ansys'?"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

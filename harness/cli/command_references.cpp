@@ -1,0 +1,85 @@
+#include "harness/cli/command_references.h"
+
+#include <iostream>
+
+#include "harness/base/data_root.h"
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+#include "harness/input/reference_library.h"
+
+namespace trammel::harness {
+namespace {
+
+/// RFC 4180. A text that a spreadsheet would compute has an apostrophe in front.
+std::string csv_cell(std::string text) {
+  if (!text.empty() && std::string("=+-@").find(text.front()) != std::string::npos)
+    text.insert(0, "'");
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+void print_csv(const std::vector<CitedReference>& all) {
+  std::cout << "id,title,kind,unit,index,value,uncertainty,printed,source,place,notes\r\n";
+  for (const auto& [reference, source] : all) {
+    for (std::size_t i = 0; i < reference.values.size(); ++i) {
+      const std::string printed = reference.printed.empty() ? "" : reference.printed[i];
+      std::cout << csv_cell(reference.id) << ',' << csv_cell(reference.title) << ','
+                << to_string(reference.kind) << ',' << csv_cell(reference.unit) << ',' << i << ','
+                << shortest(reference.values[i]) << ',' << shortest(reference.uncertainty[i]) << ','
+                << printed << ',' << csv_cell(source.text) << ',' << csv_cell(reference.place)
+                << ',' << csv_cell(reference.notes) << "\r\n";
+    }
+  }
+}
+
+void print_json(const std::vector<CitedReference>& all) {
+  Json json = Json::array();
+  for (const auto& [reference, source] : all)
+    json.push_back({{"id", reference.id},
+                    {"title", reference.title},
+                    {"kind", to_string(reference.kind)},
+                    {"unit", reference.unit},
+                    {"values", reference.values},
+                    {"uncertainty", reference.uncertainty},
+                    {"source", source.text},
+                    {"place", reference.place}});
+  std::cout << pretty(json);
+}
+
+void print_table(const std::vector<CitedReference>& all) {
+  Table table({"reference", "kind", ">values", "unit", "source", "title"});
+  for (const auto& [reference, source] : all)
+    table.add({reference.id, to_string(reference.kind), std::to_string(reference.values.size()),
+               reference.unit, reference.source, reference.title});
+  table.print(std::cout);
+  std::cout << all.size() << (all.size() == 1 ? " reference\n" : " references\n");
+}
+
+}  // namespace
+
+int list_references(const std::vector<std::string>& names, ReferenceFormat format) {
+  const auto files = references::reference_files((data_root() / "references" / "values").string());
+  const References library;
+  std::vector<std::string> known;
+  for (const auto& [id, file] : files) {
+    known.push_back(id);
+    if (names.empty()) (void)library.add(file);
+  }
+  for (const std::string& name : names) {
+    if (files.count(name) == 0)
+      throw InputError("expected a stored reference (got " + quoted(printable(name)) + ")" +
+                       did_you_mean(name, known));
+    (void)library.add(files.at(name));
+  }
+  std::vector<CitedReference> all;
+  for (const auto& [id, reference] : library.used()) all.push_back(reference);
+  if (format == ReferenceFormat::csv) print_csv(all);
+  if (format == ReferenceFormat::json) print_json(all);
+  if (format == ReferenceFormat::table) print_table(all);
+  return 0;
+}
+
+}  // namespace trammel::harness
