@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -23,8 +24,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSurelyWithin = 0.75, kPlatformSurelyWithin = 0.25;
 constexpr double kSurelyBeyond = 1.25;
 /// The same of what linear theory finds for a scene of large displacement, by which nothing stays
-/// on, for the forces that matter may be others there.
-constexpr double kLinearSurelyBeyond = 20;
+/// on, for the forces that matter may be others there; and of leaving large displacement out, for
+/// the two theories err otherwise on a coarse mesh, and near buckling both by much.
+constexpr double kOtherTheorySurelyBeyond = 20;
 /// Linear theory off by more is off by more than the amplification up to a buckling load: beyond
 /// it, where second-order theory searches long for what it does not have.
 constexpr double kLost = 1;
@@ -231,8 +233,10 @@ class Measurement {
     const solver::Index elements =
         vibrates ? 4 : 2 + analysis.get<solver::Index>("count", 0) / members;
     try_linearly_ = !scope.required.has(Effect::large_displacement);
-    const bool has_coarser_platform = coarsen_platform(coarse);
-    is_coarser_ = coarsen_members(coarse, elements) || has_coarser_platform;
+    // Beside a resonance a coarse mesh, which has another frequency, says nothing.
+    has_points_ = kind.of_points.at != nullptr;
+    const bool has_coarser_platform = !has_points_ && coarsen_platform(coarse);
+    is_coarser_ = !has_points_ && (coarsen_members(coarse, elements) || has_coarser_platform);
     coarsen_members(coarsest, 1);
     coarsen_platform(coarsest);
     is_linear_exact_ = &kind == &find_analysis("statics") && !has_coarser_platform &&
@@ -241,11 +245,9 @@ class Measurement {
     coarse_.emplace(kind, analysis, std::move(coarse), scope.applicable, size_);
     own_.emplace(kind, analysis, scene, scope.applicable, size_);
     const bool one_by_one = std::holds_alternative<StepAnalysis>(kind.of_scene);
-    has_points_ = kind.of_points.count != nullptr;
-    const std::size_t steps = has_points_  ? kind.of_points.count(analysis)
-                              : one_by_one ? scene.steps()
-                                           : 1;
-    for (std::size_t step = 0; step < steps; ++step) every_step_.insert(step);
+    if (has_points_) every_step_ = kind.of_points.sample(analysis, scene);
+    for (std::size_t step = 0; !has_points_ && step < (one_by_one ? scene.steps() : 1); ++step)
+      every_step_.insert(step);
     negligible_ = negligible_effects(model, scope, tolerance);
   }
 
@@ -297,28 +299,19 @@ class Measurement {
   double change_with(Effects active) {
     const bool is_large = scope_.applicable.has(Effect::large_displacement);
     if (is_large && !active.has(Effect::large_displacement)) {
-      const double shortening = std::pow(largest_rotation(), 2) / 2;
-      if (shortening > tolerance_) return shortening;
-      const double linearly = coarse_->change(scope_.applicable, linear(scope_.applicable), steps_);
-      if (linearly > kLost) return linearly;
+      // Tension as large as the buckling load halves what linear theory finds.
+      if (change_of_linear_theory() > 2 * kLost) return change_of_linear_theory();
     }
     if (try_linearly_ && active.has(Effect::large_displacement)) {
       const double change = change_from(linear(scope_.applicable), linear(active));
       if (change <= tolerance_) tried_linearly_ = true;
-      if (change <= tolerance_ || change > kLinearSurelyBeyond * tolerance_) return change;
+      if (change <= tolerance_ || change > kOtherTheorySurelyBeyond * tolerance_) return change;
     }
     return change_from_whole(active);
   }
 
-  /// Of the whole scene [rad]: what turns by theta shortens by theta^2 / 2 of its length, which
-  /// linear and second-order theory do not know.
-  double largest_rotation() {
-    double largest = 0;
-    const auto whole = coarse_->along(scope_.applicable, steps_);
-    for (const auto& [name, quantity] : whole ? *whole : Quantities()) {
-      if (change_kind(name) == "rotation") largest = std::max(largest, max_abs(quantity.values));
-    }
-    return largest;
+  double change_of_linear_theory() {
+    return coarse_->change(scope_.applicable, linear(scope_.applicable), steps_);
   }
 
   double change_from_whole(Effects active) { return change_from(scope_.applicable, active); }
@@ -331,7 +324,10 @@ class Measurement {
         full.has(Effect::platform_flexibility) && !active.has(Effect::platform_flexibility);
     const double within = stiffens_platform ? kPlatformSurelyWithin : kSurelyWithin;
     const bool lost = !std::isfinite(change) && linear(active) == active;
-    const bool settled = change <= within * tolerance_ || change > kSurelyBeyond * tolerance_;
+    const bool changes_theory =
+        full.has(Effect::large_displacement) && !active.has(Effect::large_displacement);
+    const double beyond = changes_theory ? kOtherTheorySurelyBeyond : kSurelyBeyond;
+    const bool settled = change <= within * tolerance_ || change > beyond * tolerance_;
     return settled && !lost ? change : change_on_own_mesh(full, active);
   }
 
@@ -363,9 +359,9 @@ class Measurement {
       return;
     }
     std::map<std::string, std::pair<double, std::size_t>> extremes;
-    const auto look = [&](const std::string& extreme, double size, std::size_t step) {
-      auto& largest = extremes.try_emplace(extreme, size, step).first->second;
-      largest = std::max(largest, {size, step});
+    const auto look = [&](const std::string& extreme, double size, std::size_t place) {
+      auto& largest = extremes.try_emplace(extreme, size, place).first->second;
+      largest = std::max(largest, {size, place});
     };
     for (const auto& [name, quantity] : *found) {
       const std::string kind = change_kind(name);
@@ -376,30 +372,35 @@ class Measurement {
         if (name == "frequency_Hz:1") look("highest", size, i), look("lowest", -size, i);
       }
     }
-    for (const auto& [extreme, place] : extremes) steps_.insert(place.second);
+    for (const auto& [extreme, largest] : extremes) steps_.insert(step_at(largest.second));
+  }
+
+  /// @param place  among all that are looked at
+  [[nodiscard]] std::size_t step_at(std::size_t place) const {
+    return *std::next(every_step_.begin(), static_cast<std::ptrdiff_t>(place));
   }
 
   /// @returns false where the choice holds at every step that was not looked at before
   bool add_worst_step(const Elimination& found) {
     if (steps_ == every_step_ || found.chosen == scope_.applicable) return false;
     Effects whole = scope_.applicable, chosen = found.chosen;
-    const bool is_lost = !(coarse_->change(whole, linear(whole), steps_) <= kLost);
-    if (chosen.has(Effect::large_displacement) && !is_lost) {
+    const bool lost = !(change_of_linear_theory() <= kLost);
+    if (chosen.has(Effect::large_displacement) && !lost) {
       whole = linear(whole);
       chosen = linear(chosen);
     }
-    MeshedScene& mesh = is_lost ? *coarse_ : overview();
+    MeshedScene& mesh = lost ? *coarse_ : overview();
     const auto full = mesh.along(whole, every_step_);
     if (!full) {
       steps_ = every_step_;
-      return is_lost;
+      return lost;
     }
     const auto other = mesh.along(chosen, every_step_);
     for (const std::size_t step : other ? std::set<std::size_t>() : every_step_) {
       if (!mesh.at(chosen, step)) return steps_.insert(step).second;
     }
     const LargestDifference worst = max_change(changes_between(*full, *other, size_));
-    return worst.value > kSurelyWithin * tolerance_ && steps_.insert(worst.index).second;
+    return worst.value > kSurelyWithin * tolerance_ && steps_.insert(step_at(worst.index)).second;
   }
 
   const EffectScope& scope_;

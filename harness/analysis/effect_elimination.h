@@ -32,10 +32,10 @@ struct Elimination {
 
 /// By running the analysis, which goes step by step, with and without each effect: on a mesh as
 /// coarse as keeps the physics, and on the scene's own where the coarse one comes near the
-/// tolerance; along a path, or over frequencies, at the extremes of linear theory, and at any other
-/// step where the choice turns out to be off by more. Where large displacement stays, the others
-/// are tried in linear theory first, and what is left is compared with the whole scene. Peaks
-/// between the frequencies are not searched.
+/// tolerance; along a path at the extremes of linear theory, and at any other pose where the choice
+/// turns out to be off by more; over frequencies, on the scene's own mesh, in the same way. Where
+/// large displacement stays, the others are tried in linear theory first, and what is left is
+/// compared with the whole scene. Peaks between the frequencies are not searched.
 [[nodiscard]] Elimination eliminate_by_measurement(const AnalysisKind& kind,
                                                    const JsonView& analysis, const CaseModel& scene,
                                                    const EffectScope& scope, double tolerance);

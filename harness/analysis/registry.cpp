@@ -71,7 +71,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        nullptr,
        "",
        {Residual::equilibrium},
-       {harmonic_points, analyse_harmonic_at}},
+       {harmonic_sample, analyse_harmonic_at}},
       {"transient",
        analyse_transient,
        false,

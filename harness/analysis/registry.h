@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,7 +21,8 @@ using CaseAnalysis = StepResult (*)(const Document& document, const References& 
 
 /// Of an analysis that goes through points of its own, as frequencies: at some of them alone.
 struct PointAnalysis {
-  std::size_t (*count)(const JsonView& analysis) = nullptr;  ///< null: it has none
+  /// Those that show what happens between them.
+  std::set<std::size_t> (*sample)(const JsonView& analysis, const CaseModel& case_model) = nullptr;
   StepResult (*at)(const JsonView& analysis, const CaseModel& case_model,
                    const std::vector<std::size_t>& points, Recorder& record) = nullptr;
 };

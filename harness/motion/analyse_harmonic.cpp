@@ -1,8 +1,12 @@
 #include "harness/motion/analyse_harmonic.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "harness/readers/damping_reader.h"
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
+#include "solver/modes/modes.h"
 
 namespace trammel::harness {
 namespace {
@@ -68,13 +72,18 @@ class Response {
   solver::HarmonicSolver response_;
 };
 
+/// How many frequencies.
+std::size_t points_of(const JsonView& analysis) {
+  return static_cast<std::size_t>(analysis.get<solver::Index>("points", 101));
+}
+
 /// The case's system and its response.
 class HarmonicScene {
  public:
   HarmonicScene(const JsonView& analysis, const CaseModel& case_model, std::size_t step)
       : low_(analysis.number("from_Hz")),
         high_(analysis.number("to_Hz")),
-        points_(harmonic_points(analysis)),
+        points_(points_of(analysis)),
         damped_(case_model.effects.has(solver::Effect::damping) && analysis.has("damping")) {
     if (case_model.path) throw analysis.error("expected a model at one place");
     if (!(high_ > low_)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
@@ -117,8 +126,24 @@ class HarmonicScene {
 
 }  // namespace
 
-std::size_t harmonic_points(const JsonView& analysis) {
-  return static_cast<std::size_t>(analysis.get<solver::Index>("points", 101));
+std::set<std::size_t> harmonic_sample(const JsonView& analysis, const CaseModel& case_model) {
+  constexpr std::size_t kStride = 4;
+  const HarmonicScene scene(analysis, case_model, 0);
+  const double low = analysis.number("from_Hz"), high = analysis.number("to_Hz");
+  const std::size_t points = points_of(analysis);
+  const std::optional<solver::Index> below = solver::sturm_count(scene.system, high);
+  solver::ModalSolution modes;
+  if (below && *below > 0) modes = solver::solve_modes(scene.system, {.count = *below});
+  std::set<std::size_t> sample = {points - 1};
+  for (std::size_t i = 0; i < points; i += below && modes.outcome.solved() ? kStride : 1)
+    sample.insert(i);
+  for (const double frequency : modes.frequency) {
+    if (!(frequency > low && frequency < high)) continue;
+    const double share = (frequency - low) / (high - low) * static_cast<double>(points - 1);
+    const auto before = static_cast<std::size_t>(share);
+    sample.insert({before, std::min(before + 1, points - 1)});
+  }
+  return sample;
 }
 
 StepResult analyse_harmonic_at(const JsonView& analysis, const CaseModel& case_model,
@@ -139,7 +164,7 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
   StepResult result = scene.result();
   if (draw) result.drawing = draw_model(scene.system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) return result;
-  const std::size_t points = harmonic_points(analysis);
+  const std::size_t points = points_of(analysis);
   for (std::size_t point = 0; point < points; ++point) scene.record_at(point, true, record, result);
   for (const Output& output : scene.outputs) {
     const double at = scene.record_peak(output, record);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <set>
+#include <vector>
+
 #include "harness/statics_modes/step_result.h"
 
 namespace trammel::harness {
@@ -8,8 +11,10 @@ namespace trammel::harness {
 [[nodiscard]] StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_model,
                                           std::size_t step, bool draw, Recorder& record);
 
-/// How many frequencies it goes through.
-[[nodiscard]] std::size_t harmonic_points(const JsonView& analysis);
+/// Of the frequencies that it goes through, numbered from 0: every fourth, the last, and those on
+/// both sides of each natural frequency, so that no peak lies between them.
+[[nodiscard]] std::set<std::size_t> harmonic_sample(const JsonView& analysis,
+                                                    const CaseModel& case_model);
 
 /// The amplitudes at some of them alone, without the peaks.
 [[nodiscard]] StepResult analyse_harmonic_at(const JsonView& analysis, const CaseModel& case_model,
