@@ -153,12 +153,13 @@ Json read_json(const std::filesystem::path& file) {
 
 namespace {
 
-void put(const Json& json, std::size_t depth, std::string& text) {
+void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
   const auto line = [&](std::size_t spaces) { text += '\n' + std::string(spaces, ' '); };
   const bool nested =
       json.is_structured() &&
       std::any_of(json.begin(), json.end(), [](const Json& item) { return item.is_structured(); });
-  const bool expanded = !json.empty() && (nested || (json.is_object() && depth < 2));
+  const bool expanded =
+      !json.empty() && depth < deepest && (nested || (json.is_object() && depth < 2));
   if (!expanded) {
     text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
     return;
@@ -172,7 +173,7 @@ void put(const Json& json, std::size_t depth, std::string& text) {
     if (json.is_object()) {
       text += Json(item.key()).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
     }
-    put(item.value(), depth + 1, text);
+    put(item.value(), depth + 1, deepest, text);
   }
   line(depth);
   text += json.is_object() ? '}' : ']';
@@ -180,9 +181,9 @@ void put(const Json& json, std::size_t depth, std::string& text) {
 
 }  // namespace
 
-std::string pretty(const Json& json) {
+std::string pretty(const Json& json, std::size_t deepest) {
   std::string text;
-  put(json, 0, text);
+  put(json, 0, deepest, text);
   return text + "\n";
 }
 

@@ -20,7 +20,8 @@ namespace trammel::harness {
 [[nodiscard]] Json parse_json(const std::string& text, const std::string& name);
 
 /// JSON for people and for diffs: objects over several lines, arrays of plain values on one.
-[[nodiscard]] std::string pretty(const Json& json);
+/// @param deepest  what is nested deeper stands in one line
+[[nodiscard]] std::string pretty(const Json& json, std::size_t deepest = 1000);
 
 /// Writes all of it or nothing: into a temporary file beside it, then renamed.
 /// @throws InputError  where the folder or file cannot be written.

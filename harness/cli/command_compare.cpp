@@ -16,6 +16,7 @@
 #include "harness/results/results.h"
 #include "harness/run/cost_results.h"
 #include "harness/run/run.h"
+#include "harness/run/stored_results.h"
 #include "harness/studies/mode_match.h"
 
 namespace trammel::harness {
@@ -168,19 +169,13 @@ bool is_results(const Json& json) {
 }
 
 /// "case:variant" -> quantities of a results file.
-std::map<std::string, Named> read_runs(const std::string& file, const Json& json) {
-  if (const auto schema_error = find_schema_fault(json, "results")) {
-    throw InputError(file, schema_error->pointer, schema_error->message);
-  }
+std::map<std::string, Named> named_runs(const results::Results& results) {
   std::map<std::string, Named> runs;
-  for (const Json& run : json.at("runs")) {
-    Named& named =
-        runs[run.at("case").get<std::string>() + ":" + run.at("variant").get<std::string>()];
-    for (const auto& item : run.at("quantities").items()) {
-      for (const Json& value : item.value()) {
-        named[item.key()].push_back(value.is_null() ? std::nan("") : value.get<double>());
-      }
-    }
+  for (const results::Run& run : results.runs) {
+    Named& named = runs[run.case_id + ":" + run.variant];
+    for (const auto& [name, values] : run.quantities)
+      for (const results::Number& value : values)
+        named[name].push_back(value.value_or(std::nan("")));
   }
   return runs;
 }
@@ -215,11 +210,11 @@ std::vector<CostPoint> named_points(const results::CostStudy& study,
 }
 
 /// How near two measurements of the same studies come.
-void compare_costs(const Json& a, const Json& b) {
-  if (!a.contains("cost") || !b.contains("cost")) return;
+void compare_costs(const results::Results& a, const results::Results& b) {
+  if (!a.cost || !b.cost) return;
   Table table({"study", ">on both fronts", ">of", ">same cheapest", ">of", ">median", ">largest"});
-  const results::CostStudies others = results::read_cost_studies(b.at("cost"));
-  for (const results::CostStudy& study : results::read_cost_studies(a.at("cost")).studies) {
+  const results::CostStudies& others = *b.cost;
+  for (const results::CostStudy& study : a.cost->studies) {
     const auto other =
         std::find_if(others.studies.begin(), others.studies.end(),
                      [&](const results::CostStudy& candidate) { return candidate.id == study.id; });
@@ -239,9 +234,11 @@ void compare_costs(const Json& a, const Json& b) {
   table.print(std::cout, "  ");
 }
 
-int compare_results(const std::string& file_a, const Json& json_a, const std::string& file_b,
-                    const Json& json_b) {
-  const auto runs_a = read_runs(file_a, json_a), runs_b = read_runs(file_b, json_b);
+int compare_results(const std::string& file_a, const std::string& file_b) {
+  const results::Results a_side = load_results(file_a), b_side = load_results(file_b);
+  for (const auto& [file, side] : {std::pair(&file_a, &a_side), std::pair(&file_b, &b_side)})
+    if (!side->missing.empty()) std::cerr << *file << ": " << side->missing << '\n';
+  const auto runs_a = named_runs(a_side), runs_b = named_runs(b_side);
   std::size_t same = 0, different = 0;
   for (const auto& [name, a] : runs_a) {
     const auto b = runs_b.find(name);
@@ -262,7 +259,7 @@ int compare_results(const std::string& file_a, const Json& json_a, const std::st
     if (runs_a.count(item.first) == 0) std::cout << item.first << ": only in " << file_b << '\n';
   }
   std::cout << same << " runs are the same bit for bit, " << different << " differ\n";
-  compare_costs(json_a, json_b);
+  compare_costs(a_side, b_side);
   return 0;
 }
 
@@ -274,7 +271,7 @@ int compare_command(const std::string& a, const std::string& b) {
   if (results_a != is_results(json_b)) {
     results_a ? refuse_beside_results(b, json_b) : refuse_beside_results(a, json_a);
   }
-  if (results_a) return compare_results(a, json_a, b, json_b);
+  if (results_a) return compare_results(a, b);
   const Side side_a = side_loads(a), side_b = side_loads(b);
   if (analysis_kind(side_a.document) != analysis_kind(side_b.document)) {
     throw InputError("expected two variants of one kind of analysis (got " +

@@ -18,6 +18,7 @@
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
+#include "harness/run/stored_results.h"
 #include "harness/studies/accuracy_search.h"
 #include "harness/studies/cost_study_of_sweeps.h"
 
@@ -247,7 +248,8 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   results.cost = cost_results(measured, extent, options.timing);
   const fs::path unfinished = fs::path(command.out) / results::kUnfinishedFolder;
   fs::create_directories(unfinished);
-  const fs::path page = renderers.report(write_results(results, unfinished), command.out, false);
+  write_results(results, unfinished);
+  const fs::path page = renderers.report(results, command.out, false);
   std::cout << "results in " << (fs::path(command.out) / "results.json").string() << "\npage in "
             << page.string() << std::endl;
   const bool any_lost =

@@ -7,6 +7,7 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/coverage/evidence_coverage.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {
@@ -38,8 +39,11 @@ void print_group(const std::vector<CoverageRow>& rows, const std::string& group,
 int coverage_command(const CoverageCommand& command) {
   std::vector<CoverageRow> rows = evidence_coverage(Catalogue().load(), References());
   add_reasons(rows);
-  if (!command.results.empty())
-    count_series(results::read_results(std::filesystem::path(command.results)), rows);
+  if (!command.results.empty()) {
+    const results::Results found = load_results(command.results);
+    if (!found.missing.empty()) std::cerr << command.results << ": " << found.missing << '\n';
+    count_series(found, rows);
+  }
   if (command.json) {
     std::cout << pretty(results::coverage_to_json(rows));
   } else {

@@ -17,6 +17,7 @@
 #include "harness/results/run_grade.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {

@@ -5,11 +5,15 @@
 #include <string>
 #include <vector>
 
+namespace trammel::results {
+struct Results;
+}
+
 namespace trammel::harness {
 
 /// What the harness cannot know: how results become a page and a JUnit file.
 struct Renderers {
-  std::function<std::filesystem::path(const std::filesystem::path& results,
+  std::function<std::filesystem::path(const results::Results& results,
                                       const std::filesystem::path& folder, bool single_file)>
       report;
   std::function<void(const std::filesystem::path& results, const std::filesystem::path& junit)>

@@ -24,6 +24,7 @@
 #include "harness/run/paper_items.h"
 #include "harness/run/results.h"
 #include "harness/run/shards.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {
@@ -279,8 +280,8 @@ void write_page(const results::Results& found, const std::vector<Run>& runs,
                 const RunCommand& command, const Renderers& renderers) {
   const auto unfinished = std::filesystem::path(command.out) / results::kUnfinishedFolder;
   std::filesystem::create_directories(unfinished);
-  const auto page =
-      renderers.report(write_all(found, unfinished, renderers), command.out, command.single_file);
+  write_all(found, unfinished, renderers);
+  const auto page = renderers.report(found, command.out, command.single_file);
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
   print_run_errors(runs);
@@ -311,14 +312,22 @@ bool is_results_file(const std::string& name) {
 /// Computes nothing: one file becomes the page as it stands, several stand side by side.
 int report_results(const RunCommand& command, const Renderers& renderers) {
   const std::vector<std::filesystem::path> files(command.cases.begin(), command.cases.end());
-  for (const auto& file : files)
-    if (const auto fault = find_schema_fault(read_json(file), "results"))
-      throw InputError(file.string(), fault->pointer, fault->message);
+  if (files.size() > 1)
+    for (const auto& file : files)
+      if (const auto fault = find_schema_fault(read_json(file), "results"))
+        throw InputError(file.string(), fault->pointer, fault->message);
   if (files.size() == 1) require_drawing(renderers);
   const OutputLock lock(command.out);
-  const auto page = files.size() == 1
-                        ? renderers.report(files.front(), command.out, command.single_file)
-                        : renderers.codes(files, command.out);
+  std::filesystem::path page;
+  if (files.size() == 1) {
+    const results::Results found = load_results(files.front());
+    if (!found.missing.empty())
+      std::cerr << files.front().string() << ": " << found.missing << '\n';
+    std::filesystem::remove_all(std::filesystem::path(command.out) / results::kUnfinishedFolder);
+    page = renderers.report(found, command.out, command.single_file);
+  } else {
+    page = renderers.codes(files, command.out);
+  }
   std::cout << "report in " << page.string() << std::endl;
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <map>
 #include <system_error>
 
 #include "harness/results/fields.h"
@@ -114,7 +115,7 @@ template <>
 inline constexpr auto kFields<Run> = std::tuple{
     required("case", &Run::case_id),
     TRAMMEL_REQUIRED(Run, variant, status, reason, quantities, checks, convergence, cost),
-    TRAMMEL_OPTIONAL(Run, residuals, warnings, uncertainty, effects, drawing)};
+    TRAMMEL_OPTIONAL(Run, residuals, warnings, uncertainty, effects, drawing, stored)};
 template <>
 inline constexpr auto kFields<ErrorNorms> =
     std::tuple{TRAMMEL_REQUIRED(ErrorNorms, max, rms, mean)};
@@ -223,7 +224,7 @@ template <>
 inline constexpr auto kFields<Results> =
     std::tuple{optional("numerical_uncertainty", &Results::uncertainty_coverage),
                TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
-               TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage)};
+               TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage, store)};
 
 namespace {
 
@@ -308,30 +309,6 @@ void complete(CaseInfo& info) {
   }
 }
 
-void complete(Results& results) {
-  const Place root;
-  if (results.format != 1) Place{&root, "format"}.fail("1");
-  for (CaseInfo& info : results.cases) complete(info);
-  const Place runs{&root, "runs"};
-  for (std::size_t i = 0; i < results.runs.size(); ++i) {
-    Run& run = results.runs[i];
-    const Place place{&runs, std::to_string(i)};
-    // The page could not name it otherwise.
-    if (std::none_of(results.cases.begin(), results.cases.end(),
-                     [&](const CaseInfo& info) { return info.id == run.case_id; }))
-      Place{&place, "case"}.fail("a case that stands under /cases");
-    if (run.drawing) require_consistent(*run.drawing, Place{&place, "drawing"});
-    const Place studies{&place, "convergence"};
-    for (std::size_t k = 0; k < run.convergence.size(); ++k)
-      complete(run.convergence[k], Place{&studies, std::to_string(k)});
-  }
-  if (!results.cost) return;
-  const Place cost{&root, "cost"};
-  const Place studies{&cost, "studies"};
-  for (std::size_t i = 0; i < results.cost->studies.size(); ++i)
-    require_consistent(results.cost->studies[i], Place{&studies, std::to_string(i)});
-}
-
 template <class Entry>
 const Entry* find_id(const std::vector<Entry>& entries, const std::string& id) {
   const auto found = std::find_if(entries.begin(), entries.end(),
@@ -361,6 +338,60 @@ void Place::fail(const std::string& expected) const {
   throw std::runtime_error((where.empty() ? "/" : where) + ": expected " + expected);
 }
 
+/// Puts each reason once under /reasons.
+void share_reasons(Json& json) {
+  Json reasons = Json::array();
+  std::map<std::string, std::size_t> places;
+  for (Json& run : json.at("runs"))
+    for (Json& check : run.at("checks")) {
+      const auto [place, fresh] = places.emplace(check.at("why"), places.size());
+      if (fresh) reasons.push_back(check.at("why"));
+      check["why"] = place->second;
+    }
+  if (!reasons.empty()) json["reasons"] = std::move(reasons);
+}
+
+/// Puts the reasons back where checks hold their places.
+void give_reasons(Json& json) {
+  if (!json.is_object() || !json.contains("reasons") || !json.contains("runs")) return;
+  const Place root;
+  const auto reasons = from_json<std::vector<std::string>>(json.at("reasons"));
+  for (Json& run : json.at("runs")) {
+    if (!run.is_object() || !run.contains("checks")) continue;
+    for (Json& check : run.at("checks")) {
+      if (!check.is_object() || !check.contains("why") || !check.at("why").is_number()) continue;
+      const Json& place = check.at("why");
+      if (!place.is_number_unsigned() || place.get<std::size_t>() >= reasons.size())
+        Place{&root, "reasons"}.fail("a reason for each place that a check holds");
+      check["why"] = reasons[place.get<std::size_t>()];
+    }
+  }
+}
+
+void complete(Results& results) {
+  const Place root;
+  if (results.format != 1) Place{&root, "format"}.fail("1");
+  for (CaseInfo& info : results.cases) complete(info);
+  const Place runs{&root, "runs"};
+  for (std::size_t i = 0; i < results.runs.size(); ++i) {
+    Run& run = results.runs[i];
+    const Place place{&runs, std::to_string(i)};
+    // The page could not name it otherwise.
+    if (std::none_of(results.cases.begin(), results.cases.end(),
+                     [&](const CaseInfo& info) { return info.id == run.case_id; }))
+      Place{&place, "case"}.fail("a case that stands under /cases");
+    if (run.drawing) require_consistent(*run.drawing, Place{&place, "drawing"});
+    const Place studies{&place, "convergence"};
+    for (std::size_t k = 0; k < run.convergence.size(); ++k)
+      complete(run.convergence[k], Place{&studies, std::to_string(k)});
+  }
+  if (!results.cost) return;
+  const Place cost{&root, "cost"};
+  const Place studies{&cost, "studies"};
+  for (std::size_t i = 0; i < results.cost->studies.size(); ++i)
+    require_consistent(results.cost->studies[i], Place{&studies, std::to_string(i)});
+}
+
 nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows) {
   return to_json(rows);
 }
@@ -370,7 +401,15 @@ nlohmann::ordered_json claims_to_json(const Claims& claims) {
 }
 
 Json to_json(const Results& results) {
-  return to_json<Results>(results);
+  Json json = to_json<Results>(results);
+  share_reasons(json);
+  return json;
+}
+Json to_json(const Run& run) {
+  return to_json<Run>(run);
+}
+Run read_run(const Json& json) {
+  return from_json<Run>(json);
 }
 
 std::vector<PlotRequest> read_figures(const Json& json) {
@@ -394,7 +433,8 @@ bool CoverageRow::is_verified() const {
                      [](const std::string& kind) { return kind != "self-consistency"; });
 }
 
-Results read_results(const Json& json) {
+Results read_results(Json json) {
+  give_reasons(json);
   auto results = from_json<Results>(json);
   complete(results);
   return results;

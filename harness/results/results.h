@@ -148,13 +148,18 @@ struct Results {
   std::optional<CostStudies> cost;  ///< accuracy and computing time, where measured
   std::optional<Claims> claims;
   std::vector<CoverageRow> coverage;  ///< of the whole catalogue
+  std::string store;    ///< folder of what runs have stored, seen from that of the file
+  std::string missing;  ///< what the store should hold and does not, in words; not written
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
   /// @returns nullptr for an unknown or empty id.
   [[nodiscard]] const Reference* reference(const std::string& id) const;
 };
 
+/// A reason that many checks share stands once, under /reasons, and they hold its place there.
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
+[[nodiscard]] nlohmann::ordered_json to_json(const Run& run);
+[[nodiscard]] Run read_run(const nlohmann::ordered_json& json);
 [[nodiscard]] nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows);
 [[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
 
@@ -165,10 +170,14 @@ struct Results {
 [[nodiscard]] Environment read_environment(const nlohmann::ordered_json& json);
 [[nodiscard]] CostStudies read_cost_studies(const nlohmann::ordered_json& json);
 
-/// Titles that a file leaves out are filled in with the names.
+/// Fills in titles that are left out with the names.
+/// @throws std::runtime_error  with the JSON pointer of what does not fit the rest.
+void complete(Results& results);
+
+/// Complete, but without what runs have stored elsewhere.
 /// @throws std::runtime_error  with the JSON pointer of what is absent, of a wrong type, or does
 ///                             not fit the rest.
-[[nodiscard]] Results read_results(const nlohmann::ordered_json& json);
+[[nodiscard]] Results read_results(nlohmann::ordered_json json);
 
 /// @throws std::runtime_error, one line with file and JSON pointer (byte offset for broken JSON).
 [[nodiscard]] Results read_results(const std::filesystem::path& file);

@@ -162,6 +162,8 @@ struct Run {
   std::vector<EffectRow> effects;
   std::optional<Drawing> drawing;
   Cost cost;
+  /// File of the run store that holds its series, drawing and studies; empty: the results do.
+  std::string stored;
 
   /// @returns nullptr when the run has no such quantity.
   [[nodiscard]] const Numbers* quantity(const std::string& name) const;

@@ -5,12 +5,10 @@
 
 #include "harness/base/content_hash.h"
 #include "harness/base/environment.h"
-#include "harness/base/json_file.h"
 
 namespace trammel::harness {
 namespace {
 
-namespace fs = std::filesystem;
 using results::Number;
 using results::Numbers;
 
@@ -189,13 +187,14 @@ results::Run run_results(const Run& run) {
                                  number(run.result.evidence.largest(kind)));
   }
   for (const Warning& warning : run.result.warnings) out.warnings.push_back(warning.text());
-  for (const auto& [name, quantity] : run.result.quantities)
-    out.quantities.emplace_back(name, numbers(quantity.values));
+  results::Run series = stored_series(run);
+  out.quantities = std::move(series.quantities);
+  out.drawing = std::move(series.drawing);
+  out.stored = run.stored.filename().string();
   for (const CheckResult& found : run.check_results) out.checks.push_back(check(found));
   for (const Convergence& found : run.convergence) out.convergence.push_back(convergence(found));
   if (!run.uncertainty.empty()) out.uncertainty = uncertainty(run.uncertainty);
   out.effects = effects(run);
-  if (run.result.drawing) out.drawing = drawing(*run.result.drawing);
   out.cost = cost(run);
   return out;
 }
@@ -251,6 +250,14 @@ results::UncertaintyCoverage coverage(const NumericalUncertaintySummary& summary
 
 }  // namespace
 
+results::Run stored_series(const Computation& computation) {
+  results::Run out;
+  for (const auto& [name, quantity] : computation.result.quantities)
+    out.quantities.emplace_back(name, numbers(quantity.values));
+  if (computation.result.drawing) out.drawing = drawing(*computation.result.drawing);
+  return out;
+}
+
 results::Counters counters(const solver::Counters& counters) {
   return {{"element_evaluations", counters.element_evaluations},
           {"factorizations", counters.factorizations},
@@ -276,15 +283,10 @@ results::Results results_of(const std::vector<Run>& runs, const std::vector<Case
       unread.id = unread.title = run.case_id;
       out.cases.push_back(std::move(unread));
     }
+    if (!run.stored.empty()) out.store = run.stored.parent_path().string();
     out.runs.push_back(run_results(run));
   }
   return out;
-}
-
-fs::path write_results(const results::Results& results, const fs::path& folder) {
-  fs::path file = folder / "results.json";
-  write_file(file, pretty(to_json(results)));
-  return file;
 }
 
 }  // namespace trammel::harness

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "harness/results/results.h"
@@ -15,9 +14,7 @@ namespace trammel::harness {
 
 [[nodiscard]] results::Counters counters(const solver::Counters& counters);
 
-/// Writes results.json into the folder, all of it or nothing. @returns its path.
-/// @throws InputError  where the folder cannot be made or written.
-std::filesystem::path write_results(const results::Results& results,
-                                    const std::filesystem::path& folder);
+/// The series and the drawing alone.
+[[nodiscard]] results::Run stored_series(const Computation& computation);
 
 }  // namespace trammel::harness

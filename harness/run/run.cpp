@@ -197,7 +197,10 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     if (task.run.status == "error") continue;
     if (!options.store.empty())
       file = options.store / computation_name(task.document, task.requested, options.solver.hash);
-    if (options.resume && find_stored(file, task.run, options.any_machine)) continue;
+    if (options.resume && find_stored(file, task.run, options.any_machine)) {
+      task.run.stored = file;
+      continue;
+    }
     open.emplace_back(&task, std::move(file));
   }
   std::error_code error;
@@ -224,8 +227,10 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                             const auto& [task, file] = open[i];
                             mark_ended(*task, outcome, options);
                             if (!file.empty()) forget_starts(file);
-                            if (!file.empty() && !has_broken(task->run))
+                            if (!file.empty() && !has_broken(task->run)) {
                               write_file(file, outcome.text);
+                              task->run.stored = file;
+                            }
                             ++done;
                             show();
                           });

@@ -67,7 +67,8 @@ struct Computation {
 /// What came of one variant of a case.
 struct Run : Computation {
   std::string case_id, variant;
-  int interrupted_by = 0;  ///< the signal that came before it was done
+  int interrupted_by = 0;             ///< the signal that came before it was done
+  std::filesystem::path stored = {};  ///< where the store keeps the computation; empty: nowhere
   std::vector<CheckResult> check_results;
   std::vector<Convergence> convergence;
 };

@@ -113,17 +113,19 @@ TRAMMEL_KEPT(KeptStudy, settings, wall_s, references)
 
 constexpr std::size_t kHashLength = 36;
 
-std::string with_hash(const nlohmann::json& json) {
+template <class AnyJson>
+std::string with_hash(const AnyJson& json) {
   std::string bytes;
-  nlohmann::json::to_cbor(json, bytes);
+  AnyJson::to_cbor(json, bytes);
   return content_hash(bytes) + bytes;
 }
 
-nlohmann::json without_hash(const std::string& bytes) {
+template <class AnyJson = nlohmann::json>
+AnyJson without_hash(const std::string& bytes) {
   const std::string body = bytes.size() > kHashLength ? bytes.substr(kHashLength) : "";
   if (body.empty() || content_hash(body) != bytes.substr(0, kHashLength))
     throw std::runtime_error("the computation ended without an answer");
-  return nlohmann::json::from_cbor(body);
+  return AnyJson::from_cbor(body);
 }
 
 bool stand(const std::map<std::string, std::string>& references) {
@@ -183,8 +185,15 @@ std::string computation_name(const Document& document, bool requested,
   return name_of({requested, file, document.value(), tried_cases(document), solver_hash});
 }
 
+std::string to_bytes(const Json& json) {
+  return with_hash(json);
+}
+Json json_from(const std::string& bytes) {
+  return without_hash<Json>(bytes);
+}
+
 std::string to_bytes(const Computation& computation) {
-  return with_hash(computation);
+  return with_hash(nlohmann::json(computation));
 }
 
 Computation computation_from(const std::string& bytes) {
@@ -233,7 +242,8 @@ MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
   if (kept.settings.empty() || !stand(kept.references)) {
     MeasuredStudy measured = measure(std::move(study), options, references);
     std::filesystem::create_directories(store);
-    write_file(file, with_hash(KeptStudy{measured.settings, measured.wall_s, references.hashes()}));
+    write_file(file, with_hash(nlohmann::json(
+                         KeptStudy{measured.settings, measured.wall_s, references.hashes()})));
     return measured;
   }
   mark_used(file);
@@ -260,7 +270,8 @@ SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const Referen
   }
   const SandboxedRun run = run_sandboxed(setting, time_limit_s, references);
   std::filesystem::create_directories(store);
-  if (run.termination == SandboxedRun::Termination::solved) write_file(file, with_hash(run));
+  if (run.termination == SandboxedRun::Termination::solved)
+    write_file(file, with_hash(nlohmann::json(run)));
   return run;
 }
 

@@ -17,6 +17,10 @@ namespace trammel::harness {
 [[nodiscard]] std::string computation_name(const Document& document, bool requested,
                                            const std::string& solver_hash = "");
 
+/// JSON as a file of the store holds it. @throws std::exception  where the bytes are none.
+[[nodiscard]] std::string to_bytes(const Json& json);
+[[nodiscard]] Json json_from(const std::string& bytes);
+
 /// As a process answers and a file of the store holds it.
 [[nodiscard]] std::string to_bytes(const Computation& computation);
 /// @throws std::exception  where the text is not what `to_bytes` has written.

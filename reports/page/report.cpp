@@ -55,11 +55,9 @@ void write_checks(const std::vector<Family>& families, const fs::path& folder) {
 
 }  // namespace
 
-fs::path write_report(const fs::path& results_json, const fs::path& out, bool single_file) {
+fs::path write_report(const Results& results, const fs::path& out, bool single_file) {
   const fs::path part = out / kUnfinishedFolder;
-  if (results_json.parent_path() != part) fs::remove_all(part);
   try {
-    const Results results = read_results(results_json);
     std::vector<Family> families = plan_families(results);
     std::vector<CostPanel> panels = plan_cost(results);
     std::vector<std::vector<Figure*>> pages = figures_by_page(families);

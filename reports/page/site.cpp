@@ -78,6 +78,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   index.set("orders", orders_section(results, families));
   index.set("validation_uncertainty", validation_uncertainty_section(results, families));
   index.set("coverage", coverage_section(results));
+  set_text(index, "missing", results.missing);
   set_flag(index, "has_claims", results.claims.has_value());
   set_flag(index, "has_runs", !results.runs.empty() || panels.empty());
   std::vector<SectionSummary> summaries;

@@ -69,8 +69,7 @@ BOOST_AUTO_TEST_CASE(results_of_studies_alone_are_a_page_of_their_own) {
   json["cases"] = json["references"] = nlohmann::ordered_json::object();
   json["cost"]["sweep"] = "full";
   const Workspace space;
-  const std::string text =
-      text_of(trammel::reports::write_report(space.results(json), space.path()));
+  const std::string text = text_of(write_report_of(space.results(json), space.path()));
   BOOST_TEST(markup_fault(text, true) == "");
   BOOST_TEST(contains(text, "<h1>Accuracy and computing time</h1>"));
   BOOST_TEST(contains(text, "This is the full sweep"));

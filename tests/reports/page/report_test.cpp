@@ -116,8 +116,8 @@ BOOST_AUTO_TEST_CASE(a_case_its_checks_and_variants_have_addresses_made_of_their
 
 BOOST_AUTO_TEST_CASE(one_file_holds_all_pages_needs_no_other_and_says_what_it_leaves_out) {
   const Workspace workspace;
-  const fs::path file = trammel::reports::write_report(workspace.results(sample_results()),
-                                                       workspace.path() / "out", true);
+  const fs::path file =
+      write_report_of(workspace.results(sample_results()), workspace.path() / "out", true);
   const std::string text = text_of(file);
   BOOST_TEST(markup_fault(text, true) == "");
   BOOST_TEST(text.size() < 6'000'000U);
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(one_of_many_variants_is_marked_as_nearest_to_each_reference
 
 BOOST_AUTO_TEST_CASE(the_same_results_make_the_same_report_byte_for_byte) {
   const Workspace workspace;
-  trammel::reports::write_report(workspace.results(sample_results()), workspace.path() / "again");
+  write_report_of(workspace.results(sample_results()), workspace.path() / "again");
   std::size_t compared = 0;
   for (const auto& entry : fs::recursive_directory_iterator(sample_report())) {
     if (!entry.is_regular_file()) continue;
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(results_without_any_failure_say_that_every_check_passes) {
   for (const auto& run : results["runs"])
     if (run["case"] == "cantilever") good.push_back(run);
   results["runs"] = good;
-  trammel::reports::write_report(workspace.results(results), workspace.path() / "out");
+  write_report_of(workspace.results(results), workspace.path() / "out");
   const std::string text = text_of_pages(workspace.path() / "out");
   BOOST_TEST(text.find("Every check passes.") != std::string::npos);
   BOOST_TEST(text.find("<h3>Failures</h3>") == std::string::npos);
@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE(a_recorded_disagreement_is_never_shown_as_a_success) {
   for (const auto& run : results["runs"])
     if (run["case"] == "pinned-pinned") runs.push_back(run);
   results["runs"] = runs;
-  trammel::reports::write_report(workspace.results(results), workspace.path() / "out");
+  write_report_of(workspace.results(results), workspace.path() / "out");
   const std::string text = text_of_pages(workspace.path() / "out");
   const auto shows = [&](const char* part) { return text.find(part) != std::string::npos; };
   BOOST_TEST(
@@ -243,7 +243,7 @@ BOOST_AUTO_TEST_CASE(a_printed_number_is_one_target_however_many_variants_meet_i
   }
   results["runs"] = runs;
   const std::string text =
-      text_of(trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
+      text_of(write_report_of(workspace.results(results), workspace.path() / "out"));
   BOOST_TEST(text.find("3 comparisons with 1 printed number of the publication do not agree") !=
              std::string::npos);
 }
@@ -252,10 +252,10 @@ BOOST_AUTO_TEST_CASE(a_second_report_in_the_same_folder_leaves_nothing_of_the_fi
   const Workspace workspace;
   auto results = sample_results();
   const fs::path out = workspace.path() / "out";
-  trammel::reports::write_report(workspace.results(results), out);
+  write_report_of(workspace.results(results), out);
   std::ofstream(out / "figures" / "mine.svg") << "kept";
   results["runs"] = nlohmann::ordered_json::array({results["runs"].back()});
-  trammel::reports::write_report(workspace.results(results), out);
+  write_report_of(workspace.results(results), out);
   const std::string text = text_of_pages(out);
   std::size_t drawings = 0;
   for (const auto& entry : fs::directory_iterator(out / "figures"))
@@ -270,14 +270,13 @@ BOOST_AUTO_TEST_CASE(a_report_that_fails_or_is_replaced_leaves_whole_what_stands
   const Workspace workspace;
   const fs::path out = workspace.path() / "out", elsewhere = workspace.path() / "elsewhere";
   const auto all = sample_results();
-  const std::string before = text_of(trammel::reports::write_report(workspace.results(all), out));
+  const std::string before = text_of(write_report_of(workspace.results(all), out));
   const auto count = [&] { return std::distance(fs::recursive_directory_iterator(out), {}); };
   const auto files = count();
   const std::string search = std::getenv("PATH");
   setenv("PATH", "/nonexistent", 1);
   BOOST_TEST(!trammel::reports::can_draw());
-  BOOST_CHECK_THROW(trammel::reports::write_report(workspace.results(all), out),
-                    std::runtime_error);
+  BOOST_CHECK_THROW(write_report_of(workspace.results(all), out), std::runtime_error);
   setenv("PATH", search.c_str(), 1);
   BOOST_TEST((text_of(out / "index.html") == before));
   BOOST_TEST(count() == files);
@@ -286,13 +285,13 @@ BOOST_AUTO_TEST_CASE(a_report_that_fails_or_is_replaced_leaves_whole_what_stands
   fs::rename(out / "checks", elsewhere);
   fs::create_directory_symlink(elsewhere, out / "checks");
   for (const auto& entry : fs::directory_iterator(elsewhere)) fs::remove(entry);
-  trammel::reports::write_report(workspace.results(all), out);
+  write_report_of(workspace.results(all), out);
   BOOST_TEST(fs::is_empty(elsewhere));
   BOOST_TEST(count() == files);
   // A file is the user's own.
   fs::remove_all(out / "checks");
   std::ofstream(out / "checks") << "mine";
-  BOOST_CHECK_THROW(trammel::reports::write_report(workspace.results(all), out), std::system_error);
+  BOOST_CHECK_THROW(write_report_of(workspace.results(all), out), std::system_error);
   BOOST_TEST(text_of(out / "checks") == "mine");
 }
 
@@ -302,8 +301,7 @@ BOOST_AUTO_TEST_CASE(no_folder_of_a_report_becomes_a_command_of_gnuplot) {
   fs::current_path(workspace.path());
   std::string name = "a'\"`touch intruder`@x %d $(touch intruder)\n!touch intruder\n|";
   for (char c = 1; c < 0x20; ++c) name += c;
-  BOOST_CHECK_NO_THROW(
-      trammel::reports::write_report(workspace.results(sample_results()), name + "\x7fé"));
+  BOOST_CHECK_NO_THROW(write_report_of(workspace.results(sample_results()), name + "\x7fé"));
   fs::current_path(here);
   BOOST_TEST(fs::exists(workspace.path() / (name + "\x7fé") / "index.html"));
   BOOST_TEST(!fs::exists(workspace.path() / "intruder"));
@@ -334,7 +332,7 @@ BOOST_AUTO_TEST_CASE(no_text_of_a_case_becomes_a_command_of_gnuplot) {
     for (auto& [variant, value] : info["variants"].items()) value["title"] = title + variant;
   }
   const std::string text =
-      text_of(trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
+      text_of(write_report_of(workspace.results(results), workspace.path() / "out"));
   BOOST_TEST(!fs::exists(file));
   BOOST_TEST((text.find('\x1b') == std::string::npos));
 }
@@ -345,7 +343,7 @@ BOOST_AUTO_TEST_CASE(results_without_any_run_still_make_a_page) {
   results["runs"] = nlohmann::ordered_json::array();
   results.erase("cost");
   const std::string text =
-      text_of(trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
+      text_of(write_report_of(workspace.results(results), workspace.path() / "out"));
   BOOST_TEST(text.find("No checks were made.") != std::string::npos);
   BOOST_TEST(markup_fault(text, true) == "");
 }

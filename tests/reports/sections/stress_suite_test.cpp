@@ -28,7 +28,7 @@ nlohmann::ordered_json with_stress_suite() {
 std::string stress_suite_of(const nlohmann::ordered_json& results) {
   const Workspace workspace;
   const std::string page =
-      text_of(trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
+      text_of(write_report_of(workspace.results(results), workspace.path() / "out"));
   BOOST_TEST(markup_fault(page, true) == "");
   const std::size_t from = page.find("<section id=\"stress-suite\">");
   return from == std::string::npos ? "" : page.substr(from, page.find("</section>", from) - from);

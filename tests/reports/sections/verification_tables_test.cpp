@@ -23,8 +23,7 @@ std::string section(const std::string& id) {
 
 std::string page_of(const nlohmann::ordered_json& results) {
   const Workspace workspace;
-  return text_of(
-      trammel::reports::write_report(workspace.results(results), workspace.path() / "out"));
+  return text_of(write_report_of(workspace.results(results), workspace.path() / "out"));
 }
 
 bool says(const std::string& text, const std::string& part) {

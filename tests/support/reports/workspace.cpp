@@ -39,6 +39,10 @@ std::string text_of(const fs::path& file) {
   return out.str();
 }
 
+fs::path write_report_of(const fs::path& results_json, const fs::path& out, bool single_file) {
+  return reports::write_report(results::read_results(results_json), out, single_file);
+}
+
 std::map<std::string, std::string> pages_of(const fs::path& report) {
   std::map<std::string, std::string> pages;
   for (const auto& entry : fs::recursive_directory_iterator(report))
@@ -57,7 +61,7 @@ const fs::path& sample_report() {
   static const Workspace workspace;
   static const fs::path folder = [] {
     fs::path out = workspace.path() / "report";
-    reports::write_report(workspace.results(sample_results()), out);
+    write_report_of(workspace.results(sample_results()), out);
     return out;
   }();
   return folder;

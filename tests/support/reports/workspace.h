@@ -26,6 +26,10 @@ class Workspace {
 
 [[nodiscard]] std::string text_of(const std::filesystem::path& file);
 
+/// As `reports::write_report`, from a results file.
+std::filesystem::path write_report_of(const std::filesystem::path& results_json,
+                                      const std::filesystem::path& out, bool single_file = false);
+
 /// The pages of a report by their paths below its folder, and all of them as one text.
 [[nodiscard]] std::map<std::string, std::string> pages_of(const std::filesystem::path& report);
 [[nodiscard]] std::string text_of_pages(const std::filesystem::path& report);

@@ -1,0 +1,128 @@
+#include "harness/run/stored_results.h"
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/input/schema.h"
+#include "harness/results/unfinished_folder.h"
+#include "harness/run/results.h"
+#include "harness/run/run_store.h"
+
+namespace trammel::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxEntries = 3;  ///< of a quantity that results.json holds
+constexpr std::size_t kLineDepth = 4;   ///< a check is a line
+
+/// Beside the computation: what was judged of it.
+fs::path judged_file(const fs::path& stored) {
+  return fs::path(stored).replace_extension(".judged.cbor");
+}
+
+/// What stands in results.json: numbers and verdicts.
+results::Run summary_of(const results::Run& run) {
+  results::Run kept;
+  kept.case_id = run.case_id;
+  kept.variant = run.variant;
+  kept.status = run.status;
+  kept.reason = run.reason;
+  kept.residuals = run.residuals;
+  kept.warnings = run.warnings;
+  kept.checks = run.checks;
+  kept.cost = run.cost;
+  kept.stored = run.stored;
+  for (const auto& quantity : run.quantities)
+    if (quantity.second.size() <= kMaxEntries) kept.quantities.push_back(quantity);
+  return kept;
+}
+
+results::Run studies_of(const results::Run& run) {
+  results::Run kept;
+  kept.case_id = run.case_id;
+  kept.variant = run.variant;
+  kept.convergence = run.convergence;
+  kept.uncertainty = run.uncertainty;
+  kept.effects = run.effects;
+  return kept;
+}
+
+/// @throws std::exception  where the store does not have it, or has it of something else.
+void take_from_store(results::Run& run, const fs::path& stored) {
+  results::Run studies = results::read_run(json_from(read_text(judged_file(stored))));
+  results::Run series = stored_series(computation_from(read_text(stored)));
+  const bool same = studies.case_id == run.case_id && studies.variant == run.variant &&
+                    std::all_of(run.quantities.begin(), run.quantities.end(), [&](const auto& own) {
+                      const results::Numbers* other = series.quantity(own.first);
+                      return other != nullptr && *other == own.second;
+                    });
+  if (!same) throw std::runtime_error("it is of another run");
+  run.quantities = std::move(series.quantities);
+  run.drawing = std::move(series.drawing);
+  run.convergence = std::move(studies.convergence);
+  run.uncertainty = std::move(studies.uncertainty);
+  run.effects = std::move(studies.effects);
+}
+
+/// What stands in the file itself.
+results::Results whole(const fs::path& file) {
+  const Json json = read_json(file);
+  if (const auto fault = find_schema_fault(json, "results"))
+    throw InputError(file.string(), fault->pointer, fault->message);
+  try {
+    return results::read_results(json);
+  } catch (const std::runtime_error& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
+
+/// The folder that a report will stand in, while it is written beside a former one.
+fs::path place_of(const fs::path& folder) {
+  return folder.filename() == results::kUnfinishedFolder ? folder.parent_path() : folder;
+}
+
+}  // namespace
+
+fs::path write_results(const results::Results& results, const fs::path& folder) {
+  results::Results summary = results;
+  summary.runs.clear();
+  for (const results::Run& run : results.runs) {
+    summary.runs.push_back(run.stored.empty() ? run : summary_of(run));
+    if (!run.stored.empty())
+      write_file(judged_file(fs::path(results.store) / run.stored),
+                 to_bytes(to_json(studies_of(run))));
+  }
+  if (!results.store.empty())
+    summary.store = fs::proximate(results.store, place_of(folder)).string();
+  fs::path file = folder / "results.json";
+  write_file(file, pretty(to_json(summary), kLineDepth));
+  return file;
+}
+
+results::Results load_results(const fs::path& file) {
+  results::Results results = whole(file);
+  if (results.store.empty()) return results;
+  results.store = (file.parent_path() / results.store).lexically_normal().string();
+  std::size_t missing = 0;
+  for (results::Run& run : results.runs) {
+    if (run.stored.empty()) continue;
+    try {
+      take_from_store(run, fs::path(results.store) / run.stored);
+    } catch (const std::exception&) {
+      ++missing;
+    }
+  }
+  if (missing > 0)
+    results.missing =
+        std::to_string(missing) + " of " + std::to_string(results.runs.size()) +
+        " runs are without series, drawings and studies: expected them in the store " +
+        results.store;
+  results::complete(results);
+  return results;
+}
+
+}  // namespace trammel::harness

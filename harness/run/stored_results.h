@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+#include "harness/results/results.h"
+
+/// results.json holds what runs come to and how that was judged; their series, drawings and studies
+/// of convergence and uncertainty stay in the run store.
+namespace trammel::harness {
+
+/// Writes results.json into the folder, all of it or nothing, and what was judged beside the
+/// computations of the store. @returns its path.
+/// @throws InputError  where the folder cannot be made or written.
+std::filesystem::path write_results(const results::Results& results,
+                                    const std::filesystem::path& folder);
+
+/// A results file with what the store has of its runs. A copy without its store is whole but for
+/// that, which `missing` says.
+/// @throws InputError  with the JSON pointer of what is wrong.
+[[nodiscard]] results::Results load_results(const std::filesystem::path& file);
+
+}  // namespace trammel::harness

@@ -1,0 +1,103 @@
+#include "harness/run/stored_results.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "harness/base/json_file.h"
+#include "harness/run/results.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A cantilever in two meshes, refined, with its drawing, in a store.
+results::Results computed(const Folder& folder) {
+  Json json = testing::cantilever();
+  json["variants"]["two"]["model"]["elements"] = 2;
+  json["sweeps"] = {{"mesh", {{"pointers", {"/model/elements"}}, {"values", {1, 2, 4, 8}}}}};
+  json["checks"]["tip"] = {{"quantity", "displacement_y_m:B"},
+                           {"role", "verification"},
+                           {"bound", {{"at_least", -1}, {"at_most", 1}, {"why", "it is short"}}}};
+  const std::vector<Case> cases = {testing::read(folder, json)};
+  RunOptions options;
+  options.store = folder.path() / "out/store";
+  const References references;
+  return results_of(run_cases(cases, references, options), cases, references);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(stored_results)
+
+BOOST_AUTO_TEST_CASE(what_is_read_back_with_its_store_is_what_was_written) {
+  const Folder folder;
+  results::Results before = computed(folder);
+  const fs::path file = write_results(before, folder.path() / "out");
+  const results::Results after = load_results(file);
+  BOOST_TEST(after.missing == "");
+  BOOST_TEST(!before.runs[0].convergence.empty());
+  BOOST_TEST(before.runs[0].drawing.has_value());
+  results::complete(before);
+  Json a = to_json(before), b = to_json(after);
+  a.erase("store"), b.erase("store");
+  BOOST_TEST(a.dump() == b.dump());
+}
+
+BOOST_AUTO_TEST_CASE(the_file_itself_holds_scalars_checks_and_verdicts_and_each_reason_once) {
+  const Folder folder;
+  const Json json = read_json(write_results(computed(folder), folder.path() / "out"));
+  BOOST_TEST(json["store"] == "store");
+  for (const Json& run : json["runs"]) {
+    for (const Json& values : run["quantities"]) BOOST_TEST(values.size() <= 3U);
+    BOOST_TEST(!run.contains("drawing"));
+    BOOST_TEST(run["convergence"].empty());
+    BOOST_TEST(run["checks"][0]["verdict"] == "pass");
+    BOOST_TEST(run["checks"][0]["why"] == 0);
+  }
+  BOOST_TEST(json["reasons"].size() == 1U);
+  BOOST_TEST(json["reasons"][0] == "it is short");
+}
+
+BOOST_AUTO_TEST_CASE(a_copy_without_its_store_is_read_and_says_what_is_missing) {
+  const Folder folder;
+  const fs::path file = write_results(computed(folder), folder.path() / "out");
+  fs::create_directories(folder.path() / "copy");
+  fs::copy(file, folder.path() / "copy");
+  const results::Results copy = load_results(folder.path() / "copy/results.json");
+  BOOST_TEST(contains(copy.missing, "2 of 2 runs are without series"), copy.missing);
+  BOOST_TEST(copy.runs[0].checks.at(0).why == "it is short");
+  BOOST_TEST(copy.runs[0].quantity("displacement_y_m:B") != nullptr);
+}
+
+BOOST_AUTO_TEST_CASE(a_broken_file_of_the_store_and_one_of_another_run_count_as_missing) {
+  const Folder folder;
+  const results::Results results = computed(folder);
+  const fs::path file = write_results(results, folder.path() / "out");
+  const fs::path first = folder.path() / "out/store" / results.runs[0].stored,
+                 second = folder.path() / "out/store" / results.runs[1].stored;
+  const std::string whole = read_text(first);
+  write_file(first, read_text(second));
+  BOOST_TEST(contains(load_results(file).missing, "1 of 2 runs"));
+  std::string bent = whole;
+  bent[bent.size() / 2] ^= 1;
+  write_file(first, bent);
+  BOOST_TEST(contains(load_results(file).missing, "1 of 2 runs"));
+  write_file(first, whole);
+  BOOST_TEST(load_results(file).missing == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_place_beyond_the_reasons_is_refused) {
+  const Folder folder;
+  const fs::path file = write_results(computed(folder), folder.path() / "out");
+  Json json = read_json(file);
+  json["runs"][0]["checks"][0]["why"] = 1;
+  write_file(file, json.dump());
+  BOOST_TEST(contains(testing::complaint([&] { (void)load_results(file); }), "/reasons"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
