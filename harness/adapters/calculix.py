@@ -25,7 +25,7 @@ from trammel_adapter import Cannot, main
 SHEAR_RIGID = (8, 300)  # least and most of the shear modulus over E where the beam theory has no shear; slender strips lose digits by it
 THIN, SLENDER = 3, 0.009  # how many times thinner the strip of an inextensible member is, unless it is as slender as this
 CORE, NO_ROTARY = 0.2, ("euler-bernoulli", "shear")  # in modes these have their mass in a core of that share of the depth
-STIFF = 1e4  # how many times the axial stiffness of an inextensible member is, where it is U1
+STIFF = 1e5  # how many times the axial stiffness of an inextensible member is, where it is U1
 ALONG = {"CPS8R": 2, "CPS8": 4}  # elements of a strip for each element of the case
 DIGITS = 7  # that ccx prints
 MODES = 20  # of motions in time
