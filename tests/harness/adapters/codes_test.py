@@ -78,7 +78,7 @@ def values(file, name):
 def main():
     trammel, code, *adapter = sys.argv[1:]
     if not THERE[code]():
-        print(f"{code} is not installed: .ci/install codes")
+        print(f"{code} is not installed: .ci/install lint")
         sys.exit(1 if os.environ.get("TRAMMEL_OTHER_CODES") == "required" else 77)
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
