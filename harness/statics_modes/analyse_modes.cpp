@@ -96,18 +96,31 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
   return result;
 }
 
+/// Whether the links are condensed in less time than they save, and the joints' matrices, which are
+/// dense, are small.
+bool is_condensable(const solver::ManipulatorDesign& design) {
+  constexpr solver::Index kMostElements = 100;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::max(design.proximal[i].elements, design.distal[i].elements) > kMostElements)
+      return false;
+  }
+  return design.platform.kind == solver::PlatformKind::rigid ||
+         (design.platform.refinements == 0 && design.platform.pin_radius == 0);
+}
+
 /// Whether the modes follow the pose: a manipulator on a path, alone, at rest and without loads
 /// that stiffen it.
 bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
   const solver::Model& others = case_model.structure;
-  return case_model.path && case_model.manipulator && !analysis.has("rotating") &&
-         !analysis.has("reduction") && !analysis.has("count_below_Hz") &&
+  const auto& joints = case_model.joint_elements;
+  return case_model.path && case_model.manipulator && is_condensable(*case_model.manipulator) &&
+         !analysis.has("rotating") && !analysis.has("reduction") &&
+         !analysis.has("count_below_Hz") &&
          !case_model.effects.has(solver::Effect::geometric_stiffening) && others.nodes.empty() &&
          others.members.empty() && others.triangles.empty() && others.rigid_bodies.empty() &&
          others.masses.empty() && others.springs.empty() && others.supports.empty() &&
-         others.constraints.empty() && case_model.joint_elements.sliders.empty() &&
-         case_model.joint_elements.line_springs.empty() &&
-         case_model.joint_elements.follower_loads.empty() &&
+         others.constraints.empty() && joints.sliders.empty() && joints.line_springs.empty() &&
+         joints.follower_loads.empty() &&
          read_modes_options(analysis).method == solver::EigenMethod::automatic;
 }
 

@@ -78,21 +78,30 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   const Eigen::MatrixXd samples = scaled_inputs(network);
   const Eigen::RowVectorXd importance = output_weights(network.outputs);
 
+  // Samples in blocks: their weights meet the outputs, and ones for their sums, in one product.
+  constexpr Index kBlock = 32;
+  const Index columns = network.outputs.cols();
+  Eigen::MatrixXd targets(n, columns + 1);
+  targets << network.outputs, Eigen::VectorXd::Ones(n);
   ExcessDistances excess(samples);
   Eigen::Array<bool, Eigen::Dynamic, 1> own(n);
-  Eigen::VectorXd query(samples.cols());
-  Eigen::VectorXd weights(n);
-  Eigen::RowVectorXd miss(network.outputs.cols());
+  Eigen::ArrayXXd excesses(n, kBlock);
+  Eigen::MatrixXd weights(n, kBlock), found(kBlock, columns + 1);
+  Eigen::RowVectorXd miss(columns);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(sigmas.size());
-  for (Index i = 0; i < n; ++i) {
-    own = folds == folds(i);
-    query = samples.row(i).transpose();
-    const Eigen::ArrayXd& e = excess.compute(query, &own);
+  for (Index first = 0; first < n; first += kBlock) {
+    const Index count = std::min(kBlock, n - first);
+    for (Index k = 0; k < count; ++k) {
+      own = folds == folds(first + k);
+      excesses.col(k) = excess.compute(samples.row(first + k).transpose(), &own);
+    }
     for (Index s = 0; s < sigmas.size(); ++s) {
-      kernel_weights(e, sigmas(s), weights);
-      miss.noalias() = weights.transpose() * network.outputs;
-      miss = (miss / weights.sum() - network.outputs.row(i)).cwiseProduct(importance);
-      sum(s) += miss.squaredNorm();
+      kernel_weights(excesses.leftCols(count), sigmas(s), weights.leftCols(count));
+      found.topRows(count).noalias() = weights.leftCols(count).transpose() * targets;
+      for (Index k = 0; k < count; ++k) {
+        miss = found.row(k).head(columns) / found(k, columns) - network.outputs.row(first + k);
+        sum(s) += miss.cwiseProduct(importance).squaredNorm();
+      }
     }
   }
   return (sum / static_cast<double>(n * network.outputs.cols())).cwiseSqrt();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 
 /// The kernel weights of a GRNN, shared by prediction and cross-validation.
@@ -18,12 +19,14 @@ class ExcessDistances {
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query,
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    squared_.setZero();
-    for (Eigen::Index f = 0; f < samples_.cols(); ++f)
+    squared_ = (query(0) - samples_.col(0).array()).square();
+    for (Eigen::Index f = 1; f < samples_.cols(); ++f)
       squared_ += (query(f) - samples_.col(f).array()).square();
     if (skip) squared_ = skip->select(kInfinity, squared_);
-    Eigen::Index nearest = 0;
-    squared_.minCoeff(&nearest);
+    const double* const first = squared_.data();
+    const Eigen::Index nearest =
+        std::min(std::find(first, first + squared_.size(), squared_.minCoeff()) - first,
+                 squared_.size() - 1);
     excess_.setZero();
     for (Eigen::Index f = 0; f < samples_.cols(); ++f) {
       const double x = query(f);
@@ -44,8 +47,8 @@ class ExcessDistances {
 
 /// exp(-excess / 2 sigma^2): 1 for the nearest, whatever sigma. Two divisions, since sigma^2 may
 /// underflow or overflow where excess / sigma / sigma has its proper limit.
-template <class Out>
-void kernel_weights(const Eigen::ArrayXd& excess, double sigma, Out&& weights) {
+template <class In, class Out>
+void kernel_weights(const In& excess, double sigma, Out&& weights) {
   const double inverse = 1 / sigma;
   weights = (-0.5 * (excess * inverse) * inverse).exp().matrix();
 }
