@@ -62,6 +62,9 @@ Json stated_analysis(const Document& document, solver::Effects chosen) {
         "expected effects that the analysis has words for: large displacement, and a rotating "
         "frame without geometric stiffening, are not exported");
   }
+  if (!chosen.has(Effect::damping))
+    for (const char* key : {"damping", "mass_damping_per_s", "strain_rate_damping_s"})
+      analysis[analysis_kind(document)].erase(key);
   for (const EffectKey& key : find_analysis(analysis_kind(document)).effects->keys(place)) {
     JsonPointer at = JsonPointer() / analysis_kind(document);
     for (const char* word : key.place) at /= word;
