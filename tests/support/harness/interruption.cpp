@@ -38,11 +38,13 @@ int exit_status(pid_t child) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+/// Computations, without what was judged of them.
 std::set<fs::path> stored(const fs::path& out) {
   std::set<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(out / "store", error))
-    if (entry.path().extension() == ".cbor") files.insert(entry.path());
+    if (entry.path().extension() == ".cbor" && entry.path().stem().extension() != ".judged")
+      files.insert(entry.path());
   return files;
 }
 
