@@ -1,8 +1,10 @@
 #include "reports/sections/references.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
+#include "reports/drawing/figure.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
