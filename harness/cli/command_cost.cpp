@@ -114,17 +114,26 @@ void print_settings(const MeasuredStudy& measured) {
   for (const std::string& reason : reasons) std::cout << wrapped(reason, "    ");
 }
 
-void print_cheapest(const MeasuredStudy& measured) {
-  Table table({">within", "cheapest setting", ">error", ">time"});
+void add_cheapest(const MeasuredStudy& measured, const std::vector<CostPoint>& points,
+                  const std::string& output, Table& table) {
+  const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
   for (const double error : target_errors()) {
-    const auto found = cheapest(measured.points, error);
+    const auto found = cheapest(points, error);
     const std::string target = error < 1e-3 ? rounded(error) : rounded(100 * error) + " %";
-    const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
-    table.add({target, found ? title(found->setting) : "none of these",
+    table.add({target, output, found ? title(found->setting) : "none of these",
                found ? rounded(found->error, 2) : "", found ? rounded(found->time, 3) : ""});
-    for (const std::size_t tied : tied_settings(measured.points, error))
-      table.add({"", "or " + title(tied), "", ""});
+    for (const std::size_t tied : tied_settings(points, error))
+      table.add({"", "", "or " + title(tied), "", ""});
   }
+}
+
+void print_cheapest(const MeasuredStudy& measured) {
+  const std::vector<Output>& outputs = measured.study.outputs;
+  const bool several = outputs.size() > 1;
+  Table table({">within", several ? "of" : "", "cheapest setting", ">error", ">time"});
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    add_cheapest(measured, output_points(measured, k), outputs[k].title, table);
+  if (several) add_cheapest(measured, output_points(measured, std::nullopt), "all at once", table);
   table.print(std::cout, "  ");
 }
 
@@ -134,7 +143,8 @@ void print(const MeasuredStudy& measured) {
             << wrapped(fmt::format("Error ({}) against {}, {}; time relative to '{}'; * on the "
                                    "efficient front.",
                                    to_string(study.norm), study.reference_description,
-                                   study.scale_description, study.settings[study.baseline].title),
+                                   study.outputs.front().scale_description,
+                                   study.settings[study.baseline].title),
                        "  ");
   print_settings(measured);
   print_cheapest(measured);

@@ -53,6 +53,13 @@ struct Repeatability {
   Number median_difference, largest_difference;  ///< of the time that an accuracy takes
 };
 
+/// What a study of several outputs finds for one of them, or for all at once.
+struct CostOutput {
+  std::string title, scale;
+  std::vector<Number> errors;  ///< by setting, in the study's norm; none where it is not given
+  std::vector<CheapestSetting> cheapest;
+};
+
 struct CostStudy {
   std::string id, family, title, description, reference_solution, scale, norm, conclusion;
   std::vector<CostSetting> settings;
@@ -60,6 +67,7 @@ struct CostStudy {
   double wall_s = 0;
   std::vector<CheapestSetting> cheapest;
   Repeatability repeatability;
+  std::vector<CostOutput> outputs;  ///< where there are several; all at once is the last
 
   /// The error of a setting in the study's norm.
   [[nodiscard]] Number error(const CostSetting& setting) const;

@@ -135,10 +135,13 @@ inline constexpr auto kFields<Repeatability> =
     std::tuple{TRAMMEL_REQUIRED(Repeatability, on_both_fronts, on_either_front, same_cheapest,
                                 target_errors, median_difference, largest_difference)};
 template <>
+inline constexpr auto kFields<CostOutput> =
+    std::tuple{TRAMMEL_REQUIRED(CostOutput, title, scale, errors, cheapest)};
+template <>
 inline constexpr auto kFields<CostStudy> =
     std::tuple{TRAMMEL_REQUIRED(CostStudy, id, family, title, reference_solution, scale, norm,
                                 baseline, wall_s, settings, cheapest, repeatability, conclusion),
-               TRAMMEL_OPTIONAL(CostStudy, description)};
+               TRAMMEL_OPTIONAL(CostStudy, description, outputs)};
 template <>
 inline constexpr auto kFields<CostStudies> = std::tuple{
     TRAMMEL_REQUIRED(CostStudies, sweep, seed, repeats, equal_within, diverged_above, studies)};
@@ -288,11 +291,20 @@ void require_consistent(const CostStudy& study, const Place& place) {
   const std::size_t count = study.settings.size();
   const std::string expected = "an integer from 0 to " + std::to_string(count - 1);
   if (study.baseline >= count) Place{&place, "baseline"}.fail(expected);
-  for (const CheapestSetting& cheapest : study.cheapest)
-    if (cheapest.setting.value_or(0) >= count ||
-        std::any_of(cheapest.tied.begin(), cheapest.tied.end(),
-                    [count](std::size_t tied) { return tied >= count; }))
-      Place{&place, "cheapest"}.fail(expected);
+  const auto check = [&](const std::vector<CheapestSetting>& all, const Place& at) {
+    for (const CheapestSetting& cheapest : all)
+      if (cheapest.setting.value_or(0) >= count ||
+          std::any_of(cheapest.tied.begin(), cheapest.tied.end(),
+                      [count](std::size_t tied) { return tied >= count; }))
+        Place{&at, "cheapest"}.fail(expected);
+  };
+  check(study.cheapest, place);
+  const Place outputs{&place, "outputs"};
+  for (const CostOutput& output : study.outputs) {
+    check(output.cheapest, outputs);
+    if (output.errors.size() != count)
+      Place{&outputs, "errors"}.fail(std::to_string(count) + " numbers, one a setting");
+  }
 }
 
 /// Titles that are left out are the names.

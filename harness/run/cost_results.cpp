@@ -31,6 +31,31 @@ results::CostSetting setting_results(const Setting& setting, const MeasuredSetti
   return out;
 }
 
+std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPoint>& points) {
+  std::vector<results::CheapestSetting> all;
+  for (const double error : target_errors()) {
+    results::CheapestSetting& at = all.emplace_back();
+    at.error = error;
+    if (const auto found = cheapest(points, error)) at.setting = found->setting;
+    at.tied = tied_settings(points, error);
+  }
+  return all;
+}
+
+/// @param output  none: all of them at once
+results::CostOutput output_results(const MeasuredStudy& measured,
+                                   std::optional<std::size_t> output) {
+  const std::vector<Output>& outputs = measured.study.outputs;
+  results::CostOutput out;
+  out.title = output ? outputs[*output].title : "all at once";
+  if (output) out.scale = outputs[*output].scale_description;
+  out.errors.resize(measured.settings.size());
+  const std::vector<CostPoint> points = output_points(measured, output);
+  for (const CostPoint& point : points) out.errors[point.setting] = point.error;
+  out.cheapest = cheapest_settings(points);
+  return out;
+}
+
 results::CostStudy study_results(const MeasuredStudy& measured) {
   const CostStudy& study = measured.study;
   results::CostStudy out;
@@ -39,7 +64,7 @@ results::CostStudy study_results(const MeasuredStudy& measured) {
   out.title = study.title;
   out.description = study.description;
   out.reference_solution = study.reference_description;
-  out.scale = study.scale_description;
+  out.scale = study.outputs.front().scale_description;
   out.norm = to_string(study.norm);
   out.baseline = study.baseline;
   out.wall_s = measured.wall_s;
@@ -50,11 +75,11 @@ results::CostStudy study_results(const MeasuredStudy& measured) {
     out.settings.push_back(
         setting_results(study.settings[i], measured.settings[i], pareto_optimal));
   }
-  for (const double error : target_errors()) {
-    results::CheapestSetting& at = out.cheapest.emplace_back();
-    at.error = error;
-    if (const auto found = cheapest(measured.points, error)) at.setting = found->setting;
-    at.tied = tied_settings(measured.points, error);
+  out.cheapest = cheapest_settings(measured.points);
+  if (study.outputs.size() > 1) {
+    for (std::size_t k = 0; k < study.outputs.size(); ++k)
+      out.outputs.push_back(output_results(measured, k));
+    out.outputs.push_back(output_results(measured, std::nullopt));
   }
   const ParetoFrontAgreement& agreement = measured.repeatability;
   out.repeatability = {agreement.shared,

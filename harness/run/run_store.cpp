@@ -99,7 +99,8 @@ TRAMMEL_KEPT(Computation, status, reason, error, result, sweeps, uncertainty, wa
 TRAMMEL_KEPT(ErrorNorms, max, rms, mean)
 TRAMMEL_KEPT(Timing, cpu_s, median_s, lower_quartile_s, upper_quartile_s, wall_median_s, runs_each)
 TRAMMEL_KEPT(RelativeTime, median, low, high)
-TRAMMEL_KEPT(MeasuredSetting, status, reason, error, timing, relative, cpu_s, counters)
+TRAMMEL_KEPT(MeasuredSetting, status, reason, error, output_errors, timing, relative, cpu_s,
+             counters)
 TRAMMEL_KEPT(SandboxedRun, termination, reason, values, quantities, counters, cpu_s)
 
 namespace {
@@ -147,13 +148,15 @@ std::string name_of(const Json& all_that_decides) {
 void add_setting(const Setting& setting, Json& all) {
   all.push_back(setting.document.value());
   for (const ObservedQuantity& one : setting.observed)
-    all.push_back({one.quantity, one.addend, one.statistic, one.index, one.is_error, one.exact});
+    all.push_back(
+        {one.quantity, one.addend, one.statistic, one.index, one.is_error, one.exact, one.output});
 }
 
 std::string name_of(const CostStudy& study, const TimingOptions& timing) {
-  Json all = {machine_name(),    timing.repeats,     timing.seed,
-              timing.shortest_s, study.time_limit_s, study.baseline,
-              study.norm,        study.scale.kind,   study.scale.number};
+  Json all = {machine_name(),     timing.repeats, timing.seed, timing.shortest_s,
+              study.time_limit_s, study.baseline, study.norm};
+  for (const Output& output : study.outputs)
+    all.push_back({output.scale.kind, output.scale.number});
   for (const Setting& setting : study.settings) add_setting(setting, all);
   if (study.reference_solution) add_setting(*study.reference_solution, all);
   return name_of(all);

@@ -332,10 +332,11 @@ class Search {
       throw base_.error("/analysis", "expected a reference solution: " + reason);
     for (std::size_t i = 0; i < observed_.size(); ++i) observed_[i].exact = reference_->values[i];
     CostStudy& study = found_.study;
-    study.scale = scale();
-    study.scale_description = study.scale.kind == Scale::Kind::entry
-                                  ? "relative to each true value"
-                                  : "relative to the largest true value of each quantity";
+    Output& output = study.outputs.front();
+    output.scale = scale();
+    output.scale_description = output.scale.kind == Scale::Kind::entry
+                                   ? "relative to each true value"
+                                   : "relative to the largest true value of each quantity";
     study.time_limit_s = static_cast<int>(std::ceil(request_.time_limit_s));
     Setting as_it_stands;
     as_it_stands.curve = as_it_stands.curve_title = as_it_stands.title = "the case as it stands";

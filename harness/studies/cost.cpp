@@ -41,17 +41,37 @@ std::vector<double> relative_errors(const std::vector<double>& found,
   return errors;
 }
 
-Observations exact_values(const std::vector<ObservedQuantity>& observed,
-                          const Observations& reference_solution) {
-  Observations all;
-  for (std::size_t i = 0; i < observed.size(); ++i) {
-    if (observed[i].is_error) {
-      all.emplace_back();
-    } else {
-      all.push_back(observed[i].exact.empty() ? reference_solution.at(i) : observed[i].exact);
+/// What belongs to one output.
+Observations values_of(const Observations& all, const std::vector<ObservedQuantity>& observed,
+                       std::size_t output) {
+  Observations values;
+  for (std::size_t i = 0; i < observed.size(); ++i)
+    if (observed[i].output == output) values.push_back(all.at(i));
+  return values;
+}
+
+/// The errors of a setting by output.
+std::vector<std::optional<ErrorNorms>> output_errors(const CostStudy& study, const Setting& setting,
+                                                     const Observations& found,
+                                                     const Observations& reference_solution) {
+  std::vector<std::optional<ErrorNorms>> errors;
+  for (std::size_t k = 0; k < study.outputs.size(); ++k) {
+    const Observations values = values_of(found, setting.observed, k);
+    Observations truth;
+    if (study.reference_solution)
+      truth = values_of(reference_solution, study.reference_solution->observed, k);
+    std::size_t i = 0;
+    for (const ObservedQuantity& one : setting.observed) {
+      if (one.output != k) continue;
+      truth.resize(std::max(truth.size(), i + 1));
+      if (!one.exact.empty()) truth[i] = one.exact;
+      if (one.is_error) truth[i].clear();
+      ++i;
     }
+    errors.emplace_back();
+    if (!values.empty()) errors.back() = error_norms(values, truth, study.outputs[k].scale);
   }
-  return all;
+  return errors;
 }
 
 InputError cannot(const Setting& setting, const std::string& what, const std::string& reason) {
@@ -80,8 +100,8 @@ MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setti
                         : MeasurementStatus::failed;
   if (sandboxed.termination != SandboxedRun::Termination::solved) return measured;
   try {
-    measured.error = error_norms(sandboxed.values,
-                                 exact_values(setting.observed, reference_solution), study.scale);
+    measured.output_errors = output_errors(study, setting, sandboxed.values, reference_solution);
+    measured.error = measured.output_errors.front();
   } catch (const std::runtime_error& error) {
     measured.reason = error.what();
     return measured;
@@ -104,16 +124,32 @@ bool is_computed(const MeasuredSetting& measured) {
          measured.status == MeasurementStatus::reference_solution;
 }
 
-std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::size_t first,
-                                 std::size_t step) {
+/// @param output  none: the largest error of all outputs
+std::optional<double> error_of(const MeasuredSetting& measurement, Norm norm,
+                               std::optional<std::size_t> output) {
+  const auto get = [&](const std::optional<ErrorNorms>& error) {
+    return error ? std::optional(error->get(norm)) : std::nullopt;
+  };
+  if (output) return get(measurement.output_errors.at(*output));
+  std::optional<double> largest = 0;
+  for (const auto& error : measurement.output_errors) {
+    if (!error) return std::nullopt;
+    largest = solver::nan_max(*largest, error->get(norm));
+  }
+  return largest;
+}
+
+std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::optional<std::size_t> output,
+                                 std::size_t first, std::size_t step) {
   const Timing& baseline = *measured.settings[measured.study.baseline].timing;
   std::vector<CostPoint> points;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
     const MeasuredSetting& measurement = measured.settings[i];
     if (measurement.status != MeasurementStatus::measured) continue;
-    const double error = measurement.error->get(measured.study.norm);
+    const auto error = error_of(measurement, measured.study.norm, output);
+    if (!error) continue;
     const RelativeTime time = relative_time(*measurement.timing, baseline, first, step);
-    points.push_back({i, std::max(error, kMinError), time.median, time.low, time.high});
+    points.push_back({i, std::max(*error, kMinError), time.median, time.low, time.high});
   }
   return points;
 }
@@ -178,6 +214,11 @@ ErrorNorms error_norms(const Observations& found, const Observations& reference_
   return norms;
 }
 
+std::vector<CostPoint> output_points(const MeasuredStudy& measured,
+                                     std::optional<std::size_t> output) {
+  return points_of(measured, output, 0, 1);
+}
+
 MeasuredStudy measure(CostStudy study, const CostOptions& options, const References& references) {
   const Stopwatch watch;
   MeasuredStudy measured;
@@ -215,12 +256,12 @@ void derive_results(MeasuredStudy& measured) {
     measurement.relative = measurement.timing ? relative_time(*measurement.timing, *baseline.timing)
                                               : RelativeTime{trial, trial, trial};
   }
-  measured.points = points_of(measured, 0, 1);
+  measured.points = output_points(measured, 0);
   measured.pareto_front = find_pareto_front(measured.points);
   measured.conclusion =
       describe_pareto_front(measured.points, titles_of(cost_study), cost_study.baseline);
   measured.repeatability =
-      compare_pareto_fronts(points_of(measured, 0, 2), points_of(measured, 1, 2));
+      compare_pareto_fronts(points_of(measured, 0, 0, 2), points_of(measured, 0, 1, 2));
 }
 
 const char* to_string(MeasurementStatus status) {

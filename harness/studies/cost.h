@@ -38,7 +38,9 @@ struct MeasuredSetting {
   };
   MeasurementStatus status = MeasurementStatus::failed;
   std::string reason;
-  std::optional<ErrorNorms> error;
+  std::optional<ErrorNorms> error;  ///< of the study's first output
+  /// Of each output; none where the setting does not give it.
+  std::vector<std::optional<ErrorNorms>> output_errors;
   std::optional<Timing> timing;
   RelativeTime relative;  ///< to the baseline; without repeats the one trial's
   double cpu_s = 0;       ///< median; of the one trial where it was not timed
@@ -55,6 +57,11 @@ struct MeasuredStudy {
   ParetoFrontAgreement repeatability;
   double wall_s = 0;  ///< that the whole study took
 };
+
+/// The settings that were measured, by one output's error in the study's norm, or where none is
+/// named by the largest of all outputs' errors; without those that do not give it.
+[[nodiscard]] std::vector<CostPoint> output_points(const MeasuredStudy& measured,
+                                                   std::optional<std::size_t> output);
 
 struct CostOptions {
   TimingOptions timing;

@@ -38,7 +38,20 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
   return values;
 }
 
-std::vector<ObservedQuantity> read_observed(const JsonView& quantities,
+/// Where the quantity's output stands among those of the study.
+std::size_t output_number(const JsonView& study, const JsonView& place) {
+  if (!place.has("output")) return 0;
+  std::size_t number = 0;
+  if (const auto outputs = study.find("outputs")) {
+    for (const auto& entry : outputs->entries()) {
+      if (entry.first == place.text("output")) return number;
+      ++number;
+    }
+  }
+  throw place["output"].error("expected one of the study's 'outputs'");
+}
+
+std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonView& quantities,
                                             const References& references) {
   std::vector<ObservedQuantity> observed;
   for (const auto& [name, place] : quantities.entries()) {
@@ -48,6 +61,7 @@ std::vector<ObservedQuantity> read_observed(const JsonView& quantities,
     entry.statistic = place.get<std::string>("statistic", "");
     entry.index = indices(place, "index");
     entry.is_error = place.get("is_error", false);
+    entry.output = output_number(study, place);
     if (place.has("reference")) entry.exact = exact_values(place, name, references);
     observed.push_back(std::move(entry));
   }
@@ -162,7 +176,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
   setting.curve = name;
   setting.curve_title = setting.title = curve.text("title");
   const JsonView quantities = curve.has("quantities") ? curve["quantities"] : study["quantities"];
-  setting.observed = read_observed(quantities, references);
+  setting.observed = read_observed(study, quantities, references);
   const Document start = start_of(study, curve);
   std::vector<Setting> settings;
   if (!curve.has("values")) {
@@ -198,24 +212,15 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
   return static_cast<std::size_t>(found - settings.begin());
 }
 
-Scale read_scale(const JsonView& study) {
-  const auto place = study.find("scale");
+Scale read_scale(const JsonView& output) {
+  const auto place = output.find("scale");
   if (!place) return {};
   if (place->json().is_object()) return {Scale::Kind::number, place->number("value")};
   const bool largest = place->get<std::string>() == "largest";
   return {largest ? Scale::Kind::largest : Scale::Kind::entry, 0};
 }
 
-void check_scale(const Scale& scale, const JsonView& study) {
-  if (scale.kind == Scale::Kind::entry) return;
-  const auto names = study["quantities"].entries();
-  for (const auto& [name, place] : names) {
-    if (unit_of(name) == unit_of(names.front().first)) continue;
-    throw place.error("expected quantities of one unit, as 'scale' has it");
-  }
-}
-
-std::string describe_scale(const Scale& scale, const JsonView& study) {
+std::string describe_scale(const Scale& scale, const JsonView& output) {
   switch (scale.kind) {
     case Scale::Kind::entry:
       return "relative to each true value";
@@ -224,9 +229,36 @@ std::string describe_scale(const Scale& scale, const JsonView& study) {
     case Scale::Kind::largest:
       return "relative to the largest true value of all";
     case Scale::Kind::number:
-      return "relative to " + shortest(scale.number) + ", " + study["scale"].text("why");
+      return "relative to " + shortest(scale.number) + ", " + output["scale"].text("why");
   }
   return "";
+}
+
+/// Values that one number is the scale of have one unit.
+void check_scale(const Scale& scale, std::size_t output, const JsonView& study) {
+  if (scale.kind == Scale::Kind::entry) return;
+  std::string unit;
+  for (const auto& [name, place] : study["quantities"].entries()) {
+    if (output_number(study, place) != output) continue;
+    if (unit.empty()) unit = unit_of(name);
+    if (unit_of(name) != unit)
+      throw place.error("expected quantities of one unit, as 'scale' has it");
+  }
+}
+
+std::vector<Output> read_outputs(const JsonView& study) {
+  const auto read = [&](const JsonView& place, std::size_t number, const std::string& title) {
+    const Scale scale = read_scale(place);
+    check_scale(scale, number, study);
+    return Output{title, scale, describe_scale(scale, place)};
+  };
+  const auto several = study.find("outputs");
+  if (!several) return {read(study, 0, "")};
+  if (study.has("scale")) throw study["scale"].error("expected it in each of 'outputs'");
+  std::vector<Output> outputs;
+  for (const auto& entry : several->entries())
+    outputs.push_back(read(entry.second, outputs.size(), entry.second.text("title")));
+  return outputs;
 }
 
 Norm read_norm(const JsonView& study) {
@@ -263,21 +295,33 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
   Setting reference_solution;
   reference_solution.title = study.reference_description = place.text("title");
   const JsonView quantities = place.has("quantities") ? place["quantities"] : root["quantities"];
-  reference_solution.observed = read_observed(quantities, references);
+  reference_solution.observed = read_observed(root, quantities, references);
   reference_solution.document = start_of(root, place);
   reference_solution.document.validate("case");
   study.reference_solution = std::move(reference_solution);
 }
 
+std::size_t count_of(const Setting& setting, std::size_t output) {
+  return static_cast<std::size_t>(
+      std::count_if(setting.observed.begin(), setting.observed.end(),
+                    [output](const ObservedQuantity& one) { return one.output == output; }));
+}
+
 void check_counts(const JsonView& root, const CostStudy& study) {
-  const std::size_t wanted = study.settings.front().observed.size();
-  for (const Setting& setting : study.settings) {
-    if (setting.observed.size() == wanted) continue;
-    throw root["curves"][setting.curve].error("expected " + std::to_string(wanted) +
-                                              " quantities, as the first curve has");
-  }
-  if (study.reference_solution && study.reference_solution->observed.size() != wanted) {
-    throw root["reference_solution"].error("expected " + std::to_string(wanted) + " quantities");
+  const auto names = root["quantities"];
+  for (std::size_t k = 0; k < study.outputs.size(); ++k) {
+    std::size_t wanted = 0;
+    for (const auto& entry : names.entries()) wanted += output_number(root, entry.second) == k;
+    const std::string expected = "expected " + std::to_string(wanted) + " quantities" +
+                                 (k > 0 ? " of '" + study.outputs[k].title + "', or none" : "");
+    if (wanted == 0) throw names.error("expected a quantity of '" + study.outputs[k].title + "'");
+    for (const Setting& setting : study.settings) {
+      const std::size_t given = count_of(setting, k);
+      if (given != wanted && (k == 0 || given > 0))
+        throw root["curves"][setting.curve].error(expected);
+    }
+    if (study.reference_solution && count_of(*study.reference_solution, k) != wanted)
+      throw root["reference_solution"].error(expected);
   }
 }
 
@@ -343,10 +387,8 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
   }
   study.baseline = find_baseline(root["baseline"], study.settings);
   read_reference_solution(root, study, references);
+  study.outputs = read_outputs(root);
   check_counts(root, study);
-  study.scale = read_scale(root);
-  check_scale(study.scale, root);
-  study.scale_description = describe_scale(study.scale, root);
   study.norm = read_norm(root);
   study.time_limit_s = root.get("time_limit_s", study.time_limit_s);
   return study;

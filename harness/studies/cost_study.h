@@ -21,6 +21,7 @@ struct ObservedQuantity {
   std::vector<std::size_t> index;  ///< empty: all
   bool is_error = false;           ///< the values are relative errors themselves
   std::vector<double> exact;       ///< from a reference; empty: from the study's truth
+  std::size_t output = 0;          ///< of the study's outputs
 
   /// Whether it needs the study's truth.
   [[nodiscard]] bool needs_reference_solution() const { return !is_error && exact.empty(); }
@@ -52,6 +53,13 @@ struct Scale {
   double number = 0;
 };
 
+/// What errors are measured of together, with one scale: where P is, the torques of the drives.
+struct Output {
+  std::string title;  ///< empty where it is the only one
+  Scale scale;
+  std::string scale_description;
+};
+
 struct CostStudy {
   std::string id, family, title, description;
   std::vector<Setting> settings;  ///< curve by curve, coarse to fine
@@ -59,8 +67,9 @@ struct CostStudy {
       reference_solution;             ///< where the observed quantities have no exact values
   std::string reference_description;  ///< what errors are measured against
   std::size_t baseline = 0;           ///< among the settings
-  Scale scale;
-  std::string scale_description;
+  /// The first is that of figure, front and conclusion; every setting gives it, the others where it
+  /// can.
+  std::vector<Output> outputs{1};
   Norm norm = Norm::max;
   int time_limit_s = 60;
 };

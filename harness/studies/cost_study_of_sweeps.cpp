@@ -109,7 +109,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
     study.reference_solution = study.settings.back();
     study.reference_description = "the finest level, " + study.settings.back().title;
   }
-  study.scale_description = "relative to each true value";
+  study.outputs.front().scale_description = "relative to each true value";
   return study;
 }
 

@@ -140,6 +140,39 @@ std::string study_anchor(const CostStudy& study) {
   return "cost-" + slug(study.id);
 }
 
+/// The targets as heads of a table's columns.
+Data heads_of(const std::vector<CheapestSetting>& cheapest) {
+  Data heads = list();
+  for (const CheapestSetting& target : cheapest) {
+    Data head = object();
+    head.set("within", within(target.error));
+    heads.push_back(head);
+  }
+  return heads;
+}
+
+Data cells_of(const CostStudy& study, const std::vector<CheapestSetting>& cheapest) {
+  Data cells = list();
+  for (const CheapestSetting& target : cheapest) cells.push_back(cheapest_row(study, target));
+  return cells;
+}
+
+/// The cheapest settings for each of several outputs, and for all at once.
+void set_outputs(Data& data, const CostStudy& study) {
+  set_flag(data, "has_outputs", !study.outputs.empty());
+  if (study.outputs.empty()) return;
+  data.set("output_heads", heads_of(study.cheapest));
+  Data rows = list();
+  for (const CostOutput& output : study.outputs) {
+    Data row = object();
+    row.set("output", output.title);
+    set_text(row, "scale", output.scale);
+    row.set("cells", cells_of(study, output.cheapest));
+    rows.push_back(row);
+  }
+  data.set("outputs", rows);
+}
+
 Data study_data(const CostPanel& panel) {
   const CostStudy& study = *panel.study;
   Data data = object();
@@ -152,6 +185,7 @@ Data study_data(const CostPanel& panel) {
   for (const CheapestSetting& cheapest : study.cheapest)
     rows.push_back(cheapest_row(study, cheapest));
   data.set("cheapest", rows);
+  set_outputs(data, study);
   const Data lost = left_out(study);
   set_flag(data, "has_left_out", lost.is_non_empty_list());
   data.set("left_out", lost);
@@ -160,24 +194,15 @@ Data study_data(const CostPanel& panel) {
 
 /// All studies in one table: the cheapest setting for each accuracy.
 void set_overview(Data& section, const std::vector<CostPanel>& panels) {
-  Data heads = list();
-  for (const CheapestSetting& cheapest : panels.front().study->cheapest) {
-    Data head = object();
-    head.set("within", within(cheapest.error));
-    heads.push_back(head);
-  }
   Data rows = list();
   for (const CostPanel& panel : panels) {
     Data row = object();
     row.set("anchor", study_anchor(*panel.study));
     row.set("study_title", panel.study->title);
-    Data cells = list();
-    for (const CheapestSetting& cheapest : panel.study->cheapest)
-      cells.push_back(cheapest_row(*panel.study, cheapest));
-    row.set("cells", cells);
+    row.set("cells", cells_of(*panel.study, panel.study->cheapest));
     rows.push_back(row);
   }
-  section.set("overview_heads", heads);
+  section.set("overview_heads", heads_of(panels.front().study->cheapest));
   section.set("overview_rows", rows);
 }
 

@@ -105,6 +105,30 @@ BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
   BOOST_TEST(contains(fault_of(json), "expected a reference in Hz"));
 }
 
+BOOST_AUTO_TEST_CASE(several_outputs_have_a_scale_each_and_quantities_that_are_theirs) {
+  Json json = study_json();
+  json["outputs"] = {{"tones", {{"title", "frequencies"}}},
+                     {"size", {{"title", "coordinates"}, {"scale", "largest"}}}};
+  BOOST_TEST(contains(fault_of(json), "/quantities: expected a quantity of 'coordinates'"));
+  json["quantities"]["degrees_of_freedom"] = {{"output", "size"}};
+  const CostStudy study = load(json);
+  BOOST_TEST_REQUIRE(study.outputs.size() == 2U);
+  BOOST_TEST(study.settings[0].observed[1].output == 1U);
+  BOOST_TEST((study.outputs[1].scale.kind == Scale::Kind::largest));
+  Json spoiled = json;
+  spoiled["quantities"]["degrees_of_freedom"]["output"] = "sizes";
+  BOOST_TEST(contains(fault_of(spoiled), "/quantities/degrees_of_freedom/output: expected one of"));
+  spoiled = json;
+  spoiled["scale"] = "largest";
+  BOOST_TEST(contains(fault_of(spoiled), "/scale: expected it in each of 'outputs'"));
+  // A curve may be silent on the second output, never on the first.
+  spoiled = json;
+  spoiled["curves"]["lumped"]["quantities"] = {{"frequency_Hz", {{"index", {0, 1}}}}};
+  BOOST_TEST(fault_of(spoiled) == "");
+  spoiled["curves"]["lumped"]["quantities"] = {{"degrees_of_freedom", {{"output", "size"}}}};
+  BOOST_TEST(contains(fault_of(spoiled), "/curves/lumped: expected 1 quantities"));
+}
+
 BOOST_AUTO_TEST_CASE(observed_values_are_chosen_added_and_condensed) {
   const Quantities quantities = {{"pose_x_m", {{1, 2, 3}, {}}},
                                  {"displacement_x_m:P", {{0.1, 0.2, -0.6}, {}}}};

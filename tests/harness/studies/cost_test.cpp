@@ -89,6 +89,36 @@ BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(outputs_are_judged_one_by_one_and_all_at_once) {
+  Json json = study_json();
+  json["outputs"] = {{"tones", {{"title", "frequencies"}}},
+                     {"size", {{"title", "coordinates"}, {"scale", "largest"}}}};
+  json["quantities"]["degrees_of_freedom"] = {{"output", "size"}};
+  json["curves"]["more"] = {{"title", "lumped"},
+                            {"patch", {{"model", {{"elements", 8}}}}},
+                            {"quantities", {{"frequency_Hz", {{"index", {0, 1}}}}}}};
+  const MeasuredStudy study = measured(json);
+  // 16 elements have 48 coordinates, one element has 3.
+  BOOST_TEST_REQUIRE(study.settings[0].output_errors.size() == 2U);
+  BOOST_TEST(study.settings[0].output_errors[1]->max == 45.0 / 48);
+  BOOST_TEST(study.settings[0].error->max == study.settings[0].output_errors[0]->max);
+  BOOST_TEST(!study.settings[4].output_errors[1].has_value());
+  BOOST_TEST(study.points.size() == 4U);
+  const auto all = output_points(study, std::nullopt), size = output_points(study, 1);
+  BOOST_TEST_REQUIRE(all.size() == 3U);  // without what does not say how large it is
+  for (std::size_t i = 0; i < all.size(); ++i)
+    BOOST_TEST(all[i].error == std::max(study.points[i].error, size[i].error));
+  const results::CostStudy written =
+      cost_results({study}, SweepExtent::full, TimingOptions()).studies.front();
+  BOOST_TEST_REQUIRE(written.outputs.size() == 3U);
+  BOOST_TEST(written.outputs[1].scale == "relative to the largest true value of all");
+  BOOST_TEST(written.outputs[2].title == "all at once");
+  BOOST_TEST(!written.outputs[2].errors[4].has_value());
+  BOOST_TEST(*written.outputs[2].errors[0] == all[0].error);
+  BOOST_TEST(written.outputs[0].cheapest[0].setting.has_value());
+  BOOST_TEST(!written.outputs[1].cheapest[0].setting.has_value());
+}
+
 BOOST_AUTO_TEST_CASE(counters_are_the_work_and_do_not_depend_on_the_machine) {
   const MeasuredStudy a = measured(study_json()), b = measured(study_json());
   for (std::size_t i = 0; i < a.settings.size(); ++i) {
