@@ -24,7 +24,8 @@ from trammel_adapter import Cannot, main
 
 SHEAR_RIGID = (8, 300)  # least and most of the shear modulus over E where the beam theory has no shear; slender strips lose digits by it
 THIN, SLENDER = 3, 0.009  # how many times thinner the strip of an inextensible member is, unless it is as slender as this
-CORE, NO_ROTARY = 0.2, ("euler-bernoulli", "shear")  # in modes these have their mass in a core of that share of the depth
+CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # in modes these have their mass in a core of that share of the depth,
+CORE_STIFFNESS = 1e-6  # and of that share of the stiffness
 STIFF = 1e5  # how many times the axial stiffness of an inextensible member is, where it is U1
 ALONG = {"CPS8R": 2, "CPS8": 4}  # elements of a strip for each element of the case
 DIGITS = 7  # that ccx prints
@@ -202,9 +203,10 @@ def nodal_loads(model):
     return loads
 
 
-def material(name, E, G, rho, nu=0.0):
-    """Contracts in the plane alone: out of it, ccx gives neighbouring elements one contraction, which hinders it."""
-    return [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", card(E, E, E, nu, 0, 0, G, G), card(G),
+def material(name, E, G, rho, nu=0.0, share=1.0):
+    """Contracts in the plane alone: out of it, ccx gives neighbouring elements one contraction, which hinders it. share: of the
+    stiffness in the plane."""
+    return [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", card(E * share, E * share, E, nu, 0, 0, G * share, G), card(G),
             "*DENSITY", card(max(float(rho), 1e-9))]
 
 
@@ -334,21 +336,22 @@ class Frame:
         elif m.inextensible and self.strips == "CPS8R" and h > SLENDER * m.L:
             thinner = THIN
         h, E = h / thinner, m.E * thinner**2
-        n = 2 * max(4, m.elements * (1 if self.large else ALONG[self.strips]))
-        rigidity = min(max(1 if m.inextensible and thinner == 1 else SHEAR_RIGID[0], 2.6e8 * (h / m.L)**4), SHEAR_RIGID[1])
-        core = CORE * math.sqrt(min(1, SHEAR_RIGID[0] / rigidity))
+        pieces = [o for o in self.members if o.name.split(".")[0] == m.name.split(".")[0]]  # of a taper
+        slender = h / sum(piece.L for piece in pieces)
+        wanted = max(4 if len(pieces) < 8 else 1, m.elements * (1 if self.large else ALONG[self.strips]))
+        n = 2 * max(1, min(wanted, round(4 * m.L / h)))  # shorter ones cost digits
+        rigidity = min(max(SHEAR_RIGID[0], 2.6e8 * slender**4 if self.loaded else 1.9e7 * slender**3), SHEAR_RIGID[1])
+        if m.inextensible and thinner == 1 and not self.loaded:
+            rigidity = 1  # equations for its length leave fewer digits
         x0, y0 = self.model["nodes"][m.nodes[0]]
-        faces = [-h / 2, -core * h / 2, core * h / 2, h / 2] if self.core and m.beam in NO_ROTARY else [-h / 2, h / 2]
         rows = []
         for i in range(n + 1):
             x, y = x0 + m.dx * m.L * i / n, y0 + m.dy * m.L * i / n
-            between = [(a + b) / 2 for a, b in zip(faces, faces[1:])] if i % 2 == 0 else []
-            rows.append([deck.node(x - m.dy * z, y + m.dx * z) for z in sorted(faces + between)])
-        for i in range(0, n, 2):
-            a, b, c = rows[i:i + 3]
-            for k in range(len(faces) - 1):
-                deck.element(self.strips, [a[2 * k], c[2 * k], c[2 * k + 2], a[2 * k + 2], b[k], c[2 * k + 1], b[k + 1], a[2 * k + 1]],
-                             name + ("C" if k == 1 else ""))
+            rows.append([deck.node(x - m.dy * z, y + m.dx * z) for z in ([-h / 2, 0, h / 2] if i % 2 == 0 else [-h / 2, h / 2])])
+        self.quads(rows, name)
+        cored = self.core and m.beam in NO_ROTARY
+        if cored:
+            self.quads([self.core_row(row) for row in rows], name + "C")
         m.rows = rows
         for i, row in ((0, rows[0]), (1, rows[-1])):
             if self.large and self.ends[m.name][i][2] not in deck.supported:
@@ -360,13 +363,26 @@ class Frame:
         if m.inextensible and not self.loaded:
             self.keep_length(m, [middle(row) for row in rows[2:-2:2]])
         G = m.G * m.kappa if m.sheared else E * rigidity
-        cored = len(faces) > 2
         heaviest = max((p["mass_kg"] for p in self.model.get("point_masses", {}).values()), default=0)
         mass = max(m.rho, 1e-6 * heaviest / (m.A * m.L) if self.core else 0)  # without mass its modes are too fast for ccx
         deck.end += [f"*ORIENTATION,NAME={name}", card(m.dx, m.dy, 0, -m.dy, m.dx, 0)]
-        for part, rho in ((name, 0 if cored else mass), (name + "C", mass / core))[:1 + cored]:
-            deck.end += material(part, E, G, rho)
+        for part, share, rho in ((name, 1, 0 if cored else mass), (name + "C", CORE_STIFFNESS, mass / CORE))[:1 + cored]:
+            deck.end += material(part, E, G, rho, share=share)
             deck.end += [f"*SOLID SECTION,ELSET={part},MATERIAL={part},ORIENTATION={name}", card(m.A / h)]
+
+    def quads(self, rows, name):
+        for a, b, c in zip(rows[::2], rows[1::2], rows[2::2]):
+            self.deck.element(self.strips, [a[0], c[0], c[2], a[2], b[0], c[1], b[1], a[1]], name)
+
+    def core_row(self, row):
+        """Nodes of the core, which follow those of the strip: a strip in layers would shear more, as its sections could warp."""
+        ends, nodes = [self.deck.nodes[n - 1] for n in (row[0], row[-1])], []
+        for t in (-CORE, CORE):
+            shares = [t * (t - 1) / 2, 1 - t * t, t * (t + 1) / 2] if len(row) == 3 else [(1 - t) / 2, (1 + t) / 2]
+            nodes.append(self.deck.node(*((a * (1 - t) + b * (1 + t)) / 2 for a, b in zip(*ends))))
+            for dof in (1, 2):
+                self.deck.equation([(nodes[-1], dof, 1.0), *((n, dof, -share) for n, share in zip(row, shares))])
+        return [nodes[0], *row[1:-1], nodes[1]]
 
     def turning_end(self, m, i):
         """In large displacement equations carry no rotation: an end is held by its middle, and may not be welded to others."""
@@ -509,7 +525,7 @@ def modes(case, options):
     f = [math.sqrt(max(s, 0)) / (2 * math.pi) for s in squares]
     if "members" not in case.model and frame.corners:
         case.element_order = 2  # six-node triangles have 4, or what corners leave of it
-    rigid = sum(value < 1e-4 * max(f[:options["count"]]) for value in f)
+    rigid = sum(value < 3e-3 * max(f[:options["count"]]) for value in f)
     return {"frequency_Hz": ("Hz", [0.0 if i < rigid else value for i, value in enumerate(f[:options["count"]])]),
             "rigid_body_modes": ("1", rigid)}
 

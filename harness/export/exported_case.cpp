@@ -110,13 +110,25 @@ Json length_of(const Document& document, const std::string& name) {
   return is_list && !place.has("rotating") ? place["count"].json() : Json(nullptr);
 }
 
-/// What the checks judge.
-Json asked_quantities(const Document& document, const std::string& variant,
-                      const std::vector<std::string>& variants, const solver::Model& model) {
+/// What the checks judge in this variant, and what those of other variants compare with it.
+std::vector<Check> checks_that_look_at(const Document& document, const std::string& variant,
+                                       const Case& given) {
+  const std::vector<std::string> variants = given.variants();
+  std::vector<Check> checks = read_checks(document, variant, variants);
+  for (const std::string& other : variants) {
+    if (other == variant) continue;
+    for (Check& check : read_checks(chosen_document(given, {other}), other, variants))
+      if (check.against_variant == variant) checks.push_back(std::move(check));
+  }
+  return checks;
+}
+
+Json asked_quantities(const Document& document, const std::vector<Check>& checks,
+                      const solver::Model& model) {
   const std::set<std::string> lost = lost_parts(document, model);
   Json asked = Json::array();
   std::set<std::string> seen = {""};
-  for (const Check& check : read_checks(document, variant, variants)) {
+  for (const Check& check : checks) {
     for (const std::string& name : {check.quantity, check.against_quantity}) {
       if (!seen.insert(name).second) continue;
       const std::size_t colon = name.find(':');
@@ -226,7 +238,9 @@ Json export_case(const Case& given, const ExportChoice& choice) {
       {"level", choice.level ? Json(*choice.level) : Json(nullptr)},
       {"hash", content_hash(whole.dump())},
       {"trammel", TRAMMEL_VERSION},
-      {"quantities", asked_quantities(document, choice.variant, given.variants(), scene.model)}};
+      {"quantities",
+       asked_quantities(document, checks_that_look_at(document, choice.variant, given),
+                        scene.model)}};
   if (!choice.sweep.empty()) about["sweep"] = choice.sweep;
   if (of_mechanism) about["mechanism"] = mechanism_of(document);
   return exported;

@@ -21,6 +21,9 @@ CALCULIX = {
     "scene-soft-joints": {"displacement_x_m:P": 1e-4},  # springs on rotations, which U1 gets wrong
     "scene-thick-links": {"displacement_x_m:P": 1e-9},  # a plate may contract out of its plane
     "manipulator-modes": {"frequency_Hz": 4e-4},  # triangles have inertia about their middle; four elements a link in trammel
+    "scene-thick-link-modes": {"frequency_Hz": 3e-3},  # sheared strips whose mass lies in a core; four elements a link in trammel
+    "exact-locked-welded-hinged": {"frequency_Hz": 2e-5},
+    "tapered-cantilever": {"frequency_Hz": 3e-5},  # short pieces lost three digits
     "beam-clamped-pinned": {"frequency_Hz": 2e-4},  # no rotary inertia; the mesh of trammel itself 6e-5
     "prestressed-pinned-pinned": {"frequency_Hz": 3e-4},
     "buckling-clamped-free": {"critical_force_N:tip": 1e-3},  # P / EA

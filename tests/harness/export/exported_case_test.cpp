@@ -126,6 +126,15 @@ BOOST_AUTO_TEST_CASE(what_is_asked_is_what_the_exported_case_gives) {
   }
 }
 
+// The variant has no check of its own: it was asked for nothing, and the base had nothing to be
+// compared with.
+BOOST_AUTO_TEST_CASE(a_variant_is_asked_for_what_others_compare_with_it) {
+  const Case given = load_named_case("scene-thick-link-modes");
+  const Json asked = export_case(given, {"whole"})["export"]["quantities"];
+  BOOST_REQUIRE(asked.size() == 1);
+  BOOST_TEST(asked[0]["name"] == "frequency_Hz");
+}
+
 BOOST_AUTO_TEST_CASE(exporting_what_was_exported_changes_nothing) {
   const Folder folder;
   for (const char* name : {"manipulator-modes", "iftomm-a03-andrews", "cooks-membrane"}) {

@@ -1,0 +1,173 @@
+#!/usr/bin/python3
+"""The 3-RRR manipulator of Table 1 in its plane by GetFEM: modes in every variant of its joints at three poses, and 10 N at P.
+
+    manipulator_in_plane.py OUT      writes OUT/getfem-JOINTS-frequencies.json and -displacement.json, pose after pose
+
+Links are rectangles in plane stress (FEM_QK) that contract sideways by Poisson's ratio. At a joint the mean displacement
+of the end section and its mean rotation (the first moment of what it moves along the link) are the joint's; sections are free to warp
+and to contract. The platform is rigid. GetFEM assembles stiffness, mass and the weights of end sections; the algebra is scipy's.
+Each value comes from two meshes; their difference, rounded up, is stored as uncertainty (at least 1e-8).
+"""
+import json
+import math
+import os
+import sys
+
+import getfem
+import numpy
+import scipy.linalg
+import scipy.sparse as sp
+import scipy.sparse.linalg
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../calculix"))
+from planar_manipulator import DEFAULT, POSES, SPRING, VARIANTS, geometry  # noqa: E402
+
+MESHES = ((6, 4), (8, 5))  # elements along a link, and their degree
+
+
+def matrices(length, degree):
+    """K and M of one element, the places of their unknowns, and the weights of one section's."""
+    mesh = getfem.Mesh("cartesian", [0, length], [-DEFAULT["thickness"] / 2, DEFAULT["thickness"] / 2])
+    field, scalar = getfem.MeshFem(mesh, 2), getfem.MeshFem(mesh, 1)
+    field.set_fem(getfem.Fem(f"FEM_QK(2,{degree})"))
+    scalar.set_fem(getfem.Fem("FEM_QK(2,0)"))
+    rule = getfem.MeshIm(mesh, getfem.Integ(f"IM_GAUSS_PARALLELEPIPED(2,{2 * degree + 1})"))
+    faces = mesh.outer_faces()
+    mesh.set_region(1, faces[:, mesh.normal_of_faces(faces)[0] < -0.5])
+    E, nu, width = DEFAULT["E"], DEFAULT["nu"], DEFAULT["width"] * numpy.ones(1)
+    K = getfem.asm_linear_elasticity(rule, field, scalar, E * nu / (1 - nu**2) * width, E / (2 * (1 + nu)) * width)
+    M, weights = (getfem.asm_mass_matrix(rule, field, field, *region) for region in ((), (1,)))
+    return K.full(), DEFAULT["rho"] * width[0] * M.full(), field.basic_dof_nodes(), weights.full()
+
+
+def link(elements, degree, rigid=False):
+    """K and M of a link along x, whose first six unknowns are ux, uy, rotation of its two ends. rigid: end sections neither warp
+    nor contract.
+
+    The unknowns of each section are its mean displacement, mean rotation, and how it warps: those of nodes lose seven digits, as
+    thin rectangles are so much stiffer through the thickness than in bending."""
+    length = DEFAULT["length"] / elements
+    K, M, (x, z), weights = matrices(length, degree)
+    columns = [numpy.where(abs(x - length * k / degree) < 1e-9)[0] for k in range(degree + 1)]
+    first = columns[0][numpy.lexsort((columns[0] % 2, z[columns[0]]))]
+    axial = first % 2 == 0
+    body = numpy.column_stack([axial, ~axial, -z[first] * axial]).astype(float)
+    section = numpy.hstack([body, scipy.linalg.null_space(body.T @ weights[first][:, first])])
+    order = numpy.concatenate([c[numpy.lexsort((c % 2, z[c]))] for c in columns])
+    basis = numpy.kron(numpy.eye(degree + 1), section)
+    K, M = (basis.T @ A[order][:, order] @ basis for A in (K, M))
+    n = section.shape[1]
+    motions = numpy.zeros((K.shape[0], 3))  # of a rigid body, under which nothing resists: exactly
+    for k in range(degree + 1):
+        motions[k * n:k * n + 3] = [[1, 0, 0], [0, 1, length * k / degree], [0, 0, 1]]
+    strain = numpy.eye(len(K)) - motions @ numpy.linalg.pinv(motions)
+    K = strain.T @ K @ strain
+    size = n * (elements * degree + 1)
+    whole = [sp.lil_matrix((size, size)) for _ in (K, M)]
+    for total, A in zip(whole, (K, M)):
+        for at in range(0, size - n, degree * n):
+            total[at:at + len(A), at:at + len(A)] += A
+    ends = [0, 1, 2, size - n, size - n + 1, size - n + 2]
+    between = range(n, size - n) if rigid else sorted(set(range(size)) - set(ends))
+    return [A.tocsc()[[*ends, *between]][:, [*ends, *between]] for A in whole]
+
+
+class Manipulator:
+    """K and M over the free unknowns; the platform's x, y and rotation are the first three."""
+
+    def __init__(self, variant, pose, one):
+        active, elbow, top = variant.split("-")
+        x, y, _ = POSES[pose]
+        base, elbows, corners = geometry({**DEFAULT, "pose": POSES[pose]})
+        self.size, self.parts, held = 3, [], []
+        for a, b, c in zip(base, elbows, corners):
+            foot, low, turn = self.new(3), self.new(3), self.new(1)
+            high = low if elbow == "welded" else low[:2] + self.new(1)
+            corner = [{0: 1, 2: y - c[1]}, {1: 1, 2: c[0] - x}, {2 if top == "welded" else turn[0]: 1}]
+            held += foot[:2 + (active == "locked")] + (turn if top == "welded" else [])
+            self.link(one, a, b, [{n: 1} for n in foot + low])
+            self.link(one, b, c, [{n: 1} for n in high] + corner)
+            if active == "sprung":
+                self.parts.append((sp.csc_matrix([[SPRING]]), sp.csc_matrix((1, 1)), [{foot[2]: 1}]))
+        mass = DEFAULT["rho"] * math.sqrt(3) / 4 * DEFAULT["side"]**2 * DEFAULT["plate_thickness"]
+        self.parts.append((sp.csc_matrix((3, 3)), sp.diags([mass, mass, mass * DEFAULT["side"]**2 / 12]), [{n: 1} for n in range(3)]))
+        self.K, self.M = (sum(t.T @ part @ t for t, part in zip(map(self.follows, self.parts), matrices))
+                          for matrices in list(zip(*self.parts))[:2])
+        free = numpy.setdiff1d(numpy.arange(self.size), held)
+        self.K, self.M = (A.tocsc()[free][:, free] for A in (self.K, self.M))
+
+    def new(self, count):
+        self.size += count
+        return list(range(self.size - count, self.size))
+
+    def link(self, one, p, q, motions):
+        """motions: of ux, uy, rotation of both joints, each {unknown: factor}."""
+        c, s = (q[0] - p[0]) / math.dist(p, q), (q[1] - p[1]) / math.dist(p, q)
+        own = []
+        for x, y, turn in (motions[:3], motions[3:]):
+            own += [add((c, x), (s, y)), add((-s, x), (c, y)), turn]
+        self.parts.append((*one, own + [{n: 1} for n in self.new(one[0].shape[0] - 6)]))
+
+    def follows(self, part):
+        rows = part[2]
+        entries = [(i, n, factor) for i, row in enumerate(rows) for n, factor in row.items()]
+        i, n, factors = zip(*entries)
+        return sp.csc_matrix((factors, (i, n)), (len(rows), self.size))
+
+    def frequencies(self):
+        """Eight elastic frequencies [Hz], and how many motions at 0 Hz come before them."""
+        squares = numpy.sort(sp.linalg.eigsh(self.K, 12, self.M, sigma=-100.0, return_eigenvectors=False, tol=1e-13))
+        f = numpy.sqrt(numpy.maximum(squares, 0)) / (2 * numpy.pi)
+        rigid = int((f < 0.1).sum())
+        return list(f[rigid:rigid + 8]), rigid
+
+    def displacement(self):
+        """ux, uy of P [m] under 10 N along x."""
+        force = numpy.zeros(self.K.shape[0])
+        force[0] = 10
+        return list(sp.linalg.spsolve(self.K, force)[:2])
+
+
+def add(*scaled):
+    total = {}
+    for factor, motion in scaled:
+        for n, f in motion.items():
+            total[n] = total.get(n, 0) + factor * f
+    return total
+
+
+def store(folder, name, title, unit, values, change, notes):
+    with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
+        file.write(json.dumps({
+            "$schema": "../../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
+            "values": values, "uncertainty": {"relative": change}, "source": "getfem-5.4.2",
+            "place": "references/programs/getfem/manipulator_in_plane.py", "notes": notes}, indent=2) + "\n")
+
+
+def main():
+    folder = sys.argv[1]
+    os.makedirs(folder, exist_ok=True)
+    links = [link(*mesh) for mesh in MESHES]
+    mesh = ("FEM_QK, {} elements of degree {} a link; {} of degree {} change the values by no more than the uncertainty. "
+            "Poses {}, one after the other.").format(*MESHES[1], *MESHES[0], ", ".join(POSES))
+    for variant in VARIANTS:
+        coarse, fine = ([Manipulator(variant, pose, one) for pose in POSES] for one in links)
+        words = "3-RRR, actuators {}, elbows {}, platform joints {}, three poses: by GetFEM, ".format(*variant.split("-"))
+        found = {"frequencies": (words + "modes 1 to 8 of each", "Hz", [[f for m in ms for f in m.frequencies()[0]] for ms in (coarse, fine)])}
+        if not variant.startswith("free"):
+            found["displacement"] = (words + "displacement x, y of P under 10 N along x", "m",
+                                     [[u for m in ms for u in m.displacement()] for ms in (coarse, fine)])
+        for kind, (title, unit, (a, b)) in found.items():
+            step = len(b) // len(POSES)
+            change = max(abs(u - v) / (abs(v) if unit == "Hz" else max(map(abs, b[i // step * step:][:step])))
+                         for i, (u, v) in enumerate(zip(a, b)))
+            change = math.ceil(1e8 * max(change, 1e-8)) / 1e8
+            store(folder, f"getfem-{variant}-{kind}", title, unit, [float(f"{v:.12g}") for v in b], change, mesh)
+            print(variant, kind, change, fine[0].frequencies()[1], flush=True)
+    free, held = (Manipulator(VARIANTS[0], "start", one) for one in (links[1], link(*MESHES[1], rigid=True)))
+    print("end sections that neither warp nor contract:", held.displacement()[0] / free.displacement()[0] - 1,
+          [b / a - 1 for a, b in zip(free.frequencies()[0], held.frequencies()[0])])
+
+
+if __name__ == "__main__":
+    main()
