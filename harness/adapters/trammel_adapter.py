@@ -18,6 +18,10 @@ import time
 from dataclasses import dataclass
 
 
+KEYS_OF_MEMBERS = {"nodes", "section", "beam", "elements", "ends", "axial", "mass_matrix",
+                   "load_N_per_m", "end_inertia_kg_m2"}
+
+
 class Cannot(Exception):
     """This code cannot do that: no failure. The text says why."""
 
@@ -65,20 +69,23 @@ class Case(dict):
         return {one["name"]: one["unit"] for one in self["export"]["quantities"]}
 
     def require(self, kinds, parts, options=()):
-        """Refuses analyses, parts of the model and options (that are not false) beyond these."""
+        """Refuses analyses, parts of the model and options (that are not false) beyond these.
+        Which eigensolver trammel takes is its own matter."""
         if self.kind not in kinds:
             raise Cannot("no analysis '%s'" % self.kind)
         for key in self.model:
             if key not in parts:
                 raise Cannot("no %s" % key)
         for key, value in self.options.items():
-            if key not in options and value is not False:
+            if key not in options and key != "eigensolver" and value is not False:
                 raise Cannot("no option '%s'" % key)
 
     def members(self):
         """All frame members, with the numbers of their sections."""
         found = []
         for name, member in self.model.get("members", {}).items():
+            for key in member.keys() - KEYS_OF_MEMBERS:
+                raise Cannot("no %s of a member" % key)
             section = self.model["sections"][member["section"]]
             material = self.model["materials"][section["material"]]
             if any(member.get("end_inertia_kg_m2", ())):

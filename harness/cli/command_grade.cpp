@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -33,6 +34,25 @@ class Descendants {
   Descendants& operator=(const Descendants&) = delete;
 };
 
+/// As many as show a relative difference, from 6 on.
+int digits_to_tell(double difference) {
+  const double digits = std::ceil(-std::log10(std::abs(difference))) + 1;
+  return digits > 6 && digits < 15 ? static_cast<int>(digits) : digits >= 15 ? 15 : 6;
+}
+
+/// Watches over the judging itself and says nothing of a code.
+bool is_control(const Case& one) {
+  const std::vector<std::string> labels = one.labels();
+  return std::find(labels.begin(), labels.end(), "control") != labels.end();
+}
+
+/// "1e-09", "[0.62, 0.65]"; an end that is open stays empty.
+std::string allowed(const results::Tolerance& tolerance) {
+  const auto text = [](const results::Number& end) { return end ? rounded(*end, 3) : ""; };
+  return tolerance.symmetric ? text(tolerance.high)
+                             : "[" + text(tolerance.low) + ", " + text(tolerance.high) + "]";
+}
+
 /// The check that decides, or the reason.
 std::string explained(const results::Run& run, Grade grade) {
   const results::Check* check = results::telling_check(run);
@@ -45,14 +65,16 @@ std::string explained(const results::Run& run, Grade grade) {
     return broken == run.checks.end() ? "" : broken->name + ": " + broken->message;
   }
   if (check == nullptr) return run.reason;
-  if (!check->difference || !check->computed || !check->expected)
+  if (!check->difference || !check->computed || !check->expected || !check->tolerance)
     return check->name + (check->message.empty() ? "" : ": " + check->message);
+  // A recorded difference says why a number far from the expected one agrees.
+  const bool recorded = check->expectation == results::Expectation::known_discrepancy;
   const std::string entry = check->index ? fmt::format("[{}]", *check->index) : "";
-  return fmt::format("{}: {}{} {}, expected {}: {}", check->name, check->quantity, entry,
-                     rounded(*check->computed), rounded(*check->expected),
-                     check->measure == "relative"
-                         ? fmt::format("{:+.3g} %", 100 * *check->difference)
-                         : fmt::format("{:+.3g} ({})", *check->difference, check->measure));
+  const int digits = digits_to_tell(*check->difference / *check->expected);
+  return fmt::format("{}: {}{} {}, expected {}: {} {:+.3g}, {} {}", check->name, check->quantity,
+                     entry, rounded(*check->computed, digits), rounded(*check->expected, digits),
+                     check->measure, *check->difference, recorded ? "recorded" : "allowed",
+                     allowed(*check->tolerance));
 }
 
 /// A row a run, then how many of which grade. @returns whether one counts against the code
@@ -63,7 +85,7 @@ bool print_grades(const std::vector<results::Run>& runs) {
     const Grade grade = results::grade_of(run);
     ++counts[grade];
     const auto missing = std::count_if(run.checks.begin(), run.checks.end(), [](const auto& check) {
-      return check.verdict == Verdict::not_given;
+      return check.verdict == Verdict::not_given || check.verdict == Verdict::error;
     });
     const auto all = static_cast<std::ptrdiff_t>(run.checks.size());
     table.add({to_string(grade),
@@ -99,7 +121,9 @@ int grade_command(const GradeCommand& grade, const RunCommand& run, const Render
                   grade.limits};
   adapter.limits.memory_bytes = run.memory_bytes;
   const bool all = run.cases.empty() && run.labels.empty();
-  const std::vector<Case> cases = all ? Catalogue().load() : select_cases(run);
+  std::vector<Case> cases = all ? Catalogue().load() : select_cases(run);
+  if (run.cases.empty())
+    cases.erase(std::remove_if(cases.begin(), cases.end(), is_control), cases.end());
   const OutputLock lock(grade.out);
   end_on_signals(kInterrupted);
   const References references;

@@ -394,7 +394,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
       std::count_if(command.cases.begin(), command.cases.end(), is_results_file);
   if (stored > 0) {
     if (stored < command.cases.size() || !command.labels.empty())
-      throw InputError("expected cases, or results files alone");
+      throw InputError("expected cases, or results files alone; each file has to be there");
     return report_results(command, renderers);
   }
   require_drawing(renderers);

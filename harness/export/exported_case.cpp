@@ -1,6 +1,7 @@
 #include "harness/export/exported_case.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "harness/analysis/analysis.h"
@@ -39,11 +40,11 @@ bool is_of_samples(const Document& document) {
 }
 
 void require_exportable(const Document& document) {
-  const std::vector<std::string> kinds = {"statics",      "buckling", "modes",    "large-statics",
-                                          "large-motion", "harmonic", "transient"};
+  constexpr std::array kinds = {"statics",      "buckling", "modes",    "large-statics",
+                                "large-motion", "harmonic", "transient"};
   const JsonView place = analysis_place(document);
   if (std::find(kinds.begin(), kinds.end(), analysis_kind(document)) == kinds.end())
-    throw place.error("expected an analysis that can be exported: " + join(kinds, "or"));
+    throw place.error(analysis_kind(document) + " is not exported");
   const JsonView root(document);
   if (root.has("model") && root["model"].has("trajectory"))
     throw root["model"]["trajectory"].error("expected one pose: a trajectory is not exported");

@@ -65,6 +65,12 @@ bool ended_without_answer(const ProgramOutcome& outcome, const ProgramLimits& li
   return true;
 }
 
+/// "/model/trajectory: ..." of "FILE: /model/trajectory: ...".
+std::string without_file(const std::string& message) {
+  const std::size_t at = message.find(": /");
+  return at == std::string::npos ? message : message.substr(at + 2);
+}
+
 /// One call in its folder, of which the files stay unless they are many.
 void call(const Adapter& adapter, const fs::path& folder, const Json& json,
           Computation& computation) {
@@ -141,8 +147,13 @@ std::vector<std::string> adapter_words(const std::string& command) {
         break;
       }
   }
-  for (std::string& word : words)
-    if (fs::is_regular_file(word)) word = fs::absolute(word).lexically_normal().string();
+  for (std::string& word : words) {
+    if (fs::is_regular_file(word)) {
+      word = fs::absolute(word).lexically_normal().string();
+    } else if (fs::path(word).extension() == ".py") {
+      throw InputError("ADAPTER: expected a file (got " + quoted(printable(word)) + ")");
+    }
+  }
   if (!fs::is_regular_file(words.front()) || access(words.front().c_str(), X_OK) != 0)
     throw InputError("ADAPTER: expected a program that can be executed (got " +
                      quoted(printable(words.front())) + ")");
@@ -161,7 +172,7 @@ OtherSolver solver_of(const Adapter& adapter) {
     try {
       json = export_case(owner, {variant});
     } catch (const InputError& refused) {
-      return end_as(computation, "cannot", one_line(refused.what()));
+      return end_as(computation, "not-exported", without_file(one_line(refused.what())));
     }
     call(adapter, folder, json, computation);
     computation.result.analysis = analysis_kind(document);

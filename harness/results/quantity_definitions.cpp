@@ -40,7 +40,7 @@ displacement_y_m:NODE  displacement along y
 rotation_rad:NODE  rotation, counterclockwise
 end_rotation_rad:MEMBER.END  rotation of a member's start or end
 axial_force_N:MEMBER.END  axial force, tension positive
-shear_force_N:MEMBER.END  shear force, less the slope of the bending moment
+shear_force_N:MEMBER.END  shear force V = -dM/dx, x from the first node to the second
 bending_moment_N_m:MEMBER.END  bending moment, positive where the right side on the way to the second node is stretched
 reaction_x_N:SUPPORT  reaction of the ground along x
 reaction_y_N:SUPPORT  reaction of the ground along y

@@ -28,6 +28,7 @@ inline constexpr std::array kNames<Status> = {std::pair{"solved", Status::solved
                                               std::pair{"error", Status::error},
                                               std::pair{"not-run", Status::not_run},
                                               std::pair{"cannot", Status::cannot},
+                                              std::pair{"not-exported", Status::not_exported},
                                               std::pair{"crashed", Status::crashed},
                                               std::pair{"timed-out", Status::timed_out}};
 

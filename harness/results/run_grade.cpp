@@ -15,6 +15,7 @@ Grade grade_of(const Run& run) {
   if (run.status == Status::crashed) return Grade::crashed;
   if (run.status == Status::timed_out) return Grade::timed_out;
   if (run.status == Status::cannot) return Grade::cannot;
+  if (run.status == Status::not_exported) return Grade::not_exported;
   if (run.status == Status::not_run) return Grade::not_run;
   if (has(Verdict::fail)) return Grade::off;
   if (has(Verdict::error)) return Grade::broken;
@@ -23,9 +24,9 @@ Grade grade_of(const Run& run) {
 }
 
 std::string to_string(Grade grade) {
-  constexpr std::array<const char*, 9> texts = {"agrees",    "off",        "broken",
-                                                "crashed",   "timed out",  "cannot",
-                                                "not given", "not judged", "not run"};
+  constexpr std::array<const char*, 10> texts = {
+      "agrees", "off",          "broken",    "crashed",    "timed out",
+      "cannot", "not exported", "not given", "not judged", "not run"};
   return texts.at(static_cast<std::size_t>(grade));
 }
 

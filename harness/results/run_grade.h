@@ -8,7 +8,8 @@
 /// A run in one word, for codes side by side.
 namespace trammel::results {
 
-/// broken: an answer that cannot be judged. not_judged: nothing of it has a gate.
+/// broken: an answer that cannot be judged. not_exported: the protocol does not carry the case.
+/// not_judged: nothing of it has a gate.
 enum class Grade {
   agrees,
   off,
@@ -16,13 +17,14 @@ enum class Grade {
   crashed,
   timed_out,
   cannot,
+  not_exported,
   not_given,
   not_judged,
   not_run
 };
-inline constexpr std::array<Grade, 9> kAllGrades = {
-    Grade::agrees, Grade::off,       Grade::broken,     Grade::crashed, Grade::timed_out,
-    Grade::cannot, Grade::not_given, Grade::not_judged, Grade::not_run};
+inline constexpr std::array<Grade, 10> kAllGrades = {
+    Grade::agrees, Grade::off,          Grade::broken,    Grade::crashed,    Grade::timed_out,
+    Grade::cannot, Grade::not_exported, Grade::not_given, Grade::not_judged, Grade::not_run};
 
 [[nodiscard]] Grade grade_of(const Run& run);
 /// "agrees", "off", "broken", "crashed", "timed out", "cannot", ...

@@ -169,8 +169,9 @@ std::vector<results::EffectRow> effects(const Run& run) {
 
 results::Status status(const std::string& status) {
   using results::Status;
-  for (const Status known : {Status::solved, Status::singular, Status::not_converged,
-                             Status::not_run, Status::cannot, Status::crashed, Status::timed_out})
+  for (const Status known :
+       {Status::solved, Status::singular, Status::not_converged, Status::not_run, Status::cannot,
+        Status::not_exported, Status::crashed, Status::timed_out})
     if (status == to_string(known)) return known;
   return Status::error;
 }

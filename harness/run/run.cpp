@@ -284,7 +284,8 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   };
   if (has_broken(run)) return leave_unjudged("not computed: " + run.reason, Verdict::error);
   if (run.status == "not-run") return leave_unjudged("interrupted", Verdict::not_run);
-  if (run.status == "cannot") return leave_unjudged("cannot: " + run.reason, Verdict::not_given);
+  if (run.status == "cannot" || run.status == "not-exported")
+    return leave_unjudged(run.status + ": " + run.reason, Verdict::not_given);
   // Where no solution is what the case expects, there is nothing more to judge.
   if (evaluate_status_check(task, run) && run.status != "solved") return;
   for (const Sweep& sweep : run.sweeps) {

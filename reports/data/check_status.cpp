@@ -86,6 +86,7 @@ CheckStatus check_status(const Run& run) {
     case Status::not_run:
       return CheckStatus::not_run;
     case Status::cannot:
+    case Status::not_exported:
       return CheckStatus::not_given;
   }
   throw std::logic_error("unknown status");

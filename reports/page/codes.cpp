@@ -123,13 +123,13 @@ Data cell(const Run* run, const Check* shown, bool nearest) {
   if (run == nullptr) return data;
   const Grade grade = grade_of(*run);
   const Check* here = shown == nullptr ? nullptr : find_check(*run, *shown);
+  const bool not_computed = grade == Grade::cannot || grade == Grade::not_exported;
   data.set("status_class", mark(grade).first);
   data.set("sign", mark(grade).second);
   data.set("status_text", status_text(*run, grade, here));
   set_text(data, "difference", here == nullptr ? "" : difference_text(*here));
-  set_text(data, "reason",
-           is_failure(grade) || grade == Grade::cannot ? run->reason : std::string());
-  set_text(data, "time", grade == Grade::cannot ? "" : duration(run->cost.wall_s));
+  set_text(data, "reason", is_failure(grade) || not_computed ? run->reason : std::string());
+  set_text(data, "time", not_computed ? "" : duration(run->cost.wall_s));
   set_flag(data, "nearest", nearest);
   return data;
 }
@@ -171,6 +171,7 @@ Data row_data(const Row& row, std::vector<Code>& codes) {
   const Check* shown = shown_check(row);
   data.set("title", row.info->title);
   set_text(data, "variant", row.variant == "base" ? "" : row.info->variant_title(row.variant));
+  data.set("run", row.info->id + (row.variant == "base" ? "" : ":" + row.variant));
   set_flag(data, "other_case", row.other_case);
   set_text(data, "quantity",
            shown == nullptr

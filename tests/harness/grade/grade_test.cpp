@@ -136,6 +136,20 @@ BOOST_AUTO_TEST_CASE(what_is_not_given_or_refused_is_no_failure_and_a_wrong_comm
   BOOST_TEST(run(folder, "grade ./no-such-adapter well-behaved.json") == 2);
   BOOST_TEST(run(folder, "grade well-behaved.json well-behaved.json") == 2);  // not executable
   BOOST_TEST(run(folder, grade_words(adapter, "no-such-case")) == 2);
+  BOOST_TEST(run(folder, "grade 'python3 no-such-adapter.py' well-behaved.json") == 2);
+}
+
+BOOST_AUTO_TEST_CASE(what_the_protocol_does_not_carry_is_told_from_what_a_code_cannot_do) {
+  const Folder folder;
+  (void)folder.write(judged("cannot"));
+  const fs::path adapter = kSource / "tests/harness/grade/hostile.py";
+  BOOST_TEST(
+      run(folder, grade_words(adapter, "cannot.json manufactured-timoshenko --variant base")) == 0);
+  const std::vector<results::Run> runs = results_in(folder, "trammel-grade").runs;
+  BOOST_TEST_REQUIRE(runs.size() == 2U);
+  BOOST_TEST(to_string(results::grade_of(runs[0])) == "cannot");
+  BOOST_TEST(to_string(results::grade_of(runs[1])) == "not exported");
+  BOOST_TEST(runs[1].reason.rfind("/analysis/", 0) == 0U, runs[1].reason);
 }
 
 BOOST_AUTO_TEST_CASE(a_grade_is_resumed_with_the_same_adapter_and_not_with_a_changed_one) {
