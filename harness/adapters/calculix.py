@@ -11,8 +11,8 @@ Plates become CPS3 and CPS6 whose material contracts in their plane alone, with 
 and rigid bodies are equations. Motion in time is a sum of modes.
 Section forces and reactions follow from displacements by the slope-deflection equations: in statics with all digits, from the restart
 file; elsewhere with the seven that ccx prints.
-What is left: a strip is an elastic body. Where it is loaded along its axis, N / EA of the critical load or of the frequency is missing
-or in excess; what is rigid in shear costs digits the more, the more slender the strip is (1e-5 at a length of 130 times the depth).
+What is left: a strip is an elastic body. Where it is loaded along its axis, (N / EA) (1 + E / G) of the critical load is missing; what is
+rigid in shear costs digits the more, the more slender the strip is (1e-5 at a length of 130 times the depth).
 """
 import math
 import os
@@ -22,7 +22,7 @@ import subprocess
 from trammel_adapter import Cannot, main
 
 
-SHEAR_RIGID = (8, 300)  # least and most of the shear modulus over E where the beam theory has no shear; slender strips lose digits by it
+SHEAR_RIGID = (8, 300, 1e5)  # least, most under axial loads, and most of the shear modulus over E where the theory has no shear
 THIN, SLENDER = 3, 0.009  # how many times thinner the strip of an inextensible member is, unless it is as slender as this
 CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # in modes these have their mass in a core of that share of the depth,
 CORE_STIFFNESS = 1e-6  # and of that share of the stiffness
@@ -203,10 +203,10 @@ def nodal_loads(model):
     return loads
 
 
-def material(name, E, G, rho, nu=0.0, share=1.0):
+def material(name, E, G, rho, nu=0.0, share=1.0, across=1.0):
     """Contracts in the plane alone: out of it, ccx gives neighbouring elements one contraction, which hinders it. share: of the
-    stiffness in the plane."""
-    return [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", card(E * share, E * share, E, nu, 0, 0, G * share, G), card(G),
+    stiffness in the plane; across: how much stiffer it is through the depth, for a core that would press on the strip's middle."""
+    return [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", card(E * share, E * share * across, E, nu, 0, 0, G * share, G), card(G),
             "*DENSITY", card(max(float(rho), 1e-9))]
 
 
@@ -332,15 +332,15 @@ class Frame:
         h = math.sqrt(12 * m.I / m.A)
         thinner = 1.0  # the same E I and mass without rotary inertia; E A does not matter where the member keeps its length
         if m.inextensible and self.large:
-            thinner = max(1.0, 100 * h / m.L)
-        elif m.inextensible and self.strips == "CPS8R" and h > SLENDER * m.L:
+            thinner = max(1.0, 300 * h / m.L)
+        elif m.inextensible and m.beam in NO_ROTARY and self.strips == "CPS8R" and h > SLENDER * m.L:
             thinner = THIN
         h, E = h / thinner, m.E * thinner**2
         pieces = [o for o in self.members if o.name.split(".")[0] == m.name.split(".")[0]]  # of a taper
         slender = h / sum(piece.L for piece in pieces)
         wanted = max(4 if len(pieces) < 8 else 1, m.elements * (1 if self.large else ALONG[self.strips]))
         n = 2 * max(1, min(wanted, round(4 * m.L / h)))  # shorter ones cost digits
-        rigidity = min(max(SHEAR_RIGID[0], 2.6e8 * slender**4 if self.loaded else 1.9e7 * slender**3), SHEAR_RIGID[1])
+        rigidity = min(max(SHEAR_RIGID[0], 2.6e8 * slender**4 if self.loaded else 1.9e7 * slender**3), SHEAR_RIGID[1 + (not self.loaded)])
         if m.inextensible and thinner == 1 and not self.loaded:
             rigidity = 1  # equations for its length leave fewer digits
         x0, y0 = self.model["nodes"][m.nodes[0]]
@@ -367,7 +367,7 @@ class Frame:
         mass = max(m.rho, 1e-6 * heaviest / (m.A * m.L) if self.core else 0)  # without mass its modes are too fast for ccx
         deck.end += [f"*ORIENTATION,NAME={name}", card(m.dx, m.dy, 0, -m.dy, m.dx, 0)]
         for part, share, rho in ((name, 1, 0 if cored else mass), (name + "C", CORE_STIFFNESS, mass / CORE))[:1 + cored]:
-            deck.end += material(part, E, G, rho, share=share)
+            deck.end += material(part, E, G, rho, share=share, across=100 if cored and slender > 0.05 else 1)
             deck.end += [f"*SOLID SECTION,ELSET={part},MATERIAL={part},ORIENTATION={name}", card(m.A / h)]
 
     def quads(self, rows, name):
