@@ -46,7 +46,7 @@ template <class Struct, class Member>
 constexpr Field<Struct, Member> required(const char* key, Member Struct::*member) {
   return {key, member, true};
 }
-/// Not written where it is empty; empty where it is absent.
+/// Not written where it is empty, or an enumeration's first value; that where it is absent.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member) {
   return {key, member, false};
@@ -101,6 +101,8 @@ bool is_empty(const T& value) {
     return !value.has_value();
   } else if constexpr (is_vector<T> || std::is_same_v<T, std::string>) {
     return value.empty();
+  } else if constexpr (std::is_enum_v<T>) {
+    return value == T{};
   } else {
     return false;
   }

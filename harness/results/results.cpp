@@ -56,10 +56,11 @@ template <>
 inline constexpr auto kFields<TwoTermLaw> =
     std::tuple{TRAMMEL_REQUIRED(TwoTermLaw, coefficients, max_relative_misfit, used)};
 template <>
-inline constexpr auto kFields<Check> = std::tuple{
-    TRAMMEL_REQUIRED(Check, name, quantity, index, computed, expected, unit, role, measure,
-                     difference, tolerance, why, expectation, verdict, message),
-    TRAMMEL_OPTIONAL(Check, title, statistic, reference, against_variant, against_quantity)};
+inline constexpr auto kFields<Check> =
+    std::tuple{TRAMMEL_REQUIRED(Check, name, quantity, index, computed, expected, unit, role,
+                                measure, difference, tolerance, why, verdict),
+               TRAMMEL_OPTIONAL(Check, title, expectation, message, statistic, reference,
+                                against_variant, against_quantity)};
 template <>
 inline constexpr auto kFields<Convergence> =
     std::tuple{TRAMMEL_REQUIRED(Convergence, sweep, parameter, quantity, index, values, exact,
@@ -113,10 +114,11 @@ inline constexpr auto kFields<EffectRow> = std::tuple{
     TRAMMEL_REQUIRED(EffectRow, applicable, active, why, evaluations),
     TRAMMEL_OPTIONAL(EffectRow, dimensionless_number, number_definition, estimated_change)};
 template <>
-inline constexpr auto kFields<Run> = std::tuple{
-    required("case", &Run::case_id),
-    TRAMMEL_REQUIRED(Run, variant, status, reason, quantities, checks, convergence, cost),
-    TRAMMEL_OPTIONAL(Run, residuals, warnings, uncertainty, effects, drawing, stored)};
+inline constexpr auto kFields<Run> =
+    std::tuple{required("case", &Run::case_id),
+               TRAMMEL_REQUIRED(Run, variant, status, quantities, checks, cost),
+               TRAMMEL_OPTIONAL(Run, reason, convergence, residuals, warnings, uncertainty, effects,
+                                drawing, stored)};
 template <>
 inline constexpr auto kFields<ErrorNorms> =
     std::tuple{TRAMMEL_REQUIRED(ErrorNorms, max, rms, mean)};

@@ -18,7 +18,17 @@ using Numbers = std::vector<Number>;
 enum class Verdict { pass, fail, error, not_run, recorded, not_given };
 enum class Expectation { agrees, known_discrepancy, none };
 /// The last three of another solver alone: it has no such thing, it broke, it took too long.
-enum class Status { solved, singular, not_converged, error, not_run, cannot, not_exported, crashed, timed_out };
+enum class Status {
+  solved,
+  singular,
+  not_converged,
+  error,
+  not_run,
+  cannot,
+  not_exported,
+  crashed,
+  timed_out
+};
 
 /// Allowed range of a difference: +-high for a plain tolerance, [low, high] for a range or a bound;
 /// an empty end is unbounded.

@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(what_is_missing_or_wrong_is_named_by_its_pointer) {
   BOOST_TEST(complaint(replace("/format", 2)) == "/format: expected 1");
   BOOST_TEST(complaint(replace("/runs/0/status", "done")) ==
              "/runs/0/status: expected one of solved singular not-converged error not-run cannot "
-             "crashed timed-out");
+             "not-exported crashed timed-out");
   BOOST_TEST(complaint(replace("/runs/0/case", "nowhere")) ==
              "/runs/0/case: expected a case that stands under /cases");
   BOOST_TEST(complaint(replace("/runs/0/checks/0/computed", "16")) ==
