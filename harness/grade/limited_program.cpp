@@ -41,7 +41,6 @@ void limit(__rlimit_resource resource, std::size_t most) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   for (const int signal : {SIGXFSZ, SIGPIPE, SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-  if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
   limit(RLIMIT_FSIZE, limits.disk_bytes);
   limit(RLIMIT_CORE, 0);
   dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -49,7 +48,10 @@ void limit(__rlimit_resource resource, std::size_t most) {
   dup2(out, STDERR_FILENO);
   close_range(STDERR_FILENO + 1, ~0U, 0);
   setenv("TMPDIR", folder.c_str(), 1);
-  if (chdir(folder.c_str()) == 0) execv(words.front(), words.data());
+  const bool there = chdir(folder.c_str()) == 0;
+  // Last, since this process may itself hold more, as under a sanitizer.
+  if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
+  if (there) execv(words.front(), words.data());
   dprintf(STDERR_FILENO, "not started: %s\n", std::strerror(errno));
   _exit(127);
 }
