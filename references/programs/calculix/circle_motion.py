@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Motion of the flexible manipulator of Table 1 along the paper's circle by CalculiX, undamped: elbows and platform on hinges.
+
+    circle_motion.py OUT SPEED...      writes OUT/calculix-motion-SPEED.json: how far P is from the path, x and y, at POINTS times
+
+Actuators turn as they would with rigid links, from rest to full speed within half a lap's time and on along the circle. Links as in
+planar_manipulator.py; a hinge is a node that the middles of two end faces share, and the platform are three triangles of a material
+STIFF times as stiff: equations and rigid bodies do not turn far in ccx 2.20. Geometrically exact (NLGEOM), trapezoidal rule.
+
+In *DYNAMIC ccx 2.20 takes half of the mass of CPS8R, which modes take whole: a link alone whose foot turns is left behind by 6.126e-6 m
+where 12.243e-6 m is exact, and by 12.241e-6 m with twice the density (CPS8, which locks: 12.141e-6 m). Links have twice their density
+here. Velocities at the start move no plane element, hence the path from rest; at 1 rad/s Newton's iteration ends with "solution seems
+to diverge", as forces are too small for its measures.
+"""
+import math
+import os
+import sys
+
+from planar_manipulator import DEFAULT, DEPTH, Deck, geometry, run, store
+
+STIFF, ALONG, STEPS = 1e3, 4, (400, 800)
+RADIUS, CENTER = 0.01, (0.25, 0.144)
+POINTS, DURATION = 10, 2.5  # the latter in half periods
+
+
+def angle(u):
+    """Of P on the circle at time u pi / speed: from rest to full speed within half a lap's time, all along it at u = 2.5."""
+    v = min(u, 1.0)
+    return math.pi * (v**4 * (2.5 - 3 * v + v * v) + max(u - 1.0, 0.0))
+
+
+def pose(angle):
+    return CENTER[0] + RADIUS * math.cos(angle), CENTER[1] + RADIUS * math.sin(angle), 0.0
+
+
+def places(angle):
+    """A, B, C of each limb with P at this angle."""
+    return list(zip(*geometry({**DEFAULT, "pose": pose(angle)})))
+
+
+def build(along):
+    """Lines of the deck; nodes and offsets of the feet, the node P, and for each node the ends of its link."""
+    deck, same, feet, corners, limbs = Deck(), {}, [], [], {}
+    for i, (a, b, c) in enumerate(places(0.0)):
+        before = len(deck.nodes)
+        start, low = deck.link(a, b, along)
+        limbs.update({n: (i, 0) for n in range(before + 1, len(deck.nodes) + 1)})
+        before = len(deck.nodes)
+        high, end = deck.link(b, c, along)
+        limbs.update({n: (i, 1) for n in range(before + 1, len(deck.nodes) + 1)})
+        same[high[DEPTH]] = low[DEPTH]
+        corners.append(end[DEPTH])
+        feet.append([(n, [p - q for p, q in zip(deck.nodes[n - 1], a)]) for n in start])
+    p = deck.node(*pose(0.0)[:2])
+    elements = [(kind, name, [same.get(n, n) for n in nodes]) for kind, name, nodes in deck.elements]
+    between = {pair: deck.node(*((u + v) / 2 for u, v in zip(*(deck.nodes[n - 1] for n in pair))))
+               for i in range(3) for pair in ((p, corners[i]), (corners[i], corners[(i + 1) % 3]))}
+    for i in range(3):
+        q, r = corners[i], corners[(i + 1) % 3]
+        elements.append(("CPS6", "PLATFORM", [p, q, r, between[p, q], between[q, r], between[p, r]]))
+    lines = ["*NODE,NSET=ALL"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes) if i + 1 not in same]
+    for number, (kind, name, nodes) in enumerate(elements, 1):
+        lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
+    E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
+    lines += ["*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}", f"{G:.12g}",
+                        "*DENSITY", f"{2 * DEFAULT['rho']!r}", *deck.sections, "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.",
+                        "*DENSITY", f"{DEFAULT['rho'] * DEFAULT['plate_thickness'] / DEFAULT['width']!r}", "*SOLID SECTION,ELSET=PLATFORM,MATERIAL=STIFF", f"{DEFAULT['width']!r}"]
+    return lines, feet, p
+
+
+def motion(speed, along, steps):
+    """What P is away from the circle at POINTS points [m]."""
+    lines, feet, p = build(along)
+    end = DURATION * math.pi / speed
+    first = places(0.0)
+    table = [places(angle(DURATION * i / steps)) for i in range(steps + 1)]
+    bounds = []
+    for i, foot in enumerate(feet):
+        a, b, _ = first[i]
+        start = math.atan2(b[1] - a[1], b[0] - a[0])
+        turns = [math.atan2(w[i][1][1] - a[1], w[i][1][0] - a[0]) - start for w in table]
+        for node, (x, y) in foot:
+            for dof, u in ((1, lambda t: x * (math.cos(t) - 1) - y * math.sin(t)), (2, lambda t: y * (math.cos(t) - 1) + x * math.sin(t))):
+                lines += [f"*AMPLITUDE,NAME=A{node}-{dof}"] + [f"{end * k / steps:.12e},{u(t):.12e}" for k, t in enumerate(turns)]
+                bounds += [f"*BOUNDARY,AMPLITUDE=A{node}-{dof}", f"{node},{dof},{dof},1."]
+    rows = run(lines + ["*NSET,NSET=P", f"{p}", f"*STEP,NLGEOM,INC={2 * steps}", "*DYNAMIC,DIRECT,ALPHA=0.",
+                        f"{end / steps:.14e},{end:.14e}", *bounds, f"*NODE PRINT,NSET=P,FREQUENCY={steps // POINTS}", "U", "*END STEP"])
+    away = []
+    for i, row in enumerate(rows, 1):
+        there, start = pose(angle(DURATION * i / POINTS)), pose(0.0)
+        away += [start[k] + row[1 + k] - there[k] for k in (0, 1)]
+    return away
+
+
+def main():
+    folder = sys.argv[1]
+    os.makedirs(folder, exist_ok=True)
+    for speed in map(int, sys.argv[2:]):
+        coarse, fine = (motion(speed, ALONG, steps) for steps in STEPS)
+        size = max(map(abs, fine))
+        change = max(abs(a - b) for a, b in zip(coarse, fine)) / size
+        store(folder, f"calculix-motion-{speed}", f"Flexible 3-RRR along the circle at {speed} rad/s, from rest: how far P is from the path, x "
+              f"and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
+              f"CPS8R, {ALONG} elements along a link and {DEPTH} through it, {STEPS[1]} steps; {STEPS[0]} change the values by the uncertainty, "
+              "of the largest. Actuators driven, elbows and platform on hinges, rigid platform, no damping.",
+              "references/programs/calculix/circle_motion.py")
+        print(speed, change, fine, flush=True)
+
+
+if __name__ == "__main__":
+    main()
