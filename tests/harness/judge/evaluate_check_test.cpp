@@ -97,6 +97,21 @@ BOOST_AUTO_TEST_CASE(a_difference_beyond_the_tolerance_fails_in_either_direction
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_relative_difference_has_the_sign_of_the_difference_also_of_negative_values) {
+  Bench bench;
+  bench.reference["values"] = {-10, -20, -30};
+  bench.quantities["frequency_Hz"].values = {-10.005, -20, -30};
+  BOOST_TEST(bench.judge_all().at(0).difference.value() == -5e-4,
+             boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(only_what_passes_is_recorded_or_not_given_leaves_the_gate_open) {
+  for (const Verdict closed : {Verdict::fail, Verdict::error, Verdict::not_run})
+    BOOST_TEST(fails_gate(closed), to_string(closed));
+  for (const Verdict open : {Verdict::pass, Verdict::recorded, Verdict::not_given})
+    BOOST_TEST(!fails_gate(open), to_string(open));
+}
+
 BOOST_AUTO_TEST_CASE(an_absolute_tolerance_is_in_the_unit_of_the_quantity) {
   Bench bench;
   bench.check["tolerance"] = {{"absolute", 0.5}, {"why", "w"}};
@@ -187,6 +202,9 @@ BOOST_AUTO_TEST_CASE(a_bound_looks_at_the_value_alone) {
   BOOST_TEST(bench.verdict() == "pass");
   bench.set(2, 30.1);
   BOOST_TEST(bench.verdict() == "fail");
+  bench.set(2, 30);
+  bench.set(0, 4.9);
+  BOOST_TEST(bench.verdict() == "fail");
   bench.set(2, not_a_number);
   BOOST_TEST(bench.verdict() == "error");
 }
@@ -222,6 +240,14 @@ BOOST_AUTO_TEST_CASE(a_known_discrepancy_may_leave_some_entries_in_agreement) {
   for (const CheckResult& one : all) BOOST_TEST((one.verdict == Verdict::pass));
   BOOST_TEST((all[0].expectation == Expectation::agrees));
   BOOST_TEST((all[1].expectation == Expectation::known_discrepancy));
+}
+
+BOOST_AUTO_TEST_CASE(windows_are_as_many_as_the_entries) {
+  Bench bench = validation("agrees", Json::array({-1, 1}));
+  bench.check["expect"]["relative_between"] = {{-1, 1}, {-1, 1}, {-1, 1}};
+  BOOST_TEST(bench.verdict() == "pass");
+  bench.check["expect"]["relative_between"].push_back({-1, 1});
+  BOOST_TEST(bench.verdict() == "error");
 }
 
 BOOST_AUTO_TEST_CASE(a_known_discrepancy_that_allows_none_is_refused) {
@@ -273,6 +299,11 @@ BOOST_AUTO_TEST_CASE(quantities_of_one_run_are_judged_against_each_other) {
   BOOST_TEST(all[0].difference.value() == -1);
   bench.check["against_quantity"] = "other_m";
   BOOST_TEST(bench.verdict() == "error");
+  // Also where the variant itself is named.
+  bench.check["against_quantity"] = "other_Hz";
+  bench.check["against_variant"] = "base";
+  bench.other = bench.quantities;
+  BOOST_TEST(bench.judge_all().size() == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(of_a_long_array_the_worst_entry_is_told) {
