@@ -4,9 +4,9 @@
 #include <map>
 
 #include "harness/analysis/effect_elimination.h"
-#include "harness/printing/print_effects.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/reference_library.h"
+#include "harness/printing/print_effects.h"
 #include "harness/studies/effect_study.h"
 #include "tests/support/harness/analysing.h"
 
