@@ -147,7 +147,7 @@ std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::optional<st
     const MeasuredSetting& measurement = measured.settings[i];
     if (measurement.status != MeasurementStatus::measured) continue;
     const auto error = error_of(measurement, measured.study.norm, output);
-    if (!error) continue;
+    if (!error || !(*error <= kDivergedError)) continue;
     const RelativeTime time = relative_time(*measurement.timing, baseline, first, step);
     points.push_back({i, std::max(*error, kMinError), time.median, time.low, time.high});
   }

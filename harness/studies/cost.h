@@ -59,7 +59,7 @@ struct MeasuredStudy {
 };
 
 /// The settings that were measured, by one output's error in the study's norm, or where none is
-/// named by the largest of all outputs' errors; without those that do not give it.
+/// named by the largest of all outputs' errors; without those that do not give it or diverge in it.
 [[nodiscard]] std::vector<CostPoint> output_points(const MeasuredStudy& measured,
                                                    std::optional<std::size_t> output);
 

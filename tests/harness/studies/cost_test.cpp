@@ -108,6 +108,11 @@ BOOST_AUTO_TEST_CASE(outputs_are_judged_one_by_one_and_all_at_once) {
   BOOST_TEST_REQUIRE(all.size() == 3U);  // without what does not say how large it is
   for (std::size_t i = 0; i < all.size(); ++i)
     BOOST_TEST(all[i].error == std::max(study.points[i].error, size[i].error));
+  MeasuredStudy diverged = study;
+  diverged.settings[0].output_errors[1]->max = std::nan("");
+  BOOST_TEST(output_points(diverged, 0).size() == 4U);
+  BOOST_TEST(output_points(diverged, 1).size() == 2U);
+  BOOST_TEST(output_points(diverged, std::nullopt).size() == 2U);
   const results::CostStudy written =
       cost_results({study}, SweepExtent::full, TimingOptions()).studies.front();
   BOOST_TEST_REQUIRE(written.outputs.size() == 3U);
