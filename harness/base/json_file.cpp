@@ -6,7 +6,6 @@
 #include <atomic>
 #include <fstream>
 #include <new>
-#include <sstream>
 #include <unordered_set>
 
 #include "harness/base/errors.h"
@@ -136,11 +135,13 @@ std::string read_text(const std::filesystem::path& file) {
   std::ifstream in;
   if (regular) in.open(file, std::ios::binary);
   if (!in.is_open()) throw InputError(file.string() + ": expected a readable file");
-  if (std::filesystem::file_size(file, error) > most)
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error || size > most)
     throw InputError(file.string() + ": expected a file of at most 256 MiB");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  std::string text(size, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 Json read_json(const std::filesystem::path& file) {
@@ -153,15 +154,26 @@ Json read_json(const std::filesystem::path& file) {
 
 namespace {
 
+/// A text of plain letters needs no writer of its own.
+void put_line(const Json& json, std::string& text) {
+  const auto* const plain = json.get_ptr<const std::string*>();
+  if (plain && std::all_of(plain->begin(), plain->end(), [](char letter) {
+        return letter >= ' ' && letter < '\x7f' && letter != '"' && letter != '\\';
+      }))
+    text.append(1, '"').append(*plain).append(1, '"');
+  else
+    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
-  const auto line = [&](std::size_t spaces) { text += '\n' + std::string(spaces, ' '); };
+  const auto line = [&](std::size_t spaces) { text.append(1, '\n').append(spaces, ' '); };
   const bool nested =
       json.is_structured() &&
       std::any_of(json.begin(), json.end(), [](const Json& item) { return item.is_structured(); });
   const bool expanded =
       !json.empty() && depth < deepest && (nested || (json.is_object() && depth < 2));
   if (!expanded) {
-    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    put_line(json, text);
     return;
   }
   text += json.is_object() ? '{' : '[';
@@ -171,7 +183,8 @@ void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& 
     first = false;
     line(depth + 1);
     if (json.is_object()) {
-      text += Json(item.key()).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+      put_line(item.key(), text);
+      text += ": ";
     }
     put(item.value(), depth + 1, deepest, text);
   }

@@ -139,7 +139,7 @@ int grade_command(const GradeCommand& grade, const RunCommand& run, const Render
   found.solver = solver_name(runs, grade.command, adapter.words.front());
   found.uncertainty_coverage.reset();  // it is a matter of trammel's own refinements
   const auto file = write_results(found, grade.out);
-  renderers.junit(file, std::filesystem::path(grade.out) / "junit.xml");
+  renderers.junit(found, std::filesystem::path(grade.out) / "junit.xml");
   const bool failure = print_grades(found.runs);
   const auto page = renderers.codes({file}, grade.out);
   std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;

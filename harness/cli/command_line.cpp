@@ -71,29 +71,17 @@ folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
 /// All words of the command line, and what to do with them.
 class CommandLine {
  public:
-  explicit CommandLine(const Renderers& renderers) : renderers_(renderers) {
+  /// @param first  the first argument: only the command of that name is defined; all of them, for
+  ///               the help and what is meant, where it is none's.
+  CommandLine(const Renderers& renderers, const std::string& first) : renderers_(renderers) {
     app_.name("trammel");
     app_.footer(kFooter);
     app_.set_version_flag("--version", TRAMMEL_VERSION);
     app_.require_subcommand(1);
-    define_list();
-    define_describe();
-    define_quantities();
-    define_references();
-    define_run();
-    define_compare();
-    define_converge();
-    define_cost();
-    define_claims();
-    define_coverage();
-    define_paper();
-    define_effects();
-    define_report();
-    define_export();
-    define_solve();
-    define_grade();
-    define_merge();
-    define_slurm();
+    for (const Command& command : kCommands) {
+      if (is_command(first) && first != command.name) continue;
+      (this->*command.define)(app_.add_subcommand(command.name));
+    }
   }
 
   int run(const std::vector<std::string>& arguments) {
@@ -109,26 +97,33 @@ class CommandLine {
   }
 
  private:
+  struct Command {
+    const char* name;
+    void (CommandLine::*define)(CLI::App* sub);
+  };
+  static const Command kCommands[18];
+
+  static bool is_command(const std::string& name) {
+    return std::any_of(std::begin(kCommands), std::end(kCommands),
+                       [&](const Command& command) { return name == command.name; });
+  }
+
   std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
-    std::vector<std::string> names;
-    for (const CLI::App* sub : app_.get_subcommands([](const CLI::App*) { return true; })) {
-      names.push_back(sub->get_name());
-    }
     const std::string first = arguments.empty() ? "" : arguments.front();
-    const bool is_command = std::find(names.begin(), names.end(), first) != names.end();
     if (first.empty()) return "expected a command (see trammel --help)";
-    if (!is_command && first.front() != '-') {
+    if (!is_command(first) && first.front() != '-') {
+      std::vector<std::string> names;
+      for (const Command& command : kCommands) names.emplace_back(command.name);
       return "expected a command (got '" + printable(first) + "')" +
              did_you_mean(current_command(first), names);
     }
     std::string line = printable(error.what(), 200);
-    return line + " (see trammel " + (is_command ? first + " " : "") + "--help)";
+    return line + " (see trammel " + (is_command(first) ? first + " " : "") + "--help)";
   }
 
-  CLI::App* add(const char* name, const char* what, const char* examples) {
-    CLI::App* sub = app_.add_subcommand(name, what);
+  static void describe(CLI::App* sub, const char* what, const char* examples) {
+    sub->description(what);
     sub->footer(examples);
-    return sub;
   }
   void add_jobs(CLI::App* sub) {
     sub->add_option("-j,--jobs", run_.jobs,
@@ -158,33 +153,32 @@ class CommandLine {
                     "for all of them");
   }
 
-  void define_list() {
-    CLI::App* sub = add("list", "The cases of the catalogue",
-                        "\nExamples:\n  trammel list\n  trammel list -L manipulator --json");
+  void define_list(CLI::App* sub) {
+    describe(sub, "The cases of the catalogue",
+             "\nExamples:\n  trammel list\n  trammel list -L manipulator --json");
     sub->add_option("-L,--label", run_.labels, "Only cases with one of these labels");
     sub->add_flag("--json", json_, "As JSON");
     sub->callback([this] { command_ = [this] { return list_cases(run_.labels, json_); }; });
   }
-  void define_describe() {
-    CLI::App* sub = add("describe", "Model, analysis, variants, checks and references of a case",
-                        "\nExample:\n  trammel describe manipulator-modes");
+  void define_describe(CLI::App* sub) {
+    describe(sub, "Model, analysis, variants, checks and references of a case",
+             "\nExample:\n  trammel describe manipulator-modes");
     sub->add_option("case", name_, "Name or file of a case")->required();
     sub->add_flag("--json", json_, "As JSON: the case with all that it extends");
     sub->callback([this] { command_ = [this] { return describe_case(name_, json_); }; });
   }
-  void define_quantities() {
-    CLI::App* sub = add("quantities", "What each analysis computes, or a case: unit and meaning",
-                        "\nExamples:\n  trammel quantities\n  trammel quantities beam-cantilever");
+  void define_quantities(CLI::App* sub) {
+    describe(sub, "What each analysis computes, or a case: unit and meaning",
+             "\nExamples:\n  trammel quantities\n  trammel quantities beam-cantilever");
     sub->add_option("case", name_,
                     "Name or file of a case, which is computed; all analyses by "
                     "default");
     sub->callback([this] { command_ = [this] { return quantities_command(name_); }; });
   }
-  void define_references() {
-    CLI::App* sub =
-        add("references", "The stored references: values, units, uncertainty, provenance",
-            "\nExamples:\n  trammel references\n  trammel references --csv > references.csv\n"
-            "  trammel references table-2-ansys --json");
+  void define_references(CLI::App* sub) {
+    describe(sub, "The stored references: values, units, uncertainty, provenance",
+             "\nExamples:\n  trammel references\n  trammel references --csv > references.csv\n"
+             "  trammel references table-2-ansys --json");
     sub->add_option("names", run_.cases, "Names of references; all by default");
     auto* csv = sub->add_flag("--csv", csv_, "A row for each value, with its source in words");
     sub->add_flag("--json", json_, "As JSON")->excludes(csv);
@@ -196,11 +190,11 @@ class CommandLine {
       };
     });
   }
-  void define_run() {
-    CLI::App* sub = add("run", "Compute cases and evaluate their checks",
-                        "\nExamples:\n  trammel run manipulator-modes --variant rigid-platform\n"
-                        "  trammel run my-robot.json other.json --jobs 2\n"
-                        "  trammel run -L beam -L frame --out results");
+  void define_run(CLI::App* sub) {
+    describe(sub, "Compute cases and evaluate their checks",
+             "\nExamples:\n  trammel run manipulator-modes --variant rigid-platform\n"
+             "  trammel run my-robot.json other.json --jobs 2\n"
+             "  trammel run -L beam -L frame --out results");
     sub->add_option("cases", run_.cases, "Names or files of cases");
     sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
     sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
@@ -220,34 +214,32 @@ class CommandLine {
       command_ = [this] { return run_command(run_, renderers_); };
     });
   }
-  void define_compare() {
-    CLI::App* sub = add("compare", "Two variants, or two result files, quantity by quantity",
-                        "\nModes are matched by shape, repeated ones as a set.\n\nExamples:\n"
-                        "  trammel compare manipulator-modes manipulator-modes:rigid-platform\n"
-                        "  trammel compare before/results.json after/results.json");
+  void define_compare(CLI::App* sub) {
+    describe(sub, "Two variants, or two result files, quantity by quantity",
+             "\nModes are matched by shape, repeated ones as a set.\n\nExamples:\n"
+             "  trammel compare manipulator-modes manipulator-modes:rigid-platform\n"
+             "  trammel compare before/results.json after/results.json");
     sub->add_option("a", name_, "case, case:variant, or a results.json")->required();
     sub->add_option("b", other_, "The same")->required();
     sub->callback([this] { command_ = [this] { return compare_command(name_, other_); }; });
   }
-  void define_converge() {
-    CLI::App* sub =
-        add("converge", "Convergence of a case: orders, extrapolated values, numerical uncertainty",
-            "\nExample:\n  trammel converge beam-cantilever");
+  void define_converge(CLI::App* sub) {
+    describe(sub, "Convergence of a case: orders, extrapolated values, numerical uncertainty",
+             "\nExample:\n  trammel converge beam-cantilever");
     sub->add_option("case", name_, "Name or file of a case with sweeps")->required();
     sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
     add_jobs(sub);
     sub->callback(
         [this] { command_ = [this] { return converge_command(name_, run_.variant, run_.jobs); }; });
   }
-  void define_cost() {
-    CLI::App* sub =
-        add("cost", "Accuracy against computing time: error, time and Pareto front",
-            "\nStudies stand in cases/cost; a case of your own is studied by its sweeps.\n"
-            "Settings run in random order, one at a time; keep the machine otherwise idle.\n\n"
-            "Examples:\n  trammel cost\n  trammel cost modes statics --quick\n"
-            "  trammel cost beam-cantilever --sweep elements\n"
-            "  trammel cost my-study.json --repeats 15 --out cost\n"
-            "  trammel cost my-case.json --accuracy 1e-3 --quantity displacement_y_m:B");
+  void define_cost(CLI::App* sub) {
+    describe(sub, "Accuracy against computing time: error, time and Pareto front",
+             "\nStudies stand in cases/cost; a case of your own is studied by its sweeps.\n"
+             "Settings run in random order, one at a time; keep the machine otherwise idle.\n\n"
+             "Examples:\n  trammel cost\n  trammel cost modes statics --quick\n"
+             "  trammel cost beam-cantilever --sweep elements\n"
+             "  trammel cost my-study.json --repeats 15 --out cost\n"
+             "  trammel cost my-case.json --accuracy 1e-3 --quantity displacement_y_m:B");
     sub->add_option("what", cost_.what,
                     "Families or studies of the catalogue, cases, or files of either; every study "
                     "by default");
@@ -274,18 +266,17 @@ class CommandLine {
     add_store(sub, cost_.resume, cost_.store);
     sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
   }
-  void define_claims() {
-    CLI::App* sub =
-        add("claims", "The paper's claims, and the verdict on each",
-            "\nRuns the cases that the claims rest on. Exit status 1 where a verdict is "
-            "not the recorded one.\n\nExample:\n  trammel claims");
+  void define_claims(CLI::App* sub) {
+    describe(sub, "The paper's claims, and the verdict on each",
+             "\nRuns the cases that the claims rest on. Exit status 1 where a verdict is "
+             "not the recorded one.\n\nExample:\n  trammel claims");
     add_jobs(sub);
     sub->add_flag("--json", json_, "As JSON, with every number");
     sub->callback([this] { command_ = [this] { return claims_command(run_.jobs, json_); }; });
   }
-  void define_coverage() {
-    CLI::App* sub = add(
-        "coverage", "What is verified by what kind of evidence, and what by none",
+  void define_coverage(CLI::App* sub) {
+    describe(
+        sub, "What is verified by what kind of evidence, and what by none",
         "\nA row for each key and value of the case schema, each pair of an analysis and a part,\n"
         "element or joint, and each quantity. Exit status 1 where one has neither independent\n"
         "evidence nor a recorded reason (cases/schema/without_evidence.json).\n\nExamples:\n"
@@ -295,24 +286,22 @@ class CommandLine {
     sub->add_flag("--json", coverage_.json, "As JSON");
     sub->callback([this] { command_ = [this] { return coverage_command(coverage_); }; });
   }
-  void define_paper() {
-    CLI::App* sub =
-        add("paper", "The paper item by item: which case shows an equation or a figure",
-            "\nExamples:\n  trammel paper\n  trammel paper trammel-results/results.json");
+  void define_paper(CLI::App* sub) {
+    describe(sub, "The paper item by item: which case shows an equation or a figure",
+             "\nExamples:\n  trammel paper\n  trammel paper trammel-results/results.json");
     sub->add_option("results", name_, "Show the verdicts of this results.json, too");
     sub->callback([this] { command_ = [this] { return paper_command(name_); }; });
   }
-  void define_effects() {
-    CLI::App* sub =
-        add("effects",
-            "Physical effects of a model: which it calls for, and the measured influence of each",
-            "\nThe full model against the model without each effect, without pairs, and "
-            "with only those\nselected for the tolerance.\n\nExamples:\n"
-            "  trammel effects scene-soft-platform\n"
-            "  trammel effects my-robot.json --tolerance 0.001\n"
-            "  trammel effects -L effects                 a table of these cases\n"
-            "  trammel effects --random 200 --seed 1      hit rate on random models\n"
-            "  trammel effects --seed 1 --model 17        one of them");
+  void define_effects(CLI::App* sub) {
+    describe(sub,
+             "Physical effects of a model: which it calls for, and the measured influence of each",
+             "\nThe full model against the model without each effect, without pairs, and "
+             "with only those\nselected for the tolerance.\n\nExamples:\n"
+             "  trammel effects scene-soft-platform\n"
+             "  trammel effects my-robot.json --tolerance 0.001\n"
+             "  trammel effects -L effects                 a table of these cases\n"
+             "  trammel effects --random 200 --seed 1      hit rate on random models\n"
+             "  trammel effects --seed 1 --model 17        one of them");
     sub->add_option("case", name_, "Name or file of a case whose analysis has effects");
     sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
     sub->add_option("--tolerance", effects_.tolerance,
@@ -342,9 +331,9 @@ class CommandLine {
       };
     });
   }
-  void define_report() {
-    CLI::App* sub = add(
-        "report", "Run the whole catalogue, or some cases, and write the report",
+  void define_report(CLI::App* sub) {
+    describe(
+        sub, "Run the whole catalogue, or some cases, and write the report",
         "\nOnly the report of the whole catalogue has the cost studies and the "
         "claims of the paper.\nOf results files it computes nothing: one becomes a report as it "
         "stands, several codes\n(trammel run, trammel grade) stand side by side, case by "
@@ -364,14 +353,13 @@ class CommandLine {
     sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
   }
 
-  void define_export() {
-    CLI::App* sub =
-        add("export", "One computation of a case for other codes, with everything resolved",
-            "\nA case file of plain nodes, members with section properties, triangles, rigid "
-            "bodies, supports and\nloads at nodes; 'trammel run' computes the same numbers of "
-            "it.\n\nExamples:\n  trammel export manipulator-modes --variant rigid-platform\n"
-            "  trammel export beam-cantilever --level 2 --out level-2.json\n"
-            "  trammel export portal-frame --matrices portal");
+  void define_export(CLI::App* sub) {
+    describe(sub, "One computation of a case for other codes, with everything resolved",
+             "\nA case file of plain nodes, members with section properties, triangles, rigid "
+             "bodies, supports and\nloads at nodes; 'trammel run' computes the same numbers of "
+             "it.\n\nExamples:\n  trammel export manipulator-modes --variant rigid-platform\n"
+             "  trammel export beam-cantilever --level 2 --out level-2.json\n"
+             "  trammel export portal-frame --matrices portal");
     sub->add_option("case", name_, "Name or file of a case")->required();
     sub->add_option("--variant", export_.choice.variant, "'base' is the case unpatched")
         ->capture_default_str();
@@ -384,23 +372,23 @@ class CommandLine {
                     "only beside --out");
     sub->callback([this] { command_ = [this] { return export_command(name_, export_); }; });
   }
-  void define_solve() {
-    CLI::App* sub = add("solve", "Compute an exported case as an adapter does, into a result file",
-                        "\nExample:\n  trammel export portal-frame --out case.json && "
-                        "trammel solve case.json result.json");
+  void define_solve(CLI::App* sub) {
+    describe(sub, "Compute an exported case as an adapter does, into a result file",
+             "\nExample:\n  trammel export portal-frame --out case.json && "
+             "trammel solve case.json result.json");
     sub->add_option("case", name_, "File of a case")->required();
     sub->add_option("result", other_, "File of its result")->required();
     sub->callback([this] { command_ = [this] { return solve_command(name_, other_); }; });
   }
-  void define_grade() {
-    CLI::App* sub =
-        add("grade", "Let another code compute cases through an adapter, and judge what it answers",
-            "\nThe adapter is a program: adapter CASE.json RESULT.json. It exits with 0, or with 4 "
-            "for\n\"this code cannot do that\"; harness/adapters/README.md shows how to write one. "
-            "Whatever it\ndoes costs its own row. Exit status 1 where something disagrees, breaks "
-            "or takes too long;\nwhat is not given is no failure.\n\nExamples:\n"
-            "  trammel grade ./my-adapter beam-cantilever\n"
-            "  trammel grade \"python3 my_adapter.py --fast\" -L frame --jobs 4 --out graded");
+  void define_grade(CLI::App* sub) {
+    describe(
+        sub, "Let another code compute cases through an adapter, and judge what it answers",
+        "\nThe adapter is a program: adapter CASE.json RESULT.json. It exits with 0, or with 4 "
+        "for\n\"this code cannot do that\"; harness/adapters/README.md shows how to write one. "
+        "Whatever it\ndoes costs its own row. Exit status 1 where something disagrees, breaks "
+        "or takes too long;\nwhat is not given is no failure.\n\nExamples:\n"
+        "  trammel grade ./my-adapter beam-cantilever\n"
+        "  trammel grade \"python3 my_adapter.py --fast\" -L frame --jobs 4 --out graded");
     sub->add_option("adapter", grade_.command, "Program, or program with arguments in one word")
         ->required();
     sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
@@ -423,9 +411,9 @@ class CommandLine {
     });
   }
 
-  void define_merge() {
-    CLI::App* sub = add(
-        "merge", "The shards of a run, computed apart, as one",
+  void define_merge(CLI::App* sub) {
+    describe(
+        sub, "The shards of a run, computed apart, as one",
         "\nAll shards of one selection, each once, by this program. Judges what they computed as\n"
         "'trammel run' does; what ended in an error is tried again.\n\nExample:\n"
         "  trammel run -L beam --shard 1/2 --out a\n  trammel run -L beam --shard 2/2 --out b\n"
@@ -442,12 +430,11 @@ class CommandLine {
       };
     });
   }
-  void define_slurm() {
-    CLI::App* sub =
-        add("slurm", "A script that runs shards as a Slurm job array, merges them and reports",
-            "\nSent again, it computes only what is missing (harness/README.md).\n\nExample:\n"
-            "  trammel slurm --shards 40 -L manipulator --jobs 8 --out /scratch/results > job.sh\n"
-            "  sh job.sh");
+  void define_slurm(CLI::App* sub) {
+    describe(sub, "A script that runs shards as a Slurm job array, merges them and reports",
+             "\nSent again, it computes only what is missing (harness/README.md).\n\nExample:\n"
+             "  trammel slurm --shards 40 -L manipulator --jobs 8 --out /scratch/results > job.sh\n"
+             "  sh job.sh");
     sub->add_option("--shards", slurm_.shards, "Jobs of the array")
         ->required()
         ->check(CLI::Range(1, 100000));
@@ -482,6 +469,28 @@ class CommandLine {
   std::function<int()> command_;
 };
 
+/// In the order of the help.
+const CommandLine::Command CommandLine::kCommands[] = {
+    {"list", &CommandLine::define_list},
+    {"describe", &CommandLine::define_describe},
+    {"quantities", &CommandLine::define_quantities},
+    {"references", &CommandLine::define_references},
+    {"run", &CommandLine::define_run},
+    {"compare", &CommandLine::define_compare},
+    {"converge", &CommandLine::define_converge},
+    {"cost", &CommandLine::define_cost},
+    {"claims", &CommandLine::define_claims},
+    {"coverage", &CommandLine::define_coverage},
+    {"paper", &CommandLine::define_paper},
+    {"effects", &CommandLine::define_effects},
+    {"report", &CommandLine::define_report},
+    {"export", &CommandLine::define_export},
+    {"solve", &CommandLine::define_solve},
+    {"grade", &CommandLine::define_grade},
+    {"merge", &CommandLine::define_merge},
+    {"slurm", &CommandLine::define_slurm},
+};
+
 }  // namespace
 
 void require_drawing(const Renderers& renderers) {
@@ -494,7 +503,8 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
   end_on_signals("trammel: interrupted; the same command begins anew\n");
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of files fails instead
   try {
-    const int status = CommandLine(renderers).run(arguments);
+    const int status =
+        CommandLine(renderers, arguments.empty() ? "" : arguments.front()).run(arguments);
     if (!std::cout.flush()) throw InputError("expected a standard output that can be written");
     return status;
   } catch (const InputError& error) {

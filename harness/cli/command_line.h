@@ -16,8 +16,7 @@ struct Renderers {
   std::function<std::filesystem::path(const results::Results& results,
                                       const std::filesystem::path& folder, bool single_file)>
       report;
-  std::function<void(const std::filesystem::path& results, const std::filesystem::path& junit)>
-      junit;
+  std::function<void(const results::Results& results, const std::filesystem::path& junit)> junit;
   std::function<bool()> can_draw;  ///< whether there is what a report is drawn with
   /// The results of several codes side by side.
   std::function<std::filesystem::path(const std::vector<std::filesystem::path>& results,

@@ -240,7 +240,7 @@ void print_run_errors(const std::vector<Run>& runs) {
 std::filesystem::path write_all(const results::Results& found, const std::filesystem::path& out,
                                 const Renderers& renderers) {
   auto file = write_results(found, out);
-  if (renderers.junit) renderers.junit(file, out / "junit.xml");
+  if (renderers.junit) renderers.junit(found, out / "junit.xml");
   return file;
 }
 

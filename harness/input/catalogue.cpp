@@ -16,9 +16,10 @@ namespace fs = std::filesystem;
 constexpr const char* kOtherRooms[] = {"/schema/", "/cost/", "/claims/"};
 
 /// Whether a file below the catalogue's folder lies in a room that holds something else than cases.
-bool is_no_case(const std::string& path_below) {
-  return std::any_of(std::begin(kOtherRooms), std::end(kOtherRooms),
-                     [&](const char* room) { return path_below.find(room) != std::string::npos; });
+bool is_no_case(std::string_view path_below) {
+  return std::any_of(std::begin(kOtherRooms), std::end(kOtherRooms), [&](std::string_view room) {
+    return path_below.find(room) != std::string_view::npos;
+  });
 }
 
 /// Nothing a user types as a name may leave the catalogue's folder.
@@ -30,15 +31,18 @@ bool is_name(const std::string& text) {
 
 Catalogue::Catalogue() : Catalogue(data_root() / "cases") {}
 
-Catalogue::Catalogue(const fs::path& folder) {
-  for (const auto& [name, file] : references::json_files(folder.string())) {
-    if (is_no_case(file.substr(folder.string().size()))) continue;
-    const auto [known, is_new] = files_.try_emplace(name, file);
-    if (is_new) continue;
-    throw InputError(std::max(known->second, file), "/id",
-                     "expected a name that no other case has (got that of " +
-                         std::min(known->second, file) + ")");
-  }
+Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(folder.string())) {
+  const std::size_t above = folder.string().size();
+  std::erase_if(files_, [&](const auto& item) {
+    return is_no_case(std::string_view(item.second).substr(above));
+  });
+  std::sort(files_.begin(), files_.end());
+  const auto twice =
+      std::adjacent_find(files_.begin(), files_.end(),
+                         [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice == files_.end()) return;
+  throw InputError(twice[1].second, "/id",
+                   "expected a name that no other case has (got that of " + twice->second + ")");
 }
 
 bool Catalogue::has_analysis(const fs::path& file, int depth) const {
@@ -52,8 +56,9 @@ bool Catalogue::has_analysis(const fs::path& file, int depth) const {
 fs::path Catalogue::by_name(const std::string& name) const {
   if (!is_name(name)) return {};
   const fs::path wanted(name);
-  const auto found = files_.find((wanted.extension() == ".json" ? wanted.stem() : wanted).string());
-  return found == files_.end() ? fs::path() : fs::path(found->second);
+  const std::string id = (wanted.extension() == ".json" ? wanted.stem() : wanted).string();
+  const auto found = std::lower_bound(files_.begin(), files_.end(), std::pair(id, std::string()));
+  return found == files_.end() || found->first != id ? fs::path() : fs::path(found->second);
 }
 
 std::string Catalogue::nearest_name(const std::string& name) const {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "harness/input/case.h"
@@ -39,7 +39,7 @@ class Catalogue {
   [[nodiscard]] std::string nearest_name(const std::string& name) const;
   [[nodiscard]] bool has_analysis(const std::filesystem::path& file, int depth = 0) const;
 
-  std::map<std::string, std::string> files_;  ///< by id, which is the file's name
+  std::vector<std::pair<std::string, std::string>> files_;  ///< by id, which is the file's name
 };
 
 /// The case meant by a name of the catalogue or by a path.

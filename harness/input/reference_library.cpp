@@ -22,7 +22,7 @@ bool is_in_catalogue(const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
-/// Where a case of the user's own may have its references beside it.
+/// Where a case of the user's own may have its references beside it, none for the catalogue's.
 std::vector<fs::path> places_beside(const std::string& id, const fs::path& case_file) {
   const std::string name = id + ".json";
   const fs::path folder = fs::absolute(case_file).parent_path();
@@ -64,19 +64,19 @@ CitedReference References::read(const fs::path& file) const {
 
 const references::Reference& References::get(const JsonView& id) const {
   const auto name = id.get<std::string>();
-  if (stored_.empty()) stored_ = references::reference_files(stored().string());
-  std::vector<fs::path> files = places_beside(name, id.document().origin(id.pointer()).file);
-  if (const auto file = stored_.find(name); file != stored_.end()) files.emplace_back(file->second);
-  for (const fs::path& file : files) {
+  if (rooms_.empty()) rooms_ = references::folders(stored().string());
+  const auto beside = places_beside(name, id.document().origin(id.pointer()).file);
+  for (const fs::path& file : beside) {
     std::error_code error;
     if (fs::is_regular_file(file, error)) return add(file);
     absent_.insert(file);
   }
-  std::vector<std::string> names;
-  for (const auto& item : stored_) names.push_back(item.first);
-  std::vector<std::string> places = {stored().string()};
-  for (const fs::path& file : places_beside(name, id.document().origin(id.pointer()).file))
-    places.insert(places.end() - 1, file.parent_path().string());
+  if (const std::string file = references::find_json_file(rooms_, name); !file.empty())
+    return add(file);
+  std::vector<std::string> places, names;
+  for (const fs::path& file : beside) places.push_back(file.parent_path().string());
+  places.push_back(stored().string());
+  for (const auto& item : references::json_files(stored().string())) names.push_back(item.first);
   throw id.error("expected the name of a reference (got '" + printable(name) + "', looked for in " +
                  join(places, "and") + ")" + did_you_mean(name, names));
 }

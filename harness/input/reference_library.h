@@ -40,7 +40,7 @@ class References {
   [[nodiscard]] references::Source source(const std::string& key,
                                           const std::filesystem::path& file) const;
 
-  mutable std::map<std::string, std::string> stored_;  // by id, listed once
+  mutable std::vector<std::string> rooms_;  // folders of the catalogue's references, listed once
   mutable std::map<std::filesystem::path, references::Bibliography> bibliographies_;
   mutable std::map<std::filesystem::path, CitedReference> read_;
   mutable std::set<std::filesystem::path> absent_;  // looked for in vain

@@ -1,6 +1,7 @@
 #include "references/data/bibliography.h"
 
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "references/data/reference.h"
@@ -12,7 +13,8 @@ Bibliography load_bibliography(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) return sources;
   try {
-    const nlohmann::json json = nlohmann::json::parse(in);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const nlohmann::json json = nlohmann::json::parse(text);
     for (const auto& item : json.items()) {
       sources[item.key()] = {item.value().at("text").get<std::string>(),
                              item.value().value("doi", "")};

@@ -12,4 +12,11 @@ namespace trammel::references {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
     const std::string& folder);
 
+/// A folder and all below it.
+[[nodiscard]] std::vector<std::string> folders(const std::string& folder);
+
+/// The first file name.json in these folders; empty where there is none.
+[[nodiscard]] std::string find_json_file(const std::vector<std::string>& folders,
+                                         const std::string& name);
+
 }  // namespace trammel::references

@@ -107,9 +107,7 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
 
 }  // namespace
 
-void write_junit(const std::filesystem::path& results_json,
-                 const std::filesystem::path& junit_xml) {
-  const Results results = read_results(results_json);
+void write_junit(const Results& results, const std::filesystem::path& junit_xml) {
   Tally all;
   std::string suites;
   for (const CaseInfo& info : results.cases) suites += suite(info, results, all);

@@ -90,8 +90,7 @@ void take_claims(const fs::path& file) {
 
 void take_results(const fs::path& file, const fs::path& sample) {
   try {
-    (void)results::read_results(file);
-    reports::write_junit(file, file.parent_path() / "junit.xml");
+    reports::write_junit(results::read_results(file), file.parent_path() / "junit.xml");
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());  // read by the reports, which do not know the harness
   }

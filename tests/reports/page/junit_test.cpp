@@ -12,7 +12,8 @@ namespace {
 
 std::string junit_of(const nlohmann::ordered_json& results) {
   const Workspace workspace;
-  trammel::reports::write_junit(workspace.results(results), workspace.path() / "junit.xml");
+  trammel::reports::write_junit(trammel::results::read_results(results),
+                                workspace.path() / "junit.xml");
   return text_of(workspace.path() / "junit.xml");
 }
 
