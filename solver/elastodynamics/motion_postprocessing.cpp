@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "solver/elements/triangle_element.h"
-#include "solver/model/numbers.h"
 #include "solver/model/plane.h"
+#include "solver/statics/postprocessing.h"
 
 namespace trammel::solver {
 namespace {
@@ -26,8 +26,6 @@ class MotionPostprocessor {
   }
 
   StaticSolution run() {
-    displacements();
-    reactions();
     members();
     triangles();
     equilibrium();
@@ -35,63 +33,24 @@ class MotionPostprocessor {
   }
 
  private:
-  [[nodiscard]] double u(Index coordinate) const { return coordinate < 0 ? kNaN : u_[coordinate]; }
-
-  void displacements() {
-    const auto nodes = static_cast<Index>(model_.nodes.size());
-    state_.displacement.resize(nodes, 3);
-    for (Index i = 0; i < nodes; ++i) {
-      const auto& c = system_.coordinates.node[static_cast<std::size_t>(i)];
-      state_.displacement.row(i) << u(c[0]), u(c[1]), u(c[2]);
-    }
-    const auto members = static_cast<Index>(model_.members.size());
-    state_.end_rotation.resize(members, 2);
-    for (Index i = 0; i < members; ++i) {
-      const auto& c = system_.coordinates.member_end[static_cast<std::size_t>(i)];
-      state_.end_rotation.row(i) << u(c[0]), u(c[1]);
-    }
-  }
-
-  void reactions() {
-    state_.reaction.setZero(static_cast<Index>(model_.supports.size()), 3);
-    const auto& rows = moving_.constraints().rows;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (rows[r].source != ConstraintRow::Source::support) continue;
-      const Support& support = model_.supports[static_cast<std::size_t>(rows[r].index)];
-      const auto& node = system_.coordinates.node[static_cast<std::size_t>(support.node)];
-      const auto k = std::find(node.begin(), node.end(), rows[r].terms.front().first);
-      state_.reaction(rows[r].index, k - node.begin()) = multipliers_[static_cast<Index>(r)];
-    }
-  }
-
+  /// Section forces, with the tension of inextensible members, which is a constraint's.
   void members() {
-    const auto count = static_cast<Index>(model_.members.size());
-    state_.resultant_start.resize(count, 3);
-    state_.resultant_end.resize(count, 3);
-    state_.member_stress.setZero(count);
-    Eigen::MatrixXd ends = forces_.element;
-    const auto& rows = moving_.constraints().rows;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      if (rows[r].source != ConstraintRow::Source::inextensible) continue;
+    const auto& constraints = moving_.constraints();
+    Eigen::Matrix<double, 6, Eigen::Dynamic> ends = forces_.element;
+    for (std::size_t r = 0; r < constraints.rows.size(); ++r) {
+      if (constraints.rows[r].source != ConstraintRow::Source::inextensible) continue;
       const double tension = -multipliers_[static_cast<Index>(r)];
-      ends(0, rows[r].index) -= tension;
-      ends(3, rows[r].index) += tension;
+      ends(0, constraints.rows[r].index) -= tension;
+      ends(3, constraints.rows[r].index) += tension;
     }
-    Index before = -1;
-    for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i) {
-      const FrameElement& e = system_.mesh.frame[i];
-      const Vector6d f = ends.col(static_cast<Index>(i));
-      const Eigen::RowVector3d first = -f.head<3>().transpose();
-      const Eigen::RowVector3d second = f.tail<3>().transpose();
-      if (e.member != before) state_.resultant_start.row(e.member) = first;
-      state_.resultant_end.row(e.member) = second;
-      before = e.member;
-      double& largest = state_.member_stress[e.member];
-      for (const Eigen::RowVector3d& s : {first, second}) {
-        largest = nan_max(
-            largest, std::abs(s[0]) / e.section.area + std::abs(s[2]) / e.section.section_modulus);
-      }
-    }
+    std::vector<Vector2d> positions;
+    for (Index node = 0; node < std::ssize(model_.nodes); ++node)
+      positions.push_back(moving_.position(node));
+    const Eigen::Index elements = ends.cols();
+    recover(system_,
+            {positions, u_, constraints, multipliers_, std::move(ends),
+             Eigen::Matrix2Xd::Zero(2, elements)},
+            state_);
   }
 
   void triangles() {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "solver/assembly/strain.h"
 #include "solver/model/numbers.h"
@@ -48,33 +47,15 @@ Vector2d element_axes(const FrameElement& e, const Vector2d& world) {
   return {e.direction.dot(world), cross(e.direction, world)};
 }
 
-class Postprocessor {
+class Recovery {
  public:
-  Postprocessor(const System& system, const ElasticState& state, StaticSolution& solution)
-      : system_(system),
-        model_(system.model),
-        state_(state),
-        u_(state.u),
-        multipliers_(constraint_forces(system, state)),
-        axial_(axial_forces(system, u_, multipliers_)),
-        solution_(solution) {}
+  Recovery(const System& system, const RecoveredForces& forces, StaticSolution& solution)
+      : system_(system), model_(system.model), forces_(forces), solution_(solution) {}
 
   void run() {
     displacements();
     reactions();
     members();
-    triangles();
-    equilibrium();
-  }
-
-  [[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants() const {
-    Eigen::Matrix<double, Eigen::Dynamic, 6> resultants(
-        static_cast<Index>(system_.mesh.frame.size()), 6);
-    for (Index i = 0; i < resultants.rows(); ++i) {
-      const SectionForces forces = section_forces(static_cast<std::size_t>(i));
-      resultants.row(i) << forces.start.transpose(), forces.end.transpose();
-    }
-    return resultants;
   }
 
  private:
@@ -85,7 +66,7 @@ class Postprocessor {
       for (Index k = 0; k < 3; ++k) {
         const Index c =
             system_.coordinates.node[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
-        solution_.displacement(i, k) = c < 0 ? std::numeric_limits<double>::quiet_NaN() : u_[c];
+        solution_.displacement(i, k) = c < 0 ? kNaN : forces_.u[c];
       }
     }
     const auto members = static_cast<Index>(model_.members.size());
@@ -95,7 +76,7 @@ class Postprocessor {
         const Index c = system_.coordinates
                             .member_end[static_cast<std::size_t>(i)][static_cast<std::size_t>(end)];
         // A bar turns as a whole.
-        solution_.end_rotation(i, end) = c < 0 ? chord_rotation(i) : u_[c];
+        solution_.end_rotation(i, end) = c < 0 ? chord_rotation(i) : forces_.u[c];
       }
     }
   }
@@ -104,7 +85,7 @@ class Postprocessor {
     const auto& nodes = model_.members[static_cast<std::size_t>(member)].nodes;
     const auto a = static_cast<std::size_t>(nodes[0]);
     const auto b = static_cast<std::size_t>(nodes[1]);
-    const Vector2d span = model_.nodes[b].position - model_.nodes[a].position;
+    const Vector2d span = forces_.position[b] - forces_.position[a];
     const Vector2d shift =
         (solution_.displacement.row(nodes[1]) - solution_.displacement.row(nodes[0])).head<2>();
     return cross(span, shift) / span.squaredNorm();
@@ -112,51 +93,15 @@ class Postprocessor {
 
   void reactions() {
     solution_.reaction.setZero(static_cast<Index>(model_.supports.size()), 3);
-    for (std::size_t i = 0; i < system_.constraints.rows.size(); ++i) {
-      const ConstraintRow& row = system_.constraints.rows[i];
+    for (std::size_t i = 0; i < forces_.constraints.rows.size(); ++i) {
+      const ConstraintRow& row = forces_.constraints.rows[i];
       if (row.source != ConstraintRow::Source::support) continue;
       const Index u = row.terms.front().first;
       const auto& node = system_.coordinates.node[static_cast<std::size_t>(
           model_.supports[static_cast<std::size_t>(row.index)].node)];
       const Index k = u == node[0] ? 0 : u == node[1] ? 1 : 2;
-      solution_.reaction(row.index, k) = multipliers_[static_cast<Index>(i)];
+      solution_.reaction(row.index, k) = forces_.multipliers[static_cast<Index>(i)];
     }
-  }
-
-  [[nodiscard]] SectionForces section_forces(std::size_t index) const {
-    const FrameElement& e = system_.mesh.frame[index];
-    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
-    const Vector2d q = state_.load_factor *
-                       element_axes(e, member.load + e.section.mass_per_length * model_.gravity);
-    const Vector6d end = end_forces(e, static_cast<Index>(index), q);
-    return {-end.head<3>(), end.tail<3>(), q};
-  }
-
-  /// Forces that the nodes exert on an element, in its axes: k u + k_G u + m a - f.
-  [[nodiscard]] Vector6d end_forces(const FrameElement& e, Index index, const Vector2d& q) const {
-    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
-    const Vector6d u = detail::gather(e.coordinates, u_);
-    Vector3d s = frame_rigidity(e.section, member.theory, e.length)
-                     .cwiseProduct(frame_deformation_matrix(e.direction, e.length) * u);
-    s[0] = axial_[index];
-    Vector6d force =
-        frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
-    if (state_.prestress) {
-      const Prestress& state = *state_.prestress;
-      force += geometric_stiffness_forces(e, member.theory, state.axial[index],
-                                          state.axial_variation[index], u);
-    }
-    if (state_.acceleration.size() > 0) {
-      const Vector6d a =
-          frame_rotation(e.direction) * detail::gather(e.coordinates, state_.acceleration);
-      force += frame_mass(e.section, member.theory, member.mass, e.length) * a;
-    }
-    if (e.is_bar()) {
-      force.head<2>() -= q * (e.length / 2);
-      force.segment<2>(3) -= q * (e.length / 2);
-      return force;
-    }
-    return force - frame_uniform_load(q, e.length);
   }
 
   /// |N| / A + |M| / W at a point of an element; 0 where a taper has come to its point, NaN where
@@ -172,7 +117,7 @@ class Postprocessor {
     const double bending = forces[2] == 0 ? 0 : std::abs(forces[2]) / section.section_modulus;
     const double axial = forces[0] == 0 ? 0 : std::abs(forces[0]) / section.area;
     const double sum = axial + bending;
-    return std::isfinite(sum) ? sum : std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(sum) ? sum : kNaN;
   }
 
   /// Both ends and, under a load across, the two places where |N|/A + |M|/W can be stationary;
@@ -209,7 +154,10 @@ class Postprocessor {
     for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i) {
       const FrameElement& e = system_.mesh.frame[i];
       const bool first = i == 0 || system_.mesh.frame[i - 1].member != e.member;
-      const SectionForces forces = section_forces(i);
+      const auto column = static_cast<Index>(i);
+      const SectionForces forces = {-forces_.element.col(column).head<3>(),
+                                    forces_.element.col(column).tail<3>(),
+                                    forces_.load.col(column)};
       if (first) from_start = 0;
       if (first) solution_.resultant_start.row(e.member) = forces.start;
       solution_.resultant_end.row(e.member) = forces.end;
@@ -217,6 +165,78 @@ class Postprocessor {
       largest = nan_max(largest, largest_stress(e, from_start, forces));
       from_start += e.length;
     }
+  }
+
+  const System& system_;
+  const Model& model_;
+  const RecoveredForces& forces_;
+  StaticSolution& solution_;
+};
+
+class Postprocessor {
+ public:
+  Postprocessor(const System& system, const ElasticState& state)
+      : system_(system),
+        model_(system.model),
+        state_(state),
+        u_(state.u),
+        multipliers_(constraint_forces(system, state)),
+        axial_(axial_forces(system, u_, multipliers_)) {}
+
+  void run(StaticSolution& solution) const {
+    std::vector<Vector2d> positions;
+    for (const Node& node : model_.nodes) positions.push_back(node.position);
+    RecoveredForces forces{positions, u_, system_.constraints, multipliers_, end_forces(), {}};
+    forces.load.resize(2, forces.element.cols());
+    for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i)
+      forces.load.col(static_cast<Index>(i)) = element_load(system_.mesh.frame[i]);
+    recover(system_, forces, solution);
+    triangles(solution);
+    equilibrium(solution);
+  }
+
+  /// What the nodes do to the frame elements, in their axes.
+  [[nodiscard]] Eigen::Matrix<double, 6, Eigen::Dynamic> end_forces() const {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> forces(6,
+                                                    static_cast<Index>(system_.mesh.frame.size()));
+    for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = end_forces(i);
+    return forces;
+  }
+
+ private:
+  [[nodiscard]] Vector2d element_load(const FrameElement& e) const {
+    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
+    return state_.load_factor *
+           element_axes(e, member.load + e.section.mass_per_length * model_.gravity);
+  }
+
+  /// Forces that the nodes exert on an element, in its axes: k u + k_G u + m a - f.
+  [[nodiscard]] Vector6d end_forces(Index index) const {
+    const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(index)];
+    const Vector2d q = element_load(e);
+    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
+    const Vector6d u = detail::gather(e.coordinates, u_);
+    Vector3d s = frame_rigidity(e.section, member.theory, e.length)
+                     .cwiseProduct(frame_deformation_matrix(e.direction, e.length) * u);
+    s[0] = axial_[index];
+    Vector6d force =
+        frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
+    if (state_.prestress) {
+      const Prestress& state = *state_.prestress;
+      force += geometric_stiffness_forces(e, member.theory, state.axial[index],
+                                          state.axial_variation[index], u);
+    }
+    if (state_.acceleration.size() > 0) {
+      const Vector6d a =
+          frame_rotation(e.direction) * detail::gather(e.coordinates, state_.acceleration);
+      force += frame_mass(e.section, member.theory, member.mass, e.length) * a;
+    }
+    if (e.is_bar()) {
+      force.head<2>() -= q * (e.length / 2);
+      force.segment<2>(3) -= q * (e.length / 2);
+      return force;
+    }
+    return force - frame_uniform_load(q, e.length);
   }
 
   /// (sxx, syy, sxy) of a triangle at a point in area coordinates.
@@ -232,10 +252,10 @@ class Postprocessor {
                                detail::gather(system_.coordinates.of_triangle<6>(triangle), u_));
   }
 
-  void triangles() {
-    solution_.triangle_stress.resize(static_cast<Index>(model_.triangles.size()), 3);
+  void triangles(StaticSolution& solution) const {
+    solution.triangle_stress.resize(static_cast<Index>(model_.triangles.size()), 3);
     const auto nodes = static_cast<Index>(model_.nodes.size());
-    solution_.node_stress.setZero(nodes, 3);
+    solution.node_stress.setZero(nodes, 3);
     VectorXd area = VectorXd::Zero(nodes);
     const double h = 0.5;
     const std::array<Vector3d, 6> points = {Vector3d(1, 0, 0), Vector3d(0, 1, 0),
@@ -244,19 +264,19 @@ class Postprocessor {
     for (std::size_t i = 0; i < model_.triangles.size(); ++i) {
       const Triangle& triangle = model_.triangles[i];
       const double size = std::abs(signed_area(corners(model_, triangle)));
-      solution_.triangle_stress.row(static_cast<Index>(i)) =
+      solution.triangle_stress.row(static_cast<Index>(i)) =
           plate_stress(triangle, Vector3d::Constant(1 / 3.0));
       for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {
-        solution_.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, points[k]);
+        solution.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, points[k]);
         area[triangle.nodes[k]] += size;
       }
     }
-    for (Index node = 0; node < nodes; ++node) solution_.node_stress.row(node) /= area[node];
+    for (Index node = 0; node < nodes; ++node) solution.node_stress.row(node) /= area[node];
   }
 
   /// All that the outside does to the model: loads, reactions, springs to the ground; equilibrium
   /// is that of the theory solved.
-  void equilibrium() {
+  void equilibrium(StaticSolution& solution) const {
     Wrench sum;
     const auto position = [&](Index node) -> const Vector2d& {
       return system_.mesh.positions[static_cast<std::size_t>(node)];
@@ -277,17 +297,17 @@ class Postprocessor {
       }
     }
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {
-      const Eigen::RowVector3d r = solution_.reaction.row(static_cast<Index>(i));
+      const Eigen::RowVector3d r = solution.reaction.row(static_cast<Index>(i));
       sum.add(position(model_.supports[i].node), {r[0], r[1]}, r[2]);
     }
     for (const Spring& spring : model_.springs) {
       if (spring.nodes[1] >= 0) continue;
-      const Eigen::RowVector3d u = solution_.displacement.row(spring.nodes[0]);
+      const Eigen::RowVector3d u = solution.displacement.row(spring.nodes[0]);
       sum.add(position(spring.nodes[0]), {-spring.stiffness[0] * u[0], -spring.stiffness[1] * u[1]},
               spring.stiffness[2] == 0 ? 0.0 : -spring.stiffness[2] * u[2]);
     }
-    solution_.equilibrium_residual = sum.force.norm();
-    solution_.moment_residual = std::abs(sum.moment);
+    solution.equilibrium_residual = sum.force.norm();
+    solution.moment_residual = std::abs(sum.moment);
   }
 
   const System& system_;
@@ -296,7 +316,6 @@ class Postprocessor {
   const VectorXd& u_;
   VectorXd multipliers_;
   VectorXd axial_;
-  StaticSolution& solution_;
 };
 
 }  // namespace
@@ -307,14 +326,20 @@ VectorXd constraint_forces(const System& system, const ElasticState& state) {
   return system.constraints.multipliers(force);
 }
 
+void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution) {
+  Recovery(system, forces, solution).run();
+}
+
 Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants(const System& system,
                                                             const ElasticState& state) {
-  StaticSolution unused;
-  return Postprocessor(system, state, unused).element_resultants();
+  Eigen::Matrix<double, Eigen::Dynamic, 6> resultants =
+      Postprocessor(system, state).end_forces().transpose();
+  resultants.leftCols<3>() *= -1;
+  return resultants;
 }
 
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution) {
-  Postprocessor(system, state, solution).run();
+  Postprocessor(system, state).run(solution);
 }
 
 }  // namespace trammel::solver

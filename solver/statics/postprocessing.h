@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "solver/assembly/prestress.h"
 #include "solver/assembly/system.h"
@@ -15,6 +16,21 @@ struct ElasticState {
   Eigen::VectorXd acceleration;  ///< of the same coordinates; empty: at rest
   const Prestress* prestress = nullptr;  ///< second-order theory, where given
 };
+
+/// Forces on the frame elements and in the constraints of a state, by whatever theory.
+struct RecoveredForces {
+  const std::vector<Vector2d>& position;  ///< of the model's nodes [m]
+  const Eigen::VectorXd& u;               ///< of the unconstrained coordinates [m, rad]
+  const Constraints& constraints;
+  Eigen::VectorXd multipliers;                       ///< of the constraint rows [N, N m]
+  Eigen::Matrix<double, 6, Eigen::Dynamic> element;  ///< what its nodes do to each frame element,
+                                                     ///< in its axes [N, N, N m]
+  Eigen::Matrix2Xd load;  ///< along and across each frame element, uniform [N/m]
+};
+
+/// Fills displacements, rotations of members' ends, reactions, section forces and the stresses of
+/// members: the largest at the ends of their elements and between them under the loads given.
+void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution);
 
 /// Multipliers of the constraint rows at rest: the forces of supports, rigid bodies and
 /// inextensible members.
