@@ -83,6 +83,14 @@ std::string percent(double share) {
   return rounded(100 * share, 3) + " %";
 }
 
+std::string csv_cell(std::string text) {
+  if (!text.empty() && std::string("=+-@").find(text.front()) != std::string::npos)
+    text.insert(0, "'");
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
 std::string printable(std::string text, std::size_t length) {
   if (text.size() > length) text = text.substr(0, length - 3) + "...";
   std::replace_if(

@@ -37,6 +37,10 @@ namespace trammel::harness {
 /// "12.3 %" of 0.123
 [[nodiscard]] std::string percent(double share);
 
+/// A text in quotes as CSV has them (RFC 4180). One that a spreadsheet would compute has an
+/// apostrophe in front.
+[[nodiscard]] std::string csv_cell(std::string text);
+
 /// Bytes that a terminal or a line cannot hold become '?', long text is cut.
 [[nodiscard]] std::string printable(std::string text, std::size_t length = 60);
 

@@ -5,195 +5,300 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <set>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/base/statistic.h"
+#include "harness/base/processes.h"
+#include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/cli/command_line.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
-#include "harness/results/results.h"
+#include "harness/run/compare_sides.h"
 #include "harness/run/cost_results.h"
+#include "harness/run/results.h"
 #include "harness/run/run.h"
 #include "harness/run/stored_results.h"
-#include "harness/studies/mode_match.h"
 
 namespace trammel::harness {
 namespace {
 
-using Named = std::map<std::string, std::vector<double>>;
+namespace fs = std::filesystem;
+using results::ComparedNumber;
+using results::ComparedRun;
+using results::ComparedSide;
+using results::Number;
+using results::SideComparison;
 
-/// One side of a comparison of two variants.
-struct Side {
-  std::string label;
-  Document document;
-  AnalysisResult result;
-};
-
-Side side_loads(const std::string& name) {
-  // A colon in a file's own name is no variant.
+/// Case and variant of a name; a colon in a file's own name is no variant.
+std::pair<std::string, std::string> parted(const std::string& name) {
   const auto colon = name.rfind(':');
   const bool split =
       colon != std::string::npos && name.find('/', colon) == std::string::npos && colon > 0;
-  const Case given = load_named_case(split ? name.substr(0, colon) : name);
-  const std::string variant = split ? name.substr(colon + 1) : kBaseVariant;
-  return {given.id() + ":" + variant, patched(given, variant), solution_of(given, variant)};
+  return {split ? name.substr(0, colon) : name, split ? name.substr(colon + 1) : ""};
 }
 
-Named numbers_of(const Quantities& quantities) {
-  Named named;
-  for (const auto& [name, quantity] : quantities) named[name] = quantity.values;
-  return named;
+/// Computes one variant, without its refinements.
+Side side_of(const Case& given, const std::string& variant) {
+  Progress progress("runs");
+  const References references;
+  RunOptions options;
+  options.variant = variant;
+  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  options.memory_bytes = memory_limit_bytes();
+  options.studies = false;
+  const std::vector<Run> runs = run_cases({given}, references, options);
+  require_complete(runs);
+  const Run& run = runs.front();
+  const std::string name = given.id() + ":" + variant;
+  if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
+  if (run.error == Run::RunError::input) throw InputError(run.reason);
+  if (run.status != "solved") throw InputError(name + ": expected a solution (" + run.reason + ")");
+  return {name, results_of(runs, {given}, references), patched(given, variant)};
 }
 
-/// Values below this share of the largest of their series are zeros but for round-off.
-constexpr double kRoundoff = 1e-9;
-
-/// By how much b differs from a, relative to a; nothing where a is zero.
-/// @param scale  the largest value of the series
-std::string percent_change(double a, double b, double scale) {
-  if (!(std::abs(a) > kRoundoff * scale) || !std::isfinite(b)) return "";
-  return fmt::format("{:+.3g}", 100 * ((b - a) / std::abs(a)));
-}
-
-/// What a quantity's values are compared with: all of its unit, but poses with poses, and numbers
-/// without a unit with themselves.
-std::string series_of(const std::string& name) {
-  const std::string unit = unit_of(name), head = name.substr(0, name.find(':'));
-  return unit == "1" || head.rfind("pose_", 0) == 0 ? head : unit;
-}
-
-/// The largest magnitude of each series on either side.
-std::map<std::string, double> series_scales(const Named& a, const Named& b) {
-  std::map<std::string, double> scales;
-  for (const Named* side : {&a, &b})
-    for (const auto& [name, values] : *side) {
-      double& scale = scales[series_of(name)];
-      for (const double value : values)
-        if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
-    }
-  return scales;
-}
-
-/// The rows of a quantity: all of a few values, of many the one that differs most.
-void add_rows(const std::string& name, const std::vector<double>& a, const std::vector<double>& b,
-              double scale, Table& table) {
-  if (a.size() != b.size()) {
-    table.add({name, "", std::to_string(a.size()) + " entries",
-               std::to_string(b.size()) + " entries", "", ""});
-    return;
-  }
-  const std::size_t worst = largest_difference(a, b, [](std::size_t) { return 1.0; }).index;
-  const std::size_t first = a.size() <= 6 ? 0 : worst;
-  const std::size_t last = a.size() <= 6 ? a.size() : std::min(a.size(), worst + 1);
-  for (std::size_t i = first; i < last; ++i) {
-    table.add({i == first ? name : "", a.size() > 1 ? std::to_string(i) : "", rounded(a[i], 10),
-               rounded(b[i], 10), rounded(b[i] - a[i], 3), percent_change(a[i], b[i], scale)});
-  }
-}
-
-void print_quantities(const Named& a, const Named& b, const std::string& label_a,
-                      const std::string& label_b) {
-  Table table({"quantity", ">index", ">" + label_a, ">" + label_b, ">difference", ">percent"});
-  const std::map<std::string, double> scales = series_scales(a, b);
-  for (const auto& [name, values] : a) {
-    const auto other = b.find(name);
-    if (other != b.end()) add_rows(name, values, other->second, scales.at(series_of(name)), table);
-  }
-  table.print(std::cout);
-  for (const auto& [one, other, label] :
-       {std::tuple(&a, &b, &label_a), std::tuple(&b, &a, &label_b)}) {
-    std::vector<std::string> alone;
-    for (const auto& item : *one) {
-      if (other->count(item.first) == 0) alone.push_back(item.first);
-    }
-    if (!alone.empty()) {
-      std::cout << wrapped("Only in " + *label + ": " + join(alone, "and"), "");
-    }
-  }
-}
-
-std::string mode_numbers(const std::vector<std::size_t>& set) {
-  std::vector<std::string> numbers;
-  for (const std::size_t i : set) numbers.push_back(std::to_string(i + 1));
-  return join(numbers, "and");
-}
-
-void print_modes(const Side& a, const Side& b) {
-  const auto [modes_a, modes_b] = sample_modes(a.document, b.document);
-  const std::size_t count = a.result.quantities.at("frequency_Hz").values.size();
-  Table table(
-      {">mode", ">" + a.label + " [Hz]", ">mode", ">" + b.label + " [Hz]", ">percent", ">alike"});
-  for (const ModeMatch& match : match_modes(modes_a, modes_b)) {
-    if (match.a.front() >= count) break;
-    const double fa = modes_a.frequency[match.a.front()];
-    if (match.b.empty()) {
-      table.add({mode_numbers(match.a), rounded(fa, 8), "-", "no mode looks alike", "", ""});
-      continue;
-    }
-    const double fb = modes_b.frequency[match.b.front()];
-    const double last = modes_b.frequency[match.b.back()];
-    const bool parted = last - fb > 1e-6 * last;
-    table.add({mode_numbers(match.a), rounded(fa, 8), mode_numbers(match.b),
-               rounded(fb, 8) + (parted ? " to " + rounded(last, 8) : ""),
-               percent_change(fa, fb, modes_a.frequency.back()), rounded(match.overlap, 4)});
-  }
-  table.print(std::cout);
-  std::cout << "alike: 1 for the same shape (modal assurance criterion; of repeated modes the\n"
-               "subspaces are compared)\n";
-}
-
-bool is_json_file(const std::filesystem::path& file) {
+bool is_json_file(const fs::path& file) {
   std::error_code error;
-  return file.extension() == ".json" && std::filesystem::is_regular_file(file, error);
+  return file.extension() == ".json" && fs::is_regular_file(file, error);
 }
 
-/// What a file holds, read once; null for a case of the catalogue.
-Json contents(const std::string& name) {
-  return is_json_file(name) ? read_json(name) : Json();
+/// The file of results that a name means; empty where it means none.
+fs::path results_file(const std::string& name) {
+  std::error_code error;
+  const fs::path file = name;
+  if (fs::is_directory(file, error)) return file / "results.json";
+  if (!is_json_file(file)) return {};
+  const Json json = read_json(file);
+  return json.is_object() && json.contains("format") && json.contains("runs") ? file : fs::path();
 }
 
-bool is_results(const Json& json) {
-  return json.is_object() && json.contains("format") && json.contains("runs");
-}
-
-/// Why something cannot be compared with a results file.
-[[noreturn]] void refuse_beside_results(const std::string& name, const Json& json) {
-  if (!is_json_file(name)) (void)Catalogue().find_case(name.substr(0, name.rfind(':')));
+/// Why something cannot be compared with results.
+[[noreturn]] void refuse_beside_results(const std::string& name) {
+  if (!is_json_file(name)) (void)Catalogue().find_case(parted(name).first);
+  const Json json = is_json_file(name) ? read_json(name) : Json();
   if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
     const auto schema_error = find_schema_fault(json, "results");
     if (schema_error) throw InputError(name, schema_error->pointer, schema_error->message);
   }
-  throw InputError("expected two variants or two result files (got one of each)");
+  throw InputError("expected variants alone or results alone (got both)");
 }
 
-/// "case:variant" -> quantities of a results file.
-std::map<std::string, Named> named_runs(const results::Results& results) {
-  std::map<std::string, Named> runs;
-  for (const results::Run& run : results.runs) {
-    Named& named = runs[run.case_id + ":" + run.variant];
-    for (const auto& [name, values] : run.quantities)
-      for (const results::Number& value : values)
-        named[name].push_back(value.value_or(std::nan("")));
+std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
+  std::vector<Side> sides;
+  for (const std::string& name : names) {
+    const auto [file, chosen] = parted(name);
+    const Case given = load_named_case(file);
+    std::vector<std::string> variants = {chosen.empty() ? kBaseVariant : chosen};
+    if (names.size() == 1 && chosen.empty()) variants = given.variants();
+    for (const std::string& variant : variants) {
+      try {
+        sides.push_back(side_of(given, variant));
+      } catch (const InputError& error) {
+        if (variants.size() == 1) throw;
+        std::cerr << one_line(error.what()) << "; left out\n";
+        continue;
+      }
+      const std::string own = analysis_kind(*sides.back().document),
+                        first = analysis_kind(*sides.front().document);
+      if (own != first)
+        throw InputError("expected variants of one kind of analysis (got " + first + " and " + own +
+                         ")");
+    }
   }
-  return runs;
+  if (sides.size() < 2) throw InputError("expected two sides (got one: it has no variants)");
+  std::set<std::string> cases;
+  for (const Side& side : sides) cases.insert(parted(side.label).first);
+  if (cases.size() == 1)
+    for (Side& side : sides) side.label = parted(side.label).second;
+  return sides;
 }
 
-/// Only what differs, bit for bit.
-std::pair<Named, Named> differing(const Named& a, const Named& b) {
-  std::pair<Named, Named> left{a, b};
-  for (const auto& [name, values] : a) {
-    const auto other = b.find(name);
-    const bool same =
-        other != b.end() && values.size() == other->second.size() &&
-        std::equal(values.begin(), values.end(), other->second.begin(),
-                   [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
-    if (!same) continue;
-    left.first.erase(name);
-    left.second.erase(name);
+std::vector<Side> sides_of(const std::vector<std::string>& names) {
+  std::vector<fs::path> files;
+  for (const std::string& name : names) files.push_back(results_file(name));
+  const auto none = [](const fs::path& file) { return file.empty(); };
+  if (std::all_of(files.begin(), files.end(), none)) return sides_of_cases(names);
+  const auto odd = std::find_if(files.begin(), files.end(), none);
+  if (odd != files.end())
+    refuse_beside_results(names[static_cast<std::size_t>(odd - files.begin())]);
+  if (files.size() < 2) throw InputError("expected two results (got one)");
+  std::vector<Side> sides;
+  for (std::size_t s = 0; s < files.size(); ++s)
+    sides.push_back({names[s], read_summary(files[s]), std::nullopt});
+  return sides;
+}
+
+std::string percent_text(const Number& percent) {
+  return percent ? rounded(*percent, 3) : "";
+}
+
+std::string error_text(const Number& share) {
+  return share ? percent_text(100 * *share) : "";
+}
+
+/// Time beside accuracy.
+void print_sides(const SideComparison& comparison) {
+  const bool errors = comparison.sides.front().median_error.has_value();
+  Table table(errors
+                  ? std::vector<std::string>{"side", ">runs", ">time [s]", ">of first", ">work",
+                                             ">error [%]", ">largest [%]", ">rank", ">over best"}
+                  : std::vector<std::string>{"side", ">runs", ">time [s]", ">of first", ">work"});
+  for (const ComparedSide& side : comparison.sides) {
+    std::vector<std::string> row = {side.label, std::to_string(side.runs), rounded(side.cpu_s, 3),
+                                    side.relative_time ? rounded(*side.relative_time, 3) : "",
+                                    std::to_string(side.work)};
+    if (errors) {
+      const auto& ratio = side.error_ratio;
+      const std::string over = ratio.empty() || !ratio[0]
+                                   ? ""
+                                   : fmt::format("{:.3g} ({:.3g} to {:.3g})", *ratio[0],
+                                                 ratio[1].value_or(NAN), ratio[2].value_or(NAN));
+      for (const std::string& cell : {error_text(side.median_error), error_text(side.largest_error),
+                                      std::to_string(side.rank), over})
+        row.push_back(cell);
+    }
+    table.add(row);
   }
-  return left;
+  table.print(std::cout);
+  if (errors)
+    std::cout << "error: median against references; over best: with an interval of 98 %, within "
+                 "which\nsides share a rank\n";
+}
+
+std::string mode_numbers(const std::vector<std::size_t>& set) {
+  std::vector<std::string> numbers;
+  for (const std::size_t number : set) numbers.push_back(std::to_string(number));
+  return join(numbers, "and");
+}
+
+/// A table of what the first side has, and of cells for each further one: beside it where there are
+/// few, else below it.
+class SidesTable {
+ public:
+  /// @param cells  heads of a side's cells; of the first side the first of them alone
+  SidesTable(std::vector<std::string> first, std::vector<std::string> cells,
+             const SideComparison& comparison)
+      : comparison_(comparison), below_(comparison.sides.size() > kBeside) {
+    width_ = cells.size();
+    blank_.resize(first.size());
+    if (below_) first.emplace_back("side");
+    for (std::size_t s = 0; s < (below_ ? 1 : comparison.sides.size()); ++s) {
+      if (!below_) cells.front() = ">" + comparison.sides[s].label;
+      const bool value_alone = s == 0 && !below_;
+      first.insert(first.end(), cells.begin(), value_alone ? cells.begin() + 1 : cells.end());
+    }
+    table_ = Table(first);
+  }
+
+  /// @param cells  of each side
+  void add(std::vector<std::string> first, std::vector<std::vector<std::string>> cells) {
+    if (!below_) {
+      cells.front().resize(1);
+      for (const auto& own : cells) first.insert(first.end(), own.begin(), own.end());
+      return table_.add(first);
+    }
+    for (std::size_t s = 0; s < cells.size(); ++s) {
+      std::vector<std::string> row = s == 0 ? first : blank_;
+      row.push_back(comparison_.sides[s].label);
+      cells[s].resize(width_);
+      row.insert(row.end(), cells[s].begin(), cells[s].end());
+      table_.add(row);
+    }
+  }
+
+  void print() const {
+    if (!table_.empty()) table_.print(std::cout);
+  }
+
+ private:
+  static constexpr std::size_t kBeside = 4;
+  const SideComparison& comparison_;
+  bool below_;
+  std::size_t width_ = 0;
+  std::vector<std::string> blank_;
+  Table table_{{}};
+};
+
+void print_modes(const ComparedRun& run, const SideComparison& comparison) {
+  if (run.modes.empty()) return;
+  SidesTable table({">mode"}, {">Hz", ">mode", ">percent", ">alike"}, comparison);
+  for (const results::ComparedModes& found : run.modes) {
+    std::vector<std::vector<std::string>> cells;
+    for (std::size_t s = 0; s < found.values.size(); ++s) {
+      if (!found.values[s]) {
+        cells.push_back({"no mode looks alike", "-", "", ""});
+        continue;
+      }
+      const std::string last = found.last[s] ? " to " + rounded(*found.last[s], 8) : "";
+      cells.push_back({rounded(*found.values[s], 8) + last, mode_numbers(found.modes[s]),
+                       percent_text(found.percent[s]), rounded(*found.alike[s], 4)});
+    }
+    table.add({mode_numbers(found.modes[0])}, cells);
+  }
+  table.print();
+  std::cout << "[Hz]; alike: 1 for the same shape (modal assurance criterion; of repeated modes\n"
+               "the subspaces are compared)\n";
+}
+
+void print_numbers(const ComparedRun& run, const SideComparison& comparison) {
+  SidesTable table({"quantity", ">index"}, {">value", ">percent"}, comparison);
+  std::set<std::string> same;
+  for (const ComparedNumber& number : run.numbers) {
+    if (!number.changed) {
+      same.insert(number.quantity);
+      continue;
+    }
+    std::vector<std::vector<std::string>> cells;
+    for (std::size_t s = 0; s < number.values.size(); ++s) {
+      // What is nothing but round-off is a zero.
+      const double value = number.values[s].value_or(NAN);
+      cells.push_back({rounded(std::abs(value) <= number.noise ? 0 : value, 10),
+                       percent_text(number.percent[s])});
+    }
+    table.add({number.quantity, number.entries > 1 ? std::to_string(number.index) : ""}, cells);
+  }
+  table.print();
+  for (const ComparedNumber& number : run.numbers)
+    if (number.changed) same.erase(number.quantity);
+  if (!same.empty())
+    std::cout << wrapped("Within round-off: " + join({same.begin(), same.end()}, "and"), "");
+  for (const std::string& remark : run.remarks) std::cout << wrapped(remark, "");
+}
+
+void print(const SideComparison& comparison) {
+  std::cout << wrapped(comparison.conclusion, "");
+  print_sides(comparison);
+  const bool several = comparison.same + comparison.within_noise + comparison.changed > 1;
+  for (const ComparedRun& run : comparison.runs) {
+    if (several && !run.changed) continue;
+    if (several) std::cout << '\n' << run.name << '\n';
+    print_modes(run, comparison);
+    print_numbers(run, comparison);
+  }
+}
+
+void print_csv(const SideComparison& comparison) {
+  std::cout << "run,quantity,index,changed,noise";
+  for (const ComparedSide& side : comparison.sides)
+    std::cout << ',' << csv_cell(side.label) << ',' << csv_cell(side.label + " [%]");
+  std::cout << "\r\n";
+  const auto line = [&](const std::string& run, const std::string& quantity,
+                        const std::string& index, const results::ComparedValue& value) {
+    const auto cell = [](const Number& number) { return number ? shortest(*number) : ""; };
+    std::cout << csv_cell(run) << ',' << csv_cell(quantity) << ',' << index << ','
+              << (value.changed ? "true," : "false,") << shortest(value.noise);
+    for (std::size_t s = 0; s < value.values.size(); ++s)
+      std::cout << ',' << cell(value.values[s]) << ',' << cell(value.percent[s]);
+    std::cout << "\r\n";
+  };
+  for (const ComparedRun& run : comparison.runs) {
+    for (const results::ComparedModes& found : run.modes)
+      line(run.name, "frequency_Hz", std::to_string(found.modes[0].front() - 1), found);
+    for (const ComparedNumber& number : run.numbers)
+      line(run.name, number.quantity, std::to_string(number.index), number);
+  }
 }
 
 /// The points of a study by the titles of its settings.
@@ -210,7 +315,7 @@ std::vector<CostPoint> named_points(const results::CostStudy& study,
 }
 
 /// How near two measurements of the same studies come.
-void compare_costs(const results::Results& a, const results::Results& b) {
+void print_costs(const results::Results& a, const results::Results& b) {
   if (!a.cost || !b.cost) return;
   Table table({"study", ">on both fronts", ">of", ">same cheapest", ">of", ">median", ">largest"});
   const results::CostStudies& others = *b.cost;
@@ -234,59 +339,24 @@ void compare_costs(const results::Results& a, const results::Results& b) {
   table.print(std::cout, "  ");
 }
 
-int compare_results(const std::string& file_a, const std::string& file_b) {
-  const results::Results a_side = load_results(file_a), b_side = load_results(file_b);
-  for (const auto& [file, side] : {std::pair(&file_a, &a_side), std::pair(&file_b, &b_side)})
-    if (!side->missing.empty()) std::cerr << *file << ": " << side->missing << '\n';
-  const auto runs_a = named_runs(a_side), runs_b = named_runs(b_side);
-  std::size_t same = 0, different = 0;
-  for (const auto& [name, a] : runs_a) {
-    const auto b = runs_b.find(name);
-    if (b == runs_b.end()) {
-      std::cout << name << ": only in " << file_a << '\n';
-      continue;
-    }
-    const auto [left, right] = differing(a, b->second);
-    if (left.empty() && right.empty()) {
-      ++same;
-      continue;
-    }
-    ++different;
-    std::cout << name << '\n';
-    print_quantities(left, right, "a", "b");
-  }
-  for (const auto& item : runs_b) {
-    if (runs_a.count(item.first) == 0) std::cout << item.first << ": only in " << file_b << '\n';
-  }
-  std::cout << same << " runs are the same bit for bit, " << different << " differ\n";
-  compare_costs(a_side, b_side);
-  return 0;
-}
-
 }  // namespace
 
-int compare_command(const std::string& a, const std::string& b) {
-  const Json json_a = contents(a), json_b = contents(b);
-  const bool results_a = is_results(json_a);
-  if (results_a != is_results(json_b)) {
-    results_a ? refuse_beside_results(b, json_b) : refuse_beside_results(a, json_a);
+int compare_command(const CompareCommand& command, const Renderers& renderers) {
+  if (!command.html.empty()) require_drawing(renderers);
+  std::vector<Side> sides = sides_of(command.sides);
+  const bool table = !command.json && !command.csv;
+  std::vector<results::Results> costs;
+  for (const Side& side : sides) {
+    costs.emplace_back();
+    costs.back().cost = side.results.cost;
   }
-  if (results_a) return compare_results(a, b);
-  const Side side_a = side_loads(a), side_b = side_loads(b);
-  if (analysis_kind(side_a.document) != analysis_kind(side_b.document)) {
-    throw InputError("expected two variants of one kind of analysis (got " +
-                     analysis_kind(side_a.document) + " and " + analysis_kind(side_b.document) +
-                     ")");
-  }
-  if (analysis_kind(side_a.document) == "modes" &&
-      side_a.result.quantities.count("frequency_Hz") > 0 &&
-      side_b.result.quantities.count("frequency_Hz") > 0) {
-    print_modes(side_a, side_b);
-    return 0;
-  }
-  print_quantities(numbers_of(side_a.result.quantities), numbers_of(side_b.result.quantities),
-                   side_a.label, side_b.label);
-  return 0;
+  const SideComparison comparison = compare_sides(std::move(sides), !command.html.empty());
+  if (command.json) std::cout << pretty(to_json(comparison));
+  if (command.csv) print_csv(comparison);
+  if (table) print(comparison);
+  for (std::size_t s = 1; table && s < costs.size(); ++s) print_costs(costs.front(), costs[s]);
+  if (!command.html.empty()) renderers.comparison(comparison, command.html);
+  return command.gate && comparison.changed > 0 ? 1 : 0;
 }
 
 }  // namespace trammel::harness

@@ -215,13 +215,23 @@ class CommandLine {
     });
   }
   void define_compare(CLI::App* sub) {
-    describe(sub, "Two variants, or two result files, quantity by quantity",
-             "\nModes are matched by shape, repeated ones as a set.\n\nExamples:\n"
-             "  trammel compare manipulator-modes manipulator-modes:rigid-platform\n"
-             "  trammel compare before/results.json after/results.json");
-    sub->add_option("a", name_, "case, case:variant, or a results.json")->required();
-    sub->add_option("b", other_, "The same")->required();
-    sub->callback([this] { command_ = [this] { return compare_command(name_, other_); }; });
+    describe(
+        sub, "Any number of variants, cases or results, number by number",
+        "\nPercent is of the first side. Modes are matched by shape, repeated ones as a set. A "
+        "case alone\nstands for all its variants. Round-off: what refinements and checks state, "
+        "at least 1e-9 of\nthe largest number of its kind.\n\nExamples:\n"
+        "  trammel compare manipulator-modes manipulator-modes:rigid-platform\n"
+        "  trammel compare manipulator-modes --html variants.html\n"
+        "  trammel compare before/results.json after/results.json --gate");
+    sub->add_option("sides", compare_.sides,
+                    "case, case:variant; or results.json or a folder that has one")
+        ->required();
+    auto* csv = sub->add_flag("--csv", compare_.csv, "As CSV: a row for each number");
+    sub->add_flag("--json", compare_.json, "As JSON")->excludes(csv);
+    sub->add_option("--html", compare_.html, "Also a page with curves over each other, one file");
+    sub->add_flag("--gate", compare_.gate,
+                  "Exit status 1 where something differs beyond round-off");
+    sub->callback([this] { command_ = [this] { return compare_command(compare_, renderers_); }; });
   }
   void define_converge(CLI::App* sub) {
     describe(sub, "Convergence of a case: orders, extrapolated values, numerical uncertainty",
@@ -458,6 +468,7 @@ class CommandLine {
                   "",
                   false,
                   memory_limit_bytes()};
+  CompareCommand compare_;
   CoverageCommand coverage_;
   CostCommand cost_{{}, {}, "", false, 7, 1, "trammel-cost"};
   EffectsCommand effects_;

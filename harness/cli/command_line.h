@@ -7,7 +7,8 @@
 
 namespace trammel::results {
 struct Results;
-}
+struct SideComparison;
+}  // namespace trammel::results
 
 namespace trammel::harness {
 
@@ -22,6 +23,9 @@ struct Renderers {
   std::function<std::filesystem::path(const std::vector<std::filesystem::path>& results,
                                       const std::filesystem::path& folder)>
       codes;
+  /// Sides beside each other, with their curves, in one file.
+  std::function<void(const results::SideComparison& comparison, const std::filesystem::path& file)>
+      comparison;
 };
 
 /// What a command says that a signal ends and that has a store.

@@ -12,15 +12,6 @@
 namespace trammel::harness {
 namespace {
 
-/// RFC 4180. A text that a spreadsheet would compute has an apostrophe in front.
-std::string csv_cell(std::string text) {
-  if (!text.empty() && std::string("=+-@").find(text.front()) != std::string::npos)
-    text.insert(0, "'");
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 void print_csv(const std::vector<CitedReference>& all) {
   std::cout << "id,title,kind,unit,index,value,uncertainty,printed,source,place,notes\r\n";
   for (const auto& [reference, source] : all) {

@@ -5,6 +5,7 @@
 #include "harness/cli/command_line.h"
 #include "reports/drawing/figure.h"
 #include "reports/page/codes.h"
+#include "reports/page/comparison.h"
 #include "reports/page/junit.h"
 #include "reports/page/report.h"
 
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
   trammel::harness::end_without_memory(2, "trammel: expected a machine with more free memory\n");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return trammel::harness::run_command_line(
-      arguments, {trammel::reports::write_report, trammel::reports::write_junit,
-                  trammel::reports::can_draw, trammel::reports::write_codes});
+      arguments,
+      {trammel::reports::write_report, trammel::reports::write_junit, trammel::reports::can_draw,
+       trammel::reports::write_codes, trammel::reports::write_comparison});
 }

@@ -24,6 +24,7 @@ struct Task {
   Document document;
   std::vector<Check> checks;
   bool requested = true;
+  bool studies = true;  ///< refinements and validation uncertainty
   Run run;
 };
 
@@ -115,14 +116,14 @@ void compute(Task& task, const References& references) {
     task.run.result = analyse(task.document, references, {task.requested});
     task.run.status = status_name(task.run.result.outcome.status);
     task.run.reason = task.run.result.outcome.reason;
-    if (task.requested) task.run.sweeps = run_sweeps(task.document, references);
+    if (task.requested && task.studies) task.run.sweeps = run_sweeps(task.document, references);
   });
   task.run.wall_s = watch.wall_s();
   task.run.cpu_s = watch.cpu_s();
 }
 
 void compare_for_validation(Task& task, const References& references) {
-  const bool wanted = task.requested && task.run.status == "solved" &&
+  const bool wanted = task.requested && task.studies && task.run.status == "solved" &&
                       task.document.value().contains("uncertainty");
   if (!wanted) return;
   const Stopwatch watch;
@@ -330,6 +331,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
 std::vector<Run> run_cases(const std::vector<Case>& cases, const References& references,
                            const RunOptions& options) {
   std::vector<Task> tasks = prepare_all(cases, options.variant);
+  for (Task& task : tasks) task.studies = options.studies;
   const int signal = compute_all(tasks, options);
   for (Task& task : tasks) {
     for (const auto& [file, hash] : task.run.references)

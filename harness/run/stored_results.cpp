@@ -68,18 +68,6 @@ void take_from_store(results::Run& run, const fs::path& stored) {
   run.effects = std::move(studies.effects);
 }
 
-/// What stands in the file itself.
-results::Results whole(const fs::path& file) {
-  const Json json = read_json(file);
-  if (const auto fault = find_schema_fault(json, "results"))
-    throw InputError(file.string(), fault->pointer, fault->message);
-  try {
-    return results::read_results(json);
-  } catch (const std::runtime_error& error) {
-    throw InputError(file.string() + ": " + error.what());
-  }
-}
-
 /// The folder that a report will stand in, while it is written beside a former one.
 fs::path place_of(const fs::path& folder) {
   return folder.filename() == results::kUnfinishedFolder ? folder.parent_path() : folder;
@@ -103,19 +91,35 @@ fs::path write_results(const results::Results& results, const fs::path& folder) 
   return file;
 }
 
-results::Results load_results(const fs::path& file) {
-  results::Results results = whole(file);
-  if (results.store.empty()) return results;
-  results.store = (file.parent_path() / results.store).lexically_normal().string();
-  std::size_t missing = 0;
-  for (results::Run& run : results.runs) {
-    if (run.stored.empty()) continue;
-    try {
-      take_from_store(run, fs::path(results.store) / run.stored);
-    } catch (const std::exception&) {
-      ++missing;
-    }
+results::Results read_summary(const fs::path& file) {
+  const Json json = read_json(file);
+  if (const auto fault = find_schema_fault(json, "results"))
+    throw InputError(file.string(), fault->pointer, fault->message);
+  try {
+    results::Results results = results::read_results(json);
+    if (!results.store.empty())
+      results.store = (file.parent_path() / results.store).lexically_normal().string();
+    return results;
+  } catch (const std::runtime_error& error) {
+    throw InputError(file.string() + ": " + error.what());
   }
+}
+
+bool take_stored(results::Run& run, const fs::path& store) {
+  try {
+    take_from_store(run, store / run.stored);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+results::Results load_results(const fs::path& file) {
+  results::Results results = read_summary(file);
+  if (results.store.empty()) return results;
+  std::size_t missing = 0;
+  for (results::Run& run : results.runs)
+    if (!run.stored.empty() && !take_stored(run, results.store)) ++missing;
   if (missing > 0)
     results.missing =
         std::to_string(missing) + " of " + std::to_string(results.runs.size()) +

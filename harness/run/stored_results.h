@@ -14,6 +14,13 @@ namespace trammel::harness {
 std::filesystem::path write_results(const results::Results& results,
                                     const std::filesystem::path& folder);
 
+/// What stands in the file itself; `store` as it is seen from here.
+/// @throws InputError  with the JSON pointer of what is wrong.
+[[nodiscard]] results::Results read_summary(const std::filesystem::path& file);
+
+/// Puts in what the store has of a run. @returns whether it has it
+[[nodiscard]] bool take_stored(results::Run& run, const std::filesystem::path& store);
+
 /// A results file with what the store has of its runs. A copy without its store is whole but for
 /// that, which `missing` says.
 /// @throws InputError  with the JSON pointer of what is wrong.

@@ -10,5 +10,5 @@ function unfold() {
 }
 addEventListener("hashchange", unfold);
 unfold();
-if (matchMedia("(max-width: 70rem)").matches)
-  document.querySelector(".contents details").open = false;
+const contents = document.querySelector(".contents details");
+if (contents && matchMedia("(max-width: 70rem)").matches) contents.open = false;

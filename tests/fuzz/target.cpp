@@ -94,7 +94,7 @@ void take_results(const fs::path& file, const fs::path& sample) {
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());  // read by the reports, which do not know the harness
   }
-  (void)compare_command(file, sample);
+  (void)compare_command({{file.string(), sample.string()}}, {});
 }
 
 void take_file(const Input& input, const fs::path& file, const std::function<void()>& computing) {

@@ -1,0 +1,234 @@
+#include "reports/page/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "harness/results/unfinished_folder.h"
+#include "reports/figures/curves.h"
+#include "reports/page/render.h"
+#include "reports/sections/family.h"
+#include "reports/text/files.h"
+#include "reports/text/html.h"
+#include "reports/text/number.h"
+#include "reports/text/templates.h"
+
+namespace trammel::reports {
+
+namespace {
+
+using namespace reports;
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxFigures = 12;  ///< of a run
+
+/// A table as text; the first column heads its rows.
+struct PlainTable {
+  std::string title;
+  std::vector<std::string> heads;
+  std::vector<std::vector<std::string>> rows;
+};
+
+Data texts(const std::vector<std::string>& all) {
+  Data out = list();
+  for (const std::string& text : all) {
+    Data data = object();
+    data.set("text", text);
+    out.push_back(data);
+  }
+  return out;
+}
+
+Data table_data(const PlainTable& table) {
+  Data data = object(), rows = list();
+  data.set("title", table.title);
+  data.set("heads", texts(table.heads));
+  for (const auto& cells : table.rows) {
+    Data row = object();
+    row.set("head", cells.front());
+    row.set("cells", texts({cells.begin() + 1, cells.end()}));
+    rows.push_back(row);
+  }
+  data.set("rows", rows);
+  return data;
+}
+
+std::string percent_text(const Number& percent) {
+  return percent ? with_sign(*percent, 3) + "\u202f%" : "";
+}
+
+/// What tells a side from the others: commit, day, machine and code as far as they differ.
+std::string side_text(const SideComparison& comparison, const ComparedSide& side) {
+  std::string text = side.label;
+  for (const auto member : {&ComparedSide::solver, &ComparedSide::commit, &ComparedSide::date,
+                            &ComparedSide::processor}) {
+    const auto same = [&](const ComparedSide& other) { return other.*member == side.*member; };
+    if (!std::all_of(comparison.sides.begin(), comparison.sides.end(), same) &&
+        !(side.*member).empty())
+      text += ", " + side.*member;
+  }
+  return text;
+}
+
+PlainTable sides_table(const SideComparison& comparison) {
+  const bool errors = comparison.sides.front().median_error.has_value();
+  PlainTable table{
+      "Time beside accuracy", {"Side", "Runs", "Processor time", "Of the first", "Work"}, {}};
+  if (errors)
+    for (const char* head : {"Median error", "Largest error", "Rank", "Over the best, 98\u202f%"})
+      table.heads.emplace_back(head);
+  for (const ComparedSide& side : comparison.sides) {
+    std::vector<std::string> row = {
+        side_text(comparison, side), std::to_string(side.runs), duration(side.cpu_s),
+        side.relative_time ? "× " + trimmed(*side.relative_time, 3) : "",
+        std::to_string(side.work)};
+    const Numbers& ratio = side.error_ratio;
+    if (errors)
+      for (const std::string& cell :
+           {relative(side.median_error.value_or(0), 3, false),
+            relative(side.largest_error.value_or(0), 3, false), std::to_string(side.rank),
+            ratio.empty() ? ""
+                          : or_dash(ratio[0], 3) + " (" + or_dash(ratio[1], 3) + " to " +
+                                or_dash(ratio[2], 3) + ")"})
+        row.push_back(cell);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+PlainTable value_table(const std::string& title, const std::string& what,
+                       const SideComparison& comparison) {
+  PlainTable table{title, {what}, {}};
+  for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
+    table.heads.push_back(comparison.sides[s].label);
+    if (s > 0) table.heads.emplace_back("Change");
+  }
+  return table;
+}
+
+std::string numbers_text(const std::vector<std::size_t>& set) {
+  std::string text;
+  for (const std::size_t number : set) text += (text.empty() ? "" : ", ") + std::to_string(number);
+  return text;
+}
+
+PlainTable modes_table(const ComparedRun& run, const SideComparison& comparison) {
+  PlainTable table = value_table("Modes by shape (Hz)", "Mode", comparison);
+  for (const ComparedModes& found : run.modes) {
+    std::vector<std::string> row = {numbers_text(found.modes[0])};
+    for (std::size_t s = 0; s < found.values.size(); ++s) {
+      std::string text = found.values[s] ? significant(*found.values[s], 6) : "no mode looks alike";
+      if (found.last[s]) text += " to " + significant(*found.last[s], 6);
+      if (found.modes[s] != found.modes[0] && !found.modes[s].empty())
+        text += " (mode " + numbers_text(found.modes[s]) + ")";
+      row.push_back(text);
+      if (s > 0) row.push_back(percent_text(found.percent[s]));
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+PlainTable numbers_table(const ComparedRun& run, const SideComparison& comparison) {
+  PlainTable table = value_table("Numbers that differ", "Quantity", comparison);
+  for (const ComparedNumber& number : run.numbers) {
+    if (!number.changed) continue;
+    std::vector<std::string> row = {
+        number.quantity + (number.entries > 1 ? "[" + std::to_string(number.index) + "]" : "")};
+    for (std::size_t s = 0; s < number.values.size(); ++s) {
+      const Number value = number.values[s];
+      const bool zero = value && std::abs(*value) <= number.noise;
+      row.push_back(zero ? "0" : or_dash(value, 6));
+      if (s > 0) row.push_back(percent_text(number.percent[s]));
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+/// The figures that the case asks for, then what differs without standing in one of them.
+std::vector<PlotRequest> requests_of(const ComparedRun& run) {
+  std::vector<PlotRequest> requests;
+  std::set<std::string> drawn;
+  for (PlotRequest request : run.info.figures) {
+    if (!request.value.empty()) continue;
+    request.variants.clear();
+    drawn.insert(request.y.begin(), request.y.end());
+    requests.push_back(std::move(request));
+  }
+  const Numbers* time = run.runs.front().quantity("time_s");
+  for (const ComparedNumber& number : run.numbers) {
+    if (!number.changed || number.entries < 7 || !drawn.insert(number.quantity).second) continue;
+    PlotRequest request;
+    request.id = request.title = number.quantity;
+    request.y = {number.quantity};
+    if (time && time->size() == number.entries && number.quantity != "time_s") request.x = "time_s";
+    requests.push_back(std::move(request));
+  }
+  return requests;
+}
+
+/// The runs stand for variants of one case whose titles are the sides' labels.
+std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& comparison) {
+  if (run.runs.empty()) return {};
+  CaseInfo info = run.info;
+  std::vector<Run> runs = run.runs;
+  std::vector<const Run*> sides;
+  info.id = slug(run.name);
+  info.variants.clear();
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    runs[s].variant = std::to_string(s);
+    info.variants.push_back({runs[s].variant, comparison.sides[s].label});
+    sides.push_back(&runs[s]);
+  }
+  std::vector<Figure> figures;
+  for (const PlotRequest& request : requests_of(run)) {
+    std::string problem;
+    if (figures.size() == kMaxFigures) break;
+    if (auto figure = curves_figure(info, request, sides, problem))
+      figures.push_back(std::move(*figure));
+  }
+  return figures;
+}
+
+}  // namespace
+
+void write_comparison(const SideComparison& comparison, const fs::path& file) {
+  std::vector<std::vector<Figure>> figures;
+  for (const ComparedRun& run : comparison.runs) figures.push_back(figures_of(run, comparison));
+  std::vector<std::vector<Figure*>> page(1);
+  for (auto& own : figures)
+    for (Figure& figure : own) page.front().push_back(&figure);
+  number_figures(page);
+  const fs::path part = file.parent_path() / kUnfinishedFolder;
+  draw(page.front(), part);
+  fs::remove_all(part);
+  Data data = object(), runs = list();
+  for (const char* name : {"figure", "table"})
+    data.set(std::string(name) + "_partial",
+             kainjow::mustache::partial(
+                 [file = std::string(name) + ".mustache"] { return template_text(file); }));
+  data.set("style", template_text("figure.css") + template_text("style.css"));
+  data.set("script", template_text("page.js"));
+  set_flag(data, "single", true);
+  data.set("conclusion", comparison.conclusion);
+  data.set("sides", table_data(sides_table(comparison)));
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    const ComparedRun& run = comparison.runs[i];
+    if (!run.changed && figures[i].empty()) continue;
+    Data entry = object(), tables = list(), drawings = list();
+    entry.set("name", run.info.title.empty() ? run.name : run.info.title + " (" + run.name + ")");
+    entry.set("remarks", texts(run.remarks));
+    for (const PlainTable& table : {modes_table(run, comparison), numbers_table(run, comparison)})
+      if (!table.rows.empty()) tables.push_back(table_data(table));
+    entry.set("tables", tables);
+    for (const Figure& figure : figures[i]) drawings.push_back(figure_data(figure));
+    entry.set("figures", drawings);
+    runs.push_back(entry);
+  }
+  data.set("runs", runs);
+  if (!file.parent_path().empty()) fs::create_directories(file.parent_path());
+  write_file(file, render("comparison.mustache", data));
+}
+
+}  // namespace trammel::reports

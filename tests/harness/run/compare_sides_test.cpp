@@ -1,0 +1,157 @@
+#include "harness/run/compare_sides.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::contains;
+
+namespace {
+
+/// Results with one run of these quantities.
+Side side(const std::string& label,
+          std::vector<std::pair<std::string, results::Numbers>> quantities) {
+  Side made{label, {}, std::nullopt};
+  made.results.cases.emplace_back();
+  made.results.cases.front().id = "a";
+  results::Run run;
+  run.case_id = "a";
+  run.variant = "base";
+  run.status = results::Status::solved;
+  run.quantities = std::move(quantities);
+  made.results.runs.push_back(std::move(run));
+  return made;
+}
+
+results::SideComparison compared(const Side& a, const Side& b) {
+  return compare_sides({a, b}, false);
+}
+
+/// Modes of two nodes that move along y only.
+Side drawn(const std::string& label, const std::vector<double>& frequencies,
+           const std::vector<std::pair<double, double>>& shapes) {
+  results::Numbers numbers(frequencies.begin(), frequencies.end());
+  Side made = side(label, {{"frequency_Hz", numbers}});
+  results::Drawing drawing;
+  drawing.nodes = {{0, 0}, {1, 0}};
+  for (const auto& [first, second] : shapes)
+    drawing.shapes.push_back({"mode", {{0, first}, {0, second}}});
+  made.results.runs.front().drawing = drawing;
+  return made;
+}
+
+results::Check check_of(const std::string& quantity, double expected, double tolerance,
+                        const std::string& why) {
+  results::Check check;
+  check.name = "c";
+  check.quantity = quantity;
+  check.measure = "relative";
+  check.expected = expected;
+  check.tolerance = results::Tolerance{-tolerance, tolerance, true};
+  check.why = why;
+  return check;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(compare_sides)
+
+BOOST_AUTO_TEST_CASE(a_difference_within_the_round_off_that_a_check_states_is_no_change) {
+  Side a = side("a", {{"mass_kg", {1.0}}}), b = side("b", {{"mass_kg", {1 + 1e-8}}});
+  BOOST_TEST(compared(a, b).changed == 1U);
+  a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-7, "round-off of long sums")};
+  const results::SideComparison within = compared(a, b);
+  BOOST_TEST(within.changed == 0U);
+  BOOST_TEST(within.within_noise == 1U);
+  BOOST_TEST(contains(within.conclusion, "Nothing has changed"), within.conclusion);
+  a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-7, "discretisation")};
+  BOOST_TEST(compared(a, b).changed == 1U);
+  // What calls itself round-off and is as large as an error of a model is none.
+  b.results.runs[0].quantities[0].second = {1.001};
+  a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-2, "round-off")};
+  BOOST_TEST(compared(a, b).changed == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(round_off_that_a_refinement_states_counts_and_what_is_no_number_does_not) {
+  Side a = side("a", {{"mass_kg", {1.0, 2.0}}}), b = side("b", {{"mass_kg", {1.0, 2 + 1e-8}}});
+  results::Convergence study;
+  study.quantity = "mass_kg";
+  study.index = 1;
+  study.roundoff = {1e-9, 1e-8};
+  b.results.runs[0].convergence = {study};
+  BOOST_TEST(compared(a, b).changed == 0U);
+  b.results.runs[0].quantities[0].second = {1.0, std::nullopt};
+  BOOST_TEST(compared(a, b).changed == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(a_zero_has_no_percent_and_its_round_off_is_no_change) {
+  const Side a = side("a", {{"force_N:A", {1e-13}}, {"force_N:B", {100.0}}});
+  const Side b = side("b", {{"force_N:A", {-3e-12}}, {"force_N:B", {101.0}}});
+  const results::SideComparison found = compared(a, b);
+  for (const results::ComparedNumber& number : found.runs.at(0).numbers) {
+    const bool zero = number.quantity == "force_N:A";
+    BOOST_TEST(number.changed == !zero);
+    BOOST_TEST(number.percent[1].has_value() == !zero);
+  }
+  BOOST_TEST(contains(found.conclusion, "force_N:B by +1 % (100 to 101 N)"), found.conclusion);
+}
+
+BOOST_AUTO_TEST_CASE(drawn_modes_that_change_places_are_matched_by_their_shapes) {
+  const Side a = drawn("a", {10, 20}, {{1, 1}, {1, -1}});
+  const results::SideComparison found = compared(a, drawn("b", {12, 20}, {{1, -1}, {1, 1}}));
+  const auto& modes = found.runs.at(0).modes;
+  BOOST_REQUIRE(modes.size() == 2U);
+  BOOST_TEST(modes[0].modes[1].front() == 2U);
+  BOOST_TEST(*modes[0].percent[1] == 100, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(*modes[1].percent[1] == -40, boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(two_equal_frequencies_are_one_set_whose_shapes_may_turn) {
+  const double s = std::sqrt(0.5);
+  const Side a = drawn("a", {10, 10}, {{1, 0}, {0, 1}});
+  const results::SideComparison found = compared(a, drawn("b", {11, 11}, {{s, s}, {s, -s}}));
+  const auto& modes = found.runs.at(0).modes;
+  BOOST_REQUIRE(modes.size() == 1U);
+  BOOST_TEST(*modes[0].alike[1] == 1, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(what_only_one_side_has_and_a_verdict_that_changes_are_changes) {
+  Side a = side("a", {{"mass_kg", {1.0}}}), b = a;
+  b.label = "b";
+  BOOST_TEST(compared(a, b).same == 1U);
+  a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-7, "")};
+  b.results.runs[0].checks = a.results.runs[0].checks;
+  a.results.runs[0].checks[0].verdict = results::Verdict::pass;
+  const results::SideComparison verdict = compared(a, b);
+  BOOST_TEST(verdict.changed == 1U);
+  BOOST_TEST(contains(verdict.conclusion, "check c: error in b, pass in a"), verdict.conclusion);
+  b.results.runs[0].variant = "other";
+  const results::SideComparison found = compared(a, b);
+  BOOST_TEST(found.changed == 2U);
+  BOOST_TEST(found.runs.at(0).remarks.at(0) == "not in b");
+}
+
+BOOST_AUTO_TEST_CASE(sides_are_ranked_by_error_only_where_an_interval_tells_them_apart) {
+  const auto with_errors = [](const std::string& label, double error, std::size_t count) {
+    Side made = side(label, {{"mass_kg", {1.0}}});
+    for (std::size_t i = 0; i < count; ++i) {
+      results::Check check = check_of("mass_kg", 1, 1, "");
+      check.index = static_cast<int>(i);
+      check.reference = "printed";
+      check.computed = 1 + error * (i == 3 ? 0.5 : 1 + 0.1 * static_cast<double>(i));
+      made.results.runs[0].checks.push_back(check);
+    }
+    return made;
+  };
+  const auto ranks = [&](std::size_t count) {
+    const auto found = compared(with_errors("coarse", 0.3, count), with_errors("fine", 0.1, count));
+    return std::pair(found.sides[0].rank, found.sides[1].rank);
+  };
+  BOOST_TEST((ranks(10) == std::pair<std::size_t, std::size_t>(2, 1)));
+  BOOST_TEST((ranks(3) == std::pair<std::size_t, std::size_t>(1, 1)));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
