@@ -30,6 +30,8 @@ const StatusText& text_of(CheckStatus status) {
   throw std::logic_error("unknown status");
 }
 
+}  // namespace
+
 int severity(CheckStatus status) {
   switch (status) {
     case CheckStatus::error:
@@ -48,8 +50,6 @@ int severity(CheckStatus status) {
   }
   return 0;
 }
-
-}  // namespace
 
 CheckStatus check_status(const Check& check) {
   switch (check.verdict) {

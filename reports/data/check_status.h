@@ -30,6 +30,9 @@ inline constexpr std::array<CheckStatus, 7> kAllCheckStatuses = {
 [[nodiscard]] std::string css_class(CheckStatus status);
 [[nodiscard]] std::string sign(CheckStatus status);
 
+/// What deserves attention before others has more.
+[[nodiscard]] int severity(CheckStatus status);
+
 /// Share of its tolerance that a check uses: 1 at the limit, infinity where nothing can be said.
 /// For a band the distance from its middle over its half width.
 [[nodiscard]] double tolerance_fraction(const Check& check);

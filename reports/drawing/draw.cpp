@@ -15,6 +15,7 @@
 #include "reports/drawing/plot_script.h"
 #include "reports/drawing/svg.h"
 #include "reports/text/files.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -56,6 +57,34 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
   return out.str();
 }
 
+/// Where a drawing's two axes lie and what they measure, for reading values off its curves; nothing
+/// where it has not two, or shows a place.
+/// @param extent  as gnuplot printed it: ends of x and y, and where they lie, y from below
+std::string axes_of(const Figure& figure, const fs::path& extent) {
+  const auto label = [&](const std::string& start) {
+    const std::size_t at = figure.commands.find(start);
+    const std::size_t from = at + start.size();
+    return at == std::string::npos
+               ? std::string()
+               : figure.commands.substr(from, figure.commands.find('\'', from) - from);
+  };
+  const std::string x = label("set xlabel '"), y = label("set ylabel '");
+  const bool place = figure.commands.find("set size ratio") != std::string::npos;
+  if (x.empty() || y.empty() || place || !fs::exists(extent)) return "";
+  std::istringstream in(read_file(extent));
+  std::array<double, 8> ends{};
+  for (double& end : ends)
+    if (!(in >> end)) return "";
+  std::string numbers;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    numbers += shortest(i < 6 ? ends[i] : figure.height - ends[i]) + " ";
+  const auto is_log = [&](const char* axis) {
+    return figure.commands.find(std::string("set logscale ") + axis) != std::string::npos;
+  };
+  return " data-axes=\"" + numbers + (is_log("x") ? "1 " : "0 ") + (is_log("y") ? "1" : "0") +
+         "\" data-x=\"" + xml_escaped(x) + "\" data-y=\"" + xml_escaped(y) + "\"";
+}
+
 }  // namespace
 
 std::string slug(const std::string& text) {
@@ -88,13 +117,17 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder) {
   fs::create_directories(folder);
   if (figures.empty()) return;
   const auto svg_path = [&](const Figure& figure) { return folder / (figure.id + ".svg"); };
+  const auto extent_path = [&](const Figure& figure) { return folder / (figure.id + ".extent"); };
   for (const Figure* figure : figures) fs::remove(svg_path(*figure));
   {
     const NoBrokenPipe guard;
     // Without the user's own settings; one that hangs is ended.
     Gnuplot gnuplot("timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d");
     for (const Figure* figure : figures)
-      gnuplot << preamble(*figure, svg_path(*figure)) << figure->commands << "unset output\n";
+      gnuplot << preamble(*figure, svg_path(*figure)) << figure->commands << "unset output\n"
+              << "set print " << gnuplot_path(extent_path(*figure)) << '\n'
+              << "print GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX, GPVAL_TERM_XMIN, "
+                 "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX\nunset print\n";
   }
   for (Figure* figure : figures) {
     const fs::path path = svg_path(*figure);
@@ -102,6 +135,11 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder) {
     if (drawn.find("</svg>") == std::string::npos)  // it does not say why: the disk may be full
       throw std::system_error(EIO, std::generic_category(), path.string() + ": not drawn whole");
     figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
+    figure->svg.insert(figure->svg.find(" role="), axes_of(*figure, extent_path(*figure)));
+    fs::remove(extent_path(*figure));
+    if (!figure->moving.empty())
+      figure->svg.insert(figure->svg.rfind("</svg>"),
+                         "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
     write_file(
         path,
         "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<?xml-stylesheet href=\"figure.css\"?>\n" +

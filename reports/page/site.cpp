@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "reports/data/check_status.h"
+#include "reports/data/check_text.h"
 #include "reports/page/links.h"
 #include "reports/page/render.h"
 #include "reports/sections/check_status_data.h"
@@ -25,6 +29,8 @@
 namespace trammel::reports {
 
 namespace {
+
+using Json = nlohmann::json;
 
 constexpr std::size_t kMaxSingleBytes = 6'000'000;  ///< what a mail may carry
 constexpr const char *kMark = "<!--drawing ", *kBody = "<!--body-->", *kLeftOut = "<!--left out-->";
@@ -49,7 +55,7 @@ Data page_data(bool single, int level) {
   for (const char* name :
        {"summary", "claims", "variants", "figure", "checks", "matrix", "cost", "stress_suite",
         "targets", "orders", "coverage", "validation_uncertainty", "counts", "rows", "head",
-        "matrix_row", "cell"})
+        "matrix_row", "cell", "find"})
     data.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -129,6 +135,35 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
     out.push_back(family);
   }
   return out;
+}
+
+/// All checks for the search of the index, as a script, which a page opened from a file can load: a
+/// row for each check of each variant, of its worst entry.
+std::string check_list(const std::vector<Family>& families) {
+  Json json = {{"cases", Json::array()}, {"rows", Json::array()}, {"roles", Json::array()}};
+  for (const CheckStatus status : kAllCheckStatuses)
+    json["statuses"].push_back(
+        {to_text(status), css_class(status), sign(status), severity(status)});
+  std::map<std::string, std::size_t> roles;
+  for (const Family& family : families)
+    for (const CaseInfo* info : family.cases) {
+      for (const Run* run : family.runs_of(info->id))
+        for (const CheckGroup& group : group_checks(*run)) {
+          const Check& worst = group.worst();
+          const auto [role, fresh] = roles.emplace(worst.role, roles.size());
+          if (fresh) json["roles"].push_back(worst.role);
+          const double share = tolerance_fraction(worst);
+          json["rows"].push_back(
+              {json["cases"].size(), run->variant, check_title(worst), quantity_text(worst),
+               role->second, static_cast<int>(check_status(worst)),
+               std::isfinite(share) ? Json(std::round(1000 * share) / 1000) : Json(),
+               slug(worst.name)});
+        }
+      json["cases"].push_back(
+          {info->id, info->title, family.title, info->labels, case_link(info->id)});
+    }
+  return "window.trammelChecks = " + json.dump(-1, ' ', false, Json::error_handler_t::replace) +
+         ";\n";
 }
 
 /// The frame around all bodies.
@@ -259,6 +294,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
   files.push_back({"report.js", template_text("page.js")});
+  files.push_back({"checks/index.js", check_list(families)});
   return files;
 }
 

@@ -12,3 +12,170 @@ addEventListener("hashchange", unfold);
 unfold();
 const contents = document.querySelector(".contents details");
 if (contents && matchMedia("(max-width: 70rem)").matches) contents.open = false;
+
+const svgns = "http://www.w3.org/2000/svg";
+function made(parent, name, attributes = {}, text = "") {
+  const svg = parent.namespaceURI === svgns || name === "svg";
+  const e = svg ? document.createElementNS(svgns, name) : document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
+  e.textContent = text;
+  return parent.appendChild(e);
+}
+
+// The values of all curves at the pointer, or where the arrow keys have moved.
+function readable(svg) {
+  const [x0, x1, y0, y1, left, right, bottom, top, logX, logY] = svg.dataset.axes.split(" ").map(Number);
+  const box = svg.parentElement, none = ["#ffffff", "#e4e7eb", "#a6aeb8", "#eef0f3"];
+  const inside = p => p[0] >= left - 1 && p[0] <= right + 1 && p[1] >= top - 1 && p[1] <= bottom + 1;
+  const value = (share, from, to, log) => log ? from * (to / from) ** share : from + share * (to - from);
+  const curves = [...svg.querySelectorAll("path[stroke]")].filter(p => !none.includes(p.getAttribute("stroke")))
+    .map(p => ({color: p.getAttribute("stroke"), dash: p.getAttribute("stroke-dasharray"), pieces: p.getAttribute("d").split("M").slice(1).map(piece =>
+      (piece.match(/-?[\d.]+,-?[\d.]+/g) || []).map(pair => pair.split(",").map(Number)))}))
+    .filter(c => c.pieces.some(piece => piece.length > 1 && piece.every(inside)));
+  if (!curves.length) return;
+  const at = (curve, x) => {
+    for (const piece of curve.pieces)
+      for (let i = 1; i < piece.length; ++i) {
+        const [a, b] = [piece[i - 1], piece[i]];
+        if ((a[0] - x) * (b[0] - x) <= 0 && a[0] !== b[0]) return a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0]);
+      }
+  };
+  box.tabIndex = 0;
+  box.setAttribute("role", "group");
+  box.setAttribute("aria-label", svg.getAttribute("aria-label") + " Arrow keys read values.");
+  const line = made(svg, "path", {stroke: "#5b6470", "stroke-width": 1, "stroke-dasharray": "3 3", d: ""});
+  const out = made(box, "output", {class: "reading"});
+  let here = (left + right) / 2;
+  const words = n => String(Number(n.toPrecision(4)));
+  const show = (x, y) => {
+    here = Math.min(right, Math.max(left, x));
+    line.setAttribute("d", `M${here},${top}V${bottom}`);
+    const seen = curves.map(c => [c, at(c, here)]).filter(([, y]) => y !== undefined).sort((a, b) => a[1] - b[1]);
+    out.textContent = `${svg.dataset.x} ${words(value((here - left) / (right - left), x0, x1, logX))}; ${svg.dataset.y}`;
+    for (const [curve, at] of seen.slice(0, 12)) {
+      const row = made(out, "span");
+      made(made(row, "svg", {viewBox: "0 0 20 4", "aria-hidden": "true"}), "path",
+        {stroke: curve.color, "stroke-width": 3, "stroke-dasharray": curve.dash || "none", d: "M0,2H20"});
+      row.append(words(value((bottom - at) / (bottom - top), y0, y1, logY)));
+    }
+    out.style.left = here > (left + right) / 2 ? "2%" : "";
+    out.hidden = false;
+  };
+  const hide = () => { out.hidden = true; line.setAttribute("d", ""); };
+  hide();
+  svg.addEventListener("pointermove", e => {
+    const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
+    inside([p.x, p.y]) ? show(p.x) : hide();
+  });
+  svg.addEventListener("pointerleave", hide);
+  box.addEventListener("blur", hide);
+  box.addEventListener("keydown", e => {
+    const step = {ArrowLeft: -1, ArrowRight: 1}[e.key];
+    if (!step) return;
+    e.preventDefault();
+    show(here + step * (right - left) / 50);
+  });
+}
+document.querySelectorAll("figure svg[data-axes]").forEach(readable);
+
+// Modes swing, slowed down alike; still where the reader prefers so, until asked.
+function swinging(svg) {
+  const modes = JSON.parse(svg.querySelector("metadata").textContent), [width, height] = modes.panel;
+  const columns = modes.shapes.length > 1 ? 2 : 1, head = 240, rows = Math.ceil(modes.shapes.length / columns);
+  const moving = made(svg.parentElement, "svg", {viewBox: `0 0 ${columns * width} ${rows * (height + head)}`, role: "img",
+    "aria-label": svg.getAttribute("aria-label"), "font-family": "Helvetica, Arial, sans-serif", fill: "none", class: "moving"});
+  const text = (lines, u, s) => lines.map(line => "M" + line.map(i =>
+    (modes.nodes[2 * i] + s * u[2 * i]).toFixed() + "," + (modes.nodes[2 * i + 1] + s * u[2 * i + 1]).toFixed()).join("L")).join("");
+  const panels = modes.shapes.map((shape, k) => {
+    const g = made(moving, "g", {transform: `translate(${k % columns * width},${Math.floor(k / columns) * (height + head) + head})`});
+    made(g, "text", {x: width / 2, y: -70, fill: "#1d232b", "text-anchor": "middle", "font-size": 150}, shape.label);
+    for (const lines of [modes.edges, modes.lines]) made(g, "path", {stroke: "#a6aeb8", "stroke-width": 11, d: text(lines, shape.moved, 0)});
+    const fill = made(g, "path", {fill: "#dde6f0", "fill-rule": "evenodd"});
+    return {hz: parseFloat(shape.label.split(", ")[1]) || 0, u: shape.moved, paths: [[fill, modes.fill],
+      [made(g, "path", {stroke: "#1f5fa8", "stroke-width": 12}), modes.edges], [made(g, "path", {stroke: "#1f5fa8", "stroke-width": 22, "stroke-linejoin": "round"}), modes.lines]]};
+  });
+  const draw = t => panels.forEach(({hz, u, paths}) => paths.forEach(([path, lines]) => path.setAttribute("d", text(lines, u, Math.cos(2 * Math.PI * hz * t)))));
+  const all = panels.map(p => p.hz).filter(hz => hz > 0), fastest = Math.max(...all);
+  const usual = Math.max(Math.min(...all.filter(hz => hz > 1e-6 * fastest)) / 0.5, fastest / 4);
+  const bar = made(svg.parentElement, "p", {class: "motion"}), button = made(bar, "button", {type: "button"});
+  const label = made(bar, "label", {}, "slower ");
+  const speed = made(label, "input", {type: "range", min: -1, max: 1, step: 0.1, value: 0});
+  label.append(" faster");
+  const said = made(bar, "span");
+  let t = 0, before, wanted = !matchMedia("(prefers-reduced-motion: reduce)").matches, seen = false, running = false;
+  const slowed = () => usual / 10 ** speed.value;
+  const step = now => {
+    running = wanted && seen;
+    if (before !== undefined) t += Math.min(now - before, 100) / 1000 / slowed();
+    before = running ? now : undefined;
+    draw(t);
+    if (running) requestAnimationFrame(step);
+  };
+  const update = () => {
+    button.textContent = wanted ? "Stop" : "Move";
+    const n = slowed();
+    said.textContent = n >= 1 ? `slowed down ${Number(n.toPrecision(2))} times` : `sped up ${Number((1 / n).toPrecision(2))} times`;
+    if (wanted && seen && !running) { running = true; requestAnimationFrame(step); }
+  };
+  button.addEventListener("click", () => { wanted = !wanted; update(); });
+  speed.addEventListener("input", update);
+  new IntersectionObserver(entries => { seen = entries.at(-1).isIntersecting; update(); }).observe(moving);
+  svg.classList.add("still");
+  draw(0);
+  update();
+}
+for (const data of document.querySelectorAll("figure svg metadata")) swinging(data.parentElement);
+
+// Search over all checks, whose list is loaded when it is first asked for.
+const find = document.getElementById("find");
+if (find) {
+  const form = find.querySelector("form"), body = find.querySelector("tbody"), status = find.querySelector("[role=status]");
+  const most = 100;
+  const tidy = text => text.toLowerCase();
+  const search = () => {
+    const {cases, statuses, roles, rows} = window.trammelChecks, asked = new FormData(form);
+    const words = tidy(asked.get("text")).split(/\s+/).filter(Boolean);
+    const hit = rows.filter(([c, variant, title, quantity, role, state]) => {
+      const [id, name, family, labels] = cases[c];
+      const is = (key, value) => !asked.get(key) || asked.get(key) === value;
+      if (!is("family", family) || !is("role", roles[role]) || !is("verdict", statuses[state][0])) return false;
+      if (asked.get("label") && !labels.includes(asked.get("label"))) return false;
+      const all = tidy([id, name, variant, title, quantity].join(" "));
+      return words.every(word => all.includes(word));
+    });
+    if (asked.get("order") === "worst") hit.sort((a, b) => statuses[b[5]][3] - statuses[a[5]][3] || (b[6] ?? 1e99) - (a[6] ?? 1e99));
+    status.textContent = `${hit.length} of ${rows.length} checks` + (hit.length > most ? `, the first ${most}` : "");
+    body.replaceChildren();
+    for (const [c, variant, title, quantity, role, state, share, anchor] of hit.slice(0, most)) {
+      const [id, name, , , page] = cases[c], [words, css, sign] = statuses[state], row = made(body, "tr", {class: css});
+      const verdict = made(row, "td", {class: "verdict"});
+      made(verdict, "span", {class: "mark " + css, "aria-hidden": "true"}, sign);
+      verdict.append(words);
+      const check = made(row, "th", {scope: "row"}), place = made(row, "td");
+      made(check, "a", {href: `${page}#check-${anchor}`}, title);
+      made(check, "span", {class: "muted partial"}, `${quantity}, ${roles[role]}`);
+      place.append(name + (variant === "base" ? "" : ", " + variant));
+      made(place, "code", {}, `./trammel run ${id}` + (variant === "base" ? "" : ` --variant ${variant}`));
+      made(row, "td", {class: "number"}, share === null ? "–" : String(share));
+    }
+  };
+  const fill = () => {
+    const {cases, statuses, roles} = window.trammelChecks;
+    const sorted = values => [...new Set(values)].sort();
+    const options = {family: sorted(cases.map(c => c[2])), role: roles, verdict: statuses.map(s => s[0]), label: sorted(cases.flatMap(c => c[3]))};
+    for (const [name, values] of Object.entries(options))
+      for (const value of values) made(form.elements[name], "option", {}, value);
+    search();
+  };
+  form.addEventListener("submit", e => e.preventDefault());
+  form.addEventListener("input", () => window.trammelChecks && search());
+  find.addEventListener("toggle", () => {
+    const list = find.querySelector("template");
+    if (!list) return;
+    const script = list.content.firstElementChild;
+    list.remove();
+    find.append(script);
+    script.addEventListener("load", fill);
+  });
+  find.hidden = false;
+}

@@ -24,8 +24,9 @@ constexpr const char* kProbeScript = R"(<script>
 addEventListener("load", () => {
   document.querySelectorAll("details").forEach(d => d.open = true);
   const root = document.documentElement;
-  const drawings = [...document.querySelectorAll("figure svg")];
-  const sized = drawings.filter(s => s.getBoundingClientRect().height > 20 && s.querySelector("path, text"));
+  const drawings = [...document.querySelectorAll('figure svg:not(.moving):not(.reading svg)')];
+  const shownAs = s => s.matches(".still") ? s.parentElement.querySelector(".moving") : s;
+  const sized = drawings.filter(s => shownAs(s).getBoundingClientRect().height > 20 && s.querySelector("path, text"));
   const scrolls = e => e.closest(".scroll") && !e.matches(".scroll");
   const wide = [...document.querySelectorAll("main *, header *, nav *, footer *")].filter(e =>
     !e.closest("svg") && !scrolls(e) && !e.matches(".visually-hidden") &&

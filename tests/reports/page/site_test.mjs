@@ -1,0 +1,149 @@
+// A report as readers meet it: search, values on hover and by keys, moving modes, reduced motion, no
+// scripts, and what axe-core says of every kind of page. Arguments: the program, a folder of its own,
+// and one for pictures if wanted. puppeteer-core and axe-core come from npm; exit status 77 where they
+// or Chromium cannot be had.
+import {execFileSync} from "node:child_process";
+import {existsSync, mkdirSync, readFileSync} from "node:fs";
+import {createRequire} from "node:module";
+import {join} from "node:path";
+import {pathToFileURL} from "node:url";
+
+const [program, folder, pictures] = process.argv.slice(2);
+const versions = {"puppeteer-core": "24", "axe-core": "4"};
+const browsers = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+const chromium = browsers.find(existsSync);
+mkdirSync(folder, {recursive: true});
+const wanted = Object.entries(versions).filter(([name]) => !existsSync(join(folder, "node_modules", name)));
+try {
+  if (!chromium) throw "no Chromium";
+  if (wanted.length)
+    execFileSync("npm", ["install", "--no-audit", "--no-fund", "--prefix", folder, ...wanted.map(e => e.join("@"))], {stdio: "ignore"});
+} catch (error) {
+  console.log(`skipped: ${error}`);
+  process.exit(77);
+}
+const require = createRequire(pathToFileURL(join(folder, "package.json")));
+const puppeteer = require("puppeteer-core");
+const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const out = join(folder, "report");
+execFileSync(program, ["report", "manipulator-modes", "circle-load", "--out", out], {stdio: "inherit"});
+const at = name => pathToFileURL(join(out, name)).href;
+const browser = await puppeteer.launch({executablePath: chromium, args: ["--no-sandbox", "--disable-gpu"]});
+let faults = 0;
+const expect = (what, holds) => {
+  console.log(`${holds ? "ok   " : "FAULT"} ${what}`);
+  if (!holds) ++faults;
+};
+const pause = ms => new Promise(done => setTimeout(done, ms));
+
+async function visit(name, width, {features = [], scripts = true} = {}) {
+  const page = await browser.newPage();
+  page.on("pageerror", error => expect(`no script error on ${name}: ${error}`, false));
+  page.on("console", said => said.type() === "error" && expect(`no console error on ${name}: ${said.text()}`, false));
+  await page.setViewport({width, height: 900});
+  await page.setJavaScriptEnabled(scripts);
+  await page.emulateMediaFeatures(features.map(([feature, value]) => ({name: feature, value})));
+  await page.goto(at(name), {waitUntil: "load"});
+  return page;
+}
+const picture = (page, name) => pictures && page.screenshot({path: join(pictures, name + ".png")});
+
+// Search.
+let page = await visit("index.html", 1280);
+await page.click("#find summary");
+await page.waitForFunction(() => document.querySelectorAll("#find tbody tr").length > 0);
+const found = () => page.$eval("#find [role=status]", e => Number(e.textContent.split(" ")[0]));
+const all = await found();
+expect("the search knows many checks", all > 100);
+await page.type("#find input", "rigid-platform ansys");
+const some = await found();
+expect("words narrow it", some > 0 && some < all);
+const row = await page.$eval("#find tbody tr", e => e.textContent);
+expect("a row says how to run it again", row.includes("./trammel run manipulator-modes --variant rigid-platform"));
+const link = await page.$eval("#find tbody a", e => e.href);
+await picture(page, "search-1280");
+await page.select("#find select[name=verdict]", "passes");
+const verdicts = await page.$$eval("#find tbody .verdict", cells => cells.map(e => e.textContent));
+expect("the filter by verdict holds", verdicts.length > 0 && verdicts.every(text => text.endsWith("passes")));
+await page.goto(link);
+expect("its link leads to the check", await page.evaluate(() => document.getElementById(location.hash.slice(1)) !== null));
+await page.close();
+
+// Values on hover and by keys.
+page = await visit("cases/circle-load.html", 1280);
+const drawing = await page.$("figure svg[data-axes]");
+await drawing.scrollIntoView();
+const box = await drawing.boundingBox();
+await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.3 * box.height);
+const reading = () => page.$eval("figure .reading:not([hidden])", e => e.textContent).catch(() => "");
+const hovered = await reading();
+expect(`hover gives values (${hovered})`, /time \(s\) [\d.]+; .*mm.*\d/.test(hovered));
+await picture(page, "hover-1280");
+await page.mouse.move(0, 0);
+expect("and they go again", await reading() === "");
+await page.evaluate(() => document.querySelector("figure svg[data-axes]").parentElement.focus());
+await page.keyboard.press("ArrowRight");
+const first = await reading();
+await page.keyboard.press("ArrowRight");
+expect("arrow keys read values", first !== "" && await reading() !== first);
+await page.close();
+
+// Moving modes.
+const shape = page => page.$$eval("svg.moving path[stroke='#1f5fa8']", paths => paths.map(p => p.getAttribute("d")).join());
+page = await visit("cases/manipulator-modes.html", 1280);
+await page.$eval("svg.moving", e => e.scrollIntoView({block: "center"}));
+const frames = [];
+for (let i = 0; i < 3; ++i) {
+  await pause(300);
+  frames.push(await shape(page));
+  await picture(page, `mode-${i + 1}`);
+}
+expect("modes move", new Set(frames).size === 3);
+const speed = () => page.$eval(".motion span", e => e.textContent);
+const usual = await speed();
+await page.focus(".motion input");
+await page.keyboard.press("ArrowRight");
+expect(`faster by key (${usual}, ${await speed()})`, await speed() !== usual);
+await page.click(".motion button");
+await pause(200);
+const stopped = await shape(page);
+await pause(200);
+expect("the button stops them", await shape(page) === stopped);
+await page.close();
+page = await visit("cases/manipulator-modes.html", 1280, {features: [["prefers-reduced-motion", "reduce"]]});
+await page.$eval("svg.moving", e => e.scrollIntoView({block: "center"}));
+await pause(300);
+const still = await shape(page);
+await pause(300);
+expect("with reduced motion they are still", await shape(page) === still);
+await page.close();
+
+// Without scripts.
+page = await visit("cases/manipulator-modes.html", 1280, {scripts: false});
+await picture(page, "no-script");
+await page.close();
+for (const name of ["index.html", "cases/manipulator-modes.html"]) {
+  const html = readFileSync(join(out, name), "utf8");
+  expect(`${name} says all without scripts`, html.includes("<table") && !/<noscript/.test(html));
+}
+
+// Accessibility, and no page that scrolls sideways.
+for (const name of ["index.html", "cases/manipulator-modes.html", "cases/circle-load.html", "families/manipulator-modes.html", "references.html"])
+  for (const width of [1280, 400])
+    for (const scheme of ["light", "dark"]) {
+      if (!existsSync(join(out, name))) continue;
+      page = await visit(name, width, {features: [["prefers-color-scheme", scheme], ["prefers-reduced-motion", "reduce"]]});
+      if (name === "index.html") await page.click("#find summary");
+      if (name === "index.html") await page.waitForSelector("#find tbody tr");
+      await page.evaluate(axe);
+      const {violations} = await page.evaluate(() => axe.run({iframes: false, preload: false}));
+      for (const v of violations) console.log(`  ${v.impact}: ${v.id}, ${v.nodes.length} places, as ${v.nodes[0].target}: ${v.help}`);
+      const serious = violations.filter(v => ["serious", "critical"].includes(v.impact));
+      expect(`axe finds nothing serious on ${name}, ${width}, ${scheme}`, serious.length === 0);
+      expect("nothing sticks out", await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+      if (scheme === "light") await picture(page, name.replaceAll("/", "-") + "-" + width);
+      await page.close();
+    }
+await browser.close();
+process.exit(faults ? 1 : 0);
