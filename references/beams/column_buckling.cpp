@@ -1,5 +1,6 @@
 #include "references/beams/column_buckling.h"
 
+#include <array>
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/multiprecision/cpp_complex.hpp>
 #include <type_traits>
@@ -37,41 +38,66 @@ using Complex = boost::multiprecision::number<
     boost::multiprecision::complex_adaptor<boost::multiprecision::cpp_bin_float_50::backend_type>,
     boost::multiprecision::et_off>;
 
-/// Beck's characteristic function over W^2, for real or complex W.
+/// A cantilever under a force p at its tip and q spread over it, both along its tangent.
+struct Follower {
+  Real p, q;
+};
+
+/// Characteristic function for real or complex W: with x from the tip, w'''' + (p + q x) w'' = W^2
+/// w by power series, w'' = w''' = 0 at x = 0; the determinant of w = w' = 0 at x = 1.
 template <class T>
-T beck(const T& W, const Real& p) {
-  const T root = sqrt(T(p * p / 4) + W * W);
-  const T a = sqrt(root + T(p / 2)), b = sqrt(root - T(p / 2));
-  return T(p * p) / (W * W) + T(2) + T(2) * cos(a) * cosh(b) + T(p) / W * sin(a) * sinh(b);
+T follower_determinant(const T& W, const Follower& load) {
+  std::array<T, 2> value, slope;
+  for (std::size_t s = 0; s < 2; ++s) {
+    std::array<T, 100> a{};
+    a[s] = T(1);
+    value[s] = slope[s] = T(0);
+    for (std::size_t n = 0; n < a.size(); ++n) {
+      value[s] += a[n], slope[s] += T(Real(n)) * a[n];
+      if (n + 4 >= a.size()) continue;
+      a[n + 4] = (W * W * a[n] - T(load.p * ((n + 2) * (n + 1))) * a[n + 2] -
+                  T(load.q * ((n + 1) * n)) * a[n + 1]) /
+                 T(Real((n + 4) * (n + 3) * (n + 2) * (n + 1)));
+    }
+  }
+  return value[0] * slope[1] - value[1] * slope[0];
 }
 
 /// Its least value between the two lowest roots, and where: 0 where they meet.
-std::pair<Real, Real> beck_valley(const Real& p) {
+std::pair<Real, Real> valley(const Follower& load) {
   Real low = 3, high = 24;
   while (high - low > Real(1e-24)) {  // ternary search; the valley is flat to half the digits
     const Real third = (high - low) / 3;
-    (beck(Real(low + third), p) < beck(Real(high - third), p) ? high : low) =
-        beck(Real(low + third), p) < beck(Real(high - third), p) ? high - third : low + third;
+    const bool left = follower_determinant(Real(low + third), load) <
+                      follower_determinant(Real(high - third), load);
+    (left ? high : low) = left ? high - third : low + third;
   }
-  return {beck(low, p), low};
+  return {follower_determinant(low, load), low};
 }
 
-Real flutter_load() {
-  Real low = 19, high = 21;
-  while (high - low > Real(1e-30)) {
+/// Whether the two lowest roots have met.
+bool flutters(const Follower& load) {
+  return valley(load).first > 0;
+}
+
+Real flutter_load(bool spread) {
+  Real low = spread ? 39 : 19, high = low + 2;
+  while (high - low > Real(1e-20)) {
     const Real middle = (low + high) / 2;
-    (beck_valley(middle).first < 0 ? low : high) = middle;
+    (flutters(spread ? Follower{0, middle} : Follower{middle, 0}) ? high : low) = middle;
   }
   return low;
 }
 
-/// The complex root of a p beyond the flutter load, by Newton's method from the valley.
-Complex beck_root(const Real& p) {
-  Complex W(beck_valley(p).second, Real(1));
+/// The complex root beyond the flutter load, by Newton's method from the valley.
+Complex complex_root(const Follower& load) {
+  Complex W(valley(load).second, Real(1));
   const Complex step(Real(1e-20));
-  for (int i = 0; i < 60; ++i) {
-    const Complex slope = (beck(Complex(W + step), p) - beck(Complex(W - step), p)) / (step + step);
-    W -= beck(W, p) / slope;
+  for (int i = 0; i < 20; ++i) {
+    const Complex slope = (follower_determinant(Complex(W + step), load) -
+                           follower_determinant(Complex(W - step), load)) /
+                          (step + step);
+    W -= follower_determinant(W, load) / slope;
   }
   return W;
 }
@@ -79,25 +105,28 @@ Complex beck_root(const Real& p) {
 }  // namespace
 
 std::vector<double> becks_column_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"output", "load_parameter", "EI_N_m2", "length_m", "mass_kg_per_m"});
+  const Arguments arguments(
+      json, "", {"output", "load", "load_parameter", "EI_N_m2", "length_m", "mass_kg_per_m"});
   const std::string output =
       arguments.choice("output", "", {"flutter-load", "frequencies", "growth-rate"});
+  const bool spread = arguments.choice("load", "tip", {"tip", "spread"}) == "spread";
   const auto given = [&](const char* key) {
     return arguments.has(key) ? arguments.positive(key) : Real(1);
   };
   const Real EI = given("EI_N_m2"), L = given("length_m"), mass = given("mass_kg_per_m");
-  if (output == "flutter-load") return to_doubles({flutter_load() * EI / (L * L)});
-  const Real p = arguments.positive("load_parameter");
-  const bool flutters = p > flutter_load();
-  if (flutters != (output == "growth-rate"))
-    arguments.fail("load_parameter", std::string("a load ") + (flutters ? "below" : "above") +
-                                         " that of flutter, 20.05");
+  if (output == "flutter-load")
+    return to_doubles({flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))});
+  const Real parameter = arguments.positive("load_parameter");
+  const Follower load = spread ? Follower{0, parameter} : Follower{parameter, 0};
+  const bool beyond = flutters(load);
+  if (beyond != (output == "growth-rate"))
+    arguments.fail("load_parameter",
+                   std::string("a load ") + (beyond ? "below" : "above") + " that of flutter");
   const Real rate = sqrt(EI / mass) / (L * L);
-  if (flutters) return to_doubles({Real(abs(beck_root(p).imag()) * rate)});
-  std::vector<Real> values = first_roots(equation([&p](const auto& W) {
+  if (beyond) return to_doubles({Real(abs(complex_root(load).imag()) * rate)});
+  std::vector<Real> values = first_roots(equation([&load](const auto& W) {
                                            using T = std::decay_t<decltype(W)>;
-                                           return beck(T(W), p);
+                                           return follower_determinant(T(W), load);
                                          }),
                                          0.5, 0.1, 2);
   for (Real& value : values) value *= rate / (2 * pi<Real>());

@@ -15,14 +15,15 @@ namespace trammel::references {
 /// where absent). Values: critical end loads [N], or the critical multiple of the weight.
 [[nodiscard]] std::vector<double> column_buckling_program(const Json& arguments);
 
-/// Beck's column: clamped-free under an end force P = p EI/L^2 that follows the tip's tangent (V.
-/// V. Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963, section 2.2).
-/// With W = w L^2 sqrt(rho A/EI) and a, b = sqrt(sqrt(p^2/4 + W^2) +- p/2),
-///   p^2 + 2 W^2 + 2 W^2 cos a cosh b + p W sin a sinh b = 0;
-/// where its two lowest roots meet, the column flutters.
-/// Arguments: output (flutter-load | frequencies | growth-rate), load_parameter p (not for the
-/// first), EI_N_m2, length_m, mass_kg_per_m (1 each where absent). Values: the load [N], the two
-/// lowest frequencies [Hz], or the rate of growth [1/s].
+/// A cantilever under an end force P = p EI/L^2 that follows the tip's tangent (Beck), or forces q
+/// EI/L^3 a length that follow the tangent all along (Leipholz); V. V. Bolotin, Nonconservative
+/// Problems of the Theory of Elastic Stability, 1963, section 2.2. With x from the tip over L and
+/// W = w L^2 sqrt(rho A/EI),  v'''' + (p + q x) v'' = W^2 v  by power series; where its two lowest
+/// roots meet, the column flutters: p = 20.0510, q = 40.0537.
+/// Arguments: output (flutter-load | frequencies | growth-rate), load (tip | spread),
+/// load_parameter p or q (not for the first), EI_N_m2, length_m, mass_kg_per_m (1 each where
+/// absent). Values: the load [N or N/m], the two lowest frequencies [Hz], or the rate of growth
+/// [1/s].
 [[nodiscard]] std::vector<double> becks_column_program(const Json& arguments);
 
 }  // namespace trammel::references

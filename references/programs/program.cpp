@@ -5,6 +5,7 @@
 #include "references/beams/column_buckling.h"
 #include "references/beams/corner_singularity.h"
 #include "references/beams/deep_beam.h"
+#include "references/beams/elastic_chain.h"
 #include "references/beams/elastica.h"
 #include "references/beams/exponential_beam.h"
 #include "references/beams/parallelogram_chain.h"
@@ -30,9 +31,10 @@ const std::map<std::string, Program>& programs() {
         "inner_radius_m, outer_radius_m, E_Pa, rho_kg_m3, nu, modes (pairs [waves, number])",
         annular_membrane_program}},
       {"becks-column",
-       {"cantilever under a force that follows its tip: flutter load, frequencies (Bolotin 1963)",
-        "output (flutter-load | frequencies | growth-rate), load_parameter P L^2/EI, EI_N_m2, "
-        "length_m, mass_kg_per_m",
+       {"cantilever under forces that follow it, at its tip (Beck) or spread over it (Leipholz): "
+        "flutter load, frequencies (Bolotin 1963)",
+        "output (flutter-load | frequencies | growth-rate), load (tip | spread), load_parameter P "
+        "L^2/EI or q L^3/EI, EI_N_m2, length_m, mass_kg_per_m",
         becks_column_program}},
       {"column-buckling",
        {"critical loads of one uniform column (Timoshenko and Gere, chapter 2)",
@@ -44,6 +46,13 @@ const std::map<std::string, Program>& programs() {
         "damping_ratio (or rayleigh_mass_1_s, rayleigh_stiffness_s), response (static | "
         "harmonic-peak | step-peak), outputs (displacement_m, stress_Pa, frequency_Hz, time_s)",
         deep_beam_program}},
+      {"elastic-chain",
+       {"equilibria and limit points of a chain of straight elastic pieces at any displacement, by "
+        "shooting (Reissner 1972)",
+        "nodes_m, EI_N_m2, EA_N, GA_N, start and end (x, y, rotation held), loads (arrays node, "
+        "Fx, "
+        "Fy, M), load_factors or limit_points (guesses), outputs, steps",
+        elastic_chain_program}},
       {"elastica-column",
        {"cantilever column beyond buckling: F/Fcr, lateral and axial displacement over L",
         "tip_angle_deg (array), output (all | load | lateral | axial), length_m",

@@ -11,6 +11,10 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
+/// Least cosines of the angles between the tangents at two neighbouring points of a path, and
+/// between their mean and the chord, which is parallel to it but for the change of curvature.
+constexpr double kTurn = 0.95, kChord = 0.995;
+
 /// A direction in (q, lambda, load), of unit length in the path's metric.
 struct Direction {
   VectorXd step;  ///< (dq, dlambda)
@@ -156,7 +160,7 @@ class PathFollower {
           weighted_rms_norm(system_, residual_step_.head(system_.coordinates()));
       point.newton.correction.back() = correction_norm;
       distance += std::sqrt(squared_norm(residual_step_) + change * change);
-      if (!(distance < 0.5 * std::abs(arc))) return false;
+      if (!(distance < 0.3 * std::abs(arc))) return false;
       if (equilibrium_.converged(point.newton.correction, weighted_rms_norm(system_, state.q)))
         return true;
     }
@@ -171,20 +175,24 @@ class PathFollower {
     if (static_cast<int>(point_count_) >= options_.max_points)
       return not_converged("too many points");
     PathPoint point;
+    Direction ahead;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return not_converged("no step is small enough");
-      // A step beyond the target ends on the target, or is halved.
+      // A step beyond the target ends on the target, or is halved; so is one that may have come to
+      // another branch, which passes near by.
       const bool reached = crosses_target(from) ? solve_at_target(from, point)
                                                 : corrector(from, direction_, arc_step_, point) &&
                                                       !passed_target(from, point.state) &&
                                                       equilibrium_.factor(point.state);
-      if (reached) break;
+      if (reached) ahead = tangent(point.state, direction_);
+      if (reached && is_smooth(from, point.state, ahead)) {
+        point.unstable_directions = equilibrium_.matrix().negative_pivots();
+        if (cut > 20 || event_fits(from, previous_unstable, point, ahead)) break;
+      }
       arc_step_ /= 2;
     }
     ++point_count_;
-    point.unstable_directions = equilibrium_.matrix().negative_pivots();
     const bool done = point.state.load == options_.target;
-    Direction ahead = tangent(point.state, direction_);
     const bool switched = record_event(from, previous_unstable, point, ahead, done);
     if (!switched) {
       const double iterations = static_cast<double>(point.newton.correction.size());
@@ -193,6 +201,41 @@ class PathFollower {
       append(std::move(point));
     }
     return switched || !done;
+  }
+
+  /// Whether the path from one point to another can have the tangents direction_ and `ahead`.
+  bool is_smooth(const State& from, const State& to, const Direction& ahead) const {
+    Direction chord = chord_between(from, to);
+    normalize(chord);
+    const double turn = dot(direction_, ahead.step, ahead.load);
+    return turn > kTurn &&
+           dot(direction_, chord.step, chord.load) + dot(ahead, chord.step, chord.load) >
+               kChord * std::sqrt(2 + 2 * turn);
+  }
+
+  /// Whether what lies between two points is on the way from one to the other: a limit point has a
+  /// load beyond both of theirs and changes the count of unstable directions, or another event
+  /// hides there, a bifurcation has one between them.
+  bool event_fits(const State& from, Index previous_unstable, const PathPoint& to,
+                  const Direction& ahead) {
+    const bool load_reversed = ahead.load * direction_.load < 0;
+    if (!stability_changed(previous_unstable, to)) return !load_reversed || previous_unstable < 0;
+    PathPoint critical = to;
+    locate(from, previous_unstable, load_reversed, to, critical);
+    const auto [low, high] = std::minmax(from.load, to.state.load);
+    const double load = critical.state.load, slack = 1e-9 * std::abs(load);
+    if (!load_reversed) return load > low - slack && load < high + slack;
+    return direction_.load > 0 ? load > high - slack : load < low + slack;
+  }
+
+  static bool stability_changed(Index previous_unstable, const PathPoint& point) {
+    return previous_unstable >= 0 && point.unstable_directions != previous_unstable;
+  }
+
+  static Direction chord_between(const State& from, const State& to) {
+    Direction chord{VectorXd(to.q.size() + to.lambda.size()), to.load - from.load};
+    chord.step << to.q - from.q, to.lambda - from.lambda;
+    return chord;
   }
 
   void add_evidence(const State& state) {
@@ -234,9 +277,7 @@ class PathFollower {
   bool record_event(const State& from, Index previous_unstable, const PathPoint& point,
                     const Direction& ahead, bool done) {
     const bool load_reversed = ahead.load * direction_.load < 0;
-    const bool stability_changed =
-        previous_unstable >= 0 && point.unstable_directions != previous_unstable;
-    if (!load_reversed && !stability_changed) return false;
+    if (!load_reversed && !stability_changed(previous_unstable, point)) return false;
     PathEvent event;
     event.kind = load_reversed ? PathEvent::Kind::limit_point : PathEvent::Kind::bifurcation;
     PathPoint critical = point;
@@ -263,9 +304,8 @@ class PathFollower {
       return equilibrium_.matrix().negative_pivots() == previous_unstable ? eigenvalue
                                                                           : -eigenvalue;
     };
-    VectorXd chord(to.state.q.size() + to.state.lambda.size());
-    chord << to.state.q - from.q, to.state.lambda - from.lambda;
-    const double interval = dot(d, chord, to.state.load - from.load);
+    const Direction chord = chord_between(from, to.state);
+    const double interval = dot(d, chord.step, chord.load);
     if (!equilibrium_.factor(from)) return;
     const double f_from = indicator(from);
     if (!equilibrium_.factor(to.state)) return;

@@ -40,6 +40,23 @@ BOOST_AUTO_TEST_CASE(the_elastica_agrees_with_values_computed_elsewhere) {
               1e-11);
 }
 
+BOOST_AUTO_TEST_CASE(shooting_along_a_chain_finds_the_elastica) {
+  const std::string chain = R"({"nodes_m": [[0, 0], [0.5, 0], [1, 0]], "EI_N_m2": 1,
+      "start": ["rotation"], "end": ["free"], "loads": [[2, 0, 1, 0]], "load_factors": [1, 3],
+      "outputs": ["displacement_y_m:2", "displacement_x_m:2", "rotation_rad:2"]})";
+  const auto exact = run("elastica-tip-force", R"({"load_parameter": [1, 3]})");
+  const auto shot = run("elastic-chain", chain.c_str());
+  BOOST_REQUIRE(shot.size() == exact.size());
+  for (std::size_t i = 0; i < shot.size(); ++i)
+    BOOST_TEST(std::abs(shot[i] + (i % 3 == 1 ? exact[i] : -exact[i])) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(loads_that_follow_a_column_make_it_flutter_where_bolotin_says) {
+  check_equal(run("becks-column", R"({"output": "flutter-load"})"), {20.050953618973761}, 1e-14);
+  BOOST_TEST(std::abs(run("becks-column", R"({"output": "flutter-load", "load": "spread"})")[0] -
+                      40.054) < 5e-4);
+}
+
 BOOST_AUTO_TEST_CASE(one_column_of_the_elastica_table_comes_with_its_length) {
   const auto all = run("elastica-tip-force", R"({"load_parameter": [1, 10]})");
   check_equal(run("elastica-tip-force",

@@ -51,6 +51,23 @@ Model shallow_truss(double B, double H, double EA) {
   return model;
 }
 
+/// A shallow arch of eight straight pieces on hinges, pushed down at its crown and a little across.
+Model shallow_arch(double across) {
+  Model model;
+  Section section = unit_section(1e4);
+  section.EI = 1e4 / 12;
+  for (Index i = 0; i <= 8; ++i) {
+    const double angle = std::asin(50 / 252.5) * static_cast<double>(i - 4) / 4;
+    model.nodes.push_back({"n", {252.5 * std::sin(angle), 252.5 * std::cos(angle) - 247.5}});
+    if (i == 0) continue;
+    model.members.push_back(member("piece", i - 1, i, section));
+    model.members.back().elements = 2;
+  }
+  model.supports = {pin(0), pin(8)};
+  model.loads = {{4, {across, -1, 0}}};
+  return model;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(large_stability)
@@ -124,6 +141,22 @@ BOOST_AUTO_TEST_CASE(a_shallow_truss_snaps_through_its_limit_points) {
   const double apex = node_motion(system, path.points.back().state.q)(1, 1);
   const double below = -(H + apex), length = std::hypot(B, below);
   BOOST_TEST(std::abs(2 * EA * (1 / L - 1 / length) * below / (2 * limit) - 1) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(a_path_does_not_change_over_to_a_branch_that_passes_near_by) {
+  for (const double across : {0.05, 0.01, 0.002}) {
+    const GeometricallyExactSystem system(shallow_arch(across));
+    StaticPathOptions options;
+    options.first_step = 0.05;
+    options.target = 0.8;
+    const StaticPath path = follow_static_path(system, options);
+    BOOST_REQUIRE(path.outcome.solved());
+    BOOST_REQUIRE(path.events.size() == 2U);
+    BOOST_TEST((path.events[0].kind == PathEvent::Kind::limit_point));
+    BOOST_TEST((path.events[1].kind == PathEvent::Kind::limit_point));
+    BOOST_TEST(path.points.back().unstable_directions == 0);  // it hangs
+    BOOST_TEST(node_motion(system, path.points.back().state.q)(4, 1) < -10);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_path_that_cannot_go_on_says_where_it_stopped) {

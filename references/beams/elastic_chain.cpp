@@ -1,0 +1,226 @@
+#include "references/beams/elastic_chain.h"
+
+#include <algorithm>
+#include <array>
+
+#include "references/numerics/dense.h"
+
+namespace trammel::references {
+
+namespace {
+
+constexpr std::size_t kDegree = 30;
+constexpr int kParts = 4;  ///< equal increments from one load factor to the next
+using Series = std::array<Real, kDegree + 1>;
+
+/// The n-th coefficient of a product.
+Real term(const Series& a, const Series& b, std::size_t n) {
+  Real sum = 0;
+  for (std::size_t i = 0; i <= n; ++i) sum += a[i] * b[n - i];
+  return sum;
+}
+
+Real sum_at(const Series& a, const Real& h) {
+  Real sum = 0;
+  for (std::size_t n = a.size(); n-- > 0;) sum = sum * h + a[n];
+  return sum;
+}
+
+struct Point {
+  Real x, y;
+};
+
+/// A section of the loaded chain: where it is, its angle, the force and the moment of what follows.
+struct Section {
+  Real x, y, angle, moment, force_x, force_y;
+};
+
+struct Chain {
+  std::vector<Point> nodes;
+  Real EI, axial_compliance, shear_compliance;
+  std::vector<std::array<Real, 4>> loads;  ///< node, Fx, Fy, M
+  std::array<bool, 3> end_held{};          ///< x, y, rotation
+  bool start_turns = false;
+  int steps = 8;
+};
+
+/// One step of length h along a piece.
+void advance(const Chain& chain, const Real& h, Section& at) {
+  Series x{}, y{}, angle{}, moment{}, c{}, s{}, tangential{}, normal{}, turn{};
+  x[0] = at.x, y[0] = at.y, angle[0] = at.angle, moment[0] = at.moment;
+  c[0] = cos(at.angle), s[0] = sin(at.angle);
+  const Real &Fx = at.force_x, &Fy = at.force_y;
+  for (std::size_t n = 0; n < kDegree; ++n) {
+    tangential[n] = chain.axial_compliance * (Fx * c[n] + Fy * s[n]) + Real(n == 0 ? 1 : 0);
+    normal[n] = chain.shear_compliance * (Fy * c[n] - Fx * s[n]);
+    turn[n] = moment[n] / chain.EI;
+    const Real dx = term(tangential, c, n) - term(normal, s, n);
+    const Real dy = term(tangential, s, n) + term(normal, c, n);
+    const Real step(n + 1);
+    x[n + 1] = dx / step, y[n + 1] = dy / step;
+    angle[n + 1] = turn[n] / step;
+    moment[n + 1] = (dy * Fx - dx * Fy) / step;
+    c[n + 1] = -term(s, turn, n) / step;
+    s[n + 1] = term(c, turn, n) / step;
+  }
+  at.x = sum_at(x, h), at.y = sum_at(y, h);
+  at.angle = sum_at(angle, h), at.moment = sum_at(moment, h);
+}
+
+/// The sections just behind each node, `unknown` as the header has it (with the load factor last).
+std::vector<Section> shoot(const Chain& chain, const std::vector<Real>& unknown) {
+  const auto direction = [&](std::size_t piece) {
+    const Point &a = chain.nodes[piece], &b = chain.nodes[piece + 1];
+    return Real(atan2(Real(b.y - a.y), Real(b.x - a.x)));
+  };
+  Section at{chain.nodes[0].x,
+             chain.nodes[0].y,
+             chain.start_turns ? unknown[0] : Real(0),
+             chain.start_turns ? Real(0) : unknown[0],
+             unknown[1],
+             unknown[2]};
+  std::vector<Section> sections;
+  for (std::size_t node = 0; node < chain.nodes.size(); ++node) {
+    for (const auto& [where, force_x, force_y, moment] : chain.loads) {
+      if (where != Real(node)) continue;
+      if (node > 0) at.force_x -= unknown[3] * force_x, at.force_y -= unknown[3] * force_y;
+      at.moment -= unknown[3] * moment;
+    }
+    sections.push_back(at);
+    if (node + 1 == chain.nodes.size()) break;
+    const Point &a = chain.nodes[node], &b = chain.nodes[node + 1];
+    const Real length = sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    at.angle += direction(node);
+    for (int i = 0; i < chain.steps; ++i) advance(chain, length / chain.steps, at);
+    at.angle -= direction(node);
+  }
+  return sections;
+}
+
+/// What is missing at the end: a motion that is held, or a force that nothing takes.
+std::vector<Real> gap(const Chain& chain, const std::vector<Real>& unknown) {
+  const Section end = shoot(chain, unknown).back();
+  return {chain.end_held[0] ? Real(end.x - chain.nodes.back().x) : end.force_x,
+          chain.end_held[1] ? Real(end.y - chain.nodes.back().y) : end.force_y,
+          chain.end_held[2] ? end.angle : end.moment};
+}
+
+template <class F>
+Dense<Real> jacobian(const F& f, std::vector<Real> at, std::size_t columns) {
+  const std::vector<Real> value = f(at);
+  Dense<Real> J(value.size(), columns);
+  for (std::size_t j = 0; j < columns; ++j) {
+    const Real kept = at[j], step = Real(1e-20) * (1 + abs(kept));
+    at[j] += step;
+    const std::vector<Real> moved = f(at);
+    for (std::size_t i = 0; i < value.size(); ++i) J(i, j) = (moved[i] - value[i]) / step;
+    at[j] = kept;
+  }
+  return J;
+}
+
+/// The gap, and with it the determinant that vanishes where the load is stationary.
+std::vector<Real> limit_gap(const Chain& chain, const std::vector<Real>& unknown) {
+  std::vector<Real> value = gap(chain, unknown);
+  const Dense<Real> J = jacobian([&](const auto& u) { return gap(chain, u); }, unknown, 3);
+  value.push_back(J(0, 0) * (J(1, 1) * J(2, 2) - J(1, 2) * J(2, 1)) -
+                  J(0, 1) * (J(1, 0) * J(2, 2) - J(1, 2) * J(2, 0)) +
+                  J(0, 2) * (J(1, 0) * J(2, 1) - J(1, 1) * J(2, 0)));
+  return value;
+}
+
+/// Newton's method on the first unknowns, as many as there are equations.
+template <class F>
+void solve(const Arguments& arguments, const F& f, std::vector<Real>& unknown) {
+  for (int iteration = 0; iteration < 40; ++iteration) {
+    std::vector<Real> correction = f(unknown);
+    const Dense<Real> J = jacobian(f, unknown, correction.size());
+    if (!solve_in_place(J, correction, Real(1e-60))) break;
+    Real size = 0;
+    if (!std::all_of(correction.begin(), correction.end(),
+                     [](const Real& c) { return isfinite(c); }))
+      break;
+    for (std::size_t i = 0; i < correction.size(); ++i) {
+      unknown[i] -= correction[i];
+      size = std::max(size, Real(abs(correction[i]) / (1 + abs(unknown[i]))));
+    }
+    if (size < Real(1e-25)) return;
+  }
+  arguments.fail("nodes_m", "an equilibrium that Newton's method finds");
+}
+
+Real output(const Arguments& arguments, const Chain& chain, const std::string& name,
+            const std::vector<Real>& unknown, const std::vector<Section>& sections) {
+  if (name == "load_factor") return unknown[3];
+  const std::size_t colon = name.find(':');
+  const std::size_t node =
+      colon == std::string::npos ? sections.size() : std::stoul(name.substr(colon + 1));
+  if (node < sections.size()) {
+    const Section& at = sections[node];
+    const std::string what = name.substr(0, colon);
+    if (what == "displacement_x_m") return at.x - chain.nodes[node].x;
+    if (what == "displacement_y_m") return at.y - chain.nodes[node].y;
+    if (what == "rotation_rad") return at.angle;
+  }
+  arguments.fail("outputs",
+                 "load_factor, displacement_x_m:NODE, displacement_y_m:NODE or rotation_rad:NODE");
+}
+
+Chain read_chain(const Arguments& arguments) {
+  Chain chain;
+  for (const Json& node : arguments["nodes_m"]) {
+    const Arguments point({{"point", node}}, arguments.pointer("nodes_m"), {"point"});
+    const std::vector<Real> xy = point.numbers("point", 2);
+    chain.nodes.push_back({xy[0], xy[1]});
+  }
+  chain.EI = arguments.positive("EI_N_m2");
+  if (arguments.has("EA_N")) chain.axial_compliance = 1 / arguments.positive("EA_N");
+  if (arguments.has("GA_N")) chain.shear_compliance = 1 / arguments.positive("GA_N");
+  for (const Json& json : arguments["loads"]) {
+    const Arguments load({{"load", json}}, arguments.pointer("loads"), {"load"});
+    const std::vector<Real> values = load.numbers("load", 4);
+    chain.loads.push_back({values[0], values[1], values[2], values[3]});
+  }
+  const std::vector<std::string> start = arguments.texts("start"), end = arguments.texts("end");
+  const auto has = [](const std::vector<std::string>& words, const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  chain.start_turns = !has(start, "rotation");
+  chain.end_held = {has(end, "x"), has(end, "y"), has(end, "rotation")};
+  if (arguments.has("steps")) chain.steps = arguments.count("steps");
+  return chain;
+}
+
+}  // namespace
+
+std::vector<double> elastic_chain_program(const Json& json) {
+  const Arguments arguments(json, "",
+                            {"nodes_m", "EI_N_m2", "EA_N", "GA_N", "start", "end", "loads",
+                             "load_factors", "limit_points", "outputs", "steps"});
+  const Chain chain = read_chain(arguments);
+  std::vector<double> values;
+  const auto record = [&](const std::vector<Real>& unknown) {
+    const std::vector<Section> sections = shoot(chain, unknown);
+    for (const std::string& name : arguments.texts("outputs"))
+      values.push_back(static_cast<double>(output(arguments, chain, name, unknown, sections)));
+  };
+  std::vector<Real> unknown(4, Real(0));
+  if (arguments.has("load_factors")) {
+    for (const Real& factor : arguments.numbers("load_factors")) {
+      unknown[3] = factor;
+      solve(
+          arguments, [&](const auto& u) { return gap(chain, u); }, unknown);
+      record(unknown);
+    }
+  } else {
+    for (const Json& guess : arguments["limit_points"]) {
+      unknown = Arguments({{"guess", guess}}, "/limit_points", {"guess"}).numbers("guess", 4);
+      solve(
+          arguments, [&](const auto& u) { return limit_gap(chain, u); }, unknown);
+      record(unknown);
+    }
+  }
+  return values;
+}
+
+}  // namespace trammel::references
