@@ -10,6 +10,7 @@
 #include "harness/input/catalogue.h"
 #include "harness/results/results.h"
 #include "harness/run/claims.h"
+#include "harness/run/paper_items.h"
 
 namespace trammel::harness {
 namespace {
@@ -59,6 +60,35 @@ int claims_command(unsigned jobs, bool json) {
     for (const Claim& claim : claim_set.claims) print_claim(claim);
   }
   return claim_set.as_expected() ? 0 : 1;
+}
+
+int paper_command(const std::string& results, bool json) {
+  const Document claim_set = load_claims();
+  std::vector<results::PaperItem> items = load_paper_items(claim_set, Catalogue());
+  if (!results.empty())
+    judge_paper_items(results::read_results(std::filesystem::path(results)), items);
+  if (json) {
+    results::Claims shown;
+    shown.items = std::move(items);
+    std::cout << pretty(results::claims_to_json(shown).at("items"));
+    return 0;
+  }
+  const Json& claims = claim_set.value().at("claims");
+  for (const results::PaperItem& item : items) {
+    std::cout << item.id << " (" << item.section << "): " << item.what << '\n';
+    for (const auto& shown : item.shown_by) {
+      std::cout << "    " << shown.case_id << (shown.variant.empty() ? "" : ":" + shown.variant);
+      for (const std::string& part : {shown.quantity, shown.figure})
+        if (!part.empty()) std::cout << "  " << part;
+      std::cout << (shown.verdict.empty() ? "" : ": " + shown.verdict) << '\n';
+    }
+    for (const std::string& claim : item.claims)
+      std::cout << "    claim " << claim << ": "
+                << claims.at(claim).at("expected").get<std::string>() << '\n';
+    for (const std::string& text : {item.reason, item.note})
+      if (!text.empty()) std::cout << wrapped(text, "    ");
+  }
+  return 0;
 }
 
 }  // namespace trammel::harness

@@ -22,8 +22,8 @@
 #include "harness/cli/command_effects.h"
 #include "harness/cli/command_export.h"
 #include "harness/cli/command_grade.h"
+#include "harness/cli/command_history.h"
 #include "harness/cli/command_list.h"
-#include "harness/cli/command_paper.h"
 #include "harness/cli/command_quantities.h"
 #include "harness/cli/command_references.h"
 #include "harness/cli/command_run.h"
@@ -63,6 +63,8 @@ Examples:
   trammel grade ./my-adapter -L frame       another code, judged by the same checks
   trammel report a/results.json b/results.json    several codes side by side
   trammel slurm --shards 40 --out results         the catalogue on a cluster
+  trammel history history.db                what changed since the last green call, and when
+  trammel slower ../before/trammel -L frame whether this build is slower than another one
 
 Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
 folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
@@ -101,7 +103,7 @@ class CommandLine {
     const char* name;
     void (CommandLine::*define)(CLI::App* sub);
   };
-  static const Command kCommands[18];
+  static const Command kCommands[20];
 
   static bool is_command(const std::string& name) {
     return std::any_of(std::begin(kCommands), std::end(kCommands),
@@ -153,6 +155,12 @@ class CommandLine {
                     "for all of them");
   }
 
+  void add_history(CLI::App* sub) {
+    sub->add_option("--history", run_.history,
+                    "SQLite file that verdicts, values, times and counted work are added to, for "
+                    "'trammel history'");
+  }
+
   void define_list(CLI::App* sub) {
     describe(sub, "The cases of the catalogue",
              "\nExamples:\n  trammel list\n  trammel list -L manipulator --json");
@@ -202,6 +210,7 @@ class CommandLine {
     add_out(sub, "Folder for results.json and junit.xml");
     add_store(sub, run_.resume, run_.store);
     add_memory(sub);
+    add_history(sub);
     sub->add_option("--shard", run_.shard,
                     "K/N: only the K-th of N parts, for 'trammel merge'; without cases and labels "
                     "of the whole catalogue")
@@ -300,7 +309,8 @@ class CommandLine {
     describe(sub, "The paper item by item: which case shows an equation or a figure",
              "\nExamples:\n  trammel paper\n  trammel paper trammel-results/results.json");
     sub->add_option("results", name_, "Show the verdicts of this results.json, too");
-    sub->callback([this] { command_ = [this] { return paper_command(name_); }; });
+    sub->add_flag("--json", json_, "As JSON");
+    sub->callback([this] { command_ = [this] { return paper_command(name_, json_); }; });
   }
   void define_effects(CLI::App* sub) {
     describe(sub,
@@ -359,6 +369,7 @@ class CommandLine {
     sub->add_flag("--single-file", run_.single_file,
                   "Also report.html: all in one file of at most 6 MB, to be mailed");
     add_store(sub, run_.resume, run_.store);
+    add_history(sub);
     add_memory(sub);
     sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
   }
@@ -458,6 +469,32 @@ class CommandLine {
     sub->callback([this] { command_ = [this] { return slurm_command(slurm_, run_); }; });
   }
 
+  void define_history(CLI::App* sub) {
+    describe(
+        sub, "What changed over the calls that '--history FILE' kept, and since which commit",
+        "\nVerdicts, values beyond round-off and counted work against the last green call, and "
+        "slow drifts.\nExit status 1 where the newest call has failures.\n\nExample:\n"
+        "  trammel run -L verification --history history.db && trammel history history.db");
+    sub->add_option("file", name_, "The SQLite file")->required();
+    sub->add_flag("--json", json_, "As JSON");
+    sub->callback([this] { command_ = [this] { return history_command(name_, json_); }; });
+  }
+
+  void define_slower(CLI::App* sub) {
+    describe(
+        sub, "Whether this build is slower than another, told from noise",
+        "\nBoth run the cases in interleaved repeats; a case is slower where the interval of "
+        "the ratio of\nprocessor times, made for all cases together, lies above 1. Exit status "
+        "1 where one is.\n\nExample:\n  trammel slower /usr/bin/trammel -L frame");
+    sub->add_option("program", slower_.program, "Another build of trammel")->required();
+    sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
+    sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
+    sub->add_option("--repeats", slower_.repeats, "21 by default, more for many cases")
+        ->check(CLI::Range(1, 10000));
+    sub->add_flag("--json", slower_.json, "As JSON");
+    sub->callback([this] { command_ = [this] { return slower_command(slower_, run_); }; });
+  }
+
   const Renderers& renderers_;
   CLI::App app_{kAbout};
   RunCommand run_{{},
@@ -474,6 +511,7 @@ class CommandLine {
   EffectsCommand effects_;
   ExportCommand export_;
   GradeCommand grade_;
+  SlowerCommand slower_;
   SlurmCommand slurm_;
   std::string name_, other_;
   bool json_ = false, csv_ = false;
@@ -500,6 +538,8 @@ const CommandLine::Command CommandLine::kCommands[] = {
     {"grade", &CommandLine::define_grade},
     {"merge", &CommandLine::define_merge},
     {"slurm", &CommandLine::define_slurm},
+    {"history", &CommandLine::define_history},
+    {"slower", &CommandLine::define_slower},
 };
 
 }  // namespace

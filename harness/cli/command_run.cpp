@@ -20,6 +20,7 @@
 #include "harness/printing/print_uncertainty.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
+#include "harness/run/history.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/paper_items.h"
 #include "harness/run/results.h"
@@ -282,6 +283,7 @@ void write_page(const results::Results& found, const std::vector<Run>& runs,
   std::filesystem::create_directories(unfinished);
   write_all(found, unfinished, renderers);
   const auto page = renderers.report(found, command.out, command.single_file);
+  if (!command.history.empty()) append_history(command.history, found);
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
   print_run_errors(runs);
@@ -380,12 +382,13 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
     print_run(run);
     if (runs.size() == 1) print_validation(run, std::cout);
   }
-  const auto results =
-      write_all(results_of(runs, selection.cases, references), command.out, renderers);
+  const results::Results found = results_of(runs, selection.cases, references);
+  const auto results = write_all(found, command.out, renderers);
   print_summary(runs);
   std::cout << "results in " << results.string() << std::endl;
   print_run_errors(runs);
   require_complete(runs);
+  if (!command.history.empty()) append_history(command.history, found);
   return exit_status(runs);
 }
 

@@ -20,6 +20,7 @@ struct RunCommand {
   std::string shard = {};        ///< "K/N": only that part, for `trammel merge`
   std::string costs = {};        ///< results.json that shards are balanced by
   bool any_machine = false;      ///< resumes also with times of another machine
+  std::string history = {};      ///< SQLite file that the call is added to; empty: none
   bool single_file = false;      ///< of a report, beside its pages
 };
 

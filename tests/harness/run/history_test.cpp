@@ -1,0 +1,104 @@
+#include "harness/run/history.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "harness/base/errors.h"
+#include "tests/support/harness/support.h"
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::Folder;
+
+namespace {
+
+/// A call with one check of this value and verdict.
+results::Results call(const std::string& commit, double value,
+                      results::Verdict verdict = results::Verdict::pass, std::size_t work = 10) {
+  results::Results made;
+  made.environment.commit = commit;
+  results::Run run;
+  run.case_id = "a";
+  run.variant = "base";
+  run.cost.cpu_s = 1;
+  run.cost.counters = {{"solves", work}};
+  results::Check check;
+  check.name = "c";
+  check.quantity = "frequency_Hz";
+  check.index = 2;
+  check.computed = value;
+  check.verdict = verdict;
+  run.checks = {check};
+  made.runs = {run};
+  return made;
+}
+
+History kept(const Folder& folder, const std::vector<results::Results>& calls) {
+  const auto file = folder.path() / "history.db";
+  for (const results::Results& one : calls) append_history(file, one);
+  return read_history(file);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(history)
+
+BOOST_AUTO_TEST_CASE(the_first_commit_of_a_changed_value_is_named_against_the_last_green_call) {
+  const Folder folder;
+  const History found = kept(folder, {call("one", 10), call("two", 10 + 1e-10), call("three", 11),
+                                      call("four", 11, results::Verdict::fail),
+                                      call("five", 11.5, results::Verdict::fail)});
+  BOOST_TEST(found.calls.size() == 5U);
+  BOOST_TEST(found.since == 3);
+  BOOST_REQUIRE(found.changes.size() == 1U);
+  BOOST_TEST(found.changes[0].name == "a:base c frequency_Hz[2]");
+  BOOST_TEST(found.changes[0].commit == "four");
+  BOOST_TEST(found.changes[0].verdict_before == "pass");
+  BOOST_TEST(found.changes[0].verdict == "fail");
+}
+
+BOOST_AUTO_TEST_CASE(round_off_is_no_change_and_what_has_gone_back_is_none) {
+  const Folder folder;
+  BOOST_TEST(kept(folder, {call("one", 10), call("two", 10 * (1 + 1e-12))}).changes.empty());
+  const History back = kept(folder, {call("three", 12, results::Verdict::fail), call("four", 10)});
+  BOOST_TEST(back.since == 2);
+  BOOST_TEST(back.changes.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_value_that_goes_one_way_in_small_steps_drifts) {
+  const Folder folder, other;
+  const History found =
+      kept(folder, {call("1", 10), call("2", 10.01), call("3", 10.02), call("4", 10.03)});
+  BOOST_REQUIRE(found.drifts.size() == 1U);
+  BOOST_TEST(found.drifts[0].steps == 3U);
+  BOOST_TEST(kept(other, {call("1", 10), call("2", 10.01), call("3", 10), call("4", 10.03)})
+                 .drifts.empty());
+}
+
+BOOST_AUTO_TEST_CASE(counted_work_is_compared_exactly_and_a_check_that_is_gone_is_a_change) {
+  const Folder folder;
+  results::Results without = call("two", 10, results::Verdict::pass, 11);
+  without.runs[0].checks.clear();
+  const History found = kept(folder, {call("one", 10), without});
+  BOOST_REQUIRE(found.work.size() == 1U);
+  BOOST_TEST(*found.work[0].after == 11);
+  BOOST_REQUIRE(found.changes.size() == 1U);
+  BOOST_TEST(found.changes[0].verdict == "gone");
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_change_is_not_written_again) {
+  const Folder folder;
+  std::vector<results::Results> calls(50, call("same", 10));
+  (void)kept(folder, {calls[0]});
+  const auto before = std::filesystem::file_size(folder.path() / "history.db");
+  (void)kept(folder, calls);
+  BOOST_TEST(std::filesystem::file_size(folder.path() / "history.db") <= before + 8192);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_that_is_no_history_is_left_as_it_is) {
+  const Folder folder;
+  (void)folder.write("history.db", "not a database, but long enough to be read as one");
+  BOOST_CHECK_THROW(append_history(folder.path() / "history.db", call("one", 10)), InputError);
+  BOOST_CHECK_THROW((void)read_history(folder.path() / "none.db"), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
