@@ -70,6 +70,9 @@ Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also 
 folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
 (143 by SIGTERM).)";
 
+constexpr const char* kStoreHelp =
+    "Folder where each run or study is kept as it ends; OUT/store by default";
+
 /// All words of the command line, and what to do with them.
 class CommandLine {
  public:
@@ -140,8 +143,7 @@ class CommandLine {
   void add_store(CLI::App* sub, bool& resume, std::string& store) {
     sub->add_flag("--resume", resume,
                   "Take what an earlier call left in the store, and compute only what is missing");
-    sub->add_option("--store", store,
-                    "Folder where each run or study is kept as it ends; OUT/store by default");
+    sub->add_option("--store", store, kStoreHelp);
   }
   void add_memory(CLI::App* sub) {
     sub->add_option("--max-memory", run_.memory_bytes,
@@ -368,10 +370,16 @@ class CommandLine {
     add_out(sub, "Folder for the pages, their figures and data, results.json and junit.xml");
     sub->add_flag("--single-file", run_.single_file,
                   "Also report.html: all in one file of at most 6 MB, to be mailed");
-    add_store(sub, run_.resume, run_.store);
+    sub->add_flag("--fresh", fresh_,
+                  "Compute everything anew; by default only what the store does not have of this "
+                  "program and input");
+    sub->add_option("--store", run_.store, kStoreHelp);
     add_history(sub);
     add_memory(sub);
-    sub->callback([this] { command_ = [this] { return report_command(run_, renderers_); }; });
+    sub->callback([this] {
+      run_.resume = !fresh_;
+      command_ = [this] { return report_command(run_, renderers_); };
+    });
   }
 
   void define_export(CLI::App* sub) {
@@ -514,7 +522,7 @@ class CommandLine {
   SlowerCommand slower_;
   SlurmCommand slurm_;
   std::string name_, other_;
-  bool json_ = false, csv_ = false;
+  bool json_ = false, csv_ = false, fresh_ = false;
   std::function<int()> command_;
 };
 

@@ -216,10 +216,13 @@ void print_summary(const std::vector<Run>& runs) {
     for (const CheckResult& check_result : run.check_results)
       ++verdicts[verdict_text(check_result)];
   }
-  std::cout << runs.size() << (runs.size() == 1 ? " run, " : " runs, ") << checks
-            << (checks == 1 ? " check: " : " checks: ") << verdicts["pass"] << " pass, "
-            << verdicts["does not agree"] << " do not agree (as recorded), " << verdicts["fail"]
-            << " fail";
+  const auto stored =
+      std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.was_stored; });
+  std::cout << runs.size() << (runs.size() == 1 ? " run" : " runs");
+  if (stored > 0) std::cout << " (" << stored << " of them stored by an earlier call)";
+  std::cout << ", " << checks << (checks == 1 ? " check: " : " checks: ") << verdicts["pass"]
+            << " pass, " << verdicts["does not agree"] << " do not agree (as recorded), "
+            << verdicts["fail"] << " fail";
   for (const char* rare : {"error", "not-run", "recorded"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
   std::cout << '\n';
@@ -276,6 +279,9 @@ void print_failed_runs(const std::vector<Run>& runs) {
   }
 }
 
+constexpr const char* kReportInterrupted =
+    "trammel: interrupted; the same command does what is missing\n";
+
 /// The page of these results, and where it is.
 void write_page(const results::Results& found, const std::vector<Run>& runs,
                 const RunCommand& command, const Renderers& renderers) {
@@ -293,7 +299,7 @@ void write_page(const results::Results& found, const std::vector<Run>& runs,
 int report_cases(const RunCommand& command, const Renderers& renderers) {
   const Selection selection = select(command);
   const OutputLock lock(command.out);
-  end_on_signals(kInterrupted);
+  end_on_signals(kReportInterrupted);
   const References references;
   const std::vector<Run> runs = compute(selection, references, command);
   require_complete(runs);
@@ -403,7 +409,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   require_drawing(renderers);
   if (!command.cases.empty() || !command.labels.empty()) return report_cases(command, renderers);
   const OutputLock lock(command.out);
-  end_on_signals(kInterrupted);
+  end_on_signals(kReportInterrupted);
   const Catalogue catalogue;
   const Selection selection = select(command);
   const References references;

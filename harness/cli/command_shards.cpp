@@ -45,7 +45,7 @@ sbatch --job-name=trammel-merge --dependency="afterok:$shards" --kill-on-invalid
   --cpus-per-task={jobs} {time}--output="$OUT/merge.log" $SBATCH_OPTIONS <<'END'
 #!/bin/sh
 "$TRAMMEL" merge "$OUT"/shard-*/ --jobs {jobs} --out "$OUT" && \
-  exec "$TRAMMEL" report{words} --resume --jobs {jobs} --out "$OUT"
+  exec "$TRAMMEL" report{words} --jobs {jobs} --out "$OUT"
 END
 )";
 

@@ -151,7 +151,8 @@ inline constexpr auto kFields<CostStudies> = std::tuple{
 template <>
 inline constexpr auto kFields<Environment> =
     std::tuple{TRAMMEL_REQUIRED(Environment, trammel, commit, date, compiler, flags, build_type,
-                                libraries, processor, cores, system)};
+                                libraries, processor, cores, system),
+               TRAMMEL_OPTIONAL(Environment, stored_runs)};
 template <>
 inline constexpr auto kKeyMember<PlotRequest::Line> = &PlotRequest::Line::title;
 template <>

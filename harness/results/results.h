@@ -18,6 +18,7 @@ namespace trammel::results {
 struct Environment {
   std::string trammel, commit, date, compiler, flags, build_type, processor, system;
   int cores = 0;
+  int stored_runs = 0;  ///< that an earlier call had left, of the same program and input
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };
 

@@ -270,6 +270,8 @@ results::Results results_of(const std::vector<Run>& runs, const std::vector<Case
                             const References& references) {
   results::Results out;
   out.environment = results::read_environment(environment());
+  out.environment.stored_runs = static_cast<int>(
+      std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.was_stored; }));
   for (const Case& test_case : cases) out.cases.push_back(case_info(test_case));
   for (const auto& [id, cited] : references.used()) out.references.push_back(reference(id, cited));
   const NumericalUncertaintySummary summary = numerical_uncertainty_of(runs);

@@ -200,6 +200,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
       file = options.store / computation_name(task.document, task.requested, options.solver.hash);
     if (options.resume && find_stored(file, task.run, options.any_machine)) {
       task.run.stored = file;
+      task.run.was_stored = true;
       continue;
     }
     open.emplace_back(&task, std::move(file));

@@ -70,6 +70,7 @@ struct Run : Computation {
   std::string case_id, variant;
   int interrupted_by = 0;             ///< the signal that came before it was done
   std::filesystem::path stored = {};  ///< where the store keeps the computation; empty: nowhere
+  bool was_stored = false;            ///< by an earlier call
   std::vector<CheckResult> check_results;
   std::vector<Convergence> convergence;
 };

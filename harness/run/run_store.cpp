@@ -37,16 +37,6 @@ struct adl_serializer<std::optional<T>> {
 };
 
 template <>
-struct adl_serializer<Eigen::Vector2d> {
-  static void to_json(json& out, const Eigen::Vector2d& point) {
-    out = json::array({point.x(), point.y()});
-  }
-  static void from_json(const json& in, Eigen::Vector2d& point) {
-    point = {in.at(0).get<double>(), in.at(1).get<double>()};
-  }
-};
-
-template <>
 struct adl_serializer<trammel::solver::Evidence> {
   static void to_json(json& out, const trammel::solver::Evidence& evidence) {
     out = json::object();
@@ -70,11 +60,64 @@ TRAMMEL_KEPT(Counters, element_evaluations, factorizations, solves, steps, effec
 
 namespace trammel::harness {
 
-TRAMMEL_KEPT(Quantity, values, roundoff)
+/// Numbers as the bytes they are: an array of JSON is hundreds of instructions for each.
+template <class Number>
+nlohmann::json packed(const std::vector<Number>& numbers) {
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(numbers.data());
+  return nlohmann::json::binary({bytes, bytes + numbers.size() * sizeof(Number)});
+}
+
+/// @throws std::exception  where the JSON is not what `packed` gives.
+template <class Number>
+void unpack(const nlohmann::json& json, std::vector<Number>& numbers) {
+  const auto& bytes = json.get_binary();
+  if (bytes.size() % sizeof(Number) != 0) throw std::runtime_error("expected whole numbers");
+  numbers.resize(bytes.size() / sizeof(Number));
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::uint8_t*>(numbers.data()));
+}
+
+inline void to_json(nlohmann::json& out, const Quantity& quantity) {
+  const auto& [values, roundoff] = quantity;
+  out = {packed(values), packed(roundoff)};
+}
+inline void from_json(const nlohmann::json& in, Quantity& quantity) {
+  unpack(in.at(0), quantity.values);
+  unpack(in.at(1), quantity.roundoff);
+}
+
+inline void to_json(nlohmann::json& out, const Drawing::Shape& shape) {
+  const auto& [label, displacement] = shape;
+  out = {label, packed(displacement)};
+}
+inline void from_json(const nlohmann::json& in, Drawing::Shape& shape) {
+  in.at(0).get_to(shape.label);
+  unpack(in.at(1), shape.displacement);
+}
+
+inline void to_json(nlohmann::json& out, const Drawing::Pose& pose) {
+  const auto& [label, nodes] = pose;
+  out = {label, packed(nodes)};
+}
+inline void from_json(const nlohmann::json& in, Drawing::Pose& pose) {
+  in.at(0).get_to(pose.label);
+  unpack(in.at(1), pose.nodes);
+}
+
 TRAMMEL_KEPT(Drawing::Joint, node, kind, name)
-TRAMMEL_KEPT(Drawing::Shape, label, displacement)
-TRAMMEL_KEPT(Drawing::Pose, label, nodes)
-TRAMMEL_KEPT(Drawing, nodes, members, triangles, joints, shapes, poses)
+
+inline void to_json(nlohmann::json& out, const Drawing& drawing) {
+  const auto& [nodes, members, triangles, joints, shapes, poses] = drawing;
+  out = {packed(nodes), packed(members), triangles, joints, shapes, poses};
+}
+inline void from_json(const nlohmann::json& in, Drawing& drawing) {
+  unpack(in.at(0), drawing.nodes);
+  unpack(in.at(1), drawing.members);
+  in.at(2).get_to(drawing.triangles);
+  in.at(3).get_to(drawing.joints);
+  in.at(4).get_to(drawing.shapes);
+  in.at(5).get_to(drawing.poses);
+}
+
 TRAMMEL_KEPT(EvaluationTime, name, wall_s, evaluations)
 TRAMMEL_KEPT(EffectReason, effect, applicable, active, number, change, why)
 TRAMMEL_KEPT(Warning, quantity, value, unit, meaning)

@@ -25,6 +25,10 @@ Data environment_section(const Results& results) {
     if (!value.empty()) add(key, value);
   }
   for (const auto& [name, version] : from.libraries) add(name, version);
+  if (from.stored_runs > 0)
+    add("not computed anew",
+        std::to_string(from.stored_runs) + " of " + std::to_string(results.runs.size()) +
+            " runs, left by an earlier call of the same program on the same input");
   if (results.solver) add("computed by", results.solver->name + " " + results.solver->version);
   data.set("rows", rows);
   return data;

@@ -6,23 +6,42 @@
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/backward_error.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
+
+namespace {
+
+/// @param size  magnitudes of the coordinates; @returns them, none below a thousandth of the
+///              largest motion
+VectorXd sizes_of(const System& system, VectorXd size) {
+  double model = 0;
+  for (const Vector2d& position : system.mesh.positions)
+    model = std::max(model, (position - system.mesh.positions.front()).norm());
+  if (!(model > 0)) model = 1;
+  const auto lever = [&](Index i) {
+    return system.coordinates.is_rotation[static_cast<std::size_t>(i)] ? model : 1.0;
+  };
+  double largest = 0;
+  for (Index i = 0; i < size.size(); ++i) largest = std::max(largest, size[i] * lever(i));
+  for (Index i = 0; i < size.size(); ++i)
+    size[i] = std::max(size[i], kLeastShare * largest / lever(i));
+  return size;
+}
+
+}  // namespace
 
 EquationRows::EquationRows(const System& system)
     : system_(system),
       sum_(VectorXcd::Zero(system.T.rows())),
       free_sum_(VectorXcd::Zero(system.T.cols())),
       terms_(VectorXd::Zero(system.T.rows())),
-      free_terms_(VectorXd::Zero(system.T.cols())) {
-  for (const Vector2d& position : system.mesh.positions)
-    model_size_ = std::max(model_size_, (position - system.mesh.positions.front()).norm());
-  if (!(model_size_ > 0)) model_size_ = 1;
-}
+      free_terms_(VectorXd::Zero(system.T.cols())) {}
 
 template <class Coordinates, class Matrix>
 void EquationRows::add_element(const Coordinates& coordinates, const Matrix& k, const VectorXcd& u,
@@ -38,29 +57,15 @@ void EquationRows::add_element(const Coordinates& coordinates, const Matrix& k, 
   }
 }
 
-VectorXd EquationRows::sizes_of(const VectorXcd& u) const {
-  VectorXd size = u.cwiseAbs();
-  double largest = 0;
-  for (Index i = 0; i < size.size(); ++i) {
-    const bool rotation = system_.coordinates.is_rotation[static_cast<std::size_t>(i)];
-    largest = std::max(largest, rotation ? size[i] * model_size_ : size[i]);
-  }
-  for (Index i = 0; i < size.size(); ++i) {
-    const bool rotation = system_.coordinates.is_rotation[static_cast<std::size_t>(i)];
-    size[i] = std::max(size[i], kLeastShare * largest / (rotation ? model_size_ : 1));
-  }
-  return size;
-}
-
 void EquationRows::add_stiffness(const VectorXcd& u, Complex factor) {
-  const VectorXd size = sizes_of(u);
+  const VectorXd size = sizes_of(system_, u.cwiseAbs());
   for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
     add_element(coordinates, (B.transpose() * c.asDiagonal() * B).eval(), u, size, factor);
   });
 }
 
 void EquationRows::add_inertia(const VectorXcd& u, Complex factor) {
-  const VectorXd size = sizes_of(u);
+  const VectorXd size = sizes_of(system_, u.cwiseAbs());
   for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
     add_element(coordinates, m, u, size, factor);
   });
@@ -91,14 +96,43 @@ double EquationRows::residual_over(const VectorXd& load) const {
   return residual == 0 ? 0 : residual / size;
 }
 
-double mode_backward_error(const System& system, const SparseMatrix* K_G, const VectorXd& q,
-                           double w2) {
-  const VectorXd u = system.T * q;
-  EquationRows rows(system);
-  rows.add_stiffness(u);
-  rows.add_inertia(u, -w2);
-  if (K_G) rows.add(*K_G, q);
-  return rows.backward_error();
+double mode_backward_error(const System& system, const SparseMatrix* K_G, const MatrixXd& shapes,
+                           const VectorXd& w2) {
+  // Modes along the rows, so that an element takes all of them at once.
+  const MatrixXd u = (system.T * shapes).transpose();
+  MatrixXd size = u.cwiseAbs();
+  for (Index mode = 0; mode < size.rows(); ++mode)
+    size.row(mode) = sizes_of(system, size.row(mode).transpose()).transpose();
+  MatrixXd sum = MatrixXd::Zero(u.rows(), u.cols()), terms = sum;
+  const auto add = [&](const auto& coordinates, const auto& k, const MatrixXd& motion,
+                       const MatrixXd& motion_size) {
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      for (std::size_t j = 0; j < coordinates.size(); ++j) {
+        if (coordinates[i] < 0 || coordinates[j] < 0) continue;
+        const double entry = k(static_cast<Index>(i), static_cast<Index>(j));
+        sum.col(coordinates[i]) += entry * motion.col(coordinates[j]);
+        terms.col(coordinates[i]) += std::abs(entry) * motion_size.col(coordinates[j]);
+      }
+    }
+  };
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    add(coordinates, (B.transpose() * c.asDiagonal() * B).eval(), u, size);
+  });
+  const MatrixXd acceleration = (-w2).asDiagonal() * u;
+  const MatrixXd acceleration_size = w2.cwiseAbs().asDiagonal() * size;
+  for_each_inertia(system, [&](const auto& coordinates, const auto& m) {
+    add(coordinates, m, acceleration, acceleration_size);
+  });
+  MatrixXd rows = system.T.transpose() * sum.transpose();
+  MatrixXd magnitudes = system.T.cwiseAbs().transpose() * terms.transpose();
+  if (K_G) {
+    rows += *K_G * shapes;
+    magnitudes += K_G->cwiseAbs() * shapes.cwiseAbs();
+  }
+  double largest = 0;
+  for (Index mode = 0; mode < rows.cols(); ++mode)
+    largest = nan_max(largest, largest_ratio(rows.col(mode).cwiseAbs(), magnitudes.col(mode)));
+  return largest;
 }
 
 }  // namespace trammel::solver

@@ -37,16 +37,15 @@ class EquationRows {
   template <class Coordinates, class Matrix>
   void add_element(const Coordinates& coordinates, const Matrix& k, const Eigen::VectorXcd& u,
                    const Eigen::VectorXd& size, std::complex<double> factor);
-  [[nodiscard]] Eigen::VectorXd sizes_of(const Eigen::VectorXcd& u) const;
 
   const System& system_;
-  double model_size_ = 0;
   Eigen::VectorXcd sum_, free_sum_;
   Eigen::VectorXd terms_, free_terms_;
 };
 
-/// Backward error of (K + K_G) q = w^2 M q; no K_G where it is null.
+/// Largest backward error of (K + K_G) q = w^2 M q; no K_G where it is null.
+/// @param shapes  the q, a column each; @param w2  w^2 of each [1/s^2]
 [[nodiscard]] double mode_backward_error(const System& system, const SparseMatrix* K_G,
-                                         const Eigen::VectorXd& q, double w2);
+                                         const Eigen::MatrixXd& shapes, const Eigen::VectorXd& w2);
 
 }  // namespace trammel::solver

@@ -140,10 +140,9 @@ void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& s
                  Factorization&& spent) {
   if (!solution.outcome.solved()) return;
   const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
-  for (Index j = 0; j < w2.size(); ++j) {
+  if (w2.size() > 0)
     solution.evidence.add(Residual::eigenvalue_equation,
-                          mode_backward_error(system, K_G, solution.shape.col(j), w2[j]));
-  }
+                          mode_backward_error(system, K_G, solution.shape, w2));
   const double missed = K_G ? miscounted_eigenvalues(system.K + *K_G, system.M, w2)
                             : miscounted_eigenvalues(system.K, system.M, w2, std::move(spent));
   const auto twice = static_cast<double>(dependent_vectors(system.M, solution.shape));

@@ -104,6 +104,11 @@ class Recovery {
     }
   }
 
+  [[nodiscard]] SectionForces section_forces(Index element) const {
+    const Vector6d end = forces_.element.col(element);
+    return {-end.head<3>(), end.tail<3>(), forces_.load.col(element)};
+  }
+
   /// |N| / A + |M| / W at a point of an element; 0 where a taper has come to its point, NaN where
   /// the section states no area.
   [[nodiscard]] double stress(const FrameElement& e, double from_start, double x,
@@ -154,10 +159,7 @@ class Recovery {
     for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i) {
       const FrameElement& e = system_.mesh.frame[i];
       const bool first = i == 0 || system_.mesh.frame[i - 1].member != e.member;
-      const auto column = static_cast<Index>(i);
-      const SectionForces forces = {-forces_.element.col(column).head<3>(),
-                                    forces_.element.col(column).tail<3>(),
-                                    forces_.load.col(column)};
+      const SectionForces forces = section_forces(static_cast<Index>(i));
       if (first) from_start = 0;
       if (first) solution_.resultant_start.row(e.member) = forces.start;
       solution_.resultant_end.row(e.member) = forces.end;

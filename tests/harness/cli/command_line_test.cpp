@@ -426,6 +426,25 @@ BOOST_AUTO_TEST_CASE(the_page_of_one_s_own_case_has_that_case_alone) {
   BOOST_TEST(run(folder, "report cantilever.json --out mine").status == 1);
 }
 
+BOOST_AUTO_TEST_CASE(a_second_report_computes_nothing_that_has_not_changed_and_says_so) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const std::string stored = "1 run (1 of them stored by an earlier call), 1 check";
+  const auto stored_runs = [&] {
+    return read_json(folder.path() / "mine/results.json")["environment"]["stored_runs"];
+  };
+  (void)run(folder, "report cantilever.json --out mine");
+  BOOST_TEST(stored_runs() == 0);
+  BOOST_TEST(contains(run(folder, "report cantilever.json --out mine").out, stored));
+  BOOST_TEST(stored_runs() == 1);
+  BOOST_TEST(contains(read_text(folder.path() / "mine/index.html"), "not computed anew"));
+  BOOST_TEST(!contains(run(folder, "report cantilever.json --out mine --fresh").out, "stored"));
+  Json changed = judged(101);
+  changed["model"]["elements"] = 2;
+  (void)folder.write(changed);
+  BOOST_TEST(!contains(run(folder, "report cantilever.json --out mine").out, "stored"));
+}
+
 BOOST_AUTO_TEST_CASE(how_a_singular_run_ended_is_told_once) {
   const Folder folder;
   Json json = judged(101);

@@ -55,6 +55,7 @@ Resumed run_all(const Folder& folder, const Json& json, bool resume) {
   const std::vector<Run> runs = run_cases(all, references, options);
   Json results = to_json(results_of(runs, all, references));
   results["environment"].erase("date");
+  results["environment"].erase("stored_runs");
   Resumed resumed{results.dump(), {}};
   for (const Run& run : runs) resumed.wall_s.push_back(run.wall_s);
   return resumed;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/assembly/equation_rows.h"
 #include "tests/support/solver/frames.h"
 #include "tests/support/solver/table_1.h"
 
@@ -322,6 +323,27 @@ BOOST_AUTO_TEST_CASE(asking_for_more_modes_than_there_are_gives_what_there_is) {
     const ModalSolution m = solve(model, 50, path);
     BOOST_TEST(m.outcome.solved(), m.outcome.reason);
     BOOST_TEST(m.frequency.size() == 3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(
+    the_backward_error_of_many_modes_is_the_largest_of_each_and_finds_a_wrong_one) {
+  const System system = assemble(build_manipulator(table_1_design(), centred_pose()));
+  const ModalSolution modes = solve_modes(system, {4});
+  VectorXd w2 = (2 * kPi * modes.frequency).cwiseAbs2();
+  const auto error_of = [&](Index first, Index count) {
+    return mode_backward_error(system, nullptr, modes.shape.middleCols(first, count),
+                               w2.segment(first, count));
+  };
+  double largest = 0;
+  for (Index mode = 0; mode < 4; ++mode) largest = std::max(largest, error_of(mode, 1));
+  BOOST_TEST(largest < 1e-12);
+  BOOST_TEST(error_of(0, 4) == largest);
+  for (Index wrong = 0; wrong < 4; ++wrong) {
+    const double right = w2[wrong];
+    w2[wrong] *= 1 + 1e-3;
+    BOOST_TEST(error_of(0, 4) > 1e-9);
+    w2[wrong] = right;
   }
 }
 
