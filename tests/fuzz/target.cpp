@@ -10,6 +10,7 @@
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_compare.h"
+#include "harness/cli/command_line.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/claims.h"
 #include "harness/run/results.h"
@@ -94,7 +95,9 @@ void take_results(const fs::path& file, const fs::path& sample) {
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());  // read by the reports, which do not know the harness
   }
-  (void)compare_command({{file.string(), sample.string()}}, {});
+  CompareCommand compare;
+  compare.sides = {file.string(), sample.string()};
+  (void)compare_command(compare, {});
 }
 
 void take_file(const Input& input, const fs::path& file, const std::function<void()>& computing) {
