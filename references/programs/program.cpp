@@ -11,6 +11,7 @@
 #include "references/beams/parallelogram_chain.h"
 #include "references/beams/pendulum.h"
 #include "references/beams/rotating_beam.h"
+#include "references/beams/run_up.h"
 #include "references/beams/tapered_beam.h"
 #include "references/frames/frame_buckling.h"
 #include "references/frames/frame_sensitivity.h"
@@ -84,6 +85,9 @@ const std::map<std::string, Program>& programs() {
       {"rotating-beam-roots",
        {"the same without dimension: w sqrt(rho A L^4/EI)",
         "eta, hub_ratio, plane, count, axial_ratio", rotating_beam_roots_program}},
+      {"run-up",
+       {"run-up of an unbalanced rotor through the resonance of its carriage (Lewis 1932) [m]",
+        "unbalance_m, angular_frequency_rad_s, speed_rad_s, duration_s, times_s", run_up_program}},
       {"tapered-beam",
        {"bending frequencies of a clamped-free strip of linear depth and width [Hz] by Ritz",
         "length_m, E_Pa, rho_kg_m3, thickness_m and width_m (each [clamped, free end]), count",
