@@ -17,6 +17,7 @@
 #include "references/frames/frame_sensitivity.h"
 #include "references/frames/frame_statics.h"
 #include "references/frames/wittrick_williams.h"
+#include "references/manipulator/assembly_modes.h"
 #include "references/manipulator/manipulator_motion.h"
 #include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/nadaraya_watson.h"
@@ -31,6 +32,10 @@ const std::map<std::string, Program>& programs() {
        {"in-plane frequencies of a free annular plate [Hz] by Bessel functions (Love)",
         "inner_radius_m, outer_radius_m, E_Pa, rho_kg_m3, nu, modes (pairs [waves, number])",
         annular_membrane_program}},
+      {"assembly-modes",
+       {"all poses of the planar 3-RRR at given angles of its actuators, their number proved",
+        "base_m, platform_m, proximal_m, distal_m, angles_rad, output (count | poses)",
+        assembly_modes_program}},
       {"becks-column",
        {"cantilever under forces that follow it, at its tip (Beck) or spread over it (Leipholz): "
         "flutter load, frequencies (Bolotin 1963)",

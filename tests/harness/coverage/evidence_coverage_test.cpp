@@ -13,7 +13,8 @@ using testing::Folder;
 namespace {
 
 /// Evidence of a feature, from one case with one check on displacement_y_m:B.
-std::vector<std::string> evidence(const Json& check, const std::string& feature) {
+std::vector<std::string> evidence(const Json& check, const std::string& feature,
+                                  const Json& analysis = {}) {
   const Folder folder;
   (void)folder.write({{"id", "truth"},
                       {"title", "Truth"},
@@ -25,6 +26,7 @@ std::vector<std::string> evidence(const Json& check, const std::string& feature)
                       {"place", "here"}});
   Json json = testing::cantilever();
   json["checks"] = {{"c", check}};
+  if (!analysis.is_null()) json["analysis"] = analysis;
   const References references;
   const auto rows = evidence_coverage({testing::read(folder, json)}, references);
   const auto row = std::find_if(rows.begin(), rows.end(),
@@ -84,6 +86,24 @@ BOOST_AUTO_TEST_CASE(bounds_discrepancies_and_negative_controls_are_no_independe
   BOOST_TEST(evidence(check, feature).empty());
   check["expect"] = {{"known_discrepancy", "w"}, {"relative_between", {0.1, 0.2}}};
   BOOST_TEST(evidence(check, feature).empty());
+}
+
+BOOST_AUTO_TEST_CASE(an_error_that_a_study_takes_counts_as_what_it_is_taken_from) {
+  const Json study = {{"analysis", {{"statics", Json::object()}}},
+                      {"pointers", {"/model/elements"}},
+                      {"values", {1, 2}},
+                      {"quantities",
+                       {{"displacement_y_m:B", {{"reference", "truth"}}},
+                        {"displacement_x_m:B", {{"relative_to", "last"}}}}}};
+  Json check = {{"quantity", "relative_error:displacement_y_m:B"},
+                {"role", "verification"},
+                {"bound", {{"at_most", 1}, {"why", "w"}}}};
+  const char* feature = "model.supports";
+  BOOST_TEST(evidence(check, feature, {{"study", study}}) == List{"published"},
+             boost::test_tools::per_element());
+  check["quantity"] = "relative_error:displacement_x_m:B";
+  BOOST_TEST(evidence(check, feature, {{"study", study}}) == List{"self-consistency"},
+             boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

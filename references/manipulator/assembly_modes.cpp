@@ -1,0 +1,122 @@
+#include "references/manipulator/assembly_modes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "references/numerics/jet.h"
+#include "references/numerics/roots.h"
+
+namespace trammel::references {
+
+namespace {
+
+template <class T>
+using Vec = std::array<T, 2>;
+
+template <class T>
+T dot(const Vec<T>& a, const Vec<T>& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+
+struct Limbs {
+  std::array<Vec<Real>, 3> elbow, joint;
+  std::vector<Real> distal;
+};
+
+/// D_i of the header.
+template <class T>
+Vec<T> center(const Limbs& limbs, std::size_t i, const T& phi) {
+  const T c = cos(phi), s = sin(phi);
+  const T x(limbs.joint[i][0]), y(limbs.joint[i][1]);
+  return {T(limbs.elbow[i][0]) - (c * x - s * y), T(limbs.elbow[i][1]) - (s * x + c * y)};
+}
+
+/// P - D_1 times the determinant, and the determinant: where the lines through the common points of
+/// the circles meet.
+template <class T>
+std::pair<Vec<T>, T> meeting(const Limbs& limbs, const T& phi) {
+  std::array<Vec<T>, 2> a;
+  std::array<T, 2> b;
+  const Vec<T> first = center(limbs, 0, phi);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec<T> other = center(limbs, i + 1, phi);
+    a[i] = {first[0] - other[0], first[1] - other[1]};
+    const Real &l = limbs.distal[0], &m = limbs.distal[i + 1];
+    b[i] = (T(Real(m * m - l * l)) - dot(a[i], a[i])) / T(2);
+  }
+  return {{b[0] * a[1][1] - b[1] * a[0][1], b[1] * a[0][0] - b[0] * a[1][0]},
+          a[0][0] * a[1][1] - a[0][1] * a[1][0]};
+}
+
+template <class T>
+T Q(const Limbs& limbs, const T& phi) {
+  const auto [u, determinant] = meeting(limbs, phi);
+  return dot(u, u) - T(Real(limbs.distal[0] * limbs.distal[0])) * determinant * determinant;
+}
+
+Limbs read_limbs(const Arguments& arguments) {
+  Limbs limbs;
+  const auto point = [&](const char* key, std::size_t i) {
+    const Json one = {{"point", arguments[key].at(i)}};
+    const auto xy = Arguments(one, arguments.pointer(key), {"point"}).numbers("point", 2);
+    return Vec<Real>{xy[0], xy[1]};
+  };
+  limbs.distal = arguments.numbers("distal_m", 3);
+  const auto proximal = arguments.numbers("proximal_m", 3);
+  const auto angle = arguments.numbers("angles_rad", 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec<Real> base = point("base_m", i);
+    limbs.joint[i] = point("platform_m", i);
+    limbs.elbow[i] = {base[0] + proximal[i] * cos(angle[i]), base[1] + proximal[i] * sin(angle[i])};
+  }
+  return limbs;
+}
+
+/// The zeros of Q between two angles, every one of them; `largest` bounds |Q|.
+void find_zeros(const Arguments& arguments, const Limbs& limbs, const Real& largest,
+                const Real& from, const Real& to, std::vector<Real>& zeros) {
+  const Real half = (to - from) / 2, middle = from + half;
+  const Jet<Real> q = Q(limbs, Jet<Real>(middle, Real(1), Real(0)));
+  if (abs(q.value) > 3 * largest * half) return;
+  if (abs(q.rate) > 9 * largest * half) {
+    const auto f = [&](const Real& phi) { return Q(limbs, phi); };
+    if (f(from) * f(to) <= 0) zeros.push_back(refined_root(f, from, to));
+    return;
+  }
+  if (half < Real(1e-12))
+    arguments.fail("angles_rad", "angles at which no two poses are next to each other");
+  find_zeros(arguments, limbs, largest, from, middle, zeros);
+  find_zeros(arguments, limbs, largest, middle, to, zeros);
+}
+
+std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
+  constexpr int kPoints = 64;
+  const Real h = 2 * pi<Real>() / kPoints;
+  Real largest = 0;
+  for (int i = 0; i < kPoints; ++i) largest = std::max(largest, Real(abs(Q(limbs, Real(h * i)))));
+  std::vector<Real> zeros;
+  // Between the points |Q| is at most 3 max|Q| h/2 larger.
+  find_zeros(arguments, limbs, largest / (1 - 3 * h / 2), -pi<Real>(), pi<Real>(), zeros);
+  return zeros;
+}
+
+}  // namespace
+
+std::vector<double> assembly_modes_program(const Json& json) {
+  const Arguments arguments(
+      json, "", {"base_m", "platform_m", "proximal_m", "distal_m", "angles_rad", "output"});
+  const Limbs limbs = read_limbs(arguments);
+  const std::vector<Real> zeros = all_zeros(arguments, limbs);
+  if (arguments.choice("output", "", {"count", "poses"}) == "count")
+    return {static_cast<double>(zeros.size())};
+  std::vector<Real> poses;
+  for (const Real& phi : zeros) {
+    const auto [u, determinant] = meeting(limbs, phi);
+    const Vec<Real> first = center(limbs, 0, phi);
+    for (std::size_t k = 0; k < 2; ++k) poses.push_back(first[k] + u[k] / determinant);
+    poses.push_back(phi);
+  }
+  return to_doubles(poses);
+}
+
+}  // namespace trammel::references
