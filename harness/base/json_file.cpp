@@ -170,8 +170,9 @@ void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& 
   const bool nested =
       json.is_structured() &&
       std::any_of(json.begin(), json.end(), [](const Json& item) { return item.is_structured(); });
+  const bool last = json.is_object() && depth + 1 == deepest;
   const bool expanded =
-      !json.empty() && depth < deepest && (nested || (json.is_object() && depth < 2));
+      !json.empty() && depth < deepest && !last && (nested || (json.is_object() && depth < 2));
   if (!expanded) {
     put_line(json, text);
     return;

@@ -20,7 +20,8 @@ namespace trammel::harness {
 [[nodiscard]] Json parse_json(const std::string& text, const std::string& name);
 
 /// JSON for people and for diffs: objects over several lines, arrays of plain values on one.
-/// @param deepest  what is nested deeper stands in one line
+/// @param deepest  what is nested deeper stands in one line, and objects that are one level above
+/// it
 [[nodiscard]] std::string pretty(const Json& json, std::size_t deepest = 1000);
 
 /// Writes all of it or nothing: into a temporary file beside it, then renamed.

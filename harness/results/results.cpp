@@ -354,33 +354,59 @@ void Place::fail(const std::string& expected) const {
   throw std::runtime_error((where.empty() ? "/" : where) + ": expected " + expected);
 }
 
-/// Puts each reason once under /reasons.
-void share_reasons(Json& json) {
-  Json reasons = Json::array();
-  std::map<std::string, std::size_t> places;
-  for (Json& run : json.at("runs"))
-    for (Json& check : run.at("checks")) {
-      const auto [place, fresh] = places.emplace(check.at("why"), places.size());
-      if (fresh) reasons.push_back(check.at("why"));
-      check["why"] = place->second;
-    }
-  if (!reasons.empty()) json["reasons"] = std::move(reasons);
+/// Texts that many objects share: each stands once in a list of its own, and they hold its place.
+struct SharedTexts {
+  const char *list, *member, *fault;
+  std::vector<Json*> (*holders)(Json& json);
+};
+
+std::vector<Json*> checks_in(Json& json) {
+  std::vector<Json*> checks;
+  if (json.contains("runs"))
+    for (Json& run : json.at("runs"))
+      if (run.is_object() && run.contains("checks"))
+        for (Json& check : run.at("checks")) checks.push_back(&check);
+  return checks;
 }
 
-/// Puts the reasons back where checks hold their places.
-void give_reasons(Json& json) {
-  if (!json.is_object() || !json.contains("reasons") || !json.contains("runs")) return;
+std::vector<Json*> references_in(Json& json) {
+  std::vector<Json*> references;
+  if (json.contains("references"))
+    for (Json& reference : json.at("references")) references.push_back(&reference);
+  return references;
+}
+
+constexpr std::array<SharedTexts, 3> kSharedTexts = {{
+    {"reasons", "why", "a reason for each place that a check holds", checks_in},
+    {"citations", "citation", "a citation for each place that a reference holds", references_in},
+    {"notes", "notes", "a note for each place that a reference holds", references_in},
+}};
+
+void share_texts(Json& json, const SharedTexts& shared) {
+  Json texts = Json::array();
+  std::map<std::string, std::size_t> places;
+  for (Json* holder : shared.holders(json)) {
+    if (!holder->contains(shared.member)) continue;
+    Json& text = holder->at(shared.member);
+    const auto [place, fresh] = places.emplace(text, places.size());
+    if (fresh) texts.push_back(text);
+    text = place->second;
+  }
+  if (!texts.empty()) json[shared.list] = std::move(texts);
+}
+
+/// Puts them back.
+void give_texts(Json& json, const SharedTexts& shared) {
+  if (!json.is_object() || !json.contains(shared.list)) return;
   const Place root;
-  const auto reasons = from_json<std::vector<std::string>>(json.at("reasons"));
-  for (Json& run : json.at("runs")) {
-    if (!run.is_object() || !run.contains("checks")) continue;
-    for (Json& check : run.at("checks")) {
-      if (!check.is_object() || !check.contains("why") || !check.at("why").is_number()) continue;
-      const Json& place = check.at("why");
-      if (!place.is_number_unsigned() || place.get<std::size_t>() >= reasons.size())
-        Place{&root, "reasons"}.fail("a reason for each place that a check holds");
-      check["why"] = reasons[place.get<std::size_t>()];
-    }
+  const auto texts = from_json<std::vector<std::string>>(json.at(shared.list));
+  for (Json* holder : shared.holders(json)) {
+    if (!holder->is_object() || !holder->contains(shared.member)) continue;
+    Json& place = holder->at(shared.member);
+    if (!place.is_number()) continue;
+    if (!place.is_number_unsigned() || place.get<std::size_t>() >= texts.size())
+      Place{&root, shared.list}.fail(shared.fault);
+    place = texts[place.get<std::size_t>()];
   }
 }
 
@@ -418,7 +444,7 @@ nlohmann::ordered_json claims_to_json(const Claims& claims) {
 
 Json to_json(const Results& results) {
   Json json = to_json<Results>(results);
-  share_reasons(json);
+  for (const SharedTexts& shared : kSharedTexts) share_texts(json, shared);
   return json;
 }
 Json to_json(const Run& run) {
@@ -450,7 +476,7 @@ bool CoverageRow::is_verified() const {
 }
 
 Results read_results(Json json) {
-  give_reasons(json);
+  for (const SharedTexts& shared : kSharedTexts) give_texts(json, shared);
   auto results = from_json<Results>(json);
   complete(results);
   return results;

@@ -34,7 +34,6 @@ constexpr double kRoundoff = 1e-9;
 /// What is stated to be round-off is no more than this, relative.
 constexpr double kLargestRoundoff = 1e-6;
 constexpr std::size_t kFewEntries = 6;  ///< that are all listed
-constexpr std::size_t kSummarised = 3;  ///< entries of a quantity that a results file holds
 constexpr std::size_t kDrawnRuns = 8;   ///< whose series are kept
 
 /// What a quantity's values are compared with: all of its unit, but poses with poses, and numbers
@@ -530,7 +529,7 @@ std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>
     for (results::Run& run : runs)
       run.quantities.erase(
           std::remove_if(run.quantities.begin(), run.quantities.end(),
-                         [](const auto& q) { return q.second.size() > kSummarised; }),
+                         [](const auto& q) { return q.second.size() > kSummaryEntries; }),
           run.quantities.end());
   return lost;
 }

@@ -16,8 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxEntries = 3;  ///< of a quantity that results.json holds
-constexpr std::size_t kLineDepth = 4;   ///< a check is a line
+constexpr std::size_t kLineDepth = 4;  ///< a check is a line
 
 /// Beside the computation: what was judged of it.
 fs::path judged_file(const fs::path& stored) {
@@ -37,7 +36,7 @@ results::Run summary_of(const results::Run& run) {
   kept.cost = run.cost;
   kept.stored = run.stored;
   for (const auto& quantity : run.quantities)
-    if (quantity.second.size() <= kMaxEntries) kept.quantities.push_back(quantity);
+    if (quantity.second.size() <= kSummaryEntries) kept.quantities.push_back(quantity);
   return kept;
 }
 

@@ -8,6 +8,9 @@
 /// of convergence and uncertainty stay in the run store.
 namespace trammel::harness {
 
+/// Entries of a quantity that results.json holds where there is a store.
+inline constexpr std::size_t kSummaryEntries = 1;
+
 /// Writes results.json into the folder, all of it or nothing, and what was judged beside the
 /// computations of the store. @returns its path.
 /// @throws InputError  where the folder cannot be made or written.

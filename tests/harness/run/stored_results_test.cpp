@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(the_file_itself_holds_scalars_checks_and_verdicts_and_each_
   const Json json = read_json(write_results(computed(folder), folder.path() / "out"));
   BOOST_TEST(json["store"] == "store");
   for (const Json& run : json["runs"]) {
-    for (const Json& values : run["quantities"]) BOOST_TEST(values.size() <= 3U);
+    for (const Json& values : run["quantities"]) BOOST_TEST(values.size() == 1U);
     BOOST_TEST(!run.contains("drawing"));
     BOOST_TEST(!run.contains("convergence"));
     BOOST_TEST(!run["checks"][0].contains("message"));
@@ -62,6 +62,25 @@ BOOST_AUTO_TEST_CASE(the_file_itself_holds_scalars_checks_and_verdicts_and_each_
   }
   BOOST_TEST(json["reasons"].size() == 1U);
   BOOST_TEST(json["reasons"][0] == "it is short");
+}
+
+BOOST_AUTO_TEST_CASE(a_citation_that_references_share_stands_once_and_is_given_back_to_each) {
+  results::Results results;
+  for (const char* id : {"a", "b"}) {
+    results.references.emplace_back();
+    results.references.back().id = id;
+    results.references.back().citation = "One book.";
+  }
+  results.references.back().notes = "A note.";
+  Json json = to_json(results);
+  BOOST_TEST(json["citations"].size() == 1U);
+  BOOST_TEST(json["references"]["b"]["citation"] == 0);
+  const results::Results read = results::read_results(json);
+  BOOST_TEST(read.references.at(1).citation == "One book.");
+  BOOST_TEST(read.references.at(0).notes == "");
+  BOOST_TEST(read.references.at(1).notes == "A note.");
+  json["references"]["b"]["citation"] = 1;
+  BOOST_CHECK_THROW((void)results::read_results(json), std::runtime_error);
 }
 
 BOOST_AUTO_TEST_CASE(a_copy_without_its_store_is_read_and_says_what_is_missing) {
