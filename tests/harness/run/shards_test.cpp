@@ -32,6 +32,7 @@ std::vector<Case> cases(const Folder& folder) {
 std::string results_text(const std::vector<Run>& runs, const std::vector<Case>& all) {
   Json json = to_json(results_of(runs, all, References()));
   json["environment"].erase("date");
+  json["environment"].erase("stored_runs");
   json.erase("store");
   for (Json& run : json["runs"]) run.erase("cost"), run.erase("stored");
   return json.dump();
