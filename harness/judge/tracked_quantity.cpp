@@ -12,7 +12,8 @@ std::vector<std::size_t> indices(const JsonView& place, const char* key) {
 }
 
 bool is_exact(const references::Reference& reference) {
-  return reference.kind == references::ReferenceKind::exact ||
+  return reference.kind == references::ReferenceKind::proved ||
+         reference.kind == references::ReferenceKind::exact ||
          reference.kind == references::ReferenceKind::computed;
 }
 

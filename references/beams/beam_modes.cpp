@@ -38,7 +38,9 @@ Equation characteristic_equation(const BeamEnds& ends) {
   });
 }
 
-BeamEnds read_ends(const Arguments& arguments) {
+}  // namespace
+
+BeamEnds read_beam_ends(const Arguments& arguments) {
   BeamEnds ends;
   ends.kind = arguments.choice("ends", "",
                                {"clamped-free", "pinned-pinned", "clamped-clamped",
@@ -52,8 +54,6 @@ BeamEnds read_ends(const Arguments& arguments) {
   }
   return ends;
 }
-
-}  // namespace
 
 std::vector<Real> beam_roots(const BeamEnds& ends, int count) {
   return first_roots(characteristic_equation(ends), 1e-3, 1e-2, count);
@@ -76,7 +76,7 @@ std::vector<double> beam_modal_mass_program(const Json& json) {
 
 std::vector<double> beam_roots_program(const Json& json) {
   const Arguments arguments(json, "", {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio"});
-  const BeamEnds ends = read_ends(arguments);
+  const BeamEnds ends = read_beam_ends(arguments);
   return to_doubles(beam_roots(ends, arguments.count("count")));
 }
 
@@ -89,7 +89,7 @@ std::vector<double> beam_frequencies_program(const Json& json) {
   const Real thickness = arguments.positive("thickness_m");
   const Real radius_of_gyration = thickness / sqrt(Real(12));
   const Real wave_speed = sqrt(arguments.positive("E_Pa") / arguments.positive("rho_kg_m3"));
-  const BeamEnds ends = read_ends(arguments);
+  const BeamEnds ends = read_beam_ends(arguments);
   std::vector<double> frequencies;
   for (const Real& b : beam_roots(ends, arguments.count("count"))) {
     const Real wave_number = b / length;

@@ -26,6 +26,9 @@ struct BeamEnds {
   Real tip_inertia_ratio = 0;  ///< j [-]
 };
 
+/// Of the arguments ends, tip_mass_ratio, tip_inertia_ratio. @throws DerivationError
+[[nodiscard]] BeamEnds read_beam_ends(const Arguments& arguments);
+
 /// The first `count` roots beta L > 0 [-], to 45 digits.
 /// @throws DerivationError  where fewer are found.
 [[nodiscard]] std::vector<Real> beam_roots(const BeamEnds& ends, int count);

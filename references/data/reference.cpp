@@ -37,11 +37,12 @@ T optional(const Json& json, const std::string& file, const char* key, const cha
 }
 
 ReferenceKind parse_kind(const std::string& word, const std::string& file) {
+  if (word == "proved") return ReferenceKind::proved;
   if (word == "exact") return ReferenceKind::exact;
   if (word == "computed") return ReferenceKind::computed;
   if (word == "paper") return ReferenceKind::paper;
   if (word == "code") return ReferenceKind::code;
-  fail(file, "/kind", "'exact', 'computed', 'paper' or 'code' (got '" + word + "')");
+  fail(file, "/kind", "'proved', 'exact', 'computed', 'paper' or 'code' (got '" + word + "')");
 }
 
 /// One number for all values, or one for each.
@@ -107,7 +108,8 @@ std::string describe_derivation(const Json& derivation) {
 }  // namespace
 
 const char* to_string(ReferenceKind kind) {
-  static const std::map<ReferenceKind, const char*> names = {{ReferenceKind::exact, "exact"},
+  static const std::map<ReferenceKind, const char*> names = {{ReferenceKind::proved, "proved"},
+                                                             {ReferenceKind::exact, "exact"},
                                                              {ReferenceKind::computed, "computed"},
                                                              {ReferenceKind::paper, "paper"},
                                                              {ReferenceKind::code, "code"}};
@@ -153,9 +155,12 @@ Reference read_reference(const Json& json, const std::string& name) {
          "as many texts as values (got " + std::to_string(read.printed.size()) + " for " +
              std::to_string(read.values.size()) + ")");
   }
-  if (read.kind == ReferenceKind::exact && read.derivation.empty()) {
-    fail(name, "/", "'derivation' for a reference of kind 'exact'");
-  }
+  const bool proved = read.kind == ReferenceKind::proved;
+  if ((proved || read.kind == ReferenceKind::exact) && read.derivation.empty())
+    fail(name, "/",
+         std::string("'derivation' for a reference of kind '") + to_string(read.kind) + "'");
+  if (proved && read.printed.empty())
+    fail(name, "/", "'printed', the digits proved, for a reference of kind 'proved'");
   read.uncertainty = read_uncertainty(json, read, name);
   return read;
 }

@@ -10,7 +10,7 @@
 /// A reference: numbers from outside with their provenance, as stored in references/values/*.json.
 namespace trammel::references {
 
-enum class ReferenceKind { exact, computed, paper, code };
+enum class ReferenceKind { proved, exact, computed, paper, code };
 
 struct Reference {
   std::string id;

@@ -166,5 +166,6 @@ typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
 
 template class DynamicStiffness<double>;
 template class DynamicStiffness<Real>;
+template class DynamicStiffness<Ball>;
 
 }  // namespace trammel::references

@@ -7,6 +7,7 @@
 #include "references/frames/frame.h"
 #include "references/frames/frame_coordinates.h"
 #include "references/frames/member_dynamics.h"
+#include "references/numerics/ball.h"
 #include "references/numerics/dense.h"
 
 /// The dynamic stiffness matrix D(w) of a frame in its free coordinates, and the Wittrick-Williams
@@ -51,5 +52,6 @@ class DynamicStiffness {
 
 extern template class DynamicStiffness<double>;
 extern template class DynamicStiffness<Real>;
+extern template class DynamicStiffness<Ball>;
 
 }  // namespace trammel::references

@@ -16,10 +16,13 @@ namespace {
 const char* const kUsage =
     "Usage: trammel_derive REFERENCE-FILE...\n"
     "       trammel_derive --program NAME [--arguments JSON]\n"
+    "       trammel_derive --prove NAME [--arguments JSON]\n"
     "       trammel_derive --list\n"
     "\n"
     "With reference files: prints every stored value, the derived one and their difference, each\n"
-    "against the stated uncertainty. With --program: prints the derived values alone.\n"
+    "against the stated uncertainty. With --program: prints the derived values alone; with "
+    "--prove\n"
+    "30 digits of each, proved in ball arithmetic.\n"
     "Exit status: 0 everything holds, 1 a stored value is not what comes out, 2 bad usage or "
     "input.\n";
 
@@ -36,9 +39,13 @@ int list_programs(std::ostream& out) {
   return 0;
 }
 
-int run_program(const std::string& name, const std::string& text, std::ostream& out) {
+int run_program(const std::string& name, const std::string& text, bool proving, std::ostream& out) {
   const Json arguments = Json::parse(text, nullptr, false);
   if (arguments.is_discarded()) throw DerivationError("--arguments: not JSON");
+  if (proving) {
+    for (const std::string& digits : prove(name, arguments)) out << digits << "\n";
+    return 0;
+  }
   for (const double value : derive(name, arguments)) out << in_column(value, 0, 17) << "\n";
   return 0;
 }
@@ -82,11 +89,12 @@ int run(const std::vector<std::string>& command_line, std::ostream& out, std::os
     return 0;
   }
   if (command_line[0] == "--list" && command_line.size() == 1) return list_programs(out);
-  if (command_line[0] == "--program" && command_line.size() == 2)
-    return run_program(command_line[1], "{}", out);
-  if (command_line[0] == "--program" && command_line.size() == 4 &&
-      command_line[2] == "--arguments") {
-    return run_program(command_line[1], command_line[3], out);
+  const bool proving = command_line[0] == "--prove";
+  if ((proving || command_line[0] == "--program") &&
+      (command_line.size() == 2 ||
+       (command_line.size() == 4 && command_line[2] == "--arguments"))) {
+    return run_program(command_line[1], command_line.size() == 4 ? command_line[3] : "{}", proving,
+                       out);
   }
   for (const std::string& argument : command_line) {
     if (argument.rfind("--", 0) == 0) throw DerivationError("cannot use '" + argument + "' here");

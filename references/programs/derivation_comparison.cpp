@@ -9,7 +9,7 @@
 namespace trammel::references {
 
 bool Comparison::within_uncertainty() const {
-  if (derived.size() != stored.size()) return false;
+  if (derived.size() != stored.size() || proved != printed) return false;
   for (std::size_t i = 0; i < stored.size(); ++i) {
     if (!(std::abs(derived[i] - stored[i]) <= uncertainty[i])) return false;
   }
@@ -20,7 +20,9 @@ Comparison compare_with_derivation(const Json& json, const std::string& file) {
   Comparison result;
   try {
     const Reference reference = read_reference(json, file);
-    result = {reference.id, "", reference.unit, reference.values, reference.uncertainty, {}};
+    result = {reference.id, "", reference.unit, reference.values, reference.uncertainty, {},
+              {},           {}};
+    if (reference.kind == ReferenceKind::proved) result.printed = reference.printed;
   } catch (const ReferenceError& error) {
     throw DerivationError(error.what());
   }
@@ -29,6 +31,7 @@ Comparison compare_with_derivation(const Json& json, const std::string& file) {
   result.program = derivation.text("program");
   try {
     result.derived = derive(result.program, derivation["arguments"]);
+    if (!result.printed.empty()) result.proved = prove(result.program, derivation["arguments"]);
   } catch (const DerivationError& error) {
     const std::string message = error.what();
     const bool is_pointer = message.rfind('/', 0) == 0;  // into the arguments

@@ -14,10 +14,12 @@ struct Comparison {
   std::string program;  ///< empty: the file has no derivation
   std::string unit;
   std::vector<double> stored;
-  std::vector<double> uncertainty;  ///< absolute, one a value
-  std::vector<double> derived;      ///< empty where there is no derivation
+  std::vector<double> uncertainty;           ///< absolute, one a value
+  std::vector<double> derived;               ///< empty where there is no derivation
+  std::vector<std::string> printed, proved;  ///< digits stored and proved again, of kind "proved"
 
-  /// Every derived value lies within the stated uncertainty of the stored one.
+  /// Every derived value lies within the stated uncertainty of the stored one, and proved digits
+  /// are those stored.
   [[nodiscard]] bool within_uncertainty() const;
 };
 

@@ -23,6 +23,7 @@
 #include "references/manipulator/nadaraya_watson.h"
 #include "references/numerics/expression.h"
 #include "references/programs/parameter_sweep.h"
+#include "references/programs/proofs.h"
 
 namespace trammel::references {
 
@@ -106,7 +107,7 @@ const std::map<std::string, Program>& programs() {
        {"roots beta L of its characteristic equation (Blevins 1979, Table 8-1)",
         "ends, count; clamped-free also tip_mass_ratio M/(rho A L), tip_inertia_ratio J/(rho A "
         "L^3)",
-        beam_roots_program}},
+        beam_roots_program, prove_beam_roots}},
       {"beam-share",
        {"the beam's share of the modal mass of a cantilever with a tip mass",
         "count, tip_mass_ratio M/(rho A L)", beam_modal_mass_program}},
@@ -123,7 +124,8 @@ const std::map<std::string, Program>& programs() {
        {"exact elastic natural frequencies of a planar frame [Hz] by the dynamic stiffness method "
         "and "
         "the count of Wittrick and Williams (1971)",
-        "model (as in a case file; or manipulator, pose), count", frame_frequencies_program}},
+        "model (as in a case file; or manipulator, pose), count", frame_frequencies_program,
+        prove_frame_frequencies}},
       {"frame-frequency-sensitivity",
        {"derivatives of a planar frame's exact natural frequencies with respect to its numbers, by "
         "extrapolated differences in 50 digits",
@@ -179,14 +181,26 @@ const std::map<std::string, Program>& programs() {
   return table;
 }
 
+namespace {
+
+const Program& program_of(const std::string& name) {
+  const auto found = programs().find(name);
+  if (found != programs().end()) return found->second;
+  std::string names;
+  for (const auto& entry : programs()) names += (names.empty() ? "" : ", ") + entry.first;
+  throw DerivationError("no program '" + name + "'; there are " + names);
+}
+
+}  // namespace
+
 std::vector<double> derive(const std::string& program, const Json& arguments) {
-  const auto found = programs().find(program);
-  if (found == programs().end()) {
-    std::string names;
-    for (const auto& entry : programs()) names += (names.empty() ? "" : ", ") + entry.first;
-    throw DerivationError("no program '" + program + "'; there are " + names);
-  }
-  return found->second.run(arguments);
+  return program_of(program).run(arguments);
+}
+
+std::vector<std::string> prove(const std::string& program, const Json& arguments) {
+  const Program& found = program_of(program);
+  if (!found.prove) throw DerivationError("the program '" + program + "' proves nothing");
+  return found.prove(arguments);
 }
 
 }  // namespace trammel::references

@@ -15,6 +15,9 @@ struct Program {
   std::string summary;    ///< what it derives, with its equation's source
   std::string arguments;  ///< what it takes, in one line
   std::function<std::vector<double>(const Json&)> run;
+  /// The same as proved enclosures: 30 digits each, the last uncertain by one; empty where there is
+  /// no proof.
+  std::function<std::vector<std::string>(const Json&)> prove = {};
 };
 
 [[nodiscard]] const std::map<std::string, Program>& programs();
@@ -22,5 +25,9 @@ struct Program {
 /// The values that a program gives, in SI.
 /// @throws DerivationError  unknown program or unusable arguments; the pointer is relative to them.
 [[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
+
+/// The values that a program proves, 30 digits each.
+/// @throws DerivationError  where it has no proof, and as `derive`.
+[[nodiscard]] std::vector<std::string> prove(const std::string& program, const Json& arguments);
 
 }  // namespace trammel::references

@@ -25,7 +25,7 @@ struct Target {
 };
 
 bool is_independent(const Reference& reference) {
-  return reference.kind == "exact" || reference.kind == "computed";
+  return reference.kind == "proved" || reference.kind == "exact" || reference.kind == "computed";
 }
 
 bool compares_values(const Check& check) {

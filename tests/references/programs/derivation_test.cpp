@@ -8,6 +8,7 @@
 
 #include "references/data/reference.h"
 #include "references/programs/derivation_comparison.h"
+#include "references/programs/program.h"
 
 namespace fs = std::filesystem;
 using namespace trammel::references;
@@ -94,6 +95,20 @@ BOOST_AUTO_TEST_CASE(a_stored_exact_value_corrupted_in_its_tenth_digit_is_caught
     }
   }
   BOOST_TEST(corrupted > 100);
+}
+
+BOOST_AUTO_TEST_CASE(a_proved_digit_that_is_changed_and_a_proof_that_is_not_there_are_caught) {
+  int proved = 0;
+  for (const auto& [name, kept] : comparisons()) {
+    if (kept.printed.empty()) continue;
+    Comparison comparison = kept;
+    char& last = comparison.printed.back().back();
+    last = last == '9' ? '8' : static_cast<char>(last + 1);
+    BOOST_TEST(!comparison.within_uncertainty(), name);
+    ++proved;
+  }
+  BOOST_TEST(proved > 90);
+  BOOST_CHECK_THROW((void)prove("pendulum", Json::object()), DerivationError);
 }
 
 BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {

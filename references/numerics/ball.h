@@ -1,0 +1,86 @@
+#pragma once
+
+#include <arb.h>
+
+#include <string>
+
+#include "references/numerics/real.h"
+
+/// Ball arithmetic: a number with a radius within which the true one lies, whatever was rounded on
+/// the way. Source: F. Johansson, IEEE Trans. Computers 66(8), 2017, 1281-1292 (Arb).
+namespace trammel::references {
+
+class Ball {
+ public:
+  Ball() { arb_init(x_); }
+  Ball(int value) : Ball() { arb_set_si(x_, value); }  // NOLINT(google-explicit-constructor)
+  /// What 50 digits stand for: within 1e-45 of them, or an integer where they are one.
+  explicit Ball(const Real& value);
+  Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
+  Ball& operator=(const Ball& other) {
+    arb_set(x_, other.x_);
+    return *this;
+  }
+  ~Ball() { arb_clear(x_); }
+
+  /// The middle, as an exact number.
+  [[nodiscard]] Ball middle() const;
+  /// Rounded to 30 digits, "1.87510406871196116644530824107".
+  /// @throws DerivationError  where the ball is wider than a tenth of the last one.
+  [[nodiscard]] std::string digits() const;
+  /// @throws DerivationError  where the ball holds another number or more than one integer.
+  explicit operator int() const;
+
+  friend Ball operator+(const Ball& a, const Ball& b) { return with(arb_add, a, b); }
+  friend Ball operator-(const Ball& a, const Ball& b) { return with(arb_sub, a, b); }
+  friend Ball operator*(const Ball& a, const Ball& b) { return with(arb_mul, a, b); }
+  friend Ball operator/(const Ball& a, const Ball& b) { return with(arb_div, a, b); }
+  Ball operator-() const { return 0 - *this; }
+  Ball& operator+=(const Ball& b) { return *this = *this + b; }
+  Ball& operator-=(const Ball& b) { return *this = *this - b; }
+
+  // True or false where it is so for all numbers of both balls.
+  /// @throws DerivationError  where it cannot be told.
+  friend bool operator<(const Ball& a, const Ball& b) { return decide(a, b, arb_lt, arb_ge); }
+  friend bool operator>(const Ball& a, const Ball& b) { return decide(a, b, arb_gt, arb_le); }
+  friend bool operator>=(const Ball& a, const Ball& b) { return decide(a, b, arb_ge, arb_lt); }
+  /// Whether both are the same exact number.
+  friend bool operator==(const Ball& a, const Ball& b) {
+    return arb_is_exact(a.x_) != 0 && arb_equal(a.x_, b.x_) != 0;
+  }
+
+  friend Ball sqrt(const Ball& a) { return of(arb_sqrt, a); }
+  friend Ball sin(const Ball& a) { return of(arb_sin, a); }
+  friend Ball cos(const Ball& a) { return of(arb_cos, a); }
+  friend Ball acos(const Ball& a) { return of(arb_acos, a); }
+  friend Ball tanh(const Ball& a) { return of(arb_tanh, a); }
+  friend Ball log(const Ball& a) { return of(arb_log, a); }
+  friend Ball ceil(const Ball& a) { return of(arb_ceil, a); }
+  friend Ball abs(const Ball& a) {
+    Ball result;
+    arb_abs(result.x_, a.x_);
+    return result;
+  }
+
+ private:
+  static constexpr slong kBits = 512;
+  using Binary = void (*)(arb_t, const arb_t, const arb_t, slong);
+  using Unary = void (*)(arb_t, const arb_t, slong);
+  using Relation = int (*)(const arb_t, const arb_t);
+
+  static Ball with(Binary operation, const Ball& a, const Ball& b) {
+    Ball result;
+    operation(result.x_, a.x_, b.x_, kBits);
+    return result;
+  }
+  static Ball of(Unary function, const Ball& a) {
+    Ball result;
+    function(result.x_, a.x_, kBits);
+    return result;
+  }
+  static bool decide(const Ball& a, const Ball& b, Relation yes, Relation no);
+
+  arb_t x_;
+};
+
+}  // namespace trammel::references
