@@ -64,7 +64,10 @@ namespace trammel::harness {
 template <class Number>
 nlohmann::json packed(const std::vector<Number>& numbers) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(numbers.data());
-  return nlohmann::json::binary({bytes, bytes + numbers.size() * sizeof(Number)});
+  // By the constructor: json::binary() frees what it has not got where memory runs out.
+  using Bytes = nlohmann::json::binary_t;
+  return nlohmann::json(
+      Bytes(Bytes::container_type(bytes, bytes + numbers.size() * sizeof(Number))));
 }
 
 /// @throws std::exception  where the JSON is not what `packed` gives.

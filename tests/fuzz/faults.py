@@ -51,6 +51,8 @@ class Bench:
             surroundings.update(TRAMMEL_FAULT=fault, LD_PRELOAD=self.library)
         words = [self.program, self.command, str(self.folder / "own.json"), "--jobs", "2", "--out",
                  str(out or self.out)]
+        if self.command == "report":
+            words.append("--fresh")  # or it computes nothing
         try:
             done = subprocess.run(words, env=surroundings, preexec_fn=before, timeout=240,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,

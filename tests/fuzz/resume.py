@@ -34,6 +34,7 @@ def numbers(out):
     """All but times, date and cases that measure times, and how many runs that is."""
     results = json.loads((out / "results.json").read_text())
     results["environment"].pop("date")
+    results["environment"].pop("stored_runs", None)
     timed = {run["case"] for run in results["runs"] if run.get("timings")}
     results["runs"] = [run for run in results["runs"] if run["case"] not in timed]
     for run in results["runs"]:

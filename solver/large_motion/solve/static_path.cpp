@@ -213,12 +213,16 @@ class PathFollower {
                kChord * std::sqrt(2 + 2 * turn);
   }
 
+  [[nodiscard]] bool reverses_load(const Direction& ahead) const {
+    return ahead.load * direction_.load < 0;
+  }
+
   /// Whether what lies between two points is on the way from one to the other: a limit point has a
   /// load beyond both of theirs and changes the count of unstable directions, or another event
   /// hides there, a bifurcation has one between them.
   bool event_fits(const State& from, Index previous_unstable, const PathPoint& to,
                   const Direction& ahead) {
-    const bool load_reversed = ahead.load * direction_.load < 0;
+    const bool load_reversed = reverses_load(ahead);
     if (!stability_changed(previous_unstable, to)) return !load_reversed || previous_unstable < 0;
     PathPoint critical = to;
     locate(from, previous_unstable, load_reversed, to, critical);
@@ -276,7 +280,7 @@ class PathFollower {
   /// Records what lies between two points. @return true: the path goes on along another branch.
   bool record_event(const State& from, Index previous_unstable, const PathPoint& point,
                     const Direction& ahead, bool done) {
-    const bool load_reversed = ahead.load * direction_.load < 0;
+    const bool load_reversed = reverses_load(ahead);
     if (!load_reversed && !stability_changed(previous_unstable, point)) return false;
     PathEvent event;
     event.kind = load_reversed ? PathEvent::Kind::limit_point : PathEvent::Kind::bifurcation;

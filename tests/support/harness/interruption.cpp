@@ -52,6 +52,7 @@ std::set<fs::path> stored(const fs::path& out) {
 std::string results(const fs::path& out) {
   Json json = read_json(out / "results.json");
   json["environment"].erase("date");
+  json["environment"].erase("stored_runs");
   for (Json& run : json["runs"]) run["cost"] = run["cost"]["counters"];
   return json.dump();
 }
