@@ -7,6 +7,7 @@
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/input/schema.h"
+#include "references/data/json_files.h"
 
 namespace trammel::harness {
 namespace {
