@@ -171,15 +171,17 @@ std::map<std::string, State> states_of(const results::Run& run) {
   return states;
 }
 
-/// What each entry was when it was last written.
-std::map<std::string, State> last_states(Database& database) {
-  std::map<std::string, State> states;
+using Course = std::vector<std::pair<std::int64_t, State>>;  ///< by call
+
+std::map<std::string, Course> courses_of(Database& database) {
+  std::map<std::string, Course> courses;
   Statement rows(database,
-                 "SELECT text, verdict, value, noise FROM entry JOIN name ON name.id = entry.name "
-                 "ORDER BY entry.rowid");
+                 "SELECT text, call, verdict, value, noise FROM entry JOIN name ON name.id = "
+                 "entry.name ORDER BY entry.rowid");
   while (rows.step())
-    states[rows.text(0)] = {rows.text(1), rows.number(2), rows.number(3).value_or(0)};
-  return states;
+    courses[rows.text(0)].push_back(
+        {rows.integer(1), {rows.text(2), rows.number(3), rows.number(4).value_or(0)}});
+  return courses;
 }
 
 /// Numbers of names, each written once.
@@ -221,7 +223,8 @@ void add_call(Database& database, const results::Results& results) {
 
 /// Entries that are other than before, also those that a run no longer has.
 void add_entries(Database& database, const results::Results& results, std::int64_t call) {
-  std::map<std::string, State> before = last_states(database);
+  const std::map<std::string, Course> before = courses_of(database);
+  const auto last = [](const auto& item) -> const State& { return item.second.back().second; };
   Names names(database);
   Statement entry(database, "INSERT INTO entry VALUES (?, ?, ?, ?, ?)");
   Statement cost(database, "INSERT INTO cost VALUES (?, ?, ?, ?)");
@@ -231,12 +234,14 @@ void add_entries(Database& database, const results::Results& results, std::int64
   for (const results::Run& run : results.runs) {
     cost.run(call, names.id(name_of(run)), run.cost.cpu_s, work_of(run));
     const std::map<std::string, State> now = states_of(run);
-    for (const auto& [name, state] : now)
-      if (before.count(name) == 0 || !before.at(name).same_bits(state)) write(name, state);
+    for (const auto& [name, state] : now) {
+      const auto known = before.find(name);
+      if (known == before.end() || !last(*known).same_bits(state)) write(name, state);
+    }
     const std::string own = name_of(run) + " ";
     for (auto old = before.lower_bound(own); old != before.end() && old->first.rfind(own, 0) == 0;
          ++old)
-      if (now.count(old->first) == 0 && old->second.verdict != "gone")
+      if (now.count(old->first) == 0 && last(*old).verdict != "gone")
         write(old->first, {"gone", std::nullopt, 0});
   }
 }
@@ -252,19 +257,6 @@ std::vector<HistoryCall> calls_of(Database& database) {
     calls.push_back({rows.integer(0), rows.text(1), rows.text(2), rows.text(3), size(4), size(5),
                      size(6), size(8), rows.number(7).value_or(0)});
   return calls;
-}
-
-using Course = std::vector<std::pair<std::int64_t, State>>;  ///< by call
-
-std::map<std::string, Course> courses_of(Database& database) {
-  std::map<std::string, Course> courses;
-  Statement rows(database,
-                 "SELECT text, call, verdict, value, noise FROM entry JOIN name ON name.id = "
-                 "entry.name ORDER BY entry.rowid");
-  while (rows.step())
-    courses[rows.text(0)].push_back(
-        {rows.integer(1), {rows.text(2), rows.number(3), rows.number(4).value_or(0)}});
-  return courses;
 }
 
 /// Counted work as courses of values without noise.

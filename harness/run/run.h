@@ -44,7 +44,7 @@ struct RunOptions {
   bool any_machine = false;          ///< also times of another machine
   std::size_t memory_bytes = 0;      ///< that one computation may use; 0: no limit
   OtherSolver solver = {};
-  bool studies = true;  ///< refinements and validation uncertainty
+  bool studies = true;  ///< refinements and validation uncertainty; off without a store alone
 };
 
 /// What the process of a run answers: all but the judgement.

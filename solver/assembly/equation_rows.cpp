@@ -17,13 +17,16 @@ using Complex = std::complex<double>;
 
 namespace {
 
+double model_size(const System& system) {
+  double size = 0;
+  for (const Vector2d& position : system.mesh.positions)
+    size = std::max(size, (position - system.mesh.positions.front()).norm());
+  return size > 0 ? size : 1;
+}
+
 /// @param size  magnitudes of the coordinates; @returns them, none below a thousandth of the
 ///              largest motion
-VectorXd sizes_of(const System& system, VectorXd size) {
-  double model = 0;
-  for (const Vector2d& position : system.mesh.positions)
-    model = std::max(model, (position - system.mesh.positions.front()).norm());
-  if (!(model > 0)) model = 1;
+VectorXd sizes_of(const System& system, double model, VectorXd size) {
   const auto lever = [&](Index i) {
     return system.coordinates.is_rotation[static_cast<std::size_t>(i)] ? model : 1.0;
   };
@@ -38,6 +41,7 @@ VectorXd sizes_of(const System& system, VectorXd size) {
 
 EquationRows::EquationRows(const System& system)
     : system_(system),
+      model_size_(model_size(system)),
       sum_(VectorXcd::Zero(system.T.rows())),
       free_sum_(VectorXcd::Zero(system.T.cols())),
       terms_(VectorXd::Zero(system.T.rows())),
@@ -58,14 +62,14 @@ void EquationRows::add_element(const Coordinates& coordinates, const Matrix& k, 
 }
 
 void EquationRows::add_stiffness(const VectorXcd& u, Complex factor) {
-  const VectorXd size = sizes_of(system_, u.cwiseAbs());
+  const VectorXd size = sizes_of(system_, model_size_, u.cwiseAbs());
   for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
     add_element(coordinates, (B.transpose() * c.asDiagonal() * B).eval(), u, size, factor);
   });
 }
 
 void EquationRows::add_inertia(const VectorXcd& u, Complex factor) {
-  const VectorXd size = sizes_of(system_, u.cwiseAbs());
+  const VectorXd size = sizes_of(system_, model_size_, u.cwiseAbs());
   for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
     add_element(coordinates, m, u, size, factor);
   });
@@ -100,9 +104,10 @@ double mode_backward_error(const System& system, const SparseMatrix* K_G, const 
                            const VectorXd& w2) {
   // Modes along the rows, so that an element takes all of them at once.
   const MatrixXd u = (system.T * shapes).transpose();
+  const double model = model_size(system);
   MatrixXd size = u.cwiseAbs();
   for (Index mode = 0; mode < size.rows(); ++mode)
-    size.row(mode) = sizes_of(system, size.row(mode).transpose()).transpose();
+    size.row(mode) = sizes_of(system, model, size.row(mode).transpose()).transpose();
   MatrixXd sum = MatrixXd::Zero(u.rows(), u.cols()), terms = sum;
   const auto add = [&](const auto& coordinates, const auto& k, const MatrixXd& motion,
                        const MatrixXd& motion_size) {

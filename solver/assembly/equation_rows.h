@@ -39,6 +39,7 @@ class EquationRows {
                    const Eigen::VectorXd& size, std::complex<double> factor);
 
   const System& system_;
+  double model_size_;
   Eigen::VectorXcd sum_, free_sum_;
   Eigen::VectorXd terms_, free_terms_;
 };
