@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
@@ -64,14 +66,15 @@ bool is_json_file(const fs::path& file) {
   return file.extension() == ".json" && fs::is_regular_file(file, error);
 }
 
-/// The file of results that a name means; empty where it means none.
-fs::path results_file(const std::string& name) {
+/// The results that a name means, read once.
+std::optional<Side> stored_side(const std::string& name) {
   std::error_code error;
-  const fs::path file = name;
-  if (fs::is_directory(file, error)) return file / "results.json";
-  if (!is_json_file(file)) return {};
-  const Json json = read_json(file);
-  return json.is_object() && json.contains("format") && json.contains("runs") ? file : fs::path();
+  if (fs::is_directory(name, error))
+    return Side{name, read_summary(fs::path(name) / "results.json"), std::nullopt};
+  if (!is_json_file(name)) return std::nullopt;
+  Json json = read_json(name);
+  if (!json.is_object() || !json.contains("format") || !json.contains("runs")) return std::nullopt;
+  return Side{name, read_summary(name, std::move(json)), std::nullopt};
 }
 
 /// Why something cannot be compared with results.
@@ -116,17 +119,18 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
 }
 
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
-  std::vector<fs::path> files;
-  for (const std::string& name : names) files.push_back(results_file(name));
-  const auto none = [](const fs::path& file) { return file.empty(); };
-  if (std::all_of(files.begin(), files.end(), none)) return sides_of_cases(names);
-  const auto odd = std::find_if(files.begin(), files.end(), none);
-  if (odd != files.end())
-    refuse_beside_results(names[static_cast<std::size_t>(odd - files.begin())]);
-  if (files.size() < 2) throw InputError("expected two results (got one)");
   std::vector<Side> sides;
-  for (std::size_t s = 0; s < files.size(); ++s)
-    sides.push_back({names[s], read_summary(files[s]), std::nullopt});
+  std::vector<std::string> others;
+  for (const std::string& name : names) {
+    if (std::optional<Side> side = stored_side(name)) {
+      sides.push_back(std::move(*side));
+    } else {
+      others.push_back(name);
+    }
+  }
+  if (sides.empty()) return sides_of_cases(names);
+  if (!others.empty()) refuse_beside_results(others.front());
+  if (sides.size() < 2) throw InputError("expected two results (got one)");
   return sides;
 }
 

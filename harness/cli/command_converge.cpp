@@ -4,11 +4,14 @@
 #include <iostream>
 
 #include "harness/base/errors.h"
+#include "harness/base/json_file.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/printing/print_uncertainty.h"
+#include "harness/run/results.h"
 #include "harness/run/run.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {
@@ -58,7 +61,8 @@ void print(const Convergence& found) {
 
 }  // namespace
 
-int converge_command(const std::string& name, const std::string& variant, unsigned jobs) {
+int converge_command(const std::string& name, const std::string& variant, unsigned jobs,
+                     bool json) {
   const Case given = load_named_case(name);
   if (!given.document.value().contains("sweeps")) {
     throw given.document.error("", "expected 'sweeps', which say what to refine");
@@ -73,14 +77,20 @@ int converge_command(const std::string& name, const std::string& variant, unsign
       std::cerr << run.reason << '\n';
       return run.error == Run::RunError::input ? 2 : 3;
     }
+    if (json) continue;
     std::cout << run.case_id << ":" << run.variant << "\n\n";
     for (const Convergence& found : run.convergence) print(found);
+  }
+  const int status = exit_status(runs) == 3 ? 3 : 0;
+  if (json) {
+    std::cout << pretty(to_json(results_of(runs, {given}, references)), kLineDepth);
+    return status;
   }
   print_numerical_uncertainty(numerical_uncertainty_of(runs), std::cout);
   std::cout << "error: relative, of the exact value or else of the extrapolated one; GCI: grid\n"
                "convergence index with Roache's safety factor, 1.25 where the order is near "
                "theory, else 3\n";
-  return exit_status(runs) == 3 ? 3 : 0;
+  return status;
 }
 
 }  // namespace trammel::harness

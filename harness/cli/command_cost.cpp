@@ -189,6 +189,29 @@ void print_choice(const AccuracySearch& search, const MeasuredStudy& measured, d
             << search.patches[best->setting].dump(2) << '\n';
 }
 
+/// What was tried, and the patch of the cheapest setting within the accuracy; null where none is.
+Json choice_json(const AccuracySearch& search, const MeasuredStudy& measured, double accuracy) {
+  Json json = {{"accuracy", accuracy},
+               {"reference_change", number_or_null(search.reference_change)},
+               {"out_of_time", search.out_of_time},
+               {"tried", Json::array()},
+               {"setting", nullptr},
+               {"patch", nullptr},
+               {"tied", Json::array()}};
+  for (const TriedSetting& tried : search.tried)
+    json["tried"].push_back({{"setting", tried.title},
+                             {"error", number_or_null(tried.error)},
+                             {"reason", tried.reason}});
+  const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
+  if (const auto best = cheapest(measured.points, accuracy)) {
+    json["setting"] = title(best->setting);
+    json["patch"] = search.patches[best->setting];
+    for (const std::size_t i : tied_settings(measured.points, accuracy))
+      json["tied"].push_back(title(i));
+  }
+  return json;
+}
+
 MeasuredStudy choose_setting(const CostCommand& command, const CostOptions& options,
                              const References& references) {
   if (command.what.size() != 1 || !command.sweeps.empty())
@@ -206,11 +229,15 @@ MeasuredStudy choose_setting(const CostCommand& command, const CostOptions& opti
                              {command.accuracy, command.quantities, command.time_limit_s}, compute,
                              show);
   }
-  print_search(search);
+  if (!command.json) print_search(search);
   MeasuredStudy measured =
       measure_or_find(search.study, options, references, store, command.resume);
-  print(measured);
-  print_choice(search, measured, command.accuracy);
+  if (command.json) {
+    std::cout << pretty(choice_json(search, measured, command.accuracy));
+  } else {
+    print(measured);
+    print_choice(search, measured, command.accuracy);
+  }
   return measured;
 }
 
@@ -252,7 +279,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
       measured.push_back(measure_or_find(std::move(study), options, references,
                                          store_folder(command.out, command.store), command.resume));
     }
-    print(measured.back());
+    if (!command.json) print(measured.back());
   }
   results::Results results = results_of({}, {}, references);
   results.cost = cost_results(measured, extent, options.timing);
@@ -260,8 +287,12 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   fs::create_directories(unfinished);
   write_results(results, unfinished);
   const fs::path page = renderers.report(results, command.out, false);
-  std::cout << "results in " << (fs::path(command.out) / "results.json").string() << "\npage in "
-            << page.string() << std::endl;
+  const fs::path file = fs::path(command.out) / "results.json";
+  if (!command.json) {
+    std::cout << "results in " << file.string() << "\npage in " << page.string() << std::endl;
+  } else if (command.accuracy == 0) {
+    std::cout << read_text(file);
+  }
   const bool any_lost =
       std::any_of(measured.begin(), measured.end(),
                   [](const MeasuredStudy& study) { return study.points.empty(); });

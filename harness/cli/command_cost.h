@@ -25,6 +25,7 @@ struct CostCommand {
   double time_limit_s = 120;                 ///< of the search
   std::string store = {};                    ///< folder; empty: in `out`
   bool resume = false;
+  bool json = false;  ///< results.json instead of tables; of a search what it chose
 };
 
 /// The folder that computations are kept in.

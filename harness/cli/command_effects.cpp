@@ -180,6 +180,74 @@ void count_result(const EffectStudy& study, const std::string& name, HitCounts& 
   }
 }
 
+Json names_json(const std::vector<solver::Effect>& effects) {
+  Json names = Json::array();
+  for (const solver::Effect effect : effects) names.push_back(solver::name_of(effect));
+  return names;
+}
+
+/// A run and its change from the full model, all of it where there is no solution.
+Json run_json(const EffectRun& run) {
+  Json changes = Json::object();
+  for (const auto& [kind, change] : run.changes) changes[kind] = number_or_null(change.value);
+  return {{"status", run.outcome.solved() ? "solved" : run.outcome.reason},
+          {"change", number_or_null(max_change(run.changes).value)},
+          {"changes", changes},
+          {"cpu_s", run.cpu_s},
+          {"element_evaluations", run.counters.element_evaluations},
+          {"factorizations", run.counters.factorizations},
+          {"solves", run.counters.solves}};
+}
+
+Json ablations_json(const std::vector<Ablation>& ablations) {
+  Json json = Json::array();
+  for (const Ablation& ablation : ablations) {
+    json.push_back({{"left_out", names_json(ablation.effects)}});
+    json.back().update(run_json(ablation.run));
+  }
+  return json;
+}
+
+Json study_json(const std::string& id, const EffectStudy& study, const std::string& analysis) {
+  Json effects = Json::array();
+  for (const EffectReason& reason : study.choice.reasons)
+    effects.push_back(
+        {{"effect", solver::name_of(reason.effect)},
+         {"applicable", reason.applicable},
+         {"active", reason.active},
+         {"dimensionless_number", number_or_null(reason.number)},
+         {"number_definition",
+          reason.number ? describe_effect_number(reason.effect, analysis) : std::string()},
+         {"estimated_change", number_or_null(reason.change)},
+         {"why", reason.why}});
+  return {{"case", id},
+          {"tolerance", study.tolerance},
+          {"effects", effects},
+          {"chosen", names_json(study.choice.chosen.list())},
+          {"within_tolerance", study.within_tolerance()},
+          {"minimal", study.is_minimal()},
+          {"beyond_tier", number_or_null(study.choice.beyond_tier)},
+          {"load_over_buckling_load", number_or_null(study.load_over_buckling_load)},
+          {"deciding_cpu_s", study.choice_cpu_s},
+          {"full_run", run_json(study.full)},
+          {"chosen_run", run_json(study.chosen)},
+          {"singles", ablations_json(study.singles)},
+          {"pairs", ablations_json(study.pairs)},
+          {"from_chosen", ablations_json(study.from_chosen)}};
+}
+
+Json counts_json(const std::string& kind, const HitCounts& of) {
+  return {{"kind", kind},           {"scenes", of.scenes},     {"within", of.within},
+          {"minimal", of.minimal},  {"unsolved", of.unsolved}, {"saving", of.saving},
+          {"no_slower", of.faster}, {"time_s", of.time_s},     {"whole_time_s", of.whole_s},
+          {"whole", of.whole_ones}, {"quick", of.quick}};
+}
+
+[[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
+  throw InputError(id + ": expected a solution with all effects (" + study.full.outcome.reason +
+                   ")");
+}
+
 }  // namespace
 
 int effects_command(const EffectsCommand& command) {
@@ -191,35 +259,38 @@ int effects_command(const EffectsCommand& command) {
   }();
   const EffectStudy study = study_effects(document, {command.tolerance, true, command.repeats});
   const Json& json = document.value();
-  std::cout << json.at("id").get<std::string>() << ": " << json.at("title").get<std::string>()
-            << '\n';
+  const std::string id = json.at("id").get<std::string>();
+  const int status = study.within_tolerance() && !study.is_beyond_tier() ? 0 : 1;
+  if (command.json) {
+    if (!study.full.outcome.solved()) refuse_unsolved(id, study);
+    std::cout << pretty(study_json(id, study, analysis_kind(document)), 2);
+    return status;
+  }
+  std::cout << id << ": " << json.at("title").get<std::string>() << '\n';
   if (random) std::cout << pretty(json);
   print_effects(study.choice, analysis_kind(document));
   if (study.load_over_buckling_load)
     std::cout << "\nLoads     " << percent(*study.load_over_buckling_load)
               << " of the buckling load (linear buckling, first pose)\n";
-  if (!study.full.outcome.solved()) {
-    throw InputError(json.at("id").get<std::string>() + ": expected a solution with all effects (" +
-                     study.full.outcome.reason + ")");
-  }
+  if (!study.full.outcome.solved()) refuse_unsolved(id, study);
   std::cout << "\nMeasured against the full model\n";
   print_singles(study);
   print_pairs(study);
   print_verdict(study);
-  return study.within_tolerance() && !study.is_beyond_tier() ? 0 : 1;
+  return status;
 }
 
 int labelled_effects_command(const EffectsCommand& command) {
   Table table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">beyond [%]",
                ">whole [ms]", ">time", ">deciding"});
   bool within = true;
-  std::size_t scenes = 0;
+  Json rows = Json::array();
   for (const Case& given : Catalogue().load(command.labels)) {
     const Document document = patched(given, kBaseVariant);
     if (!knows_effects(document)) continue;
     const EffectStudy study = study_effects(document, {command.tolerance, false, command.repeats});
     if (!study.full.outcome.solved()) continue;
-    ++scenes;
+    rows.push_back(study_json(given.id(), study, analysis_kind(document)));
     within = within && study.within_tolerance() && !study.is_beyond_tier();
     table.add({given.id(), effect_names(study.choice.chosen),
                in_percent(max_change(study.chosen.changes).value), in_percent(study.tolerance),
@@ -228,8 +299,12 @@ int labelled_effects_command(const EffectsCommand& command) {
                rounded(1e3 * study.full.cpu_s, 3), ratio(study.chosen.cpu_s, study.full.cpu_s),
                ratio(study.choice_cpu_s, study.full.cpu_s)});
   }
-  if (scenes == 0)
+  if (rows.empty())
     throw InputError("expected a case with these labels whose analysis knows effects");
+  if (command.json) {
+    std::cout << pretty(rows, 3);
+    return within ? 0 : 1;
+  }
   table.print(std::cout, "");
   std::cout << "beyond: by large displacement, which the analysis does not have; time, deciding: "
                "relative to the full model\n";
@@ -252,6 +327,17 @@ int random_effects_command(const EffectsCommand& command) {
       progress.show(n + 1, command.random);
     }
   }
+  const auto share = [&](std::size_t hits) {
+    return static_cast<double>(hits) / static_cast<double>(all.scenes);
+  };
+  const int status = share(all.within) >= 0.995 && share(all.minimal) >= 0.9 ? 0 : 1;
+  if (command.json) {
+    Json rows = Json::array();
+    for (const auto& [kind, counts] : kinds) rows.push_back(counts_json(kind, counts));
+    rows.push_back(counts_json("all", all));
+    std::cout << pretty({{"seed", command.seed}, {"kinds", rows}, {"misses", misses}}, 2);
+    return status;
+  }
   for (const std::string& miss : misses) std::cout << wrapped(miss, "  ");
   Table table({"kind", ">scenes", ">within", ">minimal", ">unsolved", ">saving", ">no slower",
                ">time", ">whole", ">quick"});
@@ -269,10 +355,7 @@ int random_effects_command(const EffectsCommand& command) {
       << "; of those over 10 ms: saving more than a tenth of the whole model's time by what is "
          "left out, deciding and running no slower than it, their time over its; the others, "
          "and where deciding takes at most 15 % of it\n";
-  const auto share = [&](std::size_t hits) {
-    return static_cast<double>(hits) / static_cast<double>(all.scenes);
-  };
-  return share(all.within) >= 0.995 && share(all.minimal) >= 0.9 ? 0 : 1;
+  return status;
 }
 
 }  // namespace trammel::harness

@@ -14,6 +14,7 @@ struct EffectsCommand {
   std::vector<std::string> labels;  ///< or every case of the catalogue with one of these
   double tolerance = 0.01;          ///< where the case does not give one
   int repeats = 7;                  ///< of each measurement of time
+  bool json = false;                ///< instead of tables
 };
 
 /// What each effect is worth in one scene. @returns the exit status

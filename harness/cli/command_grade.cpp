@@ -8,6 +8,7 @@
 #include <map>
 
 #include "harness/base/errors.h"
+#include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
@@ -77,8 +78,8 @@ std::string explained(const results::Run& run, Grade grade) {
                      allowed(*check->tolerance));
 }
 
-/// A row a run, then how many of which grade. @returns whether one counts against the code
-bool print_grades(const std::vector<results::Run>& runs) {
+/// A row a run, then how many of which grade.
+void print_grades(const std::vector<results::Run>& runs) {
   Table table({"grade", "case", ">given", ">time", "what decides"});
   std::map<Grade, std::size_t> counts;
   for (const results::Run& run : runs) {
@@ -95,15 +96,12 @@ bool print_grades(const std::vector<results::Run>& runs) {
   }
   table.print(std::cout);
   std::cout << runs.size() << (runs.size() == 1 ? " run:" : " runs:");
-  bool failure = false;
   const char* separator = " ";
   for (const auto& [grade, count] : counts) {
     std::cout << separator << count << ' ' << to_string(grade);
     separator = ", ";
-    failure = failure || results::is_failure(grade);
   }
   std::cout << '\n';
-  return failure;
 }
 
 results::Solver solver_name(const std::vector<Run>& runs, const std::string& command,
@@ -140,10 +138,17 @@ int grade_command(const GradeCommand& grade, const RunCommand& run, const Render
   found.uncertainty_coverage.reset();  // it is a matter of trammel's own refinements
   const auto file = write_results(found, grade.out);
   renderers.junit(found, std::filesystem::path(grade.out) / "junit.xml");
-  const bool failure = print_grades(found.runs);
   const auto page = renderers.codes({file}, grade.out);
-  std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
+  if (run.json) {
+    std::cout << read_text(file);
+  } else {
+    print_grades(found.runs);
+    std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
+  }
   require_complete(runs);
+  const bool failure =
+      std::any_of(found.runs.begin(), found.runs.end(),
+                  [](const results::Run& one) { return is_failure(results::grade_of(one)); });
   return failure ? 1 : 0;
 }
 

@@ -66,10 +66,13 @@ Examples:
   trammel history history.db                what changed since the last green call, and when
   trammel slower ../before/trammel -L frame whether this build is slower than another one
 
+Every command that prints a table takes --json.
+
 Exit status: 0 every check passes, 1 a check failed, 2 bad usage or input, also a
 folder of --out that another call writes, 3 a fault of trammel, 130 interrupted
 (143 by SIGTERM).)";
 
+constexpr const char* kResultsJson = "As JSON, as in results.json";
 constexpr const char* kStoreHelp =
     "Folder where each run or study is kept as it ends; OUT/store by default";
 
@@ -98,6 +101,7 @@ class CommandLine {
       if (error.get_exit_code() == 0) return app_.exit(error);
       throw InputError("trammel: " + explained(error, arguments));
     }
+    run_.json = compare_.json = coverage_.json = cost_.json = effects_.json = slower_.json = json_;
     return command_();
   }
 
@@ -157,6 +161,10 @@ class CommandLine {
                     "for all of them");
   }
 
+  CLI::Option* add_json(CLI::App* sub, const char* what = "As JSON") {
+    return sub->add_flag("--json", json_, what);
+  }
+
   void add_history(CLI::App* sub) {
     sub->add_option("--history", run_.history,
                     "SQLite file that verdicts, values, times and counted work are added to, for "
@@ -167,14 +175,14 @@ class CommandLine {
     describe(sub, "The cases of the catalogue",
              "\nExamples:\n  trammel list\n  trammel list -L manipulator --json");
     sub->add_option("-L,--label", run_.labels, "Only cases with one of these labels");
-    sub->add_flag("--json", json_, "As JSON");
+    add_json(sub);
     sub->callback([this] { command_ = [this] { return list_cases(run_.labels, json_); }; });
   }
   void define_describe(CLI::App* sub) {
     describe(sub, "Model, analysis, variants, checks and references of a case",
              "\nExample:\n  trammel describe manipulator-modes");
     sub->add_option("case", name_, "Name or file of a case")->required();
-    sub->add_flag("--json", json_, "As JSON: the case with all that it extends");
+    add_json(sub, "As JSON: the case with all that it extends");
     sub->callback([this] { command_ = [this] { return describe_case(name_, json_); }; });
   }
   void define_quantities(CLI::App* sub) {
@@ -183,7 +191,8 @@ class CommandLine {
     sub->add_option("case", name_,
                     "Name or file of a case, which is computed; all analyses by "
                     "default");
-    sub->callback([this] { command_ = [this] { return quantities_command(name_); }; });
+    add_json(sub);
+    sub->callback([this] { command_ = [this] { return quantities_command(name_, json_); }; });
   }
   void define_references(CLI::App* sub) {
     describe(sub, "The stored references: values, units, uncertainty, provenance",
@@ -191,7 +200,7 @@ class CommandLine {
              "  trammel references table-2-ansys --json");
     sub->add_option("names", run_.cases, "Names of references; all by default");
     auto* csv = sub->add_flag("--csv", csv_, "A row for each value, with its source in words");
-    sub->add_flag("--json", json_, "As JSON")->excludes(csv);
+    add_json(sub)->excludes(csv);
     sub->callback([this] {
       command_ = [this] {
         return list_references(run_.cases, csv_    ? ReferenceFormat::csv
@@ -218,6 +227,7 @@ class CommandLine {
                     "of the whole catalogue")
         ->excludes("--store");
     add_costs(sub);
+    add_json(sub, kResultsJson);
     sub->callback([this] {
       if (run_.cases.empty() && run_.labels.empty() && run_.shard.empty()) {
         throw CLI::RequiredError("a case or a label");
@@ -238,7 +248,7 @@ class CommandLine {
                     "case, case:variant; or results.json or a folder that has one")
         ->required();
     auto* csv = sub->add_flag("--csv", compare_.csv, "As CSV: a row for each number");
-    sub->add_flag("--json", compare_.json, "As JSON")->excludes(csv);
+    add_json(sub)->excludes(csv);
     sub->add_option("--html", compare_.html, "Also a page with curves over each other, one file");
     sub->add_flag("--gate", compare_.gate,
                   "Exit status 1 where something differs beyond round-off");
@@ -250,8 +260,10 @@ class CommandLine {
     sub->add_option("case", name_, "Name or file of a case with sweeps")->required();
     sub->add_option("--variant", run_.variant, "Only this variant; 'base' is the case unpatched");
     add_jobs(sub);
-    sub->callback(
-        [this] { command_ = [this] { return converge_command(name_, run_.variant, run_.jobs); }; });
+    add_json(sub, kResultsJson);
+    sub->callback([this] {
+      command_ = [this] { return converge_command(name_, run_.variant, run_.jobs, json_); };
+    });
   }
   void define_cost(CLI::App* sub) {
     describe(sub, "Accuracy against computing time: error, time and Pareto front",
@@ -285,6 +297,7 @@ class CommandLine {
         ->check(CLI::Range(1.0, 1e6))
         ->capture_default_str();
     add_store(sub, cost_.resume, cost_.store);
+    add_json(sub, "As results.json; with --accuracy what was tried and chosen");
     sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
   }
   void define_claims(CLI::App* sub) {
@@ -292,7 +305,7 @@ class CommandLine {
              "\nRuns the cases that the claims rest on. Exit status 1 where a verdict is "
              "not the recorded one.\n\nExample:\n  trammel claims");
     add_jobs(sub);
-    sub->add_flag("--json", json_, "As JSON, with every number");
+    add_json(sub, "As JSON, with every number");
     sub->callback([this] { command_ = [this] { return claims_command(run_.jobs, json_); }; });
   }
   void define_coverage(CLI::App* sub) {
@@ -304,14 +317,14 @@ class CommandLine {
         "  trammel coverage --gaps\n  trammel coverage trammel-results/results.json");
     sub->add_option("results", coverage_.results, "Count the series of this results.json, too");
     sub->add_flag("--gaps", coverage_.gaps, "Only what has no independent evidence");
-    sub->add_flag("--json", coverage_.json, "As JSON");
+    add_json(sub);
     sub->callback([this] { command_ = [this] { return coverage_command(coverage_); }; });
   }
   void define_paper(CLI::App* sub) {
     describe(sub, "The paper item by item: which case shows an equation or a figure",
              "\nExamples:\n  trammel paper\n  trammel paper trammel-results/results.json");
     sub->add_option("results", name_, "Show the verdicts of this results.json, too");
-    sub->add_flag("--json", json_, "As JSON");
+    add_json(sub);
     sub->callback([this] { command_ = [this] { return paper_command(name_, json_); }; });
   }
   void define_effects(CLI::App* sub) {
@@ -341,6 +354,7 @@ class CommandLine {
     auto* labels = sub->add_option("-L,--label", effects_.labels,
                                    "Every case with one of these labels, in a table")
                        ->allow_extra_args(false);
+    add_json(sub);
     sub->callback([this, random, scene, labels] {
       const bool many = random->count() > 0, one = scene->count() > 0, all = labels->count() > 0;
       if (int(many) + int(one) + int(all) + int(!name_.empty()) != 1) {
@@ -428,6 +442,7 @@ class CommandLine {
                     "Folder for results.json, junit.xml, the page, and a folder for each call")
         ->capture_default_str();
     add_store(sub, run_.resume, run_.store);
+    add_json(sub, kResultsJson);
     add_memory(sub);
     sub->add_option("--max-time", grade_.limits.wall_s, "Wall time of one call [s]")
         ->check(CLI::Range(0.01, 1e6))
@@ -452,6 +467,7 @@ class CommandLine {
     add_jobs(sub);
     add_out(sub, "Folder for results.json and junit.xml");
     add_memory(sub);
+    add_json(sub, kResultsJson);
     sub->callback([this] {
       command_ = [this] {
         const std::vector<std::string> folders = std::exchange(run_.cases, {});
@@ -484,7 +500,7 @@ class CommandLine {
         "slow drifts.\nExit status 1 where the newest call has failures.\n\nExample:\n"
         "  trammel run -L verification --history history.db && trammel history history.db");
     sub->add_option("file", name_, "The SQLite file")->required();
-    sub->add_flag("--json", json_, "As JSON");
+    add_json(sub);
     sub->callback([this] { command_ = [this] { return history_command(name_, json_); }; });
   }
 
@@ -499,7 +515,7 @@ class CommandLine {
     sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
     sub->add_option("--repeats", slower_.repeats, "21 by default, more for many cases")
         ->check(CLI::Range(1, 10000));
-    sub->add_flag("--json", slower_.json, "As JSON");
+    add_json(sub);
     sub->callback([this] { command_ = [this] { return slower_command(slower_, run_); }; });
   }
 

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "harness/analysis/registry.h"
+#include "harness/base/json_file.h"
 #include "harness/base/table.h"
 #include "harness/input/catalogue.h"
 #include "harness/results/quantity_definitions.h"
@@ -24,6 +25,18 @@ void print_analyses() {
                "quantities of its analysis. './trammel quantities CASE' names those of a case.\n";
 }
 
+Json analyses_json() {
+  Json json = Json::array();
+  for (const AnalysisKind& kind : analysis_kinds())
+    for (const results::QuantityDefinition& one : results::quantity_definitions())
+      if (one.is_of(kind.name))
+        json.push_back({{"analysis", kind.name},
+                        {"quantity", one.name},
+                        {"unit", unit_of(one.name)},
+                        {"meaning", one.meaning}});
+  return json;
+}
+
 /// Of a quantity of the case, which in a study may be one of the analysis that is studied.
 std::string meaning_of(const std::string& name, const Document& document) {
   const std::string analysis = analysis_kind(document);
@@ -38,19 +51,33 @@ std::string meaning_of(const std::string& name, const Document& document) {
 
 }  // namespace
 
-int quantities_command(const std::string& name) {
+int quantities_command(const std::string& name, bool json) {
   if (name.empty()) {
-    print_analyses();
+    if (json) {
+      std::cout << pretty(analyses_json(), 1);
+    } else {
+      print_analyses();
+    }
     return 0;
   }
   const Case given = load_named_case(name);
   const Document document = patched(given, kBaseVariant);
   const AnalysisResult result = solution_of(given, kBaseVariant);
   Table table({"quantity", ">entries", "unit", "meaning"});
-  for (const auto& [quantity, found] : result.quantities)
-    table.add({quantity, std::to_string(found.values.size()), unit_of(quantity),
-               meaning_of(quantity, document)});
-  table.print(std::cout, "");
+  Json rows = Json::array();
+  for (const auto& [quantity, found] : result.quantities) {
+    const std::string unit = unit_of(quantity), meaning = meaning_of(quantity, document);
+    table.add({quantity, std::to_string(found.values.size()), unit, meaning});
+    rows.push_back({{"quantity", quantity},
+                    {"entries", found.values.size()},
+                    {"unit", unit},
+                    {"meaning", meaning}});
+  }
+  if (json) {
+    std::cout << pretty(rows, 1);
+  } else {
+    table.print(std::cout, "");
+  }
   return 0;
 }
 

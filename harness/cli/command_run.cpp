@@ -384,14 +384,18 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   const References references;
   const std::vector<Run> runs = compute(selection, references, command);
   for (const Run& run : runs) {
-    if (run.error != Run::RunError::none || run.interrupted_by != 0) continue;
+    if (command.json || run.error != Run::RunError::none || run.interrupted_by != 0) continue;
     print_run(run);
     if (runs.size() == 1) print_validation(run, std::cout);
   }
   const results::Results found = results_of(runs, selection.cases, references);
   const auto results = write_all(found, command.out, renderers);
-  print_summary(runs);
-  std::cout << "results in " << results.string() << std::endl;
+  if (command.json) {
+    std::cout << read_text(results);
+  } else {
+    print_summary(runs);
+    std::cout << "results in " << results.string() << std::endl;
+  }
   print_run_errors(runs);
   require_complete(runs);
   if (!command.history.empty()) append_history(command.history, found);

@@ -22,6 +22,7 @@ struct RunCommand {
   bool any_machine = false;      ///< resumes also with times of another machine
   std::string history = {};      ///< SQLite file that the call is added to; empty: none
   bool single_file = false;      ///< of a report, beside its pages
+  bool json = false;             ///< results.json instead of tables
 };
 
 /// The cases that are named, and those with the labels; the whole catalogue where there are

@@ -40,6 +40,13 @@ struct Field {
   Member Struct::*member;
   bool is_required;
 };
+/// A text that mostly is what `usual` makes of the fields before it.
+template <class Struct>
+struct UsualField {
+  const char* key;
+  std::string Struct::*member;
+  std::string (*usual)(const Struct& fields_before);
+};
 
 /// Always written; an error where it is absent.
 template <class Struct, class Member>
@@ -50,6 +57,13 @@ constexpr Field<Struct, Member> required(const char* key, Member Struct::*member
 template <class Struct, class Member>
 constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member) {
   return {key, member, false};
+}
+
+/// Not written where it is what `value` makes of the fields before it; that where it is absent.
+template <class Struct>
+constexpr UsualField<Struct> usual(const char* key, std::string Struct::*member,
+                                   std::string (*value)(const Struct& fields_before)) {
+  return {key, member, value};
 }
 
 /// Fields whose keys are the names of the members: TRAMMEL_REQUIRED(Check, name, quantity).
@@ -125,12 +139,31 @@ T from_json(const Json& json) {
 
 namespace detail {
 
+template <class Struct, class Member>
+bool is_left_out(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value) {
+  return !field.is_required && is_empty(value.*field.member);
+}
+template <class Struct>
+bool is_left_out(const UsualField<Struct>& field, const std::type_identity_t<Struct>& value) {
+  return value.*field.member == field.usual(value);
+}
+
+template <class Struct, class Member>
+void give_absent(const Field<Struct, Member>& field, const Place& place,
+                 std::type_identity_t<Struct>&) {
+  if (field.is_required) place.fail("a value, found nothing");
+}
+template <class Struct>
+void give_absent(const UsualField<Struct>& field, const Place&,
+                 std::type_identity_t<Struct>& value) {
+  value.*field.member = field.usual(value);
+}
+
 template <class T>
 Json object_to_json(const T& value) {
   Json json = Json::object();
   const auto write = [&](const auto& field) {
-    const auto& member = value.*field.member;
-    if (field.is_required || !is_empty(member)) json[field.key] = to_json(member);
+    if (!is_left_out(field, value)) json[field.key] = to_json(value.*field.member);
   };
   std::apply([&](const auto&... fields) { (write(fields), ...); }, kFields<T>);
   return json;
@@ -143,7 +176,7 @@ void object_from_json(const Json& json, const Place& place, T& value) {
     const Place member_place{&place, field.key};
     const auto found = json.find(field.key);
     if (found != json.end()) return from_json(*found, member_place, value.*field.member);
-    if (field.is_required) member_place.fail("a value, found nothing");
+    give_absent(field, member_place, value);
   };
   std::apply([&](const auto&... fields) { (read(fields), ...); }, kFields<T>);
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <system_error>
 
+#include "harness/base/quantity.h"
 #include "harness/results/fields.h"
 
 namespace trammel::results {
@@ -55,10 +56,23 @@ void from_json(const Json& json, const Place& place, Tolerance& tolerance) {
 template <>
 inline constexpr auto kFields<TwoTermLaw> =
     std::tuple{TRAMMEL_REQUIRED(TwoTermLaw, coefficients, max_relative_misfit, used)};
+std::string usual_unit(const Check& check) {
+  return harness::unit_of(check.quantity);
+}
+std::string usual_role(const Check&) {
+  return "verification";
+}
+std::string usual_measure(const Check&) {
+  return "relative";
+}
 template <>
 inline constexpr auto kFields<Check> =
-    std::tuple{TRAMMEL_REQUIRED(Check, name, quantity, index, computed, expected, unit, role,
-                                measure, difference, tolerance, why, verdict),
+    std::tuple{TRAMMEL_REQUIRED(Check, name, quantity),
+               TRAMMEL_OPTIONAL(Check, index),
+               TRAMMEL_REQUIRED(Check, computed, expected, difference, tolerance, why, verdict),
+               usual("unit", &Check::unit, usual_unit),
+               usual("role", &Check::role, usual_role),
+               usual("measure", &Check::measure, usual_measure),
                TRAMMEL_OPTIONAL(Check, title, expectation, message, statistic, reference,
                                 against_variant, against_quantity)};
 template <>
@@ -356,7 +370,9 @@ void Place::fail(const std::string& expected) const {
 
 /// Texts that many objects share: each stands once in a list of its own, and they hold its place.
 struct SharedTexts {
-  const char *list, *member, *fault;
+  const char* list;
+  std::vector<const char*> members;
+  const char* fault;
   std::vector<Json*> (*holders)(Json& json);
 };
 
@@ -376,22 +392,23 @@ std::vector<Json*> references_in(Json& json) {
   return references;
 }
 
-constexpr std::array<SharedTexts, 3> kSharedTexts = {{
-    {"reasons", "why", "a reason for each place that a check holds", checks_in},
-    {"citations", "citation", "a citation for each place that a reference holds", references_in},
-    {"notes", "notes", "a note for each place that a reference holds", references_in},
+const std::array<SharedTexts, 3> kSharedTexts = {{
+    {"reasons", {"why", "title", "message"}, "a text for each place that a check holds", checks_in},
+    {"citations", {"citation"}, "a citation for each place that a reference holds", references_in},
+    {"notes", {"notes"}, "a note for each place that a reference holds", references_in},
 }};
 
 void share_texts(Json& json, const SharedTexts& shared) {
   Json texts = Json::array();
   std::map<std::string, std::size_t> places;
-  for (Json* holder : shared.holders(json)) {
-    if (!holder->contains(shared.member)) continue;
-    Json& text = holder->at(shared.member);
-    const auto [place, fresh] = places.emplace(text, places.size());
-    if (fresh) texts.push_back(text);
-    text = place->second;
-  }
+  for (Json* holder : shared.holders(json))
+    for (const char* member : shared.members) {
+      if (!holder->contains(member)) continue;
+      Json& text = holder->at(member);
+      const auto [place, fresh] = places.emplace(text, places.size());
+      if (fresh) texts.push_back(text);
+      text = place->second;
+    }
   if (!texts.empty()) json[shared.list] = std::move(texts);
 }
 
@@ -400,14 +417,15 @@ void give_texts(Json& json, const SharedTexts& shared) {
   if (!json.is_object() || !json.contains(shared.list)) return;
   const Place root;
   const auto texts = from_json<std::vector<std::string>>(json.at(shared.list));
-  for (Json* holder : shared.holders(json)) {
-    if (!holder->is_object() || !holder->contains(shared.member)) continue;
-    Json& place = holder->at(shared.member);
-    if (!place.is_number()) continue;
-    if (!place.is_number_unsigned() || place.get<std::size_t>() >= texts.size())
-      Place{&root, shared.list}.fail(shared.fault);
-    place = texts[place.get<std::size_t>()];
-  }
+  for (Json* holder : shared.holders(json))
+    for (const char* member : shared.members) {
+      if (!holder->is_object() || !holder->contains(member)) continue;
+      Json& place = holder->at(member);
+      if (!place.is_number()) continue;
+      if (!place.is_number_unsigned() || place.get<std::size_t>() >= texts.size())
+        Place{&root, shared.list}.fail(shared.fault);
+      place = texts[place.get<std::size_t>()];
+    }
 }
 
 void complete(Results& results) {

@@ -523,8 +523,14 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
 /// @returns how many have lost theirs
 std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>& sides) {
   std::size_t lost = 0;
-  for (std::size_t s = 0; s < runs.size(); ++s)
-    if (!runs[s].stored.empty() && !take_stored(runs[s], sides[s].results.store)) ++lost;
+  Runs loaded;
+  const auto take = [&](const auto& from_store) {
+    for (std::size_t s = 0; s < runs.size(); ++s)
+      if (!runs[s].stored.empty() && !from_store(runs[s], sides[s].results.store)) ++lost;
+  };
+  take(take_stored_series);
+  for (const results::Run& run : runs) loaded.push_back(&run);
+  if (!same_bits(loaded)) take(take_stored_studies);  // where round-off matters
   if (lost > 0)
     for (results::Run& run : runs)
       run.quantities.erase(

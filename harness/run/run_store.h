@@ -8,7 +8,7 @@
 #include "harness/studies/sandboxed_run.h"
 
 /// What runs came to, kept for a later call: a file a run, named by a hash of all that decides it.
-/// CBOR (RFC 8949) after its own hash: every double as it was, also those that are no number.
+/// CBOR (RFC 8949) after its checksum: every double as it was, also those that are no number.
 namespace trammel::harness {
 
 /// Name of the file of what is computed of a case or variant: a hash of the case with all that it

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
@@ -15,8 +16,6 @@ namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kLineDepth = 4;  ///< a check is a line
 
 /// Beside the computation: what was judged of it.
 fs::path judged_file(const fs::path& stored) {
@@ -50,23 +49,6 @@ results::Run studies_of(const results::Run& run) {
   return kept;
 }
 
-/// @throws std::exception  where the store does not have it, or has it of something else.
-void take_from_store(results::Run& run, const fs::path& stored) {
-  results::Run studies = results::read_run(json_from(read_text(judged_file(stored))));
-  results::Run series = stored_series(computation_from(read_text(stored)));
-  const bool same = studies.case_id == run.case_id && studies.variant == run.variant &&
-                    std::all_of(run.quantities.begin(), run.quantities.end(), [&](const auto& own) {
-                      const results::Numbers* other = series.quantity(own.first);
-                      return other != nullptr && *other == own.second;
-                    });
-  if (!same) throw std::runtime_error("it is of another run");
-  run.quantities = std::move(series.quantities);
-  run.drawing = std::move(series.drawing);
-  run.convergence = std::move(studies.convergence);
-  run.uncertainty = std::move(studies.uncertainty);
-  run.effects = std::move(studies.effects);
-}
-
 /// The folder that a report will stand in, while it is written beside a former one.
 fs::path place_of(const fs::path& folder) {
   return folder.filename() == results::kUnfinishedFolder ? folder.parent_path() : folder;
@@ -91,11 +73,14 @@ fs::path write_results(const results::Results& results, const fs::path& folder) 
 }
 
 results::Results read_summary(const fs::path& file) {
-  const Json json = read_json(file);
+  return read_summary(file, read_json(file));
+}
+
+results::Results read_summary(const fs::path& file, Json json) {
   if (const auto fault = find_schema_fault(json, "results"))
     throw InputError(file.string(), fault->pointer, fault->message);
   try {
-    results::Results results = results::read_results(json);
+    results::Results results = results::read_results(std::move(json));
     if (!results.store.empty())
       results.store = (file.parent_path() / results.store).lexically_normal().string();
     return results;
@@ -104,9 +89,30 @@ results::Results read_summary(const fs::path& file) {
   }
 }
 
-bool take_stored(results::Run& run, const fs::path& store) {
+bool take_stored_series(results::Run& run, const fs::path& store) {
   try {
-    take_from_store(run, store / run.stored);
+    results::Run series = stored_series(computation_from(read_text(store / run.stored)));
+    const bool same =
+        std::all_of(run.quantities.begin(), run.quantities.end(), [&](const auto& own) {
+          const results::Numbers* other = series.quantity(own.first);
+          return other != nullptr && *other == own.second;
+        });
+    if (!same) return false;  // it is of another run
+    run.quantities = std::move(series.quantities);
+    run.drawing = std::move(series.drawing);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+bool take_stored_studies(results::Run& run, const fs::path& store) {
+  try {
+    results::Run studies = results::read_run(json_from(read_text(judged_file(store / run.stored))));
+    if (studies.case_id != run.case_id || studies.variant != run.variant) return false;
+    run.convergence = std::move(studies.convergence);
+    run.uncertainty = std::move(studies.uncertainty);
+    run.effects = std::move(studies.effects);
     return true;
   } catch (const std::exception&) {
     return false;
@@ -118,7 +124,9 @@ results::Results load_results(const fs::path& file) {
   if (results.store.empty()) return results;
   std::size_t missing = 0;
   for (results::Run& run : results.runs)
-    if (!run.stored.empty() && !take_stored(run, results.store)) ++missing;
+    if (!run.stored.empty() &&
+        !(take_stored_studies(run, results.store) && take_stored_series(run, results.store)))
+      ++missing;
   if (missing > 0)
     results.missing =
         std::to_string(missing) + " of " + std::to_string(results.runs.size()) +

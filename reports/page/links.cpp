@@ -43,8 +43,11 @@ std::string anchor_within(const std::string& page, const std::string& fragment) 
 
 }  // namespace
 
-std::string linked_from(const std::string& html, const std::string& page) {
-  const auto change = [&](const std::string& target) {
+std::string linked_from(const std::string& html, const std::string& page,
+                        const std::map<std::string, std::string>& moved) {
+  const auto change = [&](const std::string& sought) {
+    const auto elsewhere = moved.find(sought);
+    const std::string& target = elsewhere == moved.end() ? sought : elsewhere->second;
     if (target.empty() || target[0] == '#' || is_outside(target)) return target;
     if (target.rfind(page + "#", 0) == 0) return target.substr(page.size());
     return (page.find('/') == std::string::npos ? "" : "../") + target;

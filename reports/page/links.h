@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,9 @@ namespace trammel::reports {
 /// where a page stands and whether all pages are one file is decided here, on the finished text.
 
 /// As these links read on the page at `page` ("cases/a.html").
-[[nodiscard]] std::string linked_from(const std::string& html, const std::string& page);
+/// @param moved  where targets stand instead
+[[nodiscard]] std::string linked_from(const std::string& html, const std::string& page,
+                                      const std::map<std::string, std::string>& moved = {});
 
 /// As they read where one file holds all pages: ids of the page's own get its anchor before them.
 [[nodiscard]] std::string linked_within(const std::string& html, const std::string& page);

@@ -83,7 +83,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   index.set("targets", targets_section(results, families));
   index.set("orders", orders_section(results, families));
   index.set("validation_uncertainty", validation_uncertainty_section(results, families));
-  index.set("coverage", coverage_section(results));
+  index.set("coverage", coverage_section(results, false));
   set_text(index, "missing", results.missing);
   set_flag(index, "has_claims", results.claims.has_value());
   set_flag(index, "has_runs", !results.runs.empty() || panels.empty());
@@ -225,10 +225,57 @@ std::string case_body(const Data& section, bool single) {
   return render("case.mustache", data);
 }
 
-std::string references_body(const Results& results, bool single) {
-  Data data = page_data(single, 2);
-  data.set("references", references_section(results));
+std::string coverage_body(const Results& results) {
+  Data data = page_data(false, 2);
+  data.set("coverage", coverage_section(results, true));
+  return render("coverage.mustache", data);
+}
+
+std::string references_body(const Data& references, bool single) {
+  Data data = page_data(single, single ? 3 : 2);
+  data.set("references", references);
   return render("references.mustache", data);
+}
+
+/// References that a family is the first to use, or that only analyses use.
+struct ReferencePage {
+  std::string title, path;
+  Data references = list();
+};
+
+std::vector<ReferencePage> reference_pages(const Results& results,
+                                           const std::vector<Family>& families) {
+  std::vector<ReferencePage> pages;
+  std::map<std::string, std::size_t> family_of;
+  for (const Family& family : families) {
+    for (const CaseInfo* info : family.cases) family_of.emplace(case_link(info->id), pages.size());
+    pages.push_back({family.title, "references/" + slug(family.id) + ".html"});
+  }
+  pages.push_back({"Used by analyses alone", "references/of-analyses.html"});
+  const Data all = references_section(results);
+  for (const Data& entry : all.list_value()) {
+    std::size_t first = families.size();
+    for (const Data& user : entry.get("used_by")->list_value())
+      first = std::min(first, family_of.at(user.get("case_link")->string_value()));
+    pages[first].references.push_back(entry);
+  }
+  const auto is_empty = [](const auto& page) { return page.references.list_value().empty(); };
+  pages.erase(std::remove_if(pages.begin(), pages.end(), is_empty), pages.end());
+  return pages;
+}
+
+/// All references by their pages, at the addresses that links name.
+std::string reference_list(const std::vector<ReferencePage>& pages) {
+  Data data = object(), all = list();
+  for (const ReferencePage& page : pages) {
+    Data group = object();
+    group.set("page_title", page.title);
+    group.set("page_link", page.path);
+    group.set("references", page.references);
+    all.push_back(group);
+  }
+  data.set("pages", all);
+  return render("reference_list.mustache", data);
 }
 
 /// Marks and drawings, by the page that they stand on.
@@ -273,8 +320,15 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   Frame frame{results, index_contents(index), {}, false};
   for (const Family& family : families) frame.families.push_back(family_section(family, results));
   std::vector<SiteFile> files;
+  const std::vector<ReferencePage> references = reference_pages(results, families);
+  std::map<std::string, std::string> moved;
+  for (const ReferencePage& page : references)
+    for (const Data& entry : page.references.list_value()) {
+      const std::string anchor = "#" + entry.get("anchor")->string_value();
+      moved.emplace("references.html" + anchor, page.path + anchor);
+    }
   const auto add = [&](const std::string& path, const Data& title, const std::string& body) {
-    files.push_back({path, linked_from(frame.around(path, title, body), path)});
+    files.push_back({path, linked_from(frame.around(path, title, body), path, moved)});
   };
   for (std::size_t f = 0; f < families.size(); ++f) {
     const Data& section = frame.families[f];
@@ -288,8 +342,15 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
       add(case_link(info->id), title, case_body(data, false));
     }
   }
-  if (!results.references.empty())
-    add("references.html", titled("References"), references_body(results, false));
+  for (const ReferencePage& page : references) {
+    Data title = titled(page.title);
+    title.set("above", "References");
+    title.set("above_link", "references.html");
+    add(page.path, title, references_body(page.references, false));
+  }
+  if (!references.empty()) add("references.html", titled("References"), reference_list(references));
+  if (index.get("coverage")->get("has_rows")->is_true())
+    add("coverage.html", titled("What is verified, and by what"), coverage_body(results));
   add("index.html", titled_index(index), render("index.mustache", index));
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
@@ -326,7 +387,7 @@ std::string single_page(const Results& results, std::vector<Family> families,
           linked_within(case_body(case_section(*info, family, results), true), case_link(info->id));
   }
   if (!results.references.empty())
-    body += linked_within(references_body(results, true), "references.html");
+    body += linked_within(references_body(references_section(results), true), "references.html");
   Data title = titled_index(index);
   std::string html = linked_within(frame.around("index.html", title, kBody), "index.html");
   replace(html, kBody, body);

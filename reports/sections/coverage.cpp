@@ -18,7 +18,6 @@ Data row_data(const CoverageRow& row) {
     const bool has =
         std::find(row.evidence.begin(), row.evidence.end(), kind) != row.evidence.end();
     cell.set("mark", has ? "●" : "");
-    cell.set("title", has ? kind : "");
     kinds.push_back(cell);
   }
   data.set("kinds", kinds);
@@ -29,7 +28,7 @@ Data row_data(const CoverageRow& row) {
 }
 
 Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
-                const std::string& title) {
+                const std::string& title, bool with_verified) {
   Data all = list();
   std::size_t count_all = 0, verified = 0, stated = 0;
   // What has no independent evidence first.
@@ -39,11 +38,12 @@ Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
       ++count_all;
       verified += is_verified ? 1 : 0;
       stated += row.reason.empty() ? 0 : 1;
-      all.push_back(row_data(row));
+      if (with_verified || !is_verified) all.push_back(row_data(row));
     }
   }
   Data data = object();
   data.set("title", title);
+  set_flag(data, "has_rows", !all.list_value().empty());
   data.set("rows", all);
   data.set("count", std::to_string(verified) + " of " + std::to_string(count_all) +
                         " with independent evidence, " + std::to_string(stated) +
@@ -53,14 +53,18 @@ Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
 
 }  // namespace
 
-Data coverage_section(const Results& results) {
+Data coverage_section(const Results& results, bool with_verified) {
   Data section = object();
   const auto& rows = results.coverage;
   set_flag(section, "has_rows", !rows.empty());
+  set_flag(section, "with_verified", with_verified);
   Data groups = list();
-  groups.push_back(group_data(rows, "key", "Keys and values of a case"));
-  groups.push_back(group_data(rows, "pair", "Analyses with parts, elements and joints"));
-  groups.push_back(group_data(rows, "quantity", "Quantities"));
+  const auto add = [&](const char* group, const char* title) {
+    groups.push_back(group_data(rows, group, title, with_verified));
+  };
+  add("key", "Keys and values of a case");
+  add("pair", "Analyses with parts, elements and joints");
+  add("quantity", "Quantities");
   section.set("groups", groups);
   Data kinds = list();
   for (const char* kind : kKinds) kinds.push_back(Data(kind));

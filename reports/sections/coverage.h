@@ -6,6 +6,7 @@
 namespace trammel::reports {
 
 /// What is verified by what kind of evidence, and what by none.
-[[nodiscard]] Data coverage_section(const Results& results);
+/// @param with_verified  features with independent evidence, too
+[[nodiscard]] Data coverage_section(const Results& results, bool with_verified);
 
 }  // namespace trammel::reports

@@ -229,6 +229,52 @@ BOOST_AUTO_TEST_CASE(a_pipe_sees_no_progress_bar) {
   BOOST_TEST(!contains(outcome.out, "\r"));
 }
 
+BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
+  const Folder folder;
+  Json json = judged(101);
+  json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},
+                                {"values", {1, 2, 4}},
+                                {"quantities", {{"displacement_y_m:B", Json::object()}}}};
+  (void)folder.write(json);
+  (void)run(folder, "run cantilever.json --shard 1/1 --out shard");
+  const std::string program = "'" TRAMMEL_PROGRAM "'", file = " cantilever.json";
+  const std::vector<std::pair<std::string, std::string>> commands = {
+      {"list", "/0/title"},
+      {"describe" + file, "/model/nodes"},
+      {"quantities", "/0/meaning"},
+      {"quantities" + file, "/0/entries"},
+      {"references", "/0/values"},
+      {"run" + file + " --history h.db", "/runs/0/checks/0/verdict"},
+      {"merge shard", "/runs/0/checks/0/verdict"},
+      {"compare" + file + file, "/sides/0/label"},
+      {"converge" + file, "/runs/0/convergence/0/values/2"},
+      {"cost" + file, "/cost/studies/0/settings/0/cpu_s"},
+      {"cost" + file + " --accuracy 0.01", "/patch/model"},
+      {"coverage", "/0/evidence"},
+      {"paper", "/0/what"},
+      {"effects scene-soft-platform --repeats 0", "/full_run/element_evaluations"},
+      {"effects --random 1", "/kinds/0/within"},
+      {"grade \"" TRAMMEL_PROGRAM " solve\"" + file, "/runs/0/checks/0/verdict"},
+      {"history h.db", "/calls/0/checks"},
+      {"slower " + program + file + " --repeats 10", "/0/ratio"}};
+  std::set<std::string> seen = {"claims", "report", "export", "solve", "slurm"};
+  for (const auto& [words, pointer] : commands) {
+    seen.insert(words.substr(0, words.find(' ')));
+    const Outcome outcome = run(folder, words + " --json");
+    BOOST_TEST_REQUIRE(outcome.status < 2, words << ": " << outcome.err);
+    BOOST_TEST(parse_json(outcome.out, words).contains(Json::json_pointer(pointer)), words);
+  }
+  BOOST_TEST(contains(run(folder, "claims --help").out, "--json"));  // it runs a whole catalogue
+  std::istringstream help(run(folder, "--help").out);
+  std::string line, name;
+  while (std::getline(help, line) && line != "Subcommands:") {
+  }
+  while (std::getline(help, line) && !line.empty())
+    if (std::istringstream(line) >> name && line[2] != ' ')
+      BOOST_TEST(seen.count(name) == 1U, name);
+  BOOST_TEST(seen.size() > 15U);
+}
+
 BOOST_AUTO_TEST_CASE(a_misspelt_case_or_command_is_answered_with_the_nearest) {
   const Folder folder;
   BOOST_TEST(contains(run(folder, "rnu x").err, "did you mean 'run'?"));

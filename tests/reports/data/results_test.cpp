@@ -86,4 +86,28 @@ BOOST_AUTO_TEST_CASE(a_number_that_is_not_there_is_empty_and_not_zero) {
   BOOST_TEST(seen);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_usual_of_a_check_is_left_out_and_read_as_if_it_stood_there) {
+  const ordered_json whole = sample_results(), text = to_json(read_results(whole));
+  std::size_t left_out = 0;
+  for (std::size_t r = 0; r < whole["runs"].size(); ++r)
+    for (std::size_t c = 0; c < whole["runs"][r]["checks"].size(); ++c) {
+      const ordered_json &before = whole["runs"][r]["checks"][c],
+                         &now = text["runs"][r]["checks"][c];
+      BOOST_TEST(now.contains("role") == (before["role"] != "verification"));
+      BOOST_TEST(now.contains("measure") == (before["measure"] != "relative"));
+      BOOST_TEST(now.contains("index") == !before["index"].is_null());
+      left_out += now.contains("unit") ? 0 : 1;
+    }
+  BOOST_TEST(left_out > 100U);
+  const auto again = read_results(text), first = read_results(whole);
+  for (std::size_t r = 0; r < first.runs.size(); ++r)
+    for (std::size_t c = 0; c < first.runs[r].checks.size(); ++c) {
+      const auto &a = first.runs[r].checks[c], &b = again.runs[r].checks[c];
+      const bool same = a.role == b.role && a.measure == b.measure && a.unit == b.unit &&
+                        a.index == b.index && a.title == b.title && a.message == b.message &&
+                        a.why == b.why;
+      BOOST_TEST(same, a.name);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -114,6 +114,25 @@ BOOST_AUTO_TEST_CASE(a_case_its_checks_and_variants_have_addresses_made_of_their
   BOOST_TEST(other.find("trammel run manipulator-modes-centred --variant ") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(references_stand_on_pages_of_the_families_and_keep_their_address) {
+  const auto pages = pages_of(sample_report());
+  const std::string& all = pages.at("references.html");
+  const auto references = sample_results()["references"];
+  std::size_t listed = 0;
+  for (const auto& [id, reference] : references.items()) {
+    const std::string anchor = "id=\"ref-" + id + "\"";
+    listed += occurrences(all, anchor);
+    std::size_t told = 0;
+    for (const auto& [path, text] : pages)
+      if (path.rfind("references/", 0) == 0) told += occurrences(text, anchor);
+    BOOST_TEST(told == 1U, id);
+  }
+  BOOST_TEST(listed == references.size());
+  const std::string& page = pages.at("cases/cantilever.html");
+  BOOST_TEST(page.find("href=\"../references/") != std::string::npos);
+  BOOST_TEST(page.find("references.html#") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(one_file_holds_all_pages_needs_no_other_and_says_what_it_leaves_out) {
   const Workspace workspace;
   const fs::path file =

@@ -129,7 +129,7 @@ for (const name of ["index.html", "cases/manipulator-modes.html"]) {
 }
 
 // Accessibility, and no page that scrolls sideways.
-for (const name of ["index.html", "cases/manipulator-modes.html", "cases/circle-load.html", "families/manipulator-modes.html", "references.html"])
+for (const name of ["index.html", "cases/manipulator-modes.html", "cases/circle-load.html", "families/manipulator-modes.html", "references.html", "references/manipulator-modes.html"])
   for (const width of [1280, 400])
     for (const scheme of ["light", "dark"]) {
       if (!existsSync(join(out, name))) continue;
