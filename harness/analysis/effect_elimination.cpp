@@ -197,9 +197,10 @@ bool coarsen_members(CaseModel& scene, solver::Index most) {
 /// A platform of three triangles; @returns whether it had more.
 bool coarsen_platform(CaseModel& scene) {
   if (!scene.manipulator) return false;
-  int& refinements = scene.manipulator->platform.refinements;
-  if (scene.manipulator->platform.pin_radius > 0 || refinements == 0) return false;
-  refinements = 0;
+  solver::PlatformDesign& platform = scene.manipulator->platform;
+  if (platform.pin_radius > 0 || (platform.refinements == 0 && !platform.six_nodes)) return false;
+  platform.refinements = 0;
+  platform.six_nodes = false;
   return true;
 }
 

@@ -73,7 +73,8 @@ class Estimator {
       }
       const JsonView platform = (*manipulator)["platform"];
       if (const auto refinements = platform.find("refinements")) {
-        add_coordinates(*refinements, 3 * std::pow(4, refinements->get<double>()), true);
+        const int middles = platform.has("element") && platform.text("element") == "six-node";
+        add_coordinates(*refinements, 3 * std::pow(4, refinements->get<double>() + middles), true);
       }
     }
     if (const auto trajectory = model.find("trajectory")) {

@@ -1,5 +1,7 @@
 #include "harness/motion/analyse_grnn.h"
 
+#include <algorithm>
+#include <boost/math/interpolators/makima.hpp>
 #include <cmath>
 #include <limits>
 
@@ -205,6 +207,27 @@ void record_positions(const solver::ManipulatorGeometry& geometry, const CaseMod
   }
 }
 
+/// The outputs over time by a modified Akima spline through the training points, along its tangents
+/// beyond them: what the samples allow without torques.
+Eigen::MatrixXd spline_over_time(const CaseModel& case_model, const Eigen::MatrixXd& outputs,
+                                 const std::vector<solver::Index>& training) {
+  std::vector<double> times;
+  for (const solver::Index k : training)
+    times.push_back(case_model.motion[static_cast<std::size_t>(k)].time);
+  Eigen::MatrixXd predicted(outputs.rows(), outputs.cols());
+  for (solver::Index j = 0; j < outputs.cols(); ++j) {
+    const Eigen::VectorXd values = outputs(training, j);
+    const boost::math::interpolators::makima<std::vector<double>> spline(
+        std::vector<double>(times), {values.begin(), values.end()});
+    for (solver::Index k = 0; k < outputs.rows(); ++k) {
+      const double time = case_model.motion[static_cast<std::size_t>(k)].time;
+      const double inside = std::clamp(time, times.front(), times.back());
+      predicted(k, j) = spline(inside) + (time - inside) * spline.prime(inside);
+    }
+  }
+  return predicted;
+}
+
 }  // namespace
 
 StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, bool draw,
@@ -225,11 +248,19 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
   const std::vector<bool> trains = solver::training_mask(count, train, read_split(analysis),
                                                          analysis.get<std::uint64_t>("seed", 1));
   const Parts parts = parts_of(trains);
-  solver::Grnn network =
-      solver::make_grnn(rows(samples.inputs, parts.training), rows(samples.outputs, parts.training),
-                        1, read_scaling(analysis));
-  choose_sigma(analysis, network, record);
-  const Eigen::MatrixXd predicted = solver::predict(network, samples.inputs);
+  const bool spline = analysis.get<std::string>("surrogate", "network") == "spline";
+  solver::Grnn network;
+  Eigen::MatrixXd predicted;
+  if (spline) {
+    constexpr solver::Index kFewest = 4;
+    if (train < kFewest) throw analysis["train"].error("expected at least 4 points for a spline");
+    predicted = spline_over_time(case_model, samples.outputs, parts.training);
+  } else {
+    network = solver::make_grnn(rows(samples.inputs, parts.training),
+                                rows(samples.outputs, parts.training), 1, read_scaling(analysis));
+    choose_sigma(analysis, network, record);
+    predicted = solver::predict(network, samples.inputs);
+  }
   const Eigen::MatrixXd error = predicted - samples.outputs;
   const OutputScales scales(samples.outputs);
   for (std::size_t step = 0; step < case_model.motion.size(); ++step) {
@@ -239,13 +270,14 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
   record_positions(manipulator.geometry, case_model, predicted, record);
   record_part("training", parts.training, samples, error, scales, record);
   record_part("held_out", parts.held_out, samples, error, scales, record);
-  if (!parts.held_out.empty()) {
+  if (!parts.held_out.empty() && !spline) {
     record_skill(network, samples, parts.held_out, rms(rows(error, parts.held_out), scales), scales,
                  record);
   }
-  record.add("kernel_evaluations", "", static_cast<double>(train));
+  if (!spline) record.add("kernel_evaluations", "", static_cast<double>(train));
   if (draw) {
     result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
+    if (spline) return result;
     result.timings = time_against_solving(network, manipulator, case_model, samples);
   }
   return result;

@@ -6,6 +6,7 @@
 #include "harness/readers/damping_reader.h"
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
+#include "harness/statics_modes/reduced_system.h"
 #include "solver/modes/modes.h"
 
 namespace trammel::harness {
@@ -87,7 +88,10 @@ class HarmonicScene {
         damped_(case_model.effects.has(solver::Effect::damping) && analysis.has("damping")) {
     if (case_model.path) throw analysis.error("expected a model at one place");
     if (!(high_ > low_)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
-    system = solver::assemble(build_model(case_model, step), case_model.effects);
+    ReducedSystem reduced = reduced_system(
+        analysis, solver::assemble(build_model(case_model, step), case_model.effects));
+    system = std::move(reduced.system);
+    outcome_ = reduced.outcome;
     outputs = read_outputs(analysis["outputs"], system.model);
     try {
       response.emplace(system, damped_ ? read_damping(analysis) : solver::HarmonicDamping());
@@ -97,7 +101,7 @@ class HarmonicScene {
   }
 
   [[nodiscard]] StepResult result() const {
-    return {response->of_system().outcome(), {}, std::nullopt};
+    return {outcome_.solved() ? response->of_system().outcome() : outcome_, {}, std::nullopt};
   }
 
   void record_at(std::size_t point, bool with_evidence, Recorder& record,
@@ -122,6 +126,7 @@ class HarmonicScene {
   double low_, high_;
   std::size_t points_;
   bool damped_;
+  solver::Outcome outcome_;
 };
 
 }  // namespace

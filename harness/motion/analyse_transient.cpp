@@ -7,6 +7,7 @@
 #include "harness/motion/motion_history.h"
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
+#include "harness/statics_modes/reduced_system.h"
 
 namespace trammel::harness {
 namespace {
@@ -70,7 +71,11 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
 StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model,
                              std::size_t step, bool draw, Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model at one place");
-  const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
+  if (analysis.has("reduction") && analysis.has("rotating_frame"))
+    throw analysis["reduction"].error("expected it without 'rotating_frame'");
+  const auto [outcome, system] =
+      reduced_system(analysis, solver::assemble(build_model(case_model, step), case_model.effects));
+  if (!outcome.solved()) return {outcome, system.counters};
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
   StepResult result{motion.outcome, motion.counters, std::nullopt, {}, motion.evidence};

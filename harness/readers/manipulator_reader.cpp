@@ -82,6 +82,7 @@ solver::PlatformDesign read_platform(const JsonView& manipulator) {
   design.material = read_material(
       manipulator[manipulator.has("platform_material") ? "platform_material" : "material"]);
   design.refinements = platform.get("refinements", 0);
+  design.six_nodes = platform.get<std::string>("element", "three-node") == "six-node";
   design.pin_radius = platform.get("pin_radius_m", 0.0);
   design.mass = read_printed(platform, "mass_kg");
   design.inertia = read_printed(platform, "inertia_kg_m2");

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
+#include "harness/statics_modes/reduced_system.h"
 #include "harness/statics_modes/rotating_state.h"
 #include "solver/modes/modes.h"
 #include "solver/modes/prestressed_modes.h"
-#include "solver/modes/reduction.h"
 #include "solver/poses/pose_modes.h"
 
 namespace trammel::harness {
@@ -31,8 +31,9 @@ solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
   if (case_model.effects.has(solver::Effect::geometric_stiffening)) {
     throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
   }
-  return solver::reduce_members(
-      system, analysis["reduction"]["fixed_interface_modes"].get<solver::Index>());
+  if (analysis["reduction"].has("modes"))
+    throw analysis["reduction"].error("expected 'fixed_interface_modes': modes are looked for");
+  return reduced_system(analysis, std::move(system)).system;
 }
 
 solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_model,
@@ -105,7 +106,8 @@ bool is_condensable(const solver::ManipulatorDesign& design) {
       return false;
   }
   return design.platform.kind == solver::PlatformKind::rigid ||
-         (design.platform.refinements == 0 && design.platform.pin_radius == 0);
+         (design.platform.refinements == 0 && design.platform.pin_radius == 0 &&
+          !design.platform.six_nodes);
 }
 
 /// Whether the modes follow the pose: a manipulator on a path, alone, at rest and without loads

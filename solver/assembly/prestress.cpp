@@ -1,10 +1,10 @@
 #include "solver/assembly/prestress.h"
 
+#include <Eigen/Jacobi>
 #include <cmath>
 
 #include "solver/assembly/projection.h"
 #include "solver/elements/triangle_interpolation.h"
-#include "solver/linalg/dense_eigen.h"
 
 namespace trammel::solver {
 namespace {
@@ -38,14 +38,18 @@ PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation
                                                      double volume) {
   Eigen::Matrix2d tensor;
   tensor << stress[0], stress[2], stress[2], stress[1];
-  const SymmetricEigenpairs<Eigen::Matrix2d> principal = symmetric_eigenpairs(tensor);
-  const Eigen::Matrix<double, 2, 6> along = principal.vector.transpose() * at.gradient;
+  Eigen::JacobiRotation<double> to_principal;
+  to_principal.makeJacobi(tensor, 0, 1);
+  tensor.applyOnTheRight(0, 1, to_principal);
+  tensor.applyOnTheLeft(0, 1, to_principal.adjoint());
+  Eigen::Matrix<double, 2, 6> along = at.gradient;
+  along.applyOnTheLeft(0, 1, to_principal.adjoint());
   PlateGeometricStiffness<n> part;
   for (Index i = 0; i < n / 2; ++i) {
     part.B(0, 2 * i) = part.B(1, 2 * i + 1) = along(0, i);
     part.B(2, 2 * i) = part.B(3, 2 * i + 1) = along(1, i);
   }
-  const Vector2d s = volume * principal.value;
+  const Vector2d s = volume * tensor.diagonal();
   part.H.diagonal() << s[0], s[0], s[1], s[1];
   return part;
 }

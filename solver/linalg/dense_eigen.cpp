@@ -28,7 +28,6 @@ SymmetricEigenpairs<Matrix> symmetric_eigenpairs(const Matrix& A) {
   if (A.size() == 0) return {true, {}, {}};
   return result_of<Matrix>(Eigen::SelfAdjointEigenSolver<Matrix>(A), A.rows(), true);
 }
-template SymmetricEigenpairs<Eigen::Matrix2d> symmetric_eigenpairs(const Eigen::Matrix2d&);
 template SymmetricEigenpairs<Eigen::Matrix3d> symmetric_eigenpairs(const Eigen::Matrix3d&);
 template SymmetricEigenpairs<Eigen::MatrixXd> symmetric_eigenpairs(const Eigen::MatrixXd&);
 template SymmetricEigenpairs<Eigen::MatrixXcd> symmetric_eigenpairs(const Eigen::MatrixXcd&);
@@ -49,8 +48,8 @@ ComplexEigenpairs eigenpairs(const Eigen::MatrixXd& A) {
           Eigen::MatrixXcd::Constant(A.rows(), A.rows(), kNaN)};
 }
 
-double spectral_radius(const Eigen::Matrix3d& A) {
-  const Eigen::EigenSolver<Eigen::Matrix3d> solver(A, false);
+double spectral_radius(const Eigen::MatrixXd& A) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, false);
   return solver.info() == Eigen::Success ? solver.eigenvalues().cwiseAbs().maxCoeff() : kNaN;
 }
 

@@ -13,7 +13,7 @@ struct SymmetricEigenpairs {
   Matrix vector;                                              ///< one a column
 };
 
-/// A x = lambda x, A Hermitian, x^H x = 1; for Matrix2d, Matrix3d, MatrixXd and MatrixXcd.
+/// A x = lambda x, A Hermitian, x^H x = 1; for Matrix3d, MatrixXd and MatrixXcd.
 template <class Matrix>
 [[nodiscard]] SymmetricEigenpairs<Matrix> symmetric_eigenpairs(const Matrix& A);
 
@@ -31,6 +31,6 @@ struct ComplexEigenpairs {
 [[nodiscard]] ComplexEigenpairs eigenpairs(const Eigen::MatrixXd& A);
 
 /// Largest |lambda| of A.
-[[nodiscard]] double spectral_radius(const Eigen::Matrix3d& A);
+[[nodiscard]] double spectral_radius(const Eigen::MatrixXd& A);
 
 }  // namespace trammel::solver

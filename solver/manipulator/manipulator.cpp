@@ -171,8 +171,8 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   plate.material.rho = platform_mass(design).mass / (platform.thickness * area);
   model.plates.push_back(plate);
 
-  const TriangleMesh mesh =
-      platform_mesh(design.geometry.platform, Vector2d::Zero(), platform.refinements);
+  const TriangleMesh mesh = platform_mesh(design.geometry.platform, Vector2d::Zero(),
+                                          platform.refinements, platform.six_nodes);
   const bool pinned = platform.pin_radius > 0;
   // Without pins the mesh's first nodes C1, C2, C3, P are the model's own, which stand in that
   // order from kC on: the mesh then starts at kC, else after P.
@@ -181,8 +181,10 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   for (std::size_t n = shared; n < mesh.nodes.size(); ++n)
     model.nodes.push_back({"", Vector2d(pose.x, pose.y) + R_WP * mesh.nodes[n]});
   model.triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    model.triangles.push_back({0, {first + t[0], first + t[1], first + t[2], -1, -1, -1}});
+  for (TriangleMesh::Nodes t : mesh.triangles) {
+    for (Index& node : t) node = node < 0 ? -1 : first + node;
+    model.triangles.push_back({0, t});
+  }
   if (!pinned) return;
   for (std::size_t v = 0; v < 4; ++v)
     add_pin(mesh, v, platform.pin_radius, kC + static_cast<Index>(v), first, model);

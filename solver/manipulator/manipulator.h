@@ -61,6 +61,7 @@ struct PlatformDesignOf {
   /// Triangles only. 0: the paper's C1 C2 P, C2 C3 P, C3 C1 P; each step splits every triangle in
   /// four.
   int refinements = 0;
+  bool six_nodes = false;  ///< triangles only: quadratic ones
   /// Triangles only. > 0: P and C_i are no nodes of the mesh but move with a weighted mean of the
   /// plate within this radius [m] (`pin_weights`), so that a force on them has a limit under
   /// refinement. At most 500 nodes within a pin at C_i: a link couples each with each.

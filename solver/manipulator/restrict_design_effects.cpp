@@ -28,6 +28,7 @@ ManipulatorDesign restrict_effects(ManipulatorDesign design, Effects active) {
   if (!active.has(Effect::platform_flexibility)) {
     design.platform.kind = PlatformDesign::Kind::rigid;
     design.platform.refinements = 0;
+    design.platform.six_nodes = false;
     design.platform.pin_radius = 0;
   }
   return design;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 #include "solver/model/plane.h"
 
@@ -18,33 +19,47 @@ double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return cross(b - a, c - a);
 }
 
-/// Splits every triangle in four at its mid-sides; edges share their node.
-TriangleMesh split(const TriangleMesh& coarse) {
-  TriangleMesh fine{coarse.nodes, {}};
-  fine.nodes.reserve(coarse.nodes.size() + 2 * coarse.triangles.size());
-  fine.triangles.reserve(4 * coarse.triangles.size());
-  std::unordered_map<std::uint64_t, Index> middle;
-  middle.reserve(2 * coarse.triangles.size());
-  const auto middle_of = [&](Index i, Index j) {
+/// The nodes at the middles of the sides, one for the two triangles of a side.
+class Middles {
+ public:
+  explicit Middles(std::vector<Vector2d>& nodes, std::size_t sides) : nodes_(nodes) {
+    nodes.reserve(nodes.size() + sides);
+    middle_.reserve(sides);
+  }
+  Index of(Index i, Index j) {
     const auto low = static_cast<std::uint64_t>(std::min(i, j));
     const auto high = static_cast<std::uint64_t>(std::max(i, j));
     const auto [at, fresh] =
-        middle.try_emplace((low << 32U) | high, static_cast<Index>(fine.nodes.size()));
+        middle_.try_emplace((low << 32U) | high, static_cast<Index>(nodes_.size()));
     if (fresh) {
-      fine.nodes.emplace_back(
-          (coarse.nodes[static_cast<std::size_t>(i)] + coarse.nodes[static_cast<std::size_t>(j)]) /
-          2);
+      nodes_.emplace_back(
+          (nodes_[static_cast<std::size_t>(i)] + nodes_[static_cast<std::size_t>(j)]) / 2);
     }
     return at->second;
-  };
-  for (const auto& [i, j, k] : coarse.triangles) {
-    const Index ij = middle_of(i, j);
-    const Index jk = middle_of(j, k);
-    const Index ki = middle_of(k, i);
-    fine.triangles.push_back({i, ij, ki});
-    fine.triangles.push_back({ij, j, jk});
-    fine.triangles.push_back({ki, jk, k});
-    fine.triangles.push_back({ij, jk, ki});
+  }
+
+ private:
+  std::vector<Vector2d>& nodes_;
+  std::unordered_map<std::uint64_t, Index> middle_;
+};
+
+void add_middles(TriangleMesh& mesh) {
+  Middles middles(mesh.nodes, 2 * mesh.triangles.size());
+  for (TriangleMesh::Nodes& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) t[3 + k] = middles.of(t[k], t[(k + 1) % 3]);
+  }
+}
+
+/// Splits every triangle in four at its mid-sides.
+TriangleMesh split(TriangleMesh mesh) {
+  add_middles(mesh);
+  TriangleMesh fine{std::move(mesh.nodes), {}};
+  fine.triangles.reserve(4 * mesh.triangles.size());
+  for (const auto& [i, j, k, ij, jk, ki] : mesh.triangles) {
+    fine.triangles.push_back({i, ij, ki, -1, -1, -1});
+    fine.triangles.push_back({ij, j, jk, -1, -1, -1});
+    fine.triangles.push_back({ki, jk, k, -1, -1, -1});
+    fine.triangles.push_back({ij, jk, ki, -1, -1, -1});
   }
   return fine;
 }
@@ -100,22 +115,35 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
 /// Moments of one node's share: int N_i phi (1, xi, eta) dA with (xi, eta) = (x - x0) / radius.
 using Shares = std::unordered_map<Index, Vector3d>;
 
-void add_shares(const TriangleMesh& mesh, const std::array<Index, 3>& nodes, const Vector2d& x0,
+/// Shape functions at area coordinates; of three nodes the last three are zero.
+Eigen::Matrix<double, 6, 1> shape_functions(const Vector3d& L, bool six_nodes) {
+  Eigen::Matrix<double, 6, 1> N = Eigen::Matrix<double, 6, 1>::Zero();
+  N.head<3>() = L;
+  for (Index k = 0; six_nodes && k < 3; ++k) {
+    N[k] = L[k] * (2 * L[k] - 1);
+    N[3 + k] = 4 * L[k] * L[(k + 1) % 3];
+  }
+  return N;
+}
+
+void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,
                 double radius, Shares& shares) {
   Corners t;
   for (std::size_t k = 0; k < 3; ++k) t[k] = mesh.nodes[static_cast<std::size_t>(nodes[k])];
   const double whole = twice_area(t[0], t[1], t[2]);
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // corner x (1, xi, eta)
+  const bool six_nodes = nodes[3] >= 0;
+  Eigen::Matrix<double, 6, 3> moments = Eigen::Matrix<double, 6, 3>::Zero();  // node x (1, xi, eta)
   integrate_near(t, x0, radius, [&](const Vector2d& x, double area) {
     const Vector2d xi = (x - x0) / radius;
     const double gap = 1 - xi.squaredNorm();
     if (gap <= 0) return;
-    const Vector3d N(twice_area(x, t[1], t[2]) / whole, twice_area(t[0], x, t[2]) / whole,
+    const Vector3d L(twice_area(x, t[1], t[2]) / whole, twice_area(t[0], x, t[2]) / whole,
                      twice_area(t[0], t[1], x) / whole);
-    moments += (area * gap * gap * gap) * N * Vector3d(1, xi.x(), xi.y()).transpose();
+    moments += (area * gap * gap * gap) * shape_functions(L, six_nodes) *
+               Vector3d(1, xi.x(), xi.y()).transpose();
   });
   if (moments.isZero(0)) return;
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < (six_nodes ? 6 : 3); ++k) {
     shares.try_emplace(nodes[k], Vector3d::Zero()).first->second +=
         moments.row(static_cast<Index>(k)).transpose();
   }
@@ -124,7 +152,7 @@ void add_shares(const TriangleMesh& mesh, const std::array<Index, 3>& nodes, con
 }  // namespace
 
 TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector2d& P,
-                           int refinements) {
+                           int refinements, bool six_nodes) {
   constexpr int kMaxRefinements = 10;
   if (refinements < 0 || refinements > kMaxRefinements)
     throw ModelError("the platform's refinements must be 0 to 10 (three million triangles)");
@@ -134,8 +162,8 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
   mesh.nodes.push_back(P);
   for (Index i = 0; i < 3; ++i) {
     const Index j = (i + 1) % 3;
-    const std::array<Index, 3> t =
-        clockwise ? std::array<Index, 3>{j, i, 3} : std::array<Index, 3>{i, j, 3};
+    const TriangleMesh::Nodes t = clockwise ? TriangleMesh::Nodes{j, i, 3, -1, -1, -1}
+                                            : TriangleMesh::Nodes{i, j, 3, -1, -1, -1};
     const auto corner = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
     if (!(twice_area(corner(0), corner(1), corner(2)) > 0))
       throw ModelError(
@@ -143,7 +171,8 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
           "C2 C3 P and C3 C1 P");
     mesh.triangles.push_back(t);
   }
-  for (int i = 0; i < refinements; ++i) mesh = split(mesh);
+  for (int i = 0; i < refinements; ++i) mesh = split(std::move(mesh));
+  if (six_nodes) add_middles(mesh);
   return mesh;
 }
 

@@ -10,14 +10,16 @@
 namespace trammel::solver {
 
 struct TriangleMesh {
-  std::vector<Vector2d> nodes;                  ///< [m]; the first four are C1, C2, C3, P
-  std::vector<std::array<Index, 3>> triangles;  ///< counterclockwise
+  using Nodes = std::array<Index, 6>;  ///< corners counterclockwise, middles of 01, 12, 20 or -1
+  std::vector<Vector2d> nodes;         ///< [m]; the first four are C1, C2, C3, P
+  std::vector<Nodes> triangles;
 };
 
-/// The paper's three triangles, each split in four `refinements` times.
+/// The paper's three triangles, each split in four `refinements` times, then with nodes at the
+/// middles of their sides where six are wanted.
 /// @throws ModelError  where P is not inside the triangle, or refinements is not in 0..10.
 [[nodiscard]] TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector2d& P,
-                                         int refinements);
+                                         int refinements, bool six_nodes = false);
 
 /// How a pin at x0 follows the nodes around it, u(x0) = sum w_i u_i:
 ///   w_i = int N_i(x) phi(x) (a + b . (x - x0)) dA,  phi = (1 - |x - x0|^2 / radius^2)^3,

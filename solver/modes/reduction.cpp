@@ -1,6 +1,7 @@
 #include "solver/modes/reduction.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "solver/linalg/eigenpairs.h"
@@ -195,16 +196,45 @@ SparseMatrix projected(const SparseMatrix& matrix, const SparseMatrix& R) {
   return 0.5 * (product + SparseMatrix(product.transpose()));
 }
 
-}  // namespace
-
-System reduce_members(const System& system, Index modes) {
-  if (modes < 0) throw ModelError("a reduction needs a number of modes that is not negative");
+/// The system in p, q = R p.
+System in_coordinates(const System& system, const SparseMatrix& R) {
   System reduced = system;
-  const SparseMatrix R = reduction(system, modes, reduced.counters);
   reduced.T = system.T * R;
   reduced.K = projected(system.K, R);
   reduced.M = projected(system.M, R);
   reduced.f = R.transpose() * system.f;
+  return reduced;
+}
+
+}  // namespace
+
+System reduce_members(const System& system, Index modes) {
+  if (modes < 0) throw ModelError("a reduction needs a number of modes that is not negative");
+  Counters counters = system.counters;
+  System reduced = in_coordinates(system, reduction(system, modes, counters));
+  reduced.counters = counters;
+  return reduced;
+}
+
+System reduce_to_modes(const System& system, const ModalSolution& modes) {
+  constexpr double kCarried = 1e-10;  // share of the loads that is rounding
+  MatrixXd basis = modes.shape;
+  Counters counters = modes.counters;
+  const VectorXd rest = system.f - system.M * (basis * (basis.transpose() * system.f));
+  if (modes.zero_energy_mode_count == 0 && rest.norm() > kCarried * system.f.norm()) {
+    Factorization factorization;
+    factorization.compute(system.K);
+    ++counters.factorizations;
+    if (!factorization.exists()) throw ModelError("a reduction to modes needs a stiff model");
+    VectorXd answer = factorization.solve(rest);
+    ++counters.solves;
+    answer -= basis * (basis.transpose() * (system.M * answer));
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    // Of one strain energy, not of one mass: coordinates without mass may answer too.
+    basis.rightCols<1>() = answer / std::sqrt(answer.dot(system.K * answer));
+  }
+  System reduced = in_coordinates(system, basis.sparseView());
+  reduced.counters = counters;
   return reduced;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/assembly/system.h"
+#include "solver/modes/modes.h"
 
 namespace trammel::solver {
 
@@ -19,5 +20,15 @@ namespace trammel::solver {
 ///          they do from q. Its `constraints` are still those of the full model.
 /// @throws ModelError  for a negative number of modes.
 [[nodiscard]] System reduce_members(const System& system, Index modes);
+
+/// Modal truncation with static correction (mode acceleration): q = Phi p + r s, with r what the
+/// loads do beyond the modes,
+///   K r = f - M Phi Phi^T f.
+/// At frequencies far below those left out the response is that of the full model. A model that
+/// moves freely, or loads that the modes carry whole, have no r.
+///
+/// @param modes  found modes of the same system, with Phi^T M Phi = I
+/// @returns as `reduce_members`
+[[nodiscard]] System reduce_to_modes(const System& system, const ModalSolution& modes);
 
 }  // namespace trammel::solver

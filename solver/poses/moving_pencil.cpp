@@ -377,12 +377,9 @@ ModeMeasures<rows> MovingPencil::measure(const VectorBlock<rows>& X, Workspace<r
 }
 
 template void MovingPencil::mass_times(const VectorBlock<6>&, VectorBlock<6>&, Workspace<6>&) const;
-template void MovingPencil::mass_times(const VectorBlock<10>&, VectorBlock<10>&,
-                                       Workspace<10>&) const;
 template void MovingPencil::mass_times(const VectorBlock<16>&, VectorBlock<16>&,
                                        Workspace<16>&) const;
 template ModeMeasures<6> MovingPencil::measure(const VectorBlock<6>&, Workspace<6>&) const;
-template ModeMeasures<10> MovingPencil::measure(const VectorBlock<10>&, Workspace<10>&) const;
 template ModeMeasures<16> MovingPencil::measure(const VectorBlock<16>&, Workspace<16>&) const;
 
 }  // namespace trammel::solver

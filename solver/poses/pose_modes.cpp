@@ -295,8 +295,6 @@ PoseModes solve_pose_modes(const ManipulatorDesign& whole_design, const std::vec
   const Index rows = options.count + kGuard;
   if (rows <= 6) {
     solve_blocks(task, std::vector(to_size(threads), BlockSolver<6>(task, pencil)));
-  } else if (rows <= 10) {
-    solve_blocks(task, std::vector(to_size(threads), BlockSolver<10>(task, pencil)));
   } else {
     solve_blocks(task, std::vector(to_size(threads), BlockSolver<16>(task, pencil)));
   }

@@ -37,6 +37,7 @@ template <Real T>
           .thickness = T(platform.thickness),
           .material = lifted<T>(platform.material),
           .refinements = platform.refinements,
+          .six_nodes = platform.six_nodes,
           .pin_radius = platform.pin_radius,
           .mass = platform.mass,
           .inertia = platform.inertia};

@@ -1,4 +1,4 @@
-// ctest: labels=verification timeout=300
+// ctest: labels=verification timeout=900
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <filesystem>

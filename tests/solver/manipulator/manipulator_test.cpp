@@ -245,8 +245,9 @@ BOOST_AUTO_TEST_CASE(a_platform_numbered_clockwise_is_the_same_plate) {
 
 BOOST_AUTO_TEST_CASE(pin_weights_move_the_pin_with_any_rigid_motion_and_any_uniform_strain) {
   const auto vertices = uneven_design().geometry.platform;
-  for (const int refinements : {0, 2, 5}) {
-    const TriangleMesh mesh = platform_mesh(vertices, Vector2d::Zero(), refinements);
+  for (const auto [refinements, six_nodes] :
+       {std::pair{0, false}, {2, false}, {5, false}, {0, true}, {4, true}}) {
+    const TriangleMesh mesh = platform_mesh(vertices, Vector2d::Zero(), refinements, six_nodes);
     for (std::size_t v = 0; v < 4; ++v) {
       double sum = 0;
       Vector2d mean = Vector2d::Zero();
@@ -278,6 +279,26 @@ BOOST_AUTO_TEST_CASE(a_pin_averages_a_smooth_field_alike_on_every_fine_mesh) {
     if (level >= 6) BOOST_TEST(std::abs(last_change / change - 4) < 0.3);  // theory: O(h^2)
     last_change = change;
     last = mean;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_pin_under_six_nodes_averages_a_quadratic_field_as_many_small_triangles_do) {
+  const auto vertices = uneven_design().geometry.platform;
+  const auto mean = [&](const TriangleMesh& mesh, std::size_t vertex) {
+    double sum = 0;
+    for (const auto& [node, weight] : pin_weights(mesh, mesh.nodes[vertex], 0.02)) {
+      const Vector2d& x = mesh.nodes[static_cast<std::size_t>(node)];
+      sum += weight * (x.x() * x.x() - 3 * x.x() * x.y());
+    }
+    return sum;
+  };
+  for (std::size_t v = 0; v < 4; ++v) {
+    const double exact = mean(platform_mesh(vertices, Vector2d::Zero(), 2, true), v);
+    const double finer = mean(platform_mesh(vertices, Vector2d::Zero(), 3, true), v);
+    BOOST_TEST(std::abs(finer - exact) < 1e-9);  // the quadrature in a pin's disc
+    const double linear = mean(platform_mesh(vertices, Vector2d::Zero(), 7), v);
+    BOOST_TEST(std::abs(linear - exact) < 1e-6);
+    BOOST_TEST(std::abs(mean(platform_mesh(vertices, Vector2d::Zero(), 3), v) - exact) > 1e-6);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
+#include "solver/time/harmonic.h"
 #include "tests/support/solver/frames.h"
 
 using namespace trammel::solver;
@@ -70,6 +71,39 @@ BOOST_AUTO_TEST_CASE(with_all_modes_nothing_is_reduced) {
   BOOST_TEST(same.K.rows() == full.K.rows());
   BOOST_TEST((frequencies(same, 6) - frequencies(full, 6)).norm() < 1e-10);
   BOOST_CHECK_THROW((void)reduce_members(full, -1), ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(modes_and_what_is_left_of_the_loads_give_statics_exactly) {
+  const System full = assemble(angle(8));
+  for (const Index count : {1, 3}) {
+    const System reduced = reduce_to_modes(full, solve_modes(full, {.count = count}));
+    BOOST_TEST(reduced.K.rows() == count + 1);
+    const StaticSolution a = solve_statics(full), b = solve_statics(reduced);
+    BOOST_TEST((a.displacement - b.displacement).norm() < 1e-9 * a.displacement.norm());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(truncated_modes_miss_the_square_of_the_frequency_ratio_of_the_rest) {
+  const System full = assemble(angle(8));
+  const ModalSolution modes = solve_modes(full, {.count = 4});
+  const System reduced = reduce_to_modes(full, solve_modes(full, {.count = 3}));
+  const auto answer = [](const System& system, double frequency) -> Eigen::VectorXcd {
+    return system.T * HarmonicSolver(system, {{1e-3, 1e-4}, {}}).at(frequency);
+  };
+  for (const double ratio : {0.05, 0.2, 0.5}) {
+    const double frequency = ratio * modes.frequency[3];
+    const Eigen::VectorXcd whole = answer(full, frequency);
+    const double off = (answer(reduced, frequency) - whole).norm() / whole.norm();
+    BOOST_TEST(off < ratio * ratio / (1 - ratio * ratio));
+    if (ratio > 0.1) BOOST_TEST(off > 1e-6);  // and they do miss it
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_model_that_moves_freely_is_reduced_to_its_modes_alone) {
+  Model model = angle(4);
+  model.supports = {};
+  const System full = assemble(model);
+  BOOST_TEST(reduce_to_modes(full, solve_modes(full, {.count = 5})).K.rows() == 5);
 }
 
 BOOST_AUTO_TEST_CASE(the_work_of_the_reduction_is_counted) {

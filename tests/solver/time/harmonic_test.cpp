@@ -7,6 +7,7 @@
 
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
+#include "tests/support/solver/table_1.h"
 
 using namespace trammel::solver;
 using namespace trammel::testing;
@@ -122,6 +123,20 @@ BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
     return u[system.coordinates.node[static_cast<std::size_t>(seen)][0]];
   };
   BOOST_TEST(std::abs(answer(1, 2) - answer(2, 1)) < 1e-9 * std::abs(answer(1, 2)));
+}
+
+BOOST_AUTO_TEST_CASE(with_rayleigh_damping_thin_links_are_in_balance_row_by_row) {
+  ManipulatorDesign design = table_1_design();
+  design.platform.kind = PlatformKind::rigid;
+  for (LinkDesign* link : {&design.proximal[0], &design.proximal[1], &design.proximal[2],
+                           &design.distal[0], &design.distal[1], &design.distal[2]})
+    link->elements = 8;
+  Model model = build_manipulator(design, centred_pose());
+  model.loads.push_back({model.find_node("P"), {10, 0, 0}});
+  const System system = assemble(model);
+  const HarmonicSolver response(system, {{1, 1e-5}, {}});
+  for (const double frequency : {1.0, 12.7, 60.0})
+    BOOST_TEST(response.backward_error(response.at(frequency), frequency) < 1e-13);
 }
 
 BOOST_AUTO_TEST_CASE(a_negative_damping_ratio_is_an_error) {

@@ -1,0 +1,24 @@
+#include "harness/statics_modes/reduced_system.h"
+
+#include <utility>
+
+#include "solver/modes/reduction.h"
+
+namespace trammel::harness {
+
+ReducedSystem reduced_system(const JsonView& analysis, solver::System system) {
+  const auto reduction = analysis.find("reduction");
+  if (!reduction) return {{}, std::move(system)};
+  if (const auto modes = reduction->find("fixed_interface_modes"))
+    return {{}, solver::reduce_members(system, modes->get<solver::Index>())};
+  const solver::ModalSolution modes =
+      solver::solve_modes(system, {.count = (*reduction)["modes"].get<solver::Index>()});
+  if (!modes.outcome.solved()) return {modes.outcome, std::move(system)};
+  try {
+    return {{}, solver::reduce_to_modes(system, modes)};
+  } catch (const solver::ModelError& error) {
+    throw reduction->error(error.what());
+  }
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "harness/input/json_view.h"
+#include "solver/assembly/system.h"
+#include "solver/model/outcome.h"
+
+namespace trammel::harness {
+
+/// A system in the coordinates that an analysis asks for.
+struct ReducedSystem {
+  solver::Outcome outcome;  ///< of the modes it is reduced to
+  solver::System system;
+};
+
+/// As the key "reduction" of the analysis says; without it the system as it is.
+/// @throws InputError  for a reduction that the system does not allow.
+[[nodiscard]] ReducedSystem reduced_system(const JsonView& analysis, solver::System system);
+
+}  // namespace trammel::harness
