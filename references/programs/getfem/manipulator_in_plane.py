@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """The 3-RRR manipulator of Table 1 in its plane by GetFEM: modes in every variant of its joints at three poses, and 10 N at P.
+The platform is rigid, or (locked, welded, hinged) a soft plate of three triangles, linear or quadratic.
 
     manipulator_in_plane.py OUT      writes OUT/getfem-JOINTS-frequencies.json and -displacement.json, pose after pose
 
@@ -23,6 +24,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 from planar_manipulator import DEFAULT, POSES, SPRING, VARIANTS, geometry  # noqa: E402
 
 MESHES = ((6, 4), (8, 5))  # elements along a link, and their degree
+PLATE_E = 69e6  # [Pa] where the platform is a plate: as soft as the links
 
 
 def matrices(length, degree):
@@ -75,26 +77,52 @@ def link(elements, degree, rigid=False):
 class Manipulator:
     """K and M over the free unknowns; the platform's x, y and rotation are the first three."""
 
-    def __init__(self, variant, pose, one):
+    def __init__(self, variant, pose, one, plate_degree=0):
         active, elbow, top = variant.split("-")
         x, y, _ = POSES[pose]
         base, elbows, corners = geometry({**DEFAULT, "pose": POSES[pose]})
-        self.size, self.parts, held = 3, [], []
-        for a, b, c in zip(base, elbows, corners):
+        self.size, self.parts, self.unused, held = 3, [], [], []
+        plate = self.plate(corners, (x, y), plate_degree) if plate_degree else self.body()
+        for k, (a, b, c) in enumerate(zip(base, elbows, corners)):
             foot, low, turn = self.new(3), self.new(3), self.new(1)
             high = low if elbow == "welded" else low[:2] + self.new(1)
             corner = [{0: 1, 2: y - c[1]}, {1: 1, 2: c[0] - x}, {2 if top == "welded" else turn[0]: 1}]
+            if plate_degree:
+                corner[:2] = [{plate[2 * k]: 1}, {plate[2 * k + 1]: 1}]
             held += foot[:2 + (active == "locked")] + (turn if top == "welded" else [])
             self.link(one, a, b, [{n: 1} for n in foot + low])
             self.link(one, b, c, [{n: 1} for n in high] + corner)
             if active == "sprung":
                 self.parts.append((sp.csc_matrix([[SPRING]]), sp.csc_matrix((1, 1)), [{foot[2]: 1}]))
-        mass = DEFAULT["rho"] * math.sqrt(3) / 4 * DEFAULT["side"]**2 * DEFAULT["plate_thickness"]
-        self.parts.append((sp.csc_matrix((3, 3)), sp.diags([mass, mass, mass * DEFAULT["side"]**2 / 12]), [{n: 1} for n in range(3)]))
         self.K, self.M = (sum(t.T @ part @ t for t, part in zip(map(self.follows, self.parts), matrices))
                           for matrices in list(zip(*self.parts))[:2])
-        free = numpy.setdiff1d(numpy.arange(self.size), held)
+        free = numpy.setdiff1d(numpy.arange(self.size), held + self.unused)
         self.K, self.M = (A.tocsc()[free][:, free] for A in (self.K, self.M))
+
+    def body(self):
+        mass = DEFAULT["rho"] * math.sqrt(3) / 4 * DEFAULT["side"]**2 * DEFAULT["plate_thickness"]
+        self.parts.append((sp.csc_matrix((3, 3)), sp.diags([mass, mass, mass * DEFAULT["side"]**2 / 12]), [{n: 1} for n in range(3)]))
+
+    def plate(self, corners, P, degree):
+        """The three triangles around P in plane stress, softer than the links; their unknowns at the corners."""
+        mesh = getfem.Mesh("empty", 2)
+        for k in range(3):
+            mesh.add_convex(getfem.GeoTrans("GT_PK(2,1)"), numpy.array([corners[k], corners[(k + 1) % 3], P]).T)
+        field = getfem.MeshFem(mesh, 2)
+        field.set_fem(getfem.Fem(f"FEM_PK(2,{degree})"))
+        scalar = getfem.MeshFem(mesh, 1)
+        scalar.set_fem(getfem.Fem("FEM_PK(2,0)"))
+        rule = getfem.MeshIm(mesh, getfem.Integ("IM_TRIANGLE(6)"))
+        nu, one = DEFAULT["nu"], DEFAULT["plate_thickness"] * numpy.ones(3)
+        K = getfem.asm_linear_elasticity(rule, field, scalar, PLATE_E * nu / (1 - nu**2) * one, PLATE_E / (2 * (1 + nu)) * one)
+        M = DEFAULT["rho"] * DEFAULT["plate_thickness"] * getfem.asm_mass_matrix(rule, field).full()
+        nodes = field.basic_dof_nodes()
+        unknowns = self.new(nodes.shape[1])
+        at = [int(numpy.where(abs(nodes - numpy.array([p]).T).max(0) < 1e-9)[0][0]) for p in (*corners, P)]
+        self.unused = [2, *unknowns[at[3]:at[3] + 2]]  # P is the first of all, and has no rotation
+        unknowns[at[3]:at[3] + 2] = [0, 1]
+        self.parts.append((sp.csc_matrix(K.full()), sp.csc_matrix(M), [{n: 1} for n in unknowns]))
+        return [unknowns[a + axis] for a in at[:3] for axis in (0, 1)]
 
     def new(self, count):
         self.size += count
@@ -150,9 +178,11 @@ def main():
     links = [link(*mesh) for mesh in MESHES]
     mesh = ("FEM_QK, {} elements of degree {} a link; {} of degree {} change the values by no more than the uncertainty. "
             "Poses {}, one after the other.").format(*MESHES[1], *MESHES[0], ", ".join(POSES))
-    for variant in VARIANTS:
-        coarse, fine = ([Manipulator(variant, pose, one) for pose in POSES] for one in links)
-        words = "3-RRR, actuators {}, elbows {}, platform joints {}, three poses: by GetFEM, ".format(*variant.split("-"))
+    for variant, degree in [(v, 0) for v in VARIANTS] + [("locked-welded-hinged", 1), ("locked-welded-hinged", 2)]:
+        coarse, fine = ([Manipulator(variant, pose, one, degree) for pose in POSES] for one in links)
+        words = "3-RRR, actuators {}, elbows {}, platform joints {}, {}three poses: by GetFEM, ".format(
+            *variant.split("-"), ("", "platform of 69 MPa in three linear triangles, ", "platform of 69 MPa in three quadratic triangles, ")[degree])
+        variant += ("", "-linear-plate", "-quadratic-plate")[degree]
         found = {"frequencies": (words + "modes 1 to 8 of each", "Hz", [[f for m in ms for f in m.frequencies()[0]] for ms in (coarse, fine)])}
         if not variant.startswith("free"):
             found["displacement"] = (words + "displacement x, y of P under 10 N along x", "m",
