@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <map>
+#include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
@@ -12,6 +14,7 @@
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/printing/print_effects.h"
+#include "harness/run/results.h"
 #include "harness/studies/effect_study.h"
 #include "harness/studies/random_scenes.h"
 
@@ -243,6 +246,32 @@ Json counts_json(const std::string& kind, const HitCounts& of) {
           {"whole", of.whole_ones}, {"quick", of.quick}};
 }
 
+results::EffectScene scene_of(const std::string& id, const std::string& analysis,
+                              const EffectStudy& study) {
+  return {id,
+          analysis,
+          study.tolerance,
+          max_change(study.chosen.changes).value,
+          study.is_minimal(),
+          study.full.cpu_s,
+          study.chosen.cpu_s,
+          study.choice_cpu_s};
+}
+
+/// The page of these scenes, where a folder is asked for.
+void write_page(const EffectsCommand& command, std::vector<results::EffectScene> scenes,
+                const Renderers& renderers) {
+  if (command.out.empty()) return;
+  results::Results results = results_of({}, {}, References());
+  results.effect_scenes = std::move(scenes);
+  const OutputLock lock(command.out);
+  const auto unfinished = std::filesystem::path(command.out) / results::kUnfinishedFolder;
+  std::filesystem::create_directories(unfinished);
+  write_results(results, unfinished);
+  const auto page = renderers.report(results, command.out, false);
+  if (!command.json) std::cout << "page in " << page.string() << '\n';
+}
+
 [[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
   throw InputError(id + ": expected a solution with all effects (" + study.full.outcome.reason +
                    ")");
@@ -280,7 +309,21 @@ int effects_command(const EffectsCommand& command) {
   return status;
 }
 
-int labelled_effects_command(const EffectsCommand& command) {
+std::vector<results::EffectScene> catalogue_effect_scenes() {
+  std::vector<results::EffectScene> scenes;
+  for (const Case& given : Catalogue().load({"effects"})) {
+    const Document document = patched(given, kBaseVariant);
+    if (!knows_effects(document)) continue;
+    const EffectStudy study = study_effects(document, {.pairs = false, .repeats = 3});
+    if (study.full.outcome.solved())
+      scenes.push_back(scene_of(given.id(), analysis_kind(document), study));
+  }
+  return scenes;
+}
+
+int labelled_effects_command(const EffectsCommand& command, const Renderers& renderers) {
+  if (!command.out.empty()) require_drawing(renderers);
+  std::vector<results::EffectScene> scenes;
   Table table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">beyond [%]",
                ">whole [ms]", ">time", ">deciding"});
   bool within = true;
@@ -291,6 +334,7 @@ int labelled_effects_command(const EffectsCommand& command) {
     const EffectStudy study = study_effects(document, {command.tolerance, false, command.repeats});
     if (!study.full.outcome.solved()) continue;
     rows.push_back(study_json(given.id(), study, analysis_kind(document)));
+    scenes.push_back(scene_of(given.id(), analysis_kind(document), study));
     within = within && study.within_tolerance() && !study.is_beyond_tier();
     table.add({given.id(), effect_names(study.choice.chosen),
                in_percent(max_change(study.chosen.changes).value), in_percent(study.tolerance),
@@ -301,6 +345,7 @@ int labelled_effects_command(const EffectsCommand& command) {
   }
   if (rows.empty())
     throw InputError("expected a case with these labels whose analysis knows effects");
+  write_page(command, std::move(scenes), renderers);
   if (command.json) {
     std::cout << pretty(rows, 3);
     return within ? 0 : 1;
@@ -311,7 +356,9 @@ int labelled_effects_command(const EffectsCommand& command) {
   return within ? 0 : 1;
 }
 
-int random_effects_command(const EffectsCommand& command) {
+int random_effects_command(const EffectsCommand& command, const Renderers& renderers) {
+  if (!command.out.empty()) require_drawing(renderers);
+  std::vector<results::EffectScene> scenes;
   std::map<std::string, HitCounts> kinds;
   std::vector<std::string> misses;
   HitCounts all;
@@ -319,14 +366,18 @@ int random_effects_command(const EffectsCommand& command) {
     Progress progress("scenes");
     for (std::uint64_t n = 0; n < command.random; ++n) {
       const Document document = random_scene(command.seed, n);
+      const std::string id = document.value().at("id").get<std::string>();
+      const EffectStudy study = study_effects(document, {command.tolerance, false, 0});
+      if (study.full.outcome.solved())
+        scenes.push_back(scene_of(id, analysis_kind(document), study));
       HitCounts one;
-      count_result(study_effects(document, {command.tolerance, false, 0}),
-                   document.value().at("id").get<std::string>(), one, misses);
+      count_result(study, id, one, misses);
       kinds[document.value().at("title").get<std::string>()] += one;
       all += one;
       progress.show(n + 1, command.random);
     }
   }
+  write_page(command, std::move(scenes), renderers);
   const auto share = [&](std::size_t hits) {
     return static_cast<double>(hits) / static_cast<double>(all.scenes);
   };

@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "harness/cli/command_line.h"
+#include "harness/results/results.h"
+
 namespace trammel::harness {
 
 struct EffectsCommand {
@@ -15,13 +18,17 @@ struct EffectsCommand {
   double tolerance = 0.01;          ///< where the case does not give one
   int repeats = 7;                  ///< of each measurement of time
   bool json = false;                ///< instead of tables
+  std::string out;                  ///< folder of a page of many scenes; empty: none
 };
+
+/// What choosing effects comes to in every scene of the catalogue.
+[[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes();
 
 /// What each effect is worth in one scene. @returns the exit status
 int effects_command(const EffectsCommand& command);
 /// Hit rate of automatic effects: 1 below 99 % within tolerance or 90 % minimal.
-int random_effects_command(const EffectsCommand& command);
+int random_effects_command(const EffectsCommand& command, const Renderers& renderers);
 /// A table of what the labelled cases call for: 1 where one is beyond its tolerance.
-int labelled_effects_command(const EffectsCommand& command);
+int labelled_effects_command(const EffectsCommand& command, const Renderers& renderers);
 
 }  // namespace trammel::harness

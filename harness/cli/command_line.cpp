@@ -335,7 +335,7 @@ class CommandLine {
              "  trammel effects scene-soft-platform\n"
              "  trammel effects my-robot.json --tolerance 0.001\n"
              "  trammel effects -L effects                 a table of these cases\n"
-             "  trammel effects --random 200 --seed 1      hit rate on random models\n"
+             "  trammel effects --random 200 --out page    hit rate on random models\n"
              "  trammel effects --seed 1 --model 17        one of them");
     sub->add_option("case", name_, "Name or file of a case whose analysis has effects");
     sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
@@ -354,16 +354,20 @@ class CommandLine {
     auto* labels = sub->add_option("-L,--label", effects_.labels,
                                    "Every case with one of these labels, in a table")
                        ->allow_extra_args(false);
+    auto* out = sub->add_option("--out", effects_.out,
+                                "Also a page there: asked against obtained, and time (of many)");
     add_json(sub);
-    sub->callback([this, random, scene, labels] {
+    sub->callback([this, random, scene, labels, out] {
       const bool many = random->count() > 0, one = scene->count() > 0, all = labels->count() > 0;
       if (int(many) + int(one) + int(all) + int(!name_.empty()) != 1) {
         throw CLI::RequiredError("exactly one of a case, --label, --random and --model");
       }
+      if (out->count() > 0 && !many && !all)
+        throw CLI::RequiredError("--random or --label beside --out");
       effects_.name = name_;
       command_ = [this, many, all] {
-        if (all) return labelled_effects_command(effects_);
-        return many ? random_effects_command(effects_) : effects_command(effects_);
+        if (all) return labelled_effects_command(effects_, renderers_);
+        return many ? random_effects_command(effects_, renderers_) : effects_command(effects_);
       };
     });
   }

@@ -13,6 +13,7 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_cost.h"
+#include "harness/cli/command_effects.h"
 #include "harness/coverage/evidence_coverage.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
@@ -433,6 +434,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   results.coverage = evidence_coverage(selection.cases, references);
   add_reasons(results.coverage);
   count_series(results, results.coverage);
+  results.effect_scenes = catalogue_effect_scenes();
   write_page(results, runs, command, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {

@@ -242,10 +242,13 @@ inline constexpr auto kFields<CoverageRow> =
     std::tuple{TRAMMEL_REQUIRED(CoverageRow, group, feature, evidence),
                TRAMMEL_OPTIONAL(CoverageRow, reason, series, judged)};
 template <>
+inline constexpr auto kFields<EffectScene> = std::tuple{TRAMMEL_REQUIRED(
+    EffectScene, scene, analysis, tolerance, change, minimal, whole_s, chosen_s, deciding_s)};
+template <>
 inline constexpr auto kFields<Results> =
     std::tuple{optional("numerical_uncertainty", &Results::uncertainty_coverage),
                TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
-               TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage, store)};
+               TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage, effect_scenes, store)};
 
 namespace {
 

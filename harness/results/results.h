@@ -133,6 +133,15 @@ struct CoverageRow {
   [[nodiscard]] bool is_verified() const;
 };
 
+/// What choosing effects automatically came to in one scene.
+struct EffectScene {
+  std::string scene, analysis;  ///< a case or a random scene; its kind of analysis
+  double tolerance = 0;         ///< asked for [-]
+  double change = 0;     ///< from all effects to the chosen ones, the largest of all kinds [-]
+  bool minimal = false;  ///< no chosen effect could be left out
+  double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< processor time [s]
+};
+
 /// A solver other than trammel's, as its adapter names it.
 struct Solver {
   std::string name, version, command;
@@ -149,6 +158,7 @@ struct Results {
   std::optional<CostStudies> cost;  ///< accuracy and computing time, where measured
   std::optional<Claims> claims;
   std::vector<CoverageRow> coverage;  ///< of the whole catalogue
+  std::vector<EffectScene> effect_scenes;
   std::string store;    ///< folder of what runs have stored, seen from that of the file
   std::string missing;  ///< what the store should hold and does not, in words; not written
 
@@ -157,8 +167,8 @@ struct Results {
   [[nodiscard]] const Reference* reference(const std::string& id) const;
 };
 
-/// A reason, citation or note that many share stands once, under /reasons, /citations or /notes, and
-/// they hold its place there.
+/// A reason, citation or note that many share stands once, under /reasons, /citations or /notes,
+/// and they hold its place there.
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
 [[nodiscard]] nlohmann::ordered_json to_json(const Run& run);
 [[nodiscard]] Run read_run(const nlohmann::ordered_json& json);

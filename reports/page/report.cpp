@@ -59,10 +59,9 @@ fs::path write_report(const Results& results, const fs::path& out, bool single_f
   const fs::path part = out / kUnfinishedFolder;
   try {
     std::vector<Family> families = plan_families(results);
-    std::vector<CostPanel> panels = plan_cost(results);
+    CostPanels panels = plan_cost(results);
     std::vector<std::vector<Figure*>> pages = figures_by_page(families);
-    pages.emplace_back();
-    for (CostPanel& panel : panels) pages.back().push_back(&panel.figure);
+    pages.push_back(panels.figures());
     number_figures(pages);
     std::vector<Figure*> figures;
     for (const auto& page : pages) figures.insert(figures.end(), page.begin(), page.end());

@@ -74,7 +74,7 @@ const IndexSection* section_there(const Data& index, const IndexSection& section
 }
 
 Data index_data(const Results& results, const std::vector<Family>& families,
-                const std::vector<CostPanel>& panels, bool single) {
+                const CostPanels& panels, bool single) {
   Data index = page_data(single, 2);
   index.set("environment", environment_section(results));
   index.set("claims", claims_section(results));
@@ -315,7 +315,7 @@ std::size_t take_in(std::string& html, const DrawingsByPage& pages, std::size_t 
 }  // namespace
 
 std::vector<SiteFile> site_files(const Results& results, const std::vector<Family>& families,
-                                 const std::vector<CostPanel>& panels) {
+                                 const CostPanels& panels) {
   const Data index = index_data(results, families, panels, false);
   Frame frame{results, index_contents(index), {}, false};
   for (const Family& family : families) frame.families.push_back(family_section(family, results));
@@ -359,15 +359,14 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   return files;
 }
 
-std::string single_page(const Results& results, std::vector<Family> families,
-                        std::vector<CostPanel> panels) {
+std::string single_page(const Results& results, std::vector<Family> families, CostPanels panels) {
   DrawingsByPage drawings(1);
   const auto take_out = [&](Figure& figure) {
     const std::string mark = kMark + figure.id + ">";
     figure.is_linked = false;
     drawings.back().emplace_back(mark, std::exchange(figure.svg, mark));
   };
-  for (CostPanel& panel : panels) take_out(panel.figure);
+  for (Figure* figure : panels.figures()) take_out(*figure);
   for (Family& family : families) {
     drawings.emplace_back();
     for (Figure& figure : family.overview) take_out(figure);

@@ -17,11 +17,11 @@ struct SiteFile {
 /// style sheets and the script that they share. Figures are drawn.
 [[nodiscard]] std::vector<SiteFile> site_files(const Results& results,
                                                const std::vector<Family>& families,
-                                               const std::vector<CostPanel>& panels);
+                                               const CostPanels& panels);
 
 /// All of it as one page of at most 6 MB that needs no other file: without the figures of further
 /// variants, the tables of every check and the drawings that do not fit, which it says.
 [[nodiscard]] std::string single_page(const Results& results, std::vector<Family> families,
-                                      std::vector<CostPanel> panels);
+                                      CostPanels panels);
 
 }  // namespace trammel::reports

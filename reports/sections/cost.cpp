@@ -4,6 +4,7 @@
 
 #include "reports/data/work_counters_text.h"
 #include "reports/figures/cost.h"
+#include "reports/figures/effect_scenes.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/sections/family.h"
 #include "reports/text/html.h"
@@ -208,20 +209,32 @@ void set_overview(Data& section, const std::vector<CostPanel>& panels) {
 
 }  // namespace
 
-std::vector<CostPanel> plan_cost(const Results& results) {
-  std::vector<CostPanel> panels;
+std::vector<Figure*> CostPanels::figures() {
+  std::vector<Figure*> all;
+  for (CostPanel& panel : studies) all.push_back(&panel.figure);
+  for (Figure& figure : effects) all.push_back(&figure);
+  return all;
+}
+
+CostPanels plan_cost(const Results& results) {
+  CostPanels panels{{}, effect_scene_figures(results.effect_scenes)};
   if (!results.cost) return panels;
   for (const CostStudy& study : results.cost->studies) {
-    panels.push_back({&study, cost_figure(study)});
-    panels.back().figure.is_linked = true;
+    panels.studies.push_back({&study, cost_figure(study)});
+    panels.studies.back().figure.is_linked = true;
   }
   return panels;
 }
 
 Data cost_section(const Results& results, const std::vector<Family>& families,
-                  const std::vector<CostPanel>& panels) {
+                  const CostPanels& all) {
   Data section = object();
   set_runs(section, families);
+  Data effects = list();
+  for (const Figure& figure : all.effects) effects.push_back(figure_data(figure));
+  section.set("effects", effects);
+  set_flag(section, "has_effects", !all.effects.empty());
+  const std::vector<CostPanel>& panels = all.studies;
   set_flag(section, "has_studies", !panels.empty());
   if (panels.empty()) return section;
   const CostStudies& cost = *results.cost;

@@ -15,11 +15,19 @@ struct CostPanel {
   Figure figure;
 };
 
-/// A panel for each study, its figure neither numbered nor drawn.
-[[nodiscard]] std::vector<CostPanel> plan_cost(const Results& results);
+struct CostPanels {
+  std::vector<CostPanel> studies;
+  std::vector<Figure> effects;  ///< of the automatic choice of effects
+
+  [[nodiscard]] std::vector<Figure*> figures();
+  [[nodiscard]] bool empty() const { return studies.empty() && effects.empty(); }
+};
+
+/// A panel for each study, its figures neither numbered nor drawn.
+[[nodiscard]] CostPanels plan_cost(const Results& results);
 
 /// Accuracy and computing time, study by study, and the computing time of the runs.
 [[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families,
-                                const std::vector<CostPanel>& panels);
+                                const CostPanels& panels);
 
 }  // namespace trammel::reports

@@ -431,6 +431,17 @@ BOOST_AUTO_TEST_CASE(a_column_is_told_how_near_its_load_is_to_the_buckling_load)
   BOOST_TEST(!contains(outcome.out, "load over buckling load"));
 }
 
+BOOST_AUTO_TEST_CASE(a_page_of_effects_is_one_of_many_scenes) {
+  const Folder folder;
+  const Outcome one = run(folder, "effects scene-column --repeats 0 --out page");
+  BOOST_TEST(one.status == 2);
+  BOOST_TEST(contains(one.err, "--out"), one.err);
+  const Outcome many = run(folder, "effects --random 2 --out page");
+  BOOST_TEST(contains(many.out, "page in page/index.html"), many.out);
+  const Json results = Json::parse(text_of(folder.path() / "page/results.json"));
+  BOOST_TEST(results.at("effect_scenes").size() == 2U);
+}
+
 BOOST_AUTO_TEST_CASE(quantities_are_told_with_unit_and_meaning) {
   const Folder folder;
   (void)folder.write(testing::cantilever());

@@ -1,0 +1,146 @@
+#include "reports/figures/effect_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+namespace {
+
+constexpr double kSmallestDrawnChange = 1e-9;  ///< stands for less
+constexpr double kLong_s = 0.01;  ///< of shorter scenes the time is that of reading them
+
+struct ScatterPoint {
+  double x = 0, y = 0;
+};
+
+struct Scatter {
+  std::string x_label, y_label;
+  ScatterPoint low, high;          ///< of the axes
+  std::vector<ScatterPoint> line;  ///< the limit, drawn through
+  std::string line_title;
+  std::map<std::string, PlotScript::Rows> points;  ///< by analysis
+};
+
+void draw_scatter(const Scatter& scatter, Figure& figure) {
+  PlotScript script;
+  script.log_axis("x", scatter.low.x, scatter.high.x);
+  script.log_axis("y", scatter.low.y, scatter.high.y);
+  script.axis_label("x", scatter.x_label);
+  script.axis_label("y", scatter.y_label);
+  PlotScript::Rows line;
+  for (const ScatterPoint& point : scatter.line) line.push_back({point.x, point.y});
+  script.curve(line, std::string("using 1:2 with lines lw 1.5 dt 2") + lc(palette::kMuted),
+               scatter.line_title);
+  std::vector<std::string> keys = {scatter.line_title};
+  for (const auto& [analysis, rows] : scatter.points) {
+    const std::size_t number = keys.size() - 1;
+    script.curve(rows,
+                 "using 1:2 with points ps 0.7 pt " +
+                     std::to_string(palette::kFilledPoint[number % palette::kFilledPoint.size()]) +
+                     lc(palette::color(number)),
+                 analysis);
+    keys.push_back(analysis);
+  }
+  figure.height = 350 + script.key_below(keys);
+  script.plot();
+  figure.commands = script.commands();
+}
+
+Table table_of(const std::vector<EffectScene>& scenes) {
+  Table table;
+  table.heads = {"scene",   "analysis", "tolerance", "change",
+                 "minimal", "whole_s",  "chosen_s",  "deciding_s"};
+  for (const EffectScene& s : scenes)
+    table.rows.push_back({s.scene, s.analysis, s.tolerance, s.change,
+                          std::string(s.minimal ? "yes" : "no"), s.whole_s, s.chosen_s,
+                          s.deciding_s});
+  return table;
+}
+
+Figure obtained_figure(const std::vector<EffectScene>& scenes) {
+  Scatter scatter{
+      "change asked for at most", "change obtained", {1, 1}, {0, 0}, {}, "asked for", {}};
+  std::size_t within = 0, minimal = 0;
+  for (const EffectScene& scene : scenes) {
+    const double change = std::max(scene.change, kSmallestDrawnChange);
+    scatter.points[scene.analysis].push_back({scene.tolerance, change});
+    scatter.low = {std::min(scatter.low.x, scene.tolerance / 1.3),
+                   std::min(scatter.low.y, change / 1.3)};
+    scatter.high = {std::max(scatter.high.x, scene.tolerance * 1.3),
+                    std::max({scatter.high.y, change * 1.3, scene.tolerance * 1.3})};
+    within += scene.change <= scene.tolerance ? 1 : 0;
+    minimal += scene.minimal ? 1 : 0;
+  }
+  scatter.line = {{scatter.low.x, scatter.low.x}, {scatter.high.x, scatter.high.x}};
+  Figure figure;
+  figure.id = "effects-obtained";
+  figure.title = "Effects chosen automatically: asked for and obtained";
+  figure.caption = std::to_string(within) + " of " + count(scenes.size(), "scene") +
+                   " keep within what was asked for (below the line); in " +
+                   std::to_string(minimal) + " no chosen effect could be left out. Changes below " +
+                   power_of_ten(-9) + " stand at the lower edge.";
+  figure.alt =
+      "Each scene a point: the largest change that leaving effects out makes, over the "
+      "change that was allowed. " +
+      figure.caption;
+  draw_scatter(scatter, figure);
+  figure.data = table_of(scenes);
+  return figure;
+}
+
+Figure time_figure(const std::vector<EffectScene>& scenes) {
+  Scatter scatter{"time with all effects [ms]",
+                  "time over that of all effects",
+                  {1e300, 0.5},
+                  {0, 2},
+                  {},
+                  "no gain",
+                  {}};
+  std::size_t long_ones = 0, faster = 0;
+  double whole = 0, spent = 0;
+  for (const EffectScene& scene : scenes) {
+    const double time = scene.deciding_s + scene.chosen_s;
+    if (!(scene.whole_s > 0 && time > 0)) continue;
+    const ScatterPoint point{1e3 * scene.whole_s, time / scene.whole_s};
+    scatter.points[scene.analysis].push_back({point.x, point.y});
+    scatter.low = {std::min(scatter.low.x, point.x / 1.3), std::min(scatter.low.y, point.y / 1.3)};
+    scatter.high = {std::max(scatter.high.x, point.x * 1.3),
+                    std::max(scatter.high.y, point.y * 1.3)};
+    whole += scene.whole_s;
+    spent += time;
+    if (scene.whole_s < kLong_s) continue;
+    ++long_ones;
+    faster += time <= scene.whole_s ? 1 : 0;
+  }
+  scatter.line = {{scatter.low.x, 1}, {scatter.high.x, 1}};
+  Figure figure;
+  figure.id = "effects-time";
+  figure.title = "Effects chosen automatically: time spent and saved";
+  figure.caption = std::to_string(faster) + " of " + count(long_ones, "scene") +
+                   " over 10 ms take no longer with deciding than with all effects; all scenes "
+                   "together take " +
+                   trimmed(whole > 0 ? spent / whole : 0, 3) + " times as long.";
+  figure.alt =
+      "Each scene a point: time of deciding and running over that with all effects, "
+      "against the latter. " +
+      figure.caption;
+  draw_scatter(scatter, figure);
+  figure.data = table_of(scenes);
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
+  if (scenes.empty()) return {};
+  std::vector<Figure> figures = {obtained_figure(scenes), time_figure(scenes)};
+  for (Figure& figure : figures) figure.is_linked = true;
+  return figures;
+}
+
+}  // namespace trammel::reports

@@ -1,0 +1,54 @@
+#include "reports/figures/effect_scenes.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "reports/page/report.h"
+#include "reports/sections/cost.h"
+#include "tests/support/reports/markup.h"
+#include "tests/support/reports/workspace.h"
+
+using namespace trammel::testing;
+using namespace trammel::reports;
+
+namespace {
+
+const std::vector<EffectScene> kScenes = {
+    {"quick", "statics", 0.01, 0.002, true, 0.05, 0.01, 0.02},
+    {"slow", "modes", 0.01, 0.02, false, 0.02, 0.02, 0.01},
+    {"short", "modes", 0.001, 0, true, 0.001, 0.001, 0.004},
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(effect_scenes)
+
+BOOST_AUTO_TEST_CASE(captions_count_what_is_within_minimal_and_no_slower) {
+  const std::vector<Figure> figures = effect_scene_figures(kScenes);
+  BOOST_TEST_REQUIRE(figures.size() == 2U);
+  BOOST_TEST(contains(figures[0].caption, "2 of 3 scenes keep within"));
+  BOOST_TEST(contains(figures[0].caption, "in 2 no chosen effect"));
+  BOOST_TEST(contains(figures[1].caption, "1 of 2 scenes over 10 ms"));
+  BOOST_TEST(contains(figures[1].caption, "take 0.915 times as long"));
+  BOOST_TEST(figures[0].data.rows.size() == 3U);
+  BOOST_TEST(effect_scene_figures({}).empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_page_of_scenes_alone_shows_them) {
+  Results results;
+  results.effect_scenes = kScenes;
+  const Workspace folder;
+  const std::string page = text_of(write_report(results, folder.path() / "out", false));
+  BOOST_TEST(contains(page, "Effects chosen automatically"));
+  BOOST_TEST(contains(page, "figures/effects-obtained.svg"));
+  BOOST_TEST(contains(page, "2 of 3 scenes keep within"));
+  const Results again = trammel::results::read_results(to_json(results));
+  BOOST_TEST_REQUIRE(again.effect_scenes.size() == 3U);
+  BOOST_TEST(again.effect_scenes[1].deciding_s == 0.01);
+  BOOST_TEST(again.effect_scenes[1].analysis == "modes");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
