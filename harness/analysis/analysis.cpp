@@ -1,5 +1,7 @@
 #include "harness/analysis/analysis.h"
 
+#include <cfenv>
+
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
 #include "harness/scene/with_model_errors.h"
@@ -8,6 +10,20 @@ namespace trammel::harness {
 namespace {
 
 using solver::Residual;
+
+int solver_rounding = FE_TONEAREST;
+
+/// While it lives, numbers are rounded as the solver is told to.
+class RoundingScope {
+ public:
+  RoundingScope() : before_(std::fegetround()) { std::fesetround(solver_rounding); }
+  ~RoundingScope() { std::fesetround(before_); }
+  RoundingScope(const RoundingScope&) = delete;
+  RoundingScope& operator=(const RoundingScope&) = delete;
+
+ private:
+  int before_;
+};
 
 StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
                          const CaseModel& case_model, bool draw, Recorder& record) {
@@ -46,6 +62,10 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
 
 }  // namespace
 
+void set_solver_rounding(int mode) {
+  solver_rounding = mode;
+}
+
 std::string analysis_kind(const Document& document) {
   return document.value().at("analysis").begin().key();
 }
@@ -56,6 +76,7 @@ AnalysisResult analyse(const Document& document, const References& references,
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
   Recorder record;
   if (!kind.needs_model(document)) {
+    const RoundingScope scope;
     return result_of(kind, kind.of_case(document, references, options.drawing, record), record);
   }
   const JsonView place = JsonView(document)["analysis"][kind.name];
@@ -64,6 +85,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     throw place.error("expected a model with a manipulator");
   }
   return with_model_errors(document, [&] {
+    const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
     AnalysisResult result =

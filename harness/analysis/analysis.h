@@ -40,4 +40,8 @@ struct AnalysisResult {
 /// The one key of "analysis": "modes", "statics", ...
 [[nodiscard]] std::string analysis_kind(const Document& document);
 
+/// How the solver rounds in this process from now on, and in those it forks: a mode of <cfenv>.
+/// Reading, judging and printing go on rounding to the nearest.
+void set_solver_rounding(int mode);
+
 }  // namespace trammel::harness

@@ -14,6 +14,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/processes.h"
 #include "harness/base/text.h"
+#include "harness/cli/command_certify.h"
 #include "harness/cli/command_claims.h"
 #include "harness/cli/command_compare.h"
 #include "harness/cli/command_converge.h"
@@ -24,7 +25,6 @@
 #include "harness/cli/command_grade.h"
 #include "harness/cli/command_history.h"
 #include "harness/cli/command_list.h"
-#include "harness/cli/command_quantities.h"
 #include "harness/cli/command_references.h"
 #include "harness/cli/command_run.h"
 #include "harness/cli/command_shards.h"
@@ -110,7 +110,7 @@ class CommandLine {
     const char* name;
     void (CommandLine::*define)(CLI::App* sub);
   };
-  static const Command kCommands[20];
+  static const Command kCommands[21];
 
   static bool is_command(const std::string& name) {
     return std::any_of(std::begin(kCommands), std::end(kCommands),
@@ -299,6 +299,24 @@ class CommandLine {
     add_store(sub, cost_.resume, cost_.store);
     add_json(sub, "As results.json; with --accuracy what was tried and chosen");
     sub->callback([this] { command_ = [this] { return cost_command(cost_, renderers_); }; });
+  }
+  void define_certify(CLI::App* sub) {
+    describe(
+        sub, "Whether verdicts and digits depend on rounding, compiler or optimization",
+        "\nComputes cases with the solver rounding to the nearest, upwards, downwards and towards "
+        "zero\n(reading and judging round to the nearest), and puts results of other builds of "
+        "the same cases\nbeside them: verdicts that differ, digits that agree, and tolerances "
+        "less than ten times what\nthe differences come to. Exit status 1 where a verdict "
+        "differs.\n\nExamples:\n  trammel certify -L beam\n"
+        "  trammel certify -L beam --results clang/results.json");
+    sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
+    sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
+    sub->add_option("--results", builds_, "results.json of the same cases by other builds")
+        ->allow_extra_args();
+    add_jobs(sub);
+    add_json(sub);
+    add_memory(sub);
+    sub->callback([this] { command_ = [this] { return certify_command(run_, builds_); }; });
   }
   void define_claims(CLI::App* sub) {
     describe(sub, "The paper's claims, and the verdict on each",
@@ -542,6 +560,7 @@ class CommandLine {
   SlowerCommand slower_;
   SlurmCommand slurm_;
   std::string name_, other_;
+  std::vector<std::string> builds_;
   bool json_ = false, csv_ = false, fresh_ = false;
   std::function<int()> command_;
 };
@@ -556,6 +575,7 @@ const CommandLine::Command CommandLine::kCommands[] = {
     {"compare", &CommandLine::define_compare},
     {"converge", &CommandLine::define_converge},
     {"cost", &CommandLine::define_cost},
+    {"certify", &CommandLine::define_certify},
     {"claims", &CommandLine::define_claims},
     {"coverage", &CommandLine::define_coverage},
     {"paper", &CommandLine::define_paper},

@@ -250,6 +250,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
       {"converge" + file, "/runs/0/convergence/0/values/2"},
       {"cost" + file, "/cost/studies/0/settings/0/cpu_s"},
       {"cost" + file + " --accuracy 0.01", "/patch/model"},
+      {"certify" + file, "/configurations/0/checks"},
       {"coverage", "/0/evidence"},
       {"paper", "/0/what"},
       {"effects scene-soft-platform --repeats 0", "/full_run/element_evaluations"},
@@ -429,6 +430,17 @@ BOOST_AUTO_TEST_CASE(a_column_is_told_how_near_its_load_is_to_the_buckling_load)
   BOOST_TEST(contains(outcome.out, "% of the buckling load"), outcome.out);
   BOOST_TEST(contains(outcome.out, "Loads     95"), outcome.out);
   BOOST_TEST(!contains(outcome.out, "load over buckling load"));
+}
+
+BOOST_AUTO_TEST_CASE(a_case_is_certified_over_ways_of_rounding) {
+  const Folder folder;
+  (void)folder.write(testing::cantilever());
+  const Outcome outcome = run(folder, "certify cantilever.json");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  for (const char* words : {"upwards", "downwards", "towards zero", "No verdict differs."})
+    BOOST_TEST(contains(outcome.out, words), outcome.out);
+  // Were the solver not told to round otherwise, all digits would agree.
+  BOOST_TEST(!contains(outcome.out, "all      all"), outcome.out);
 }
 
 BOOST_AUTO_TEST_CASE(a_page_of_effects_is_one_of_many_scenes) {

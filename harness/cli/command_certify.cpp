@@ -1,0 +1,119 @@
+#include "harness/cli/command_certify.h"
+
+#include <cfenv>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "harness/analysis/analysis.h"
+#include "harness/base/errors.h"
+#include "harness/base/json_file.h"
+#include "harness/base/progress.h"
+#include "harness/base/table.h"
+#include "harness/base/text.h"
+#include "harness/run/certification.h"
+#include "harness/run/results.h"
+#include "harness/run/run.h"
+#include "harness/run/stored_results.h"
+
+namespace trammel::harness {
+namespace {
+
+constexpr std::pair<const char*, int> kRounding[] = {{"to the nearest", FE_TONEAREST},
+                                                     {"upwards", FE_UPWARD},
+                                                     {"downwards", FE_DOWNWARD},
+                                                     {"towards zero", FE_TOWARDZERO}};
+
+std::vector<Configuration> computed(const RunCommand& command) {
+  const std::vector<Case> cases = select_cases(command);
+  const References references;
+  std::vector<Configuration> configurations;
+  for (const auto& [name, mode] : kRounding) {
+    Progress progress(std::string("runs rounded ") + name);
+    RunOptions options;
+    options.jobs = command.jobs;
+    options.memory_bytes = command.memory_bytes;
+    options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+    set_solver_rounding(mode);
+    const std::vector<Run> runs = run_cases(cases, references, options);
+    set_solver_rounding(FE_TONEAREST);
+    require_complete(runs);
+    configurations.push_back({name, results_of(runs, cases, references)});
+  }
+  return configurations;
+}
+
+std::string digits_text(double digits) {
+  return digits >= 16 ? "all" : rounded(digits, 3);
+}
+
+void print(const Certification& certificate) {
+  Table rows({"configuration", ">checks", ">missing", ">digits (median)", ">fewest", "of"});
+  for (const ConfigurationRow& row : certificate.rows)
+    rows.add({row.name, std::to_string(row.checks), std::to_string(row.missing),
+              digits_text(row.median_digits), digits_text(row.fewest_digits), row.least_certain});
+  rows.print(std::cout, "");
+  std::cout << "digits of judged numbers that agree with those rounded to the nearest\n";
+  if (!certificate.tight.empty()) {
+    std::cout << "\nTolerances less than ten times the noise\n";
+    Table tight({"check", ">tolerance", ">noise", "configuration"});
+    for (const TightTolerance& one : certificate.tight)
+      tight.add({one.check, rounded(one.tolerance, 2), rounded(one.noise, 2), one.configuration});
+    tight.print(std::cout, "  ");
+  }
+  if (certificate.flips.empty()) {
+    std::cout << "\nNo verdict differs.\n";
+    return;
+  }
+  std::cout << "\nVerdicts that differ\n";
+  Table flips({"check", "verdict", "is", "configuration"});
+  for (const VerdictFlip& flip : certificate.flips)
+    flips.add({flip.check, flip.from, flip.to, flip.configuration});
+  flips.print(std::cout, "  ");
+}
+
+Json to_json(const Certification& certificate) {
+  Json rows = Json::array(), flips = Json::array(), tight = Json::array();
+  for (const ConfigurationRow& row : certificate.rows)
+    rows.push_back({{"configuration", row.name},
+                    {"checks", row.checks},
+                    {"missing", row.missing},
+                    {"median_digits", row.median_digits},
+                    {"fewest_digits", row.fewest_digits},
+                    {"fewest_of", row.least_certain}});
+  for (const VerdictFlip& flip : certificate.flips)
+    flips.push_back({{"check", flip.check},
+                     {"configuration", flip.configuration},
+                     {"from", flip.from},
+                     {"to", flip.to}});
+  for (const TightTolerance& one : certificate.tight)
+    tight.push_back({{"check", one.check},
+                     {"configuration", one.configuration},
+                     {"tolerance", one.tolerance},
+                     {"noise", one.noise}});
+  return {{"configurations", rows}, {"flips", flips}, {"tight_tolerances", tight}};
+}
+
+}  // namespace
+
+int certify_command(const RunCommand& command, const std::vector<std::string>& builds) {
+  std::vector<Configuration> configurations;
+  std::vector<Configuration> stored;
+  for (const std::string& name : builds) {
+    const std::filesystem::path file = is_directory(std::filesystem::path(name))
+                                           ? std::filesystem::path(name) / "results.json"
+                                           : std::filesystem::path(name);
+    stored.push_back({name, read_summary(file)});
+  }
+  configurations = computed(command);
+  for (Configuration& build : stored) configurations.push_back(std::move(build));
+  const Certification certificate = certify(configurations);
+  if (command.json) {
+    std::cout << pretty(to_json(certificate), 2);
+  } else {
+    print(certificate);
+  }
+  return certificate.flips.empty() ? 0 : 1;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,69 @@
+#include "harness/run/certification.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+using namespace trammel::harness;
+namespace results = trammel::results;
+
+namespace {
+
+/// A run of one check with two entries, allowed +-1e-9.
+Configuration configuration(const std::string& name, double first, double second,
+                            results::Verdict verdict = results::Verdict::pass) {
+  results::Run run;
+  run.case_id = "beam";
+  run.variant = "base";
+  for (const double computed : {first, second}) {
+    results::Check check;
+    check.name = "tip";
+    check.index = static_cast<int>(run.checks.size());
+    check.computed = computed;
+    check.difference = computed - 2;
+    check.tolerance = results::Tolerance{-1e-9, 1e-9, true};
+    check.verdict = verdict;
+    run.checks.push_back(check);
+  }
+  Configuration made{name, {}};
+  made.results.runs.push_back(run);
+  return made;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(certification)
+
+BOOST_AUTO_TEST_CASE(digits_that_agree_are_counted_and_the_worst_is_named) {
+  const Certification found =
+      certify({configuration("here", 2, 2), configuration("there", 2 + 2e-12, 2)});
+  BOOST_TEST_REQUIRE(found.rows.size() == 1U);
+  BOOST_TEST(found.rows[0].checks == 2U);
+  BOOST_TEST(std::abs(found.rows[0].fewest_digits - 12) < 0.1);
+  BOOST_TEST(found.rows[0].median_digits == 16);
+  BOOST_TEST(found.rows[0].least_certain == "beam:base tip[0]");
+  BOOST_TEST(found.flips.empty());
+  BOOST_TEST(found.tight.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_tolerance_of_less_than_ten_times_the_noise_is_told_once) {
+  const Certification found =
+      certify({configuration("here", 2, 2), configuration("up", 2 + 2e-10, 2 - 5e-10),
+               configuration("down", 2 - 3e-10, 2 + 1e-12)});
+  BOOST_TEST_REQUIRE(found.tight.size() == 1U);
+  BOOST_TEST(found.tight[0].check == "beam:base tip");
+  BOOST_TEST(found.tight[0].configuration == "up");
+  BOOST_TEST(std::abs(found.tight[0].noise - 5e-10) < 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(a_verdict_that_differs_and_a_check_that_is_not_there_are_told) {
+  Configuration short_one = configuration("short", 2, 2, results::Verdict::fail);
+  short_one.results.runs[0].checks.pop_back();
+  const Certification found = certify({configuration("here", 2, 2), short_one});
+  BOOST_TEST(found.rows[0].missing == 1U);
+  BOOST_TEST_REQUIRE(found.flips.size() == 1U);
+  BOOST_TEST(found.flips[0].from == "pass");
+  BOOST_TEST(found.flips[0].to == "fail");
+  BOOST_TEST(found.flips[0].configuration == "short");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
