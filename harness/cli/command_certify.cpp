@@ -1,5 +1,6 @@
 #include "harness/cli/command_certify.h"
 
+#include <algorithm>
 #include <cfenv>
 #include <filesystem>
 #include <iostream>
@@ -108,6 +109,9 @@ int certify_command(const RunCommand& command, const std::vector<std::string>& b
   configurations = computed(command);
   for (Configuration& build : stored) configurations.push_back(std::move(build));
   const Certification certificate = certify(configurations);
+  const bool any = std::any_of(certificate.rows.begin(), certificate.rows.end(),
+                               [](const ConfigurationRow& row) { return row.checks > 0; });
+  if (!any) throw InputError("expected cases with checks, for there is nothing to certify");
   if (command.json) {
     std::cout << pretty(to_json(certificate), 2);
   } else {

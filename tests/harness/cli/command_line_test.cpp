@@ -250,7 +250,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
       {"converge" + file, "/runs/0/convergence/0/values/2"},
       {"cost" + file, "/cost/studies/0/settings/0/cpu_s"},
       {"cost" + file + " --accuracy 0.01", "/patch/model"},
-      {"certify" + file, "/configurations/0/checks"},
+      {"certify cantilever-tip-force", "/configurations/0/checks"},
       {"coverage", "/0/evidence"},
       {"paper", "/0/what"},
       {"effects scene-soft-platform --repeats 0", "/full_run/element_evaluations"},
@@ -434,14 +434,17 @@ BOOST_AUTO_TEST_CASE(a_column_is_told_how_near_its_load_is_to_the_buckling_load)
 
 BOOST_AUTO_TEST_CASE(a_case_is_certified_over_ways_of_rounding) {
   const Folder folder;
-  (void)folder.write(testing::cantilever());
-  const Outcome outcome = run(folder, "certify cantilever.json");
+  const Outcome outcome = run(folder, "certify cantilever-tip-force");
   BOOST_TEST(outcome.status == 0, outcome.err);
   for (const char* words : {"upwards", "downwards", "towards zero", "No verdict differs."})
     BOOST_TEST(contains(outcome.out, words), outcome.out);
-  const Json found = Json::parse(run(folder, "certify cantilever.json --json").out);
+  const Json found = Json::parse(run(folder, "certify cantilever-tip-force --json").out);
   for (const Json& row : found.at("configurations"))
     BOOST_TEST(row.at("fewest_digits").get<double>() < 16, row.dump());
+  (void)folder.write(testing::cantilever());
+  const Outcome none = run(folder, "certify cantilever.json");
+  BOOST_TEST(none.status == 2);
+  BOOST_TEST(contains(none.err, "expected cases with checks"), none.err);
 }
 
 BOOST_AUTO_TEST_CASE(a_page_of_effects_is_one_of_many_scenes) {
