@@ -274,6 +274,11 @@ const EffectRules& elastodynamics_effects() {
       },
       motion_scope,
       [](const JsonView& analysis, const CaseModel& case_model, const EffectScope& scope) {
+        if (const auto history = analysis.find("load_history")) {
+          throw history->error(
+              "expected no automatic effects beside it: a pulse may fall between "
+              "the times at which they are estimated");
+        }
         return solver::estimate_motion_effects(read_elastodynamics(analysis, case_model),
                                                scope.applicable);
       },

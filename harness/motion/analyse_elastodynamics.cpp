@@ -41,9 +41,11 @@ void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& re
 }
 
 /// Energies, and how far their sum moves from where it started, over the largest of them; of a
-/// quasi-static motion nobody keeps account of the work that loads and actuators do.
+/// quasi-static motion, or of modes under a load that changes, nobody keeps account of the work
+/// that loads and actuators do.
 void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_static,
                    Recorder& record) {
+  quasi_static |= !solution.energy.empty() && std::isnan(solution.energy.front().work);
   double size = 0;
   for (const solver::MotionEnergy& energy : solution.energy) {
     record.add("kinetic_energy_J", "", energy.kinetic);
@@ -141,6 +143,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   options.design = solver::restrict_effects(*case_model.manipulator, effects);
   options.path = *case_model.path;
   for (const solver::NodalLoad& load : case_model.structure.loads) options.wrench += load.force;
+  options.load_history = read_load_history(analysis);
   if (effects.has(solver::Effect::gravity)) options.gravity = case_model.structure.gravity;
   options.damping = {.mass = 0, .stiffness = 0};
   if (effects.has(solver::Effect::damping))

@@ -21,30 +21,10 @@ namespace {
 
 using Eigen::VectorXd;
 
-solver::PiecewiseLinearLoad read_load(const JsonView& transient, const Eigen::VectorXd& pattern) {
-  const auto history = transient.find("load_history");
-  if (!history) return {pattern, {0.0}, Eigen::MatrixXd::Ones(1, 1)};
-  const auto time = (*history)["time_s"].get<std::vector<double>>();
-  const auto factor = (*history)["factor"].get<std::vector<double>>();
-  if (factor.size() != time.size()) {
-    throw(*history)["factor"].error("expected " + std::to_string(time.size()) +
-                                    " numbers, one for each time (got " +
-                                    std::to_string(factor.size()) + ")");
-  }
-  for (std::size_t i = 1; i < time.size(); ++i) {
-    if (time[i] < time[i - 1]) {
-      throw(*history)["time_s"][i].error("expected times that ascend");
-    }
-  }
-  return {pattern, time,
-          Eigen::Map<const Eigen::RowVectorXd>(factor.data(), std::ssize(factor)).eval()};
-}
-
-double factor_at(const solver::PiecewiseLinearLoad& load, double time) {
-  Eigen::VectorXd factor;
-  const solver::PiecewiseLinearLoad one{Eigen::MatrixXd::Ones(1, 1), load.time, load.factor};
-  one.at(time, factor);
-  return factor[0];
+solver::PiecewiseLinearLoad load_by(const solver::LoadHistory& history, const VectorXd& pattern) {
+  const auto count = std::ssize(history.factor);
+  return {pattern, history.time,
+          Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), count).eval()};
 }
 
 solver::TimeScheme read_scheme(const JsonView& transient) {
@@ -132,7 +112,8 @@ class Motion {
       : transient_(transient),
         system_(system),
         damped_(damped),
-        load_(read_load(transient, system.f)) {}
+        factor_(read_load_history(transient)),
+        load_(load_by(factor_, system.f)) {}
 
   MotionHistory run() {
     history_.counters = system_.counters;
@@ -140,7 +121,7 @@ class Motion {
     history_.time = sample_times(transient_);
     initial_ = read_initial(transient_, system_, history_.outcome);
     if (!history_.outcome.solved()) return history_;
-    for (const double t : history_.time) history_.load_factor.push_back(factor_at(load_, t));
+    for (const double t : history_.time) history_.load_factor.push_back(factor_.at(t));
     if (superposes(transient_)) {
       superpose_modes();
     } else {
@@ -271,6 +252,7 @@ class Motion {
   const JsonView& transient_;
   const solver::System& system_;
   bool damped_;
+  solver::LoadHistory factor_;
   solver::PiecewiseLinearLoad load_;
   InitialState initial_;
   MotionHistory history_;

@@ -5,6 +5,7 @@
 
 #include "harness/base/text.h"
 #include "harness/readers/material_reader.h"
+#include "harness/readers/time_reader.h"
 
 namespace trammel::harness {
 namespace {
@@ -140,6 +141,15 @@ void read_history(const JsonView& analysis, const solver::Model& built,
   if (const auto ramp = analysis.find("load_ramp_s")) {
     const solver::large_motion::TimeFunction law = rest_to_rest(1, ramp->get<double>());
     large_motion.load_history = [law](double t) { return law(t)[0]; };
+  }
+  if (const auto stated = analysis.find("load_history")) {
+    if (analysis.has("load_ramp_s")) throw stated->error("expected it without 'load_ramp_s'");
+    const solver::LoadHistory history = read_load_history(analysis);
+    for (std::size_t i = 1; i < history.time.size(); ++i) {
+      if (history.time[i] > history.time[i - 1]) continue;
+      throw(*stated)["time_s"][i].error("expected no jump: the integrators see none within a step");
+    }
+    large_motion.load_history = [history](double t) { return history.at(t); };
   }
   const auto starts = analysis.find("initial_velocities");
   if (!starts) return;

@@ -40,6 +40,22 @@ solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {
   return {.mass = damping->get("mass_per_s", 0.0), .stiffness = damping->get("stiffness_s", 0.0)};
 }
 
+solver::LoadHistory read_load_history(const JsonView& analysis) {
+  const auto history = analysis.find("load_history");
+  if (!history) return {};
+  const auto time = (*history)["time_s"].get<std::vector<double>>();
+  const auto factor = (*history)["factor"].get<std::vector<double>>();
+  if (factor.size() != time.size()) {
+    throw(*history)["factor"].error("expected " + std::to_string(time.size()) +
+                                    " numbers, one for each time (got " +
+                                    std::to_string(factor.size()) + ")");
+  }
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (time[i] < time[i - 1]) throw(*history)["time_s"][i].error("expected times that ascend");
+  }
+  return {time, factor};
+}
+
 solver::TransientOptions read_time_options(const JsonView& analysis) {
   solver::TransientOptions options;
   options.step = analysis.number("step_s");

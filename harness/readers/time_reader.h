@@ -2,6 +2,7 @@
 
 #include "harness/input/json_view.h"
 #include "solver/assembly/damping.h"
+#include "solver/time/load_history.h"
 #include "solver/time/transient.h"
 
 /// What analyses in time have in common.
@@ -18,6 +19,10 @@ void require_step_count(const JsonView& step, double duration);
 
 /// {"mass_per_s": w1, "stiffness_s": w2}; none where it is absent.
 [[nodiscard]] solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
+
+/// "load_history": {"time_s", "factor"}; 1 throughout where it is absent.
+/// @throws InputError  for times that descend and numbers that are not as many.
+[[nodiscard]] solver::LoadHistory read_load_history(const JsonView& analysis);
 
 /// "scheme" (newmark by default), "step_s", "error_control": {"relative", "absolute",
 /// "finest_level"}.

@@ -81,6 +81,8 @@ growth_rate_per_s:MODE  real part of the eigenvalue
 [modes]
 frequency_roundoff:MODE  estimate of its relative round-off error
 frequency_gap:MODE  relative distance from the frequency below
+tracked_frequency_Hz:MODE  frequency of the mode that continues this one of the first point, by shape
+shape_assurance:MODE  how much that mode's shape resembles the one a point before (1: the same)
 mode_count_below  modes below count_below_Hz, by a Sturm count
 rigid_body_modes  modes without strain energy
 angular_speed_rad_s  angular speed of the rotating frame

@@ -70,8 +70,52 @@ std::optional<Drawing> draw_modes(const CaseModel& case_model, const solver::Sys
   return drawing;
 }
 
+/// Translations of all nodes of the mesh, each column of length 1.
+Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::MatrixXd& shape) {
+  const Eigen::MatrixXd u = system.T * shape;
+  const auto& nodes = system.coordinates.node;
+  Eigen::MatrixXd translations(2 * std::ssize(nodes), u.cols());
+  for (solver::Index i = 0; i < std::ssize(nodes); ++i) {
+    for (std::size_t c = 0; c < 2; ++c) {
+      translations.row(2 * i + static_cast<solver::Index>(c)) =
+          u.row(nodes[static_cast<std::size_t>(i)][c]);
+    }
+  }
+  return translations.colwise().normalized();
+}
+
+/// Follows the modes of the first point by their shapes: from point to point each goes on as the
+/// one that resembles it most, by the modal assurance criterion (R. J. Allemang, D. L. Brown, IMAC
+/// 1982); the most alike are taken first, each mode once.
+class ShapeTracker {
+ public:
+  void record(const solver::System& system, const solver::ModalSolution& modes, Recorder& record) {
+    const Eigen::MatrixXd shape = unit_translations(system, modes.shape);
+    if (last_.size() == 0) last_ = shape;
+    Eigen::MatrixXd assurance = (last_.transpose() * shape).cwiseAbs2();
+    Eigen::VectorXd frequency = Eigen::VectorXd::Constant(last_.cols(), std::nan(""));
+    Eigen::VectorXd alike = frequency;
+    for (solver::Index left = std::min(last_.cols(), shape.cols()); left > 0; --left) {
+      solver::Index k = 0, mode = 0;
+      const double most = assurance.maxCoeff(&k, &mode);
+      alike[k] = most;
+      frequency[k] = modes.frequency[mode];
+      last_.col(k) = shape.col(mode);
+      assurance.row(k).setConstant(-1);
+      assurance.col(mode).setConstant(-1);
+    }
+    for (solver::Index k = 0; k < frequency.size(); ++k) {
+      record.add_or_gap("tracked_frequency_Hz", std::to_string(k + 1), frequency[k]);
+      record.add_or_gap("shape_assurance", std::to_string(k + 1), alike[k]);
+    }
+  }
+
+ private:
+  Eigen::MatrixXd last_;  ///< translation x mode of the first point, as it now looks
+};
+
 StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
-                            bool draw, Recorder& record) {
+                            bool draw, Recorder& record, ShapeTracker* tracker = nullptr) {
   if (analysis.has("rotating")) {
     refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
@@ -92,9 +136,35 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
         solver::sturm_count(system, analysis.number("count_below_Hz"));
     record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
   }
+  if (tracker != nullptr) tracker->record(system, modes, record);
   record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;
+}
+
+StepResult analyse_modes_alone(const JsonView& analysis, const CaseModel& case_model,
+                               std::size_t step, bool draw, Recorder& record) {
+  return analyse_modes_at(analysis, case_model, step, draw, record);
+}
+
+/// Point by point, as `analyse_steps`.
+StepResult track_modes(const JsonView& analysis, const CaseModel& case_model, bool draw,
+                       Recorder& record) {
+  refuse(analysis, "rotating", "track_shapes", "it has a model at one place");
+  if (!case_model.path) throw analysis["track_shapes"].error("expected a trajectory");
+  ShapeTracker tracker;
+  StepResult all;
+  for (std::size_t step = 0; step < case_model.steps() && all.outcome.solved(); ++step) {
+    record_path(case_model, step, record);
+    StepResult found =
+        analyse_modes_at(analysis, case_model, step, draw && step == 0, record, &tracker);
+    all.counters += found.counters;
+    all.evidence.add(found.evidence);
+    if (found.drawing) all.drawing = std::move(found.drawing);
+    if (!found.outcome.solved())
+      all.outcome = outcome_at_path_point(case_model, step, found.outcome);
+  }
+  return all;
 }
 
 /// Whether the links are condensed in less time than they save, and the joints' matrices, which are
@@ -160,9 +230,10 @@ StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& cas
 
 StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, bool draw,
                          Recorder& record) {
+  if (analysis.get("track_shapes", false)) return track_modes(analysis, case_model, draw, record);
   return follows_pose(analysis, case_model)
              ? analyse_modes_of_poses(analysis, case_model, draw, record)
-             : analyse_steps(analyse_modes_at, analysis, case_model, draw, record);
+             : analyse_steps(analyse_modes_alone, analysis, case_model, draw, record);
 }
 
 }  // namespace trammel::harness

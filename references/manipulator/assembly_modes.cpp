@@ -72,32 +72,57 @@ Limbs read_limbs(const Arguments& arguments) {
   return limbs;
 }
 
-/// The zeros of Q between two angles, every one of them; `largest` bounds |Q|.
-void find_zeros(const Arguments& arguments, const Limbs& limbs, const Real& largest,
-                const Real& from, const Real& to, std::vector<Real>& zeros) {
-  const Real half = (to - from) / 2, middle = from + half;
-  const Jet<Real> q = Q(limbs, Jet<Real>(middle, Real(1), Real(0)));
-  if (abs(q.value) > 3 * largest * half) return;
-  if (abs(q.rate) > 9 * largest * half) {
-    const auto f = [&](const Real& phi) { return Q(limbs, phi); };
-    if (f(from) * f(to) <= 0) zeros.push_back(refined_root(f, from, to));
-    return;
+/// Bernstein's bounds, |Q'| <= 3 max|Q| and so on, say where Q or Q' is monotonic.
+struct Search {
+  const Arguments& arguments;
+  const Limbs& limbs;
+  Real largest;  ///< bounds |Q|
+  std::vector<Real> zeros;
+
+  [[nodiscard]] Real at(const Real& phi) const { return Q(limbs, phi); }
+  [[nodiscard]] Jet<Real> jet(const Real& phi) const {
+    return Q(limbs, Jet<Real>(phi, Real(1), Real(0)));
   }
-  if (half < Real(1e-12))
-    arguments.fail("angles_rad", "angles at which no two poses are next to each other");
-  find_zeros(arguments, limbs, largest, from, middle, zeros);
-  find_zeros(arguments, limbs, largest, middle, to, zeros);
-}
+
+  /// Where Q is monotonic; a zero at an end belongs to one of the two intervals there.
+  void add_crossing(const Real& from, const Real& to) {
+    if ((at(from) < 0) == (at(to) < 0)) return;
+    zeros.push_back(refined_root([&](const Real& phi) { return at(phi); }, from, to));
+  }
+
+  /// Where Q' is monotonic: on either side of the extremum, if there is one.
+  void add_crossings(const Real& from, const Real& to) {
+    if ((jet(from).rate < 0) == (jet(to).rate < 0)) return add_crossing(from, to);
+    const Real extremum = refined_root([&](const Real& phi) { return jet(phi).rate; }, from, to);
+    if (abs(at(extremum)) < Real(1e-40) * largest)
+      arguments.fail("angles_rad", "angles at which no two poses are the same");
+    add_crossing(from, extremum);
+    add_crossing(extremum, to);
+  }
+
+  /// Every zero between two angles.
+  void find(const Real& from, const Real& to) {
+    const Real h = (to - from) / 2, middle = from + h;
+    const Jet<Real> q = jet(middle);
+    const Real bend = abs(q.acceleration) + 27 * largest * h;  // bounds |Q''|
+    if (abs(q.value) > abs(q.rate) * h + bend * h * h / 2) return;
+    if (abs(q.rate) > bend * h) return add_crossing(from, to);
+    if (abs(q.acceleration) > 27 * largest * h) return add_crossings(from, to);
+    if (h < Real(1e-12)) arguments.fail("angles_rad", "angles at which no three poses meet");
+    find(from, middle);
+    find(middle, to);
+  }
+};
 
 std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
   constexpr int kPoints = 64;
   const Real h = 2 * pi<Real>() / kPoints;
   Real largest = 0;
   for (int i = 0; i < kPoints; ++i) largest = std::max(largest, Real(abs(Q(limbs, Real(h * i)))));
-  std::vector<Real> zeros;
   // Between the points |Q| is at most 3 max|Q| h/2 larger.
-  find_zeros(arguments, limbs, largest / (1 - 3 * h / 2), -pi<Real>(), pi<Real>(), zeros);
-  return zeros;
+  Search search{arguments, limbs, largest / (1 - 3 * h / 2), {}};
+  search.find(-pi<Real>(), pi<Real>());
+  return search.zeros;
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "references/manipulator/assembly_modes.h"
 #include "references/manipulator/manipulator_motion.h"
 #include "references/manipulator/manipulator_torques.h"
+#include "references/manipulator/moving_platform.h"
 #include "references/manipulator/nadaraya_watson.h"
 #include "references/numerics/expression.h"
 #include "references/programs/parameter_sweep.h"
@@ -162,6 +163,13 @@ const std::map<std::string, Program>& programs() {
         "manipulator, trajectory (circle | line | rest_to_rest | spline), times_s, force_N, "
         "moment_N_m, gravity_m_s2; torques at A1 at all times, then A2, then A3",
         manipulator_torques_program}},
+      {"moving-platform",
+       {"vibration of a 3-RRR's platform on massless links, hinged at both ends of the distal "
+        "ones, "
+        "about its motion along a path under a load with a history",
+        "manipulator, trajectory, force_N, moment_N_m, load_history (time_s, factor), rate_terms, "
+        "times_s, output (displacement_x_m, axial_force_N:B1-C1, torque_N_m:A1, ...)",
+        moving_platform_program}},
       {"wedge-exponent",
        {"the power of the distance with which displacements grow from a corner between a clamped "
         "and "

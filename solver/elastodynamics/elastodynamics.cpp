@@ -42,6 +42,7 @@ EquationOfMotion equation_of(const ElastodynamicsOptions& options, PathFollower&
       f.setConstant(kNaN);
     }
   };
+  if (!options.load_history.constant()) equation.breakpoints = options.load_history.time;
   if (!follower.stands_still()) {
     equation.update = [&follower](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
       if (follower.update_to(time)) follower.matrices(M, C, K);
@@ -74,6 +75,23 @@ void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& 
   solution.evidence = evidence.result();
 }
 
+/// What acts at the pose the follower is at, and the wrench by its history.
+PiecewiseLinearLoad load_in_time(const ElastodynamicsOptions& options, const PathFollower& follower,
+                                 const VectorXd& f) {
+  const LoadHistory& history = options.load_history;
+  if (history.constant()) return step_load(f, options.time.start);
+  const System& start = follower.system().start();
+  const VectorXd applied = start.T.transpose() * start.load;
+  PiecewiseLinearLoad load;
+  load.pattern.resize(f.size(), 2);
+  load.pattern << applied, f - history.at(options.time.start) * applied;
+  load.time = history.time;
+  load.factor.setOnes(2, std::ssize(history.time));
+  load.factor.row(0) =
+      Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), std::ssize(history.factor));
+  return load;
+}
+
 /// All modes at every sample, each by its closed form.
 void superpose_modes(const ElastodynamicsOptions& options, PathFollower& follower,
                      ElastodynamicsRecorder& recorder, ElastodynamicsSolution& solution) {
@@ -97,7 +115,7 @@ void superpose_modes(const ElastodynamicsOptions& options, PathFollower& followe
   if (!basis.outcome.solved()) return;
   const ModalResponse response =
       superpose(basis, decay_rates(options.damping, basis.omega), M,
-                step_load(f, options.time.start), from_start, q0, VectorXd::Zero(f.size()));
+                load_in_time(options, follower, f), from_start, q0, VectorXd::Zero(f.size()));
   const double strain_at_start = q0.dot(K * q0) / 2;
   const EquationOfMotion equation = equation_of(options, follower);
   MotionEvidence evidence(equation);
@@ -109,7 +127,8 @@ void superpose_modes(const ElastodynamicsOptions& options, PathFollower& followe
     MotionEnergy energy;
     energy.kinetic = v.dot(M * v) / 2;
     energy.strain = q.dot(K * q) / 2;
-    energy.work = f.dot(q - q0);
+    // Of a load that changes nobody keeps account here.
+    energy.work = options.load_history.constant() ? f.dot(q - q0) : kNaN;
     // What is missing has been dissipated; without damping it shows the round-off.
     const bool damped = options.damping.mass != 0 || options.damping.stiffness != 0;
     if (damped) energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
@@ -165,6 +184,8 @@ ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options
     integrate(options, follower, recorder, solution);
   }
   if (!follower.outcome().solved()) solution.outcome = follower.outcome();
+  if (!solution.state.empty())
+    solution.evidence.add(Residual::equation_of_motion, recorder.balance());
   solution.outcome =
       outcome_by_evidence(solution.outcome, solution.evidence, {Residual::equation_of_motion});
   solution.summary.counters += follower.counters();

@@ -3,6 +3,7 @@
 #include "solver/assembly/damping.h"
 #include "solver/manipulator/manipulator.h"
 #include "solver/manipulator/trajectory.h"
+#include "solver/time/load_history.h"
 #include "solver/time/transient.h"
 
 /// What vibrates along which path, under which loads, and with which terms of the equation of
@@ -13,6 +14,7 @@ struct ElastodynamicsOptions {
   ManipulatorDesign design;
   Path path;
   Vector3d wrench = Vector3d::Zero();   ///< on the platform at P, world axes (Fx, Fy [N], M [N m])
+  LoadHistory load_history;             ///< on the wrench, not on weight and inertia
   Vector2d gravity = Vector2d::Zero();  ///< in the plane [m/s^2]
   RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed, Eq. 19
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/elastodynamics/elastodynamics.h"
+#include "solver/elastodynamics/motion_postprocessing.h"
 #include "solver/elastodynamics/path_follower.h"
 
 namespace trammel::solver {
@@ -21,6 +22,8 @@ class ElastodynamicsRecorder {
               const Eigen::VectorXd& a, const MotionEnergy& energy);
   /// Stacks what the samples have given.
   void finish();
+  /// What is left of all forces on the whole, over them.
+  [[nodiscard]] double balance() const { return balance_.share(); }
 
  private:
   [[nodiscard]] Vector2d quasi_static_displacement(Index node);
@@ -29,6 +32,7 @@ class ElastodynamicsRecorder {
   const ElastodynamicsOptions& options_;
   PathFollower& follower_;
   ElastodynamicsSolution& solution_;
+  WholeBalance balance_;
   std::vector<double> rotation_;
   std::vector<Vector2d> deflection_, quasi_static_;
   std::vector<Vector3d> torque_, rigid_torque_;

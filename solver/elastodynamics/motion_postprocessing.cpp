@@ -15,12 +15,13 @@ using Eigen::VectorXd;
 class MotionPostprocessor {
  public:
   MotionPostprocessor(const MovingSystem& moving, const VectorXd& q,
-                      const MovingSystem::Forces& forces)
+                      const MovingSystem::Forces& forces, WholeBalance& balance)
       : moving_(moving),
         system_(moving.start()),
         model_(system_.model),
         u_(moving.constraints().T * q),
         forces_(forces),
+        balance_(balance),
         multipliers_(moving.constraints().multipliers(forces.total)) {
     state_.q = q;
   }
@@ -75,9 +76,12 @@ class MotionPostprocessor {
   void equilibrium() {
     Vector2d force = Vector2d::Zero();
     double moment = 0;
+    Vector2d terms = Vector2d::Zero();
     const auto add = [&](const Vector2d& at, const Vector2d& f, double m) {
       force += f;
       moment += m + cross(at, f);
+      terms[0] += f.norm();
+      terms[1] += std::abs(m) + at.norm() * f.norm();
     };
     const auto nodes = static_cast<Index>(system_.coordinates.node.size());
     for (Index node = 0; node < nodes; ++node) {
@@ -98,6 +102,8 @@ class MotionPostprocessor {
     }
     state_.equilibrium_residual = force.norm();
     state_.moment_residual = std::abs(moment);
+    balance_.residual = balance_.residual.cwiseMax(Vector2d(force.norm(), std::abs(moment)));
+    balance_.terms = balance_.terms.cwiseMax(terms);
   }
 
   const MovingSystem& moving_;
@@ -105,6 +111,7 @@ class MotionPostprocessor {
   const Model& model_;
   VectorXd u_;
   const MovingSystem::Forces& forces_;
+  WholeBalance& balance_;
   VectorXd multipliers_;
   StaticSolution state_;
 };
@@ -112,8 +119,8 @@ class MotionPostprocessor {
 }  // namespace
 
 StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
-                                  const MovingSystem::Forces& forces) {
-  return MotionPostprocessor(moving, q, forces).run();
+                                  const MovingSystem::Forces& forces, WholeBalance& balance) {
+  return MotionPostprocessor(moving, q, forces, balance).run();
 }
 
 double mean_platform_rotation(const MovingSystem& moving, const Eigen::MatrixX3d& displacement) {

@@ -99,7 +99,7 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
     std::fill_n(K_centrifugal_euler_.valuePtr(), K_.nonZeros(), 0.0);
   }
   inertia_u_.setZero();
-  load_u_ = start_.load;
+  load_u_ = motion_.load_factor * start_.load;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const MovingElement& element = elements_[e];
     const PartMotion part = element.motion(motion_);
@@ -168,8 +168,8 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
   }
   Forces forces;
   forces.element.setZero(6, static_cast<Index>(start_.mesh.frame.size()));
-  forces.total = -start_.load;
-  forces.external = start_.load;
+  forces.external = motion_.load_factor * start_.load;
+  forces.total = -forces.external;
   const VectorXd strained = u + stiffness_damping * u_dot;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const MovingElement& element = elements_[e];

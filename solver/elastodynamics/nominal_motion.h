@@ -21,6 +21,7 @@ struct NominalMotion {
   Eigen::MatrixX2d acceleration;  ///< model node x (x, y) [m/s^2]
   std::vector<PartMotion> member, plate, rigid_body;
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
+  double load_factor = 1;               ///< on the loads of the model
 };
 
 /// The nominal motion of every part of the built model, from that of the platform.

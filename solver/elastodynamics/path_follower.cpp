@@ -28,12 +28,12 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
       rigid_(rigid_manipulator(options.design)),
       moving_(loaded_model(options, built_at), options.gyroscopic, options.elastic_inertia) {
   rigid_.gravity = options.gravity;
-  start_ = inverse_dynamics(rigid_, at(options.path, built_at), options.wrench).q;
+  start_ = inverse_dynamics(rigid_, at(options.path, built_at), wrench(built_at)).q;
 }
 
 bool PathFollower::update_to(double time) {
   if (time == time_) return outcome_.solved();
-  if (stands_still_ && !std::isnan(time_)) {
+  if (stands_still_ && options_.load_history.constant() && !std::isnan(time_)) {
     point_.time = time;
   } else {
     outcome_ = move_to(time, options_.gravity);
@@ -49,10 +49,16 @@ Outcome PathFollower::move_to(double time, const Vector2d& gravity) {
   time_ = kNaN;
   factored_ = false;
   point_ = at(options_.path, time);
-  dynamics_ = inverse_dynamics(rigid_, point_, options_.wrench);
+  dynamics_ = inverse_dynamics(rigid_, point_, wrench(time));
   if (!dynamics_.outcome.solved()) return dynamics_.outcome;
-  return moving_.move_to(
-      nominal_motion(options_.design, moving_.start().model, dynamics_, start_, point_, gravity));
+  NominalMotion motion =
+      nominal_motion(options_.design, moving_.start().model, dynamics_, start_, point_, gravity);
+  motion.load_factor = options_.load_history.at(time);
+  return moving_.move_to(motion);
+}
+
+Vector3d PathFollower::wrench(double time) const {
+  return options_.load_history.at(time) * options_.wrench;
 }
 
 bool PathFollower::damped() const {
@@ -110,7 +116,7 @@ Vector3d PathFollower::rigid_torque() const {
   TrajectoryPoint still = point_;
   still.velocity.setZero();
   still.acceleration.setZero();
-  return inverse_dynamics(rigid_, still, options_.wrench).torque;
+  return inverse_dynamics(rigid_, still, wrench(point_.time)).torque;
 }
 
 Counters PathFollower::counters() const {

@@ -17,7 +17,8 @@ class PathFollower {
   /// @pre `options` outlive the follower
   PathFollower(const ElastodynamicsOptions& options, double built_at);
 
-  /// A time is evaluated once, and only one for a platform that stands still.
+  /// A time is evaluated once, and only one for a platform that stands still under a load that
+  /// stays.
   /// @returns false: `outcome` names the time and the reason.
   bool update_to(double time);
   /// The same at any time under any gravity [m/s^2], each time anew.
@@ -48,6 +49,8 @@ class PathFollower {
   [[nodiscard]] Counters counters() const;
 
  private:
+  [[nodiscard]] Vector3d wrench(double time) const;
+
   const ElastodynamicsOptions& options_;
   bool stands_still_;
   RigidManipulator rigid_;

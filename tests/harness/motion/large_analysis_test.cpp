@@ -179,6 +179,16 @@ BOOST_AUTO_TEST_CASE(a_drive_replaces_the_lock_of_an_actuator) {
 }
 
 // It turned a node to which no link is joined, and nothing else moved.
+BOOST_AUTO_TEST_CASE(a_history_with_a_jump_or_beside_a_ramp_is_refused) {
+  Json json = slider_crank();
+  Json& motion = json["analysis"]["large-motion"];
+  motion["load_history"] = {{"time_s", {0.1, 0.1}}, {"factor", {0, 1}}};
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "/time_s/1: expected no jump"));
+  motion["load_history"]["time_s"][1] = 0.2;
+  motion["load_ramp_s"] = 0.1;
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "without 'load_ramp_s'"));
+}
+
 BOOST_AUTO_TEST_CASE(a_drive_that_moves_nothing_is_refused) {
   Json json = hinged_manipulator();
   const Json law = {{"constant_speed", {{"speed_per_s", 1}}}};

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+namespace trammel::solver {
+
+/// Factor on loads: linear between ascending times, constant outside them; a time given twice is a
+/// jump. 1 throughout by default.
+struct LoadHistory {
+  std::vector<double> time{0.0};    ///< [s]
+  std::vector<double> factor{1.0};  ///< one for each time [-]
+
+  [[nodiscard]] bool constant() const { return time.size() == 1; }
+  /// At a jump, the value after it.
+  [[nodiscard]] double at(double t) const;
+};
+
+}  // namespace trammel::solver
