@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/input/schema.h"
+#include "harness/judge/sweep.h"
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
@@ -89,6 +90,23 @@ BOOST_AUTO_TEST_CASE(the_order_its_leading_term_and_the_extrapolated_value_are_j
   BOOST_TEST((find(runs.at(0), "order").verdict == Verdict::fail));
   BOOST_TEST((find(runs.at(0), "order.leading-term").verdict == Verdict::fail));
   BOOST_TEST(exit_status(runs) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_computed_and_bands_that_miss_do_not_pass) {
+  const Folder folder;
+  Json json = beam(folder);
+  json["variants"]["no-length"]["model"]["nodes"]["B"] = {0, 0};
+  const Case beams = testing::read(folder, json);
+  const std::vector<Run> broken = run_all({beams}, 1, "no-length");
+  BOOST_TEST((find(broken.at(0), "order").verdict == Verdict::error));
+  BOOST_TEST(contains(find(broken.at(0), "order").message, "not computed: "));
+  std::vector<Run> runs = run_all({beams}, 1, "base");
+  BOOST_TEST(exit_status(runs) == 0);
+  Convergence study = runs.at(0).convergence.at(0);
+  for (double& band : study.gci) band *= 1e-3;
+  runs[0].convergence.assign(100, study);
+  BOOST_TEST(exit_status(runs) == 1);
+  BOOST_TEST(element_size("halvings", 3) == 0.125);
 }
 
 BOOST_AUTO_TEST_CASE(an_order_from_too_few_meshes_is_no_order) {
