@@ -31,7 +31,12 @@ void ElastodynamicsRecorder::record(double time, const VectorXd& q, const Vector
   solution_.time.push_back(time);
   solution_.nominal.push_back(follower_.point());
   solution_.energy.push_back(energy);
-  solution_.state.push_back(postprocess_motion(moving, q, forces, balance_));
+  // Where the load sets in or jumps, coordinates without mass are not yet where it puts them.
+  const std::vector<double>& jumps = options_.load_history.time;
+  const bool begins =
+      time == options_.time.start || std::find(jumps.begin(), jumps.end(), time) != jumps.end();
+  WholeBalance unbalanced;
+  solution_.state.push_back(postprocess_motion(moving, q, forces, begins ? unbalanced : balance_));
   const StaticSolution& state = solution_.state.back();
   rotation_.push_back(mean_platform_rotation(moving, state.displacement));
   const Index P = moving.start().model.find_node("P");
