@@ -24,47 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Json number(const results::Number& value) {
-  return value ? Json(*value) : Json();
-}
-
-Json changes_json(const std::vector<HistoryChange>& changes) {
-  Json json = Json::array();
-  for (const HistoryChange& change : changes)
-    json.push_back({{"name", change.name},
-                    {"verdict_before", change.verdict_before},
-                    {"verdict", change.verdict},
-                    {"before", number(change.before)},
-                    {"after", number(change.after)},
-                    {"commit", change.commit},
-                    {"date", change.date}});
-  return json;
-}
-
-Json history_json(const History& history) {
-  Json calls = Json::array(), drifts = Json::array();
-  for (const HistoryCall& call : history.calls)
-    calls.push_back({{"id", call.id},
-                     {"date", call.date},
-                     {"commit", call.commit},
-                     {"machine", call.machine},
-                     {"runs", call.runs},
-                     {"checks", call.checks},
-                     {"failures", call.failures},
-                     {"cpu_s", call.cpu_s},
-                     {"work", call.work}});
-  for (const HistoryDrift& drift : history.drifts)
-    drifts.push_back({{"name", drift.name},
-                      {"steps", drift.steps},
-                      {"first", drift.first},
-                      {"last", drift.last}});
-  return {{"calls", calls},
-          {"since", history.since},
-          {"changes", changes_json(history.changes)},
-          {"work", changes_json(history.work)},
-          {"drifts", drifts}};
-}
-
 void print_changes(const std::vector<HistoryChange>& changes, const std::string& title) {
   if (changes.empty()) return;
   std::cout << title << '\n';
@@ -87,7 +46,8 @@ void print(const History& history) {
     const HistoryCall& call = history.calls[i];
     table.add({std::to_string(call.id), call.date, call.commit, call.machine,
                std::to_string(call.runs), std::to_string(call.checks),
-               std::to_string(call.failures), rounded(call.cpu_s, 3), std::to_string(call.work)});
+               std::to_string(call.failures), call.cpu_s > 0 ? rounded(call.cpu_s, 3) : "-",
+               std::to_string(call.work)});
   }
   table.print(std::cout);
   const std::string since = "call " + std::to_string(history.since);
@@ -181,7 +141,7 @@ std::vector<InterleavedTimes> measure(const std::string& own, const std::string&
 int history_command(const std::string& file, bool json) {
   const History history = read_history(file);
   if (json) {
-    std::cout << pretty(history_json(history));
+    std::cout << pretty(results::history_to_json(history), 3);
   } else {
     print(history);
   }

@@ -167,8 +167,8 @@ class CommandLine {
 
   void add_history(CLI::App* sub) {
     sub->add_option("--history", run_.history,
-                    "SQLite file that verdicts, values, times and counted work are added to, for "
-                    "'trammel history'");
+                    "SQLite file that verdicts, values, counted work and the times of what was "
+                    "computed are added to, for 'trammel history' and the report");
   }
 
   void define_list(CLI::App* sub) {
@@ -227,7 +227,12 @@ class CommandLine {
                     "of the whole catalogue")
         ->excludes("--store");
     add_costs(sub);
-    add_json(sub, kResultsJson);
+    auto* json = add_json(sub, kResultsJson);
+    sub->add_flag("--ctest", run_.measurements,
+                  "Also checks, worst share of a tolerance and time as ctest's measurements")
+        ->excludes(json);
+    sub->add_flag("--vtk", run_.vtk,
+                  "Also OUT/vtk: shapes and poses for ParaView, each set as PVD of VTU files");
     sub->callback([this] {
       if (run_.cases.empty() && run_.labels.empty() && run_.shard.empty()) {
         throw CLI::RequiredError("a case or a label");

@@ -15,6 +15,7 @@
 #include "harness/cli/command_cost.h"
 #include "harness/cli/command_effects.h"
 #include "harness/coverage/evidence_coverage.h"
+#include "harness/export/vtk_files.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
 #include "harness/judge/evaluate_check.h"
@@ -231,6 +232,30 @@ void print_summary(const std::vector<Run>& runs) {
   print_validation_summary(runs, std::cout);
 }
 
+/// What a dashboard follows over time, as ctest takes it out of what a test prints.
+void print_measurements(const std::vector<Run>& runs) {
+  double checks = 0, failures = 0, share = 0, cpu_s = 0;
+  for (const Run& run : runs) {
+    cpu_s += run.cpu_s;
+    for (const CheckResult& check : run.check_results) {
+      ++checks;
+      failures += fails_gate(check.verdict) ? 1 : 0;
+      const bool limited = check.window && check.difference && std::isfinite(check.window->low) &&
+                           std::isfinite(check.window->high);
+      if (limited) share = std::max(share, 1 + severity(check));
+    }
+  }
+  const auto print = [](const char* name, double value) {
+    std::cout << "<CTestMeasurement type=\"numeric/double\" name=\"" << name << "\">"
+              << rounded(value, 6) << "</CTestMeasurement>\n";
+  };
+  print("runs", static_cast<double>(runs.size()));
+  print("checks", checks);
+  print("failed checks", failures);
+  print("worst share of a tolerance", share);
+  print("processor time of the runs [s]", cpu_s);
+}
+
 void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
@@ -284,13 +309,16 @@ constexpr const char* kReportInterrupted =
     "trammel: interrupted; the same command does what is missing\n";
 
 /// The page of these results, and where it is.
-void write_page(const results::Results& found, const std::vector<Run>& runs,
-                const RunCommand& command, const Renderers& renderers) {
+void write_page(results::Results found, const std::vector<Run>& runs, const RunCommand& command,
+                const Renderers& renderers) {
+  if (!command.history.empty()) {
+    append_history(command.history, found);
+    found.history = read_history(command.history);
+  }
   const auto unfinished = std::filesystem::path(command.out) / results::kUnfinishedFolder;
   std::filesystem::create_directories(unfinished);
   write_all(found, unfinished, renderers);
   const auto page = renderers.report(found, command.out, command.single_file);
-  if (!command.history.empty()) append_history(command.history, found);
   print_summary(runs);
   std::cout << "report in " << page.string() << std::endl;
   print_run_errors(runs);
@@ -397,6 +425,10 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
     print_summary(runs);
     std::cout << "results in " << results.string() << std::endl;
   }
+  if (command.measurements) print_measurements(runs);
+  if (command.vtk)
+    for (const results::Run& run : found.runs)
+      write_vtk(run, std::filesystem::path(command.out) / "vtk");
   print_run_errors(runs);
   require_complete(runs);
   if (!command.history.empty()) append_history(command.history, found);
@@ -435,7 +467,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   add_reasons(results.coverage);
   count_series(results, results.coverage);
   results.effect_scenes = catalogue_effect_scenes();
-  write_page(results, runs, command, renderers);
+  write_page(std::move(results), runs, command, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {
     if (claim.as_expected()) continue;

@@ -23,6 +23,8 @@ struct RunCommand {
   std::string history = {};      ///< SQLite file that the call is added to; empty: none
   bool single_file = false;      ///< of a report, beside its pages
   bool json = false;             ///< results.json instead of tables
+  bool measurements = false;     ///< also as lines that ctest sends to CDash
+  bool vtk = false;              ///< drawings also as files of VTK
 };
 
 /// The cases that are named, and those with the labels; the whole catalogue where there are

@@ -7,6 +7,7 @@
 
 #include "harness/analysis/analysis.h"
 #include "harness/base/json_file.h"
+#include "harness/export/vtk_files.h"
 #include "harness/readers/damping_reader.h"
 #include "harness/scene/with_model_errors.h"
 #include "solver/assembly/damping.h"
@@ -63,39 +64,17 @@ std::string coordinate_table(const solver::System& system) {
   return text;
 }
 
-/// Cells in VTK's numbers: 3 line, 5 triangle, 22 triangle with the middles of its sides.
-std::string vtu(const solver::System& system) {
-  std::string points, connectivity, offsets, types, parts;
-  std::size_t cells = 0, last = 0;
-  const auto add = [&](const auto& nodes, std::size_t count, int type, Index part) {
-    for (std::size_t i = 0; i < count; ++i)
-      connectivity += std::to_string(nodes[i]) + (i + 1 < count ? " " : "\n");
-    offsets += std::to_string(last += count) + "\n";
-    types += std::to_string(type) + "\n";
-    parts += std::to_string(part) + "\n";
-    ++cells;
-  };
-  for (const Eigen::Vector2d& p : system.mesh.positions)
-    fmt::format_to(std::back_inserter(points), "{} {} 0\n", p.x(), p.y());
-  for (const solver::FrameElement& e : system.mesh.frame) add(e.nodes, 2, 3, e.member);
-  for (const solver::Triangle& triangle : system.model.triangles)
-    add(triangle.nodes, triangle.quadratic() ? 6 : 3, triangle.quadratic() ? 22 : 5,
-        triangle.plate);
-  const auto array = [](const char* type, const char* name, int components,
-                        const std::string& data) {
-    return fmt::format(
-        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n{}"
-        "</DataArray>\n",
-        type, name, components, data);
-  };
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-      "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n<CellData>\n{}</CellData>\n"
-      "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-      system.mesh.positions.size(), cells, array("Float64", "points", 3, points),
-      array("Int64", "connectivity", 1, connectivity), array("Int64", "offsets", 1, offsets),
-      array("UInt8", "types", 1, types), array("Int64", "member_or_plate", 1, parts));
+std::string mesh_text(const solver::System& system) {
+  std::vector<results::Point> nodes;
+  for (const Eigen::Vector2d& p : system.mesh.positions) nodes.emplace_back(p.x(), p.y());
+  std::vector<VtkCell> cells;
+  for (const solver::FrameElement& e : system.mesh.frame)
+    cells.push_back({{e.nodes.begin(), e.nodes.end()}, 3, e.member});
+  for (const solver::Triangle& triangle : system.model.triangles) {
+    const auto end = triangle.nodes.begin() + (triangle.quadratic() ? 6 : 3);
+    cells.push_back({{triangle.nodes.begin(), end}, triangle.quadratic() ? 22 : 5, triangle.plate});
+  }
+  return vtu(nodes, cells, "member_or_plate");
 }
 
 }  // namespace
@@ -126,7 +105,7 @@ void write_matrices(const Document& document, const ExportedScene& scene,
   write_file(folder / "T.mtx", matrix_market(system.T, false, "u = T q"));
   write_file(folder / "f.mtx", matrix_market(system.f.sparseView(), false, "loads on q [N, N m]"));
   write_file(folder / "coordinates.csv", coordinate_table(system));
-  write_file(folder / "mesh.vtu", vtu(system));
+  write_file(folder / "mesh.vtu", mesh_text(system));
 }
 
 }  // namespace trammel::harness

@@ -245,10 +245,22 @@ template <>
 inline constexpr auto kFields<EffectScene> = std::tuple{TRAMMEL_REQUIRED(
     EffectScene, scene, analysis, tolerance, change, minimal, whole_s, chosen_s, deciding_s)};
 template <>
-inline constexpr auto kFields<Results> =
-    std::tuple{optional("numerical_uncertainty", &Results::uncertainty_coverage),
-               TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
-               TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage, effect_scenes, store)};
+inline constexpr auto kFields<HistoryCall> = std::tuple{
+    TRAMMEL_REQUIRED(HistoryCall, id, date, commit, machine, runs, checks, failures, cpu_s, work)};
+template <>
+inline constexpr auto kFields<HistoryChange> = std::tuple{
+    TRAMMEL_REQUIRED(HistoryChange, name, verdict_before, verdict, before, after, commit, date)};
+template <>
+inline constexpr auto kFields<HistoryDrift> =
+    std::tuple{TRAMMEL_REQUIRED(HistoryDrift, name, steps, first, last)};
+template <>
+inline constexpr auto kFields<History> =
+    std::tuple{TRAMMEL_REQUIRED(History, calls, since, changes, work, drifts)};
+template <>
+inline constexpr auto kFields<Results> = std::tuple{
+    optional("numerical_uncertainty", &Results::uncertainty_coverage),
+    TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
+    TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage, effect_scenes, history, store)};
 
 namespace {
 
@@ -457,6 +469,10 @@ void complete(Results& results) {
 
 nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows) {
   return to_json(rows);
+}
+
+nlohmann::ordered_json history_to_json(const History& history) {
+  return to_json(history);
 }
 
 nlohmann::ordered_json claims_to_json(const Claims& claims) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/results/cost_results.h"
+#include "harness/results/history.h"
 #include "harness/results/run_results.h"
 
 /// What results.json says, as plain values in its own order: written by the harness, read by the
@@ -159,7 +160,8 @@ struct Results {
   std::optional<Claims> claims;
   std::vector<CoverageRow> coverage;  ///< of the whole catalogue
   std::vector<EffectScene> effect_scenes;
-  std::string store;    ///< folder of what runs have stored, seen from that of the file
+  std::optional<History> history;  ///< the newest of its calls is these results
+  std::string store;               ///< folder of what runs have stored, seen from that of the file
   std::string missing;  ///< what the store should hold and does not, in words; not written
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
@@ -173,6 +175,7 @@ struct Results {
 [[nodiscard]] nlohmann::ordered_json to_json(const Run& run);
 [[nodiscard]] Run read_run(const nlohmann::ordered_json& json);
 [[nodiscard]] nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows);
+[[nodiscard]] nlohmann::ordered_json history_to_json(const History& history);
 [[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
 
 /// Figures, tables and the like of a case file, which results hold as they stand there.

@@ -174,6 +174,7 @@ struct Run {
   Cost cost;
   /// File of the run store that holds its series, drawing and studies; empty: the results do.
   std::string stored;
+  bool was_stored = false;  ///< by an earlier call; not written
 
   /// @returns nullptr when the run has no such quantity.
   [[nodiscard]] const Numbers* quantity(const std::string& name) const;

@@ -215,10 +215,12 @@ void add_call(Database& database, const results::Results& results) {
     work += work_of(run);
     cpu_s += run.cost.cpu_s;
   }
+  const bool all_new = std::none_of(results.runs.begin(), results.runs.end(),
+                                    [](const results::Run& run) { return run.was_stored; });
   const results::Environment& from = results.environment;
   Statement(database, "INSERT INTO call VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .run(from.date, from.commit, from.processor, from.trammel, results.runs.size(), checks,
-           failures, cpu_s, work);
+           failures, all_new ? results::Number(cpu_s) : results::Number(), work);
 }
 
 /// Entries that are other than before, also those that a run no longer has.
@@ -232,7 +234,8 @@ void add_entries(Database& database, const results::Results& results, std::int64
     entry.run(call, names.id(name), state.verdict, state.value, state.noise);
   };
   for (const results::Run& run : results.runs) {
-    cost.run(call, names.id(name_of(run)), run.cost.cpu_s, work_of(run));
+    // What an earlier call has measured is no second measurement.
+    if (!run.was_stored) cost.run(call, names.id(name_of(run)), run.cost.cpu_s, work_of(run));
     const std::map<std::string, State> now = states_of(run);
     for (const auto& [name, state] : now) {
       const auto known = before.find(name);

@@ -192,6 +192,7 @@ results::Run run_results(const Run& run) {
   out.quantities = std::move(series.quantities);
   out.drawing = std::move(series.drawing);
   out.stored = run.stored.filename().string();
+  out.was_stored = run.was_stored;
   for (const CheckResult& found : run.check_results) out.checks.push_back(check(found));
   for (const Convergence& found : run.convergence) out.convergence.push_back(convergence(found));
   if (!run.uncertainty.empty()) out.uncertainty = uncertainty(run.uncertainty);

@@ -1,10 +1,12 @@
 #include "reports/page/report.h"
 
+#include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "harness/results/unfinished_folder.h"
 #include "reports/figures/gallery.h"
+#include "reports/figures/history.h"
 #include "reports/page/links.h"
 #include "reports/page/site.h"
 #include "reports/sections/cost.h"
@@ -62,16 +64,20 @@ fs::path write_report(const Results& results, const fs::path& out, bool single_f
     CostPanels panels = plan_cost(results);
     std::vector<std::vector<Figure*>> pages = figures_by_page(families);
     pages.push_back(panels.figures());
+    std::optional<Figure> over_time;
+    if (results.history && !results.history->calls.empty())
+      pages.back().push_back(&over_time.emplace(history_figure(*results.history)));
     number_figures(pages);
     std::vector<Figure*> figures;
     for (const auto& page : pages) figures.insert(figures.end(), page.begin(), page.end());
     draw(figures, part / "figures");
     write_checks(families, part / "checks");
-    for (const SiteFile& file : site_files(results, families, panels)) {
+    for (const SiteFile& file : site_files(results, families, panels, over_time)) {
       fs::create_directories((part / file.path).parent_path());
       write_file(part / file.path, file.text);
     }
-    if (single_file) write_file(part / "report.html", single_page(results, families, panels));
+    if (single_file)
+      write_file(part / "report.html", single_page(results, families, panels, over_time));
     replace_files(part, out, "index.html", earlier_files(out));
   } catch (...) {
     std::error_code ignored;

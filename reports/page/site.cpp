@@ -9,6 +9,7 @@
 
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
+#include "reports/page/history.h"
 #include "reports/page/links.h"
 #include "reports/page/render.h"
 #include "reports/sections/check_status_data.h"
@@ -39,7 +40,7 @@ constexpr const char *kMark = "<!--drawing ", *kBody = "<!--body-->", *kLeftOut 
 struct IndexSection {
   const char *key, *anchor, *title, *summary;
 };
-constexpr std::array<IndexSection, 7> kIndexSections = {{
+constexpr std::array<IndexSection, 8> kIndexSections = {{
     {"claims", "claims", "The paper's claims", "overview"},
     {"cost", "cost", "Accuracy and computing time", "words"},
     {"stress_suite", "stress-suite", "Stress suite", "words"},
@@ -47,6 +48,7 @@ constexpr std::array<IndexSection, 7> kIndexSections = {{
     {"orders", "orders", "Orders of convergence and numerical uncertainty", "words"},
     {"validation_uncertainty", "validation-uncertainty", "Validation uncertainty", "words"},
     {"coverage", "coverage", "What is verified, and by what", "words"},
+    {"history", "history", "Over time", "words"},
 }};
 
 /// What every template finds; headings below a page's title start with h`level`.
@@ -55,7 +57,7 @@ Data page_data(bool single, int level) {
   for (const char* name :
        {"summary", "claims", "variants", "figure", "checks", "matrix", "cost", "stress_suite",
         "targets", "orders", "coverage", "validation_uncertainty", "counts", "rows", "head",
-        "matrix_row", "cell", "find"})
+        "matrix_row", "cell", "find", "history"})
     data.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -74,7 +76,7 @@ const IndexSection* section_there(const Data& index, const IndexSection& section
 }
 
 Data index_data(const Results& results, const std::vector<Family>& families,
-                const CostPanels& panels, bool single) {
+                const CostPanels& panels, const std::optional<Figure>& over_time, bool single) {
   Data index = page_data(single, 2);
   index.set("environment", environment_section(results));
   index.set("claims", claims_section(results));
@@ -84,6 +86,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   index.set("orders", orders_section(results, families));
   index.set("validation_uncertainty", validation_uncertainty_section(results, families));
   index.set("coverage", coverage_section(results, false));
+  index.set("history", history_section(results, over_time));
   set_text(index, "missing", results.missing);
   set_flag(index, "has_claims", results.claims.has_value());
   set_flag(index, "has_runs", !results.runs.empty() || panels.empty());
@@ -315,8 +318,8 @@ std::size_t take_in(std::string& html, const DrawingsByPage& pages, std::size_t 
 }  // namespace
 
 std::vector<SiteFile> site_files(const Results& results, const std::vector<Family>& families,
-                                 const CostPanels& panels) {
-  const Data index = index_data(results, families, panels, false);
+                                 const CostPanels& panels, const std::optional<Figure>& over_time) {
+  const Data index = index_data(results, families, panels, over_time, false);
   Frame frame{results, index_contents(index), {}, false};
   for (const Family& family : families) frame.families.push_back(family_section(family, results));
   std::vector<SiteFile> files;
@@ -359,7 +362,8 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   return files;
 }
 
-std::string single_page(const Results& results, std::vector<Family> families, CostPanels panels) {
+std::string single_page(const Results& results, std::vector<Family> families, CostPanels panels,
+                        std::optional<Figure> over_time) {
   DrawingsByPage drawings(1);
   const auto take_out = [&](Figure& figure) {
     const std::string mark = kMark + figure.id + ">";
@@ -367,6 +371,7 @@ std::string single_page(const Results& results, std::vector<Family> families, Co
     drawings.back().emplace_back(mark, std::exchange(figure.svg, mark));
   };
   for (Figure* figure : panels.figures()) take_out(*figure);
+  if (over_time) take_out(*over_time);
   for (Family& family : families) {
     drawings.emplace_back();
     for (Figure& figure : family.overview) take_out(figure);
@@ -375,7 +380,7 @@ std::string single_page(const Results& results, std::vector<Family> families, Co
       for (Figure& figure : gallery.shown) take_out(figure);
     }
   }
-  const Data index = index_data(results, families, panels, true);
+  const Data index = index_data(results, families, panels, over_time, true);
   Frame frame{results, index_contents(index), {}, true};
   std::string body = linked_within(render("index.mustache", index), "index.html");
   for (const Family& family : families) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,12 @@ struct SiteFile {
 /// style sheets and the script that they share. Figures are drawn.
 [[nodiscard]] std::vector<SiteFile> site_files(const Results& results,
                                                const std::vector<Family>& families,
-                                               const CostPanels& panels);
+                                               const CostPanels& panels,
+                                               const std::optional<Figure>& over_time);
 
 /// All of it as one page of at most 6 MB that needs no other file: without the figures of further
 /// variants, the tables of every check and the drawings that do not fit, which it says.
 [[nodiscard]] std::string single_page(const Results& results, std::vector<Family> families,
-                                      CostPanels panels);
+                                      CostPanels panels, std::optional<Figure> over_time);
 
 }  // namespace trammel::reports

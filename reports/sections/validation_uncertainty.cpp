@@ -15,7 +15,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMaxUnfoldedComparisons = 8;
-constexpr double kFullColourDifference = 0.4;  ///< relative difference that is drawn in full colour
+constexpr double kFullColourOfUncertainty = 0.4;  ///< relative difference that is drawn in full colour
 
 /// One variant in one check.
 struct ComparisonRow {
@@ -118,7 +118,7 @@ Data cell_of(const Comparison* c) {
   cell.set("expanded_uncertainty", relative(2 * *c->u_val / std::abs(*c->expected), 2, false));
   cell.set("verdict", c->verdict);
   cell.set("side", difference < 0 ? "below" : "above");
-  cell.set("depth", trimmed(std::min(1.0, std::abs(difference) / kFullColourDifference), 2));
+  cell.set("depth", trimmed(std::min(1.0, std::abs(difference) / kFullColourOfUncertainty), 2));
   std::string words = c->conclusion;
   if (!c->all_inputs.conclusion.empty())
     words +=

@@ -22,7 +22,8 @@ function made(parent, name, attributes = {}, text = "") {
   return parent.appendChild(e);
 }
 
-// The values of all curves at the pointer, or where the arrow keys have moved.
+// The values of all curves at the pointer, or where the arrow keys have moved; a part of them is enlarged by
+// drawing a frame around it, or by keys.
 function readable(svg) {
   const [x0, x1, y0, y1, left, right, bottom, top, logX, logY] = svg.dataset.axes.split(" ").map(Number);
   const box = svg.parentElement, none = ["#ffffff", "#e4e7eb", "#a6aeb8", "#eef0f3"];
@@ -42,7 +43,7 @@ function readable(svg) {
   };
   box.tabIndex = 0;
   box.setAttribute("role", "group");
-  box.setAttribute("aria-label", svg.getAttribute("aria-label") + " Arrow keys read values.");
+  box.setAttribute("aria-label", svg.getAttribute("aria-label") + " Arrow keys read values, + and - zoom, 0 shows all.");
   const line = made(svg, "path", {stroke: "#5b6470", "stroke-width": 1, "stroke-dasharray": "3 3", d: ""});
   const out = made(box, "output", {class: "reading"});
   let here = (left + right) / 2;
@@ -63,17 +64,36 @@ function readable(svg) {
   };
   const hide = () => { out.hidden = true; line.setAttribute("d", ""); };
   hide();
+  const whole = svg.getAttribute("viewBox").split(/[ ,]+/).map(Number), framed = made(svg, "path", {stroke: "#5b6470", fill: "none", d: ""});
+  let seen = whole, from;
+  const zoom = (x, y, width) => {
+    const w = Math.min(whole[2], Math.max(whole[2] / 64, width)), h = w * whole[3] / whole[2];
+    const within = (middle, size, start, all) => Math.min(start + all - size, Math.max(start, middle - size / 2));
+    seen = [within(x, w, whole[0], whole[2]), within(y, h, whole[1], whole[3]), w, h];
+    svg.setAttribute("viewBox", seen.join(" "));
+  };
+  const place = e => new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
+  svg.addEventListener("pointerdown", e => { if (e.pointerType !== "touch" && e.button === 0) { from = place(e); e.preventDefault(); box.focus(); } });
   svg.addEventListener("pointermove", e => {
-    const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
+    const p = place(e);
+    framed.setAttribute("d", from ? `M${from.x},${from.y}H${p.x}V${p.y}H${from.x}Z` : "");
     inside([p.x, p.y]) ? show(p.x) : hide();
   });
-  svg.addEventListener("pointerleave", hide);
+  svg.addEventListener("pointerup", e => {
+    const p = place(e), width = from ? Math.max(Math.abs(p.x - from.x), Math.abs(p.y - from.y) * whole[2] / whole[3]) : 0;
+    if (width > seen[2] / 50) zoom((p.x + from.x) / 2, (p.y + from.y) / 2, width);
+    from = undefined;
+    framed.setAttribute("d", "");
+  });
+  svg.addEventListener("dblclick", () => zoom(0, 0, whole[2]));
+  svg.addEventListener("pointerleave", () => { from = undefined; framed.setAttribute("d", ""); hide(); });
   box.addEventListener("blur", hide);
   box.addEventListener("keydown", e => {
-    const step = {ArrowLeft: -1, ArrowRight: 1}[e.key];
-    if (!step) return;
+    const step = {ArrowLeft: -1, ArrowRight: 1}[e.key], factor = {"+": 0.5, "-": 2, 0: 64}[e.key];
+    if (!step && !factor) return;
     e.preventDefault();
-    show(here + step * (right - left) / 50);
+    if (factor) return zoom(here, at(curves[0], here) ?? (top + bottom) / 2, seen[2] * factor);
+    show(here + step * (right - left) / 50 * seen[2] / whole[2]);
   });
 }
 document.querySelectorAll("figure svg[data-axes]").forEach(readable);

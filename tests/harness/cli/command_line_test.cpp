@@ -276,6 +276,80 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
   BOOST_TEST(seen.size() > 15U);
 }
 
+BOOST_AUTO_TEST_CASE(ctest_is_told_how_much_was_checked_and_how_near_to_its_tolerance) {
+  const Folder folder;
+  Json json = judged(101);
+  json["checks"]["near"] = {{"quantity", "reaction_y_N:A"},
+                            {"statistic", "sum"},
+                            {"role", "verification"},
+                            {"bound", {{"at_least", -101}, {"at_most", -99}, {"why", "100 N"}}}};
+  (void)folder.write(json);
+  BOOST_TEST(!contains(run(folder, "run cantilever.json").out, "CTestMeasurement"));
+  const std::string out = run(folder, "run cantilever.json --ctest").out;
+  const auto says = [&](const std::string& name, const std::string& value) {
+    return contains(out, "<CTestMeasurement type=\"numeric/double\" name=\"" + name + "\">" +
+                             value + "</CTestMeasurement>\n");
+  };
+  BOOST_TEST(says("checks", "2"), out);
+  BOOST_TEST(says("failed checks", "0"), out);
+  BOOST_TEST(says("runs", "1"), out);
+}
+
+BOOST_AUTO_TEST_CASE(drawings_are_also_files_of_vtk) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  BOOST_TEST(run(folder, "run cantilever.json --vtk --out out").status == 0);
+  const auto name = [&](const char* end) {
+    return text_of(folder.path() / "out/vtk" / (std::string("cantilever-base-") + end));
+  };
+  BOOST_TEST(contains(name("shapes.pvd"), "file=\"cantilever-base-shapes-1.vtu\""));
+  BOOST_TEST(contains(name("shapes-1.vtu"), "Name=\"displacement\" NumberOfComponents=\"3\""));
+  BOOST_TEST(!contains(name("poses-1.vtu"), "displacement"));
+  BOOST_TEST(contains(name("poses-1.vtu"), "\n2 0 0\n"));  // node B
+}
+
+BOOST_AUTO_TEST_CASE(a_report_draws_its_history_and_notes_no_time_twice) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  for (const char* words : {"report cantilever.json --out out --history h.db",
+                            "report cantilever.json --out out --history h.db"})
+    BOOST_TEST(run(folder, words).status == 0);
+  const Json calls = parse_json(run(folder, "history h.db --json").out, "out")["calls"];
+  BOOST_REQUIRE(calls.size() == 2U);
+  BOOST_TEST(calls[0]["cpu_s"].get<double>() > 0);
+  BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the store had the run
+  BOOST_TEST(calls[1]["work"] == calls[0]["work"]);
+  const std::string page = text_of(folder.path() / "out/index.html");
+  BOOST_TEST(contains(page, "<section id=\"history\">"));
+  BOOST_TEST(contains(page, "2 calls; nothing has changed since call 1"));
+  BOOST_TEST(contains(page, "<figure id=\"fig-history\">"));
+  BOOST_TEST(run(folder, "report out/results.json --out again").status == 0);
+  BOOST_TEST(contains(text_of(folder.path() / "again/index.html"), "<section id=\"history\">"));
+}
+
+BOOST_AUTO_TEST_CASE(another_build_is_slower_or_faster_by_what_it_takes) {
+  const Folder folder;
+  (void)folder.write(judged(101));
+  const auto program = [&](const char* name, const std::string& text) {
+    const auto file = folder.path() / name;
+    std::ofstream(file) << "#!/bin/sh\n" << text << '\n';
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  };
+  program("idle", "exit 0");
+  program("busy", "i=0; while [ $i -lt 200000 ]; do i=$((i+1)); done; exit 0");
+  program("broken", "exit 3");
+  const Outcome slower = run(folder, "slower ./idle cantilever.json --repeats 10 --json");
+  BOOST_TEST(slower.status == 1, slower.err);
+  BOOST_TEST(parse_json(slower.out, "out")[0]["verdict"] == "slower");
+  const Outcome faster = run(folder, "slower ./busy cantilever.json --repeats 10");
+  BOOST_TEST(faster.status == 0, faster.err);
+  BOOST_TEST(contains(faster.out, "faster"));
+  BOOST_TEST(contains(faster.out, "0 of 1 case is slower; 10 interleaved repeats"));
+  for (const char* words : {"./broken cantilever.json --repeats 10", "./none cantilever.json",
+                            "./idle cantilever.json --repeats 2"})
+    BOOST_TEST(run(folder, "slower " + std::string(words)).status == 2, words);
+}
+
 BOOST_AUTO_TEST_CASE(a_misspelt_case_or_command_is_answered_with_the_nearest) {
   const Folder folder;
   BOOST_TEST(contains(run(folder, "rnu x").err, "did you mean 'run'?"));

@@ -87,6 +87,20 @@ await page.keyboard.press("ArrowRight");
 const first = await reading();
 await page.keyboard.press("ArrowRight");
 expect("arrow keys read values", first !== "" && await reading() !== first);
+
+// Zoom: by a frame, by keys, and back.
+const view = () => page.$eval("figure svg[data-axes]", e => e.getAttribute("viewBox").split(" ").map(Number));
+const whole = await view(), at4 = await reading();
+await page.keyboard.press("+");
+expect("+ enlarges", (await view())[2] === whole[2] / 2 && await reading() === at4);
+await page.keyboard.press("0");
+expect("0 shows all again", (await view()).join() === whole.join());
+await page.mouse.move(box.x + 0.4 * box.width, box.y + 0.2 * box.height);
+await page.mouse.down();
+await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.3 * box.height, {steps: 4});
+await page.mouse.up();
+expect("a frame enlarges what is in it", (await view())[2] < 0.3 * whole[2]);
+await picture(page, "zoom-1280");
 await page.close();
 
 // Moving modes.

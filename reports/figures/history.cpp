@@ -1,0 +1,50 @@
+#include "reports/figures/history.h"
+
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
+
+namespace trammel::reports {
+
+Figure history_figure(const History& history) {
+  const std::string machine = history.calls.back().machine;
+  PlotScript::Rows time, work, failing;
+  double first_time = 0, first_work = 0;
+  Figure figure;
+  figure.data.heads = {"call", "date", "commit", "runs", "checks", "failures", "cpu_s", "work"};
+  for (const HistoryCall& call : history.calls) {
+    const auto number = static_cast<double>(call.id);
+    const auto counted = static_cast<double>(call.work);
+    const bool timed = call.cpu_s > 0 && call.machine == machine;  // times of one machine compare
+    if (timed && first_time == 0) first_time = call.cpu_s;
+    if (first_work == 0) first_work = counted;
+    if (timed) time.push_back({number, call.cpu_s / first_time});
+    if (first_work > 0) work.push_back({number, counted / first_work});
+    if (!call.green()) failing.push_back({number, first_work > 0 ? counted / first_work : 1});
+    figure.data.rows.push_back({number, call.date, call.commit, static_cast<double>(call.runs),
+                                static_cast<double>(call.checks),
+                                static_cast<double>(call.failures), call.cpu_s, counted});
+  }
+  PlotScript script;
+  script.axis_label("x", "call");
+  script.axis_label("y", "relative to the first");
+  script.command("set yrange [0:*]; set xtics 1,1; set xtics autofreq");
+  script.range("x", static_cast<double>(history.calls.front().id) - 0.5,
+               static_cast<double>(history.calls.back().id) + 0.5);
+  const int key = script.key_below({"counted work", "processor time", "with failures"});
+  script.curve(work, "with linespoints lw 1.6 ps 0.8 pt 7" + lc(palette::color(0)), "counted work");
+  script.curve(time, "with linespoints lw 1.6 ps 0.8 pt 5" + lc(palette::color(1)),
+               "processor time");
+  script.curve(failing, "with points lw 2 ps 1.6 pt 2" + lc(palette::kInk), "with failures");
+  script.plot();
+  figure.id = "history";
+  figure.title = "Work and time of the calls";
+  figure.caption =
+      "All runs of a call together; times where it computed all of them, on the machine of the "
+      "newest.";
+  figure.alt = "Curves of counted work and processor time over the calls.";
+  figure.height = 260 + key;
+  figure.commands = script.commands();
+  return figure;
+}
+
+}  // namespace trammel::reports
