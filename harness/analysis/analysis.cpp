@@ -51,6 +51,7 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   }
   if (!result.outcome.solved()) return result;
   result.quantities = record.take_quantities();
+  result.model_probabilities = std::move(found.model_probabilities);
   const double of_load =
       result.evidence.has(Residual::load) ? result.evidence.largest(Residual::load) : 0;
   if (of_load > solver::kLoadWarning) {

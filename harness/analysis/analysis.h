@@ -9,6 +9,7 @@
 #include "harness/base/warning.h"
 #include "harness/input/document.h"
 #include "harness/input/reference_library.h"
+#include "harness/results/run_results.h"
 #include "harness/scene/drawing.h"
 #include "solver/assembly/system.h"
 #include "solver/model/evidence.h"
@@ -31,6 +32,7 @@ struct AnalysisResult {
   std::vector<Warning> warnings = {};
   std::string analysis;               ///< its kind
   std::vector<EffectReason> effects;  ///< what the computation had, and why
+  std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 
 /// @throws InputError  where the model has no meaning.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "harness/analysis/analyse_comparison.h"
+#include "harness/analysis/analyse_model_probabilities.h"
 #include "harness/analysis/analyse_options.h"
 #include "harness/analysis/analyse_study.h"
 #include "harness/base/text.h"
@@ -116,6 +117,12 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        nullptr,
        analyse_comparison,
        "no model: references against each other"},
+      {"model-probabilities",
+       {},
+       false,
+       nullptr,
+       analyse_model_probabilities,
+       "one for each reading of the case's manipulator"},
       {"study", {}, false, nullptr, analyse_study, "made by the analysis"},
       {"options", {}, false, nullptr, analyse_options, "those of other cases"}};
   return kinds;

@@ -266,6 +266,15 @@ nodal_rotation_error  relative error norm of the rotation at nodes
 [comparison]
 relative_difference:PAIR  difference of two references over the second
 difference_percent:PAIR  the same in percent
+[model-probabilities]
+reading_count  readings that have modes, stored ones included
+excluded_reading_count  combinations that have no meaning
+log_evidence:ROW  natural logarithm of the row's marginal likelihood over all readings, at each discrepancy
+class_count:ROW  readings that the row could tell apart
+class_entropy_bits:ROW  entropy of the classes' probabilities [bit]
+credible_class_count:ROW  classes that hold 95 % of the probability
+largest_class_probability:ROW  of the most probable class
+expected_information_bits:ROW  by the further number that is expected to tell most [bit]
 [study]
 parameter  the parameter of the study, under the name that the study gives it
 status  0 solved, 1 singular, 2 not converged, at each value of the parameter

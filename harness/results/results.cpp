@@ -128,11 +128,29 @@ inline constexpr auto kFields<EffectRow> = std::tuple{
     TRAMMEL_REQUIRED(EffectRow, applicable, active, why, evaluations),
     TRAMMEL_OPTIONAL(EffectRow, dimensionless_number, number_definition, estimated_change)};
 template <>
+inline constexpr auto kFields<ReadingClass> =
+    std::tuple{TRAMMEL_REQUIRED(ReadingClass, title, readings, probability, values)};
+template <>
+inline constexpr auto kKeyMember<FurtherNumber> = &FurtherNumber::name;
+template <>
+inline constexpr auto kFields<FurtherNumber> =
+    std::tuple{TRAMMEL_REQUIRED(FurtherNumber, expected_information_bits)};
+template <>
+inline constexpr auto kFields<RowProbabilities> = std::tuple{TRAMMEL_REQUIRED(
+    RowProbabilities, row, reference, unit, discrepancy, log_evidence, entropy_bits, printed,
+    readings, classes, credible_classes, leading, further_numbers)};
+template <>
+inline constexpr auto kFields<ExcludedReadings> =
+    std::tuple{TRAMMEL_REQUIRED(ExcludedReadings, reason, first, readings)};
+template <>
+inline constexpr auto kFields<ModelProbabilities> =
+    std::tuple{TRAMMEL_REQUIRED(ModelProbabilities, rows, excluded)};
+template <>
 inline constexpr auto kFields<Run> =
     std::tuple{required("case", &Run::case_id),
                TRAMMEL_REQUIRED(Run, variant, status, quantities, checks, cost),
                TRAMMEL_OPTIONAL(Run, reason, convergence, residuals, warnings, uncertainty, effects,
-                                drawing, stored)};
+                                model_probabilities, drawing, stored)};
 template <>
 inline constexpr auto kFields<ErrorNorms> =
     std::tuple{TRAMMEL_REQUIRED(ErrorNorms, max, rms, mean)};

@@ -159,6 +159,40 @@ struct EffectRow {
   Number dimensionless_number, estimated_change;
 };
 
+/// Readings that a printed row cannot tell apart.
+struct ReadingClass {
+  std::string title;  ///< of the most probable one
+  int readings = 0;
+  Number probability;
+  Numbers values;  ///< what it predicts at its best, in the row's unit
+};
+
+struct FurtherNumber {
+  std::string name;
+  Number expected_information_bits;
+};
+
+/// How probable each class of readings is, given one row of printed numbers.
+struct RowProbabilities {
+  std::string row, reference, unit;
+  Number discrepancy, log_evidence, entropy_bits;
+  Numbers printed;
+  int readings = 0, classes = 0, credible_classes = 0;
+  std::vector<ReadingClass> leading;  ///< most probable first
+  std::vector<FurtherNumber> further_numbers;
+};
+
+/// Combinations of choices that have no meaning, by the reason.
+struct ExcludedReadings {
+  std::string reason, first;
+  int readings = 0;
+};
+
+struct ModelProbabilities {
+  std::vector<RowProbabilities> rows;
+  std::vector<ExcludedReadings> excluded;
+};
+
 struct Run {
   std::string case_id, variant, reason;
   Status status = Status::error;
@@ -170,6 +204,7 @@ struct Run {
   std::vector<Convergence> convergence;
   std::optional<Uncertainty> uncertainty;
   std::vector<EffectRow> effects;
+  std::optional<ModelProbabilities> model_probabilities;
   std::optional<Drawing> drawing;
   Cost cost;
   /// File of the run store that holds its series, drawing and studies; empty: the results do.

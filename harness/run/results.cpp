@@ -197,6 +197,7 @@ results::Run run_results(const Run& run) {
   for (const Convergence& found : run.convergence) out.convergence.push_back(convergence(found));
   if (!run.uncertainty.empty()) out.uncertainty = uncertainty(run.uncertainty);
   out.effects = effects(run);
+  out.model_probabilities = run.result.model_probabilities;
   out.cost = cost(run);
   return out;
 }

@@ -60,6 +60,15 @@ TRAMMEL_KEPT(Outcome, status, reason)
 TRAMMEL_KEPT(Counters, element_evaluations, factorizations, solves, steps, effects)
 }  // namespace trammel::solver
 
+namespace trammel::results {
+TRAMMEL_KEPT(ReadingClass, title, readings, probability, values)
+TRAMMEL_KEPT(FurtherNumber, name, expected_information_bits)
+TRAMMEL_KEPT(RowProbabilities, row, reference, unit, discrepancy, log_evidence, entropy_bits,
+             printed, readings, classes, credible_classes, leading, further_numbers)
+TRAMMEL_KEPT(ExcludedReadings, reason, first, readings)
+TRAMMEL_KEPT(ModelProbabilities, rows, excluded)
+}  // namespace trammel::results
+
 namespace trammel::harness {
 
 /// Numbers as the bytes they are: an array of JSON is hundreds of instructions for each.
@@ -127,7 +136,7 @@ TRAMMEL_KEPT(EvaluationTime, name, wall_s, evaluations)
 TRAMMEL_KEPT(EffectReason, effect, applicable, active, number, change, why)
 TRAMMEL_KEPT(Warning, quantity, value, unit, meaning)
 TRAMMEL_KEPT(AnalysisResult, outcome, evidence, quantities, drawing, counters, timings, warnings,
-             analysis, effects)
+             analysis, effects, model_probabilities)
 TRAMMEL_KEPT(SweepLevel, parameter, quantities)
 TRAMMEL_KEPT(Sweep, name, levels)
 TRAMMEL_KEPT(StatedInput, name, why, pointers, half_width, nominal)

@@ -46,6 +46,7 @@ results::Run studies_of(const results::Run& run) {
   kept.convergence = run.convergence;
   kept.uncertainty = run.uncertainty;
   kept.effects = run.effects;
+  kept.model_probabilities = run.model_probabilities;
   return kept;
 }
 
@@ -113,6 +114,7 @@ bool take_stored_studies(results::Run& run, const fs::path& store) {
     run.convergence = std::move(studies.convergence);
     run.uncertainty = std::move(studies.uncertainty);
     run.effects = std::move(studies.effects);
+    run.model_probabilities = std::move(studies.model_probabilities);
     return true;
   } catch (const std::exception&) {
     return false;

@@ -8,6 +8,7 @@
 #include "harness/base/timing.h"
 #include "harness/base/warning.h"
 #include "harness/input/json_view.h"
+#include "harness/results/run_results.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
 #include "solver/assembly/system.h"
@@ -24,6 +25,7 @@ struct StepResult {
   std::vector<EvaluationTime> timings = {};
   solver::Evidence evidence = {};  ///< residuals that decide whether it counts as solved
   std::vector<Warning> warnings = {};
+  std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 
 /// At one step of the scene's path.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reports/data/check_status.h"
+#include "reports/data/model_probabilities.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/sections/effects.h"
 #include "reports/sections/matrix.h"
@@ -120,6 +121,7 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
   data.set("endings", endings(info, runs));
   data.set("warnings", warnings(info, runs));
   set_effects(data, runs);
+  set_model_probabilities(data, runs);
   data.set("problems", texts(gallery.problems));
   set_flag(data, "has_figures", !gallery.shown.empty() || !gallery.problems.empty());
   data.set("figures", figures_data(gallery.shown));

@@ -122,13 +122,33 @@ std::vector<Nearest> nearest_of(const MatrixSubject& subject) {
   return out;
 }
 
+/// "Of 666 readings the most probable one is, under a discrepancy of 1 %: X (40 %); ..." Empty
+/// where no run has judged the row so.
+std::string most_probable(const std::string& reference, const Results& results) {
+  std::string text;
+  for (const Run& run : results.runs) {
+    if (!run.model_probabilities) continue;
+    for (const auto& row : run.model_probabilities->rows) {
+      if (row.reference != reference || row.leading.empty()) continue;
+      text += (text.empty() ? "Of " + std::to_string(row.readings) + " readings (" + run.case_id +
+                                  ") the most probable is"
+                            : ";") +
+              " under a discrepancy of " + relative(row.discrepancy.value_or(0), 2, false) + " " +
+              row.leading.front().title + " (" +
+              relative(row.leading.front().probability.value_or(0), 2, false) + ")";
+    }
+  }
+  return text.empty() ? text : text + ".";
+}
+
 /// "Nearest as a whole: X (12 % root mean square). No variant comes within 1 % of modes 4 and 6."
 std::string conclusion(const MatrixSubject& subject, const Family& family, const Results& results) {
   const MatrixRow& best = subject.rows.front();
-  std::string text = "Nearest as a whole: " + row_title(family, results, best) +
-                     ", with a root mean square difference of " +
-                     relative(best.distance, 2, false) + " over " +
-                     count(best.checks.size(), entry_word(subject)) + ".";
+  std::string text = most_probable(subject.reference, results);
+  if (text.empty())
+    text = "Nearest as a whole: " + row_title(family, results, best) +
+           ", with a root mean square difference of " + relative(best.distance, 2, false) +
+           " over " + count(best.checks.size(), entry_word(subject)) + ".";
   std::string missed;
   std::size_t n = 0;
   for (const Nearest& nearest : nearest_of(subject)) {

@@ -1,0 +1,77 @@
+#include "reports/data/model_probabilities.h"
+
+#include <string>
+
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+
+namespace {
+
+Data cell(const std::string& text) {
+  Data data = object();
+  data.set("value", text);
+  return data;
+}
+
+Data row_of(const std::string& title, const std::string& probability,
+            const results::Numbers& values) {
+  Data row = object(), cells = list();
+  row.set("title", title);
+  row.set("probability", probability);
+  for (const results::Number& value : values)
+    cells.push_back(cell(value ? significant(*value, 5) : ""));
+  row.set("cells", cells);
+  return row;
+}
+
+std::string caption_of(const results::RowProbabilities& row) {
+  std::string text = count(static_cast<std::size_t>(row.readings), "reading") + " in " +
+                     count(static_cast<std::size_t>(row.classes), "class", "classes") +
+                     " that the row could tell apart; 95\u202f% of the probability lie in " +
+                     std::to_string(row.credible_classes) + ". Logarithm of the row's evidence " +
+                     trimmed(row.log_evidence.value_or(0), 4) + "; entropy of the classes " +
+                     trimmed(row.entropy_bits.value_or(0), 3) + " bits.";
+  if (row.further_numbers.empty()) return text;
+  text += " One further number would lower it by:";
+  for (const results::FurtherNumber& further : row.further_numbers)
+    text += (&further == &row.further_numbers.front() ? " " : ", ") + further.name + " " +
+            trimmed(further.expected_information_bits.value_or(0), 2);
+  return text + " bits.";
+}
+
+Data table_of(const results::RowProbabilities& row) {
+  Data table = object(), rows = list();
+  table.set("title", "Row " + row.row + " under a discrepancy of " +
+                         relative(row.discrepancy.value_or(0), 2, false));
+  rows.push_back(row_of("as printed [" + row.unit + "]", "", row.printed));
+  for (const results::ReadingClass& some : row.leading) {
+    const auto others = static_cast<std::size_t>(some.readings - 1);
+    rows.push_back(row_of(
+        some.title + (others == 0 ? "" : " (and " + count(others, "other") + " within the noise)"),
+        relative(some.probability.value_or(0), 3, false), some.values));
+  }
+  table.set("rows", rows);
+  table.set("caption", caption_of(row));
+  return table;
+}
+
+}  // namespace
+
+void set_model_probabilities(Data& data, const std::vector<const Run*>& runs) {
+  Data tables = list(), excluded = list();
+  for (const Run* run : runs) {
+    if (!run->model_probabilities) continue;
+    for (const results::RowProbabilities& row : run->model_probabilities->rows)
+      tables.push_back(table_of(row));
+    for (const results::ExcludedReadings& some : run->model_probabilities->excluded)
+      excluded.push_back(cell(count(static_cast<std::size_t>(some.readings), "combination") +
+                              ", as " + some.first + ": " + some.reason));
+  }
+  set_flag(data, "has_model_probabilities", tables.is_non_empty_list());
+  data.set("model_probabilities", tables);
+  set_flag(data, "has_excluded_readings", excluded.is_non_empty_list());
+  data.set("excluded_readings", excluded);
+}
+
+}  // namespace trammel::reports
