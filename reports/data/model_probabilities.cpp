@@ -40,10 +40,11 @@ std::string caption_of(const results::RowProbabilities& row) {
   return text + " bits.";
 }
 
-Data table_of(const results::RowProbabilities& row) {
+Data table_of(const results::RowProbabilities& row, const std::string& variant) {
   Data table = object(), rows = list();
   table.set("title", "Row " + row.row + " under a discrepancy of " +
-                         relative(row.discrepancy.value_or(0), 2, false));
+                         relative(row.discrepancy.value_or(0), 2, false) +
+                         (variant == "base" ? "" : ", variant " + variant));
   rows.push_back(row_of("as printed [" + row.unit + "]", "", row.printed));
   for (const results::ReadingClass& some : row.leading) {
     const auto others = static_cast<std::size_t>(some.readings - 1);
@@ -63,7 +64,7 @@ void set_model_probabilities(Data& data, const std::vector<const Run*>& runs) {
   for (const Run* run : runs) {
     if (!run->model_probabilities) continue;
     for (const results::RowProbabilities& row : run->model_probabilities->rows)
-      tables.push_back(table_of(row));
+      tables.push_back(table_of(row, run->variant));
     for (const results::ExcludedReadings& some : run->model_probabilities->excluded)
       excluded.push_back(cell(count(static_cast<std::size_t>(some.readings), "combination") +
                               ", as " + some.first + ": " + some.reason));
