@@ -75,7 +75,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
     throw analysis["reduction"].error("expected it without 'rotating_frame'");
   const auto [outcome, system] =
       reduced_system(analysis, solver::assemble(build_model(case_model, step), case_model.effects));
-  if (!outcome.solved()) return {outcome, system.counters};
+  if (!outcome.solved()) return {outcome, system.counters, std::nullopt};
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
   StepResult result{motion.outcome, motion.counters, std::nullopt, {}, motion.evidence};

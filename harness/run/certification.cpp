@@ -47,7 +47,7 @@ class Beside {
       : name_(configuration.name),
         checks_(checks_of(configuration.results)),
         into_(into),
-        row_{configuration.name} {}
+        row_{configuration.name, 0, 0, kAllDigits, kAllDigits, {}} {}
 
   void look_at(const std::string& name, const results::Check& first) {
     const auto found = checks_.find(name);
