@@ -128,7 +128,7 @@ void add_cheapest(const MeasuredStudy& measured, const std::vector<CostPoint>& p
 }
 
 void print_cheapest(const MeasuredStudy& measured) {
-  const std::vector<Output>& outputs = measured.study.outputs;
+  const std::vector<StudyOutput>& outputs = measured.study.outputs;
   const bool several = outputs.size() > 1;
   Table table({">within", several ? "of" : "", "cheapest setting", ">error", ">time"});
   for (std::size_t k = 0; k < outputs.size(); ++k)

@@ -45,7 +45,7 @@ std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPo
 /// @param output  none: all of them at once
 results::CostOutput output_results(const MeasuredStudy& measured,
                                    std::optional<std::size_t> output) {
-  const std::vector<Output>& outputs = measured.study.outputs;
+  const std::vector<StudyOutput>& outputs = measured.study.outputs;
   results::CostOutput out;
   out.title = output ? outputs[*output].title : "all at once";
   if (output) out.scale = outputs[*output].scale_description;

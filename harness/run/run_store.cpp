@@ -224,7 +224,7 @@ void add_setting(const Setting& setting, Json& all) {
 std::string name_of(const CostStudy& study, const TimingOptions& timing) {
   Json all = {machine_name(),     timing.repeats, timing.seed, timing.shortest_s,
               study.time_limit_s, study.baseline, study.norm};
-  for (const Output& output : study.outputs)
+  for (const StudyOutput& output : study.outputs)
     all.push_back({output.scale.kind, output.scale.number});
   for (const Setting& setting : study.settings) add_setting(setting, all);
   if (study.reference_solution) add_setting(*study.reference_solution, all);

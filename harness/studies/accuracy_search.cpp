@@ -332,7 +332,7 @@ class Search {
       throw base_.error("/analysis", "expected a reference solution: " + reason);
     for (std::size_t i = 0; i < observed_.size(); ++i) observed_[i].exact = reference_->values[i];
     CostStudy& study = found_.study;
-    Output& output = study.outputs.front();
+    StudyOutput& output = study.outputs.front();
     output.scale = scale();
     output.scale_description = output.scale.kind == Scale::Kind::entry
                                    ? "relative to each true value"

@@ -246,16 +246,16 @@ void check_scale(const Scale& scale, std::size_t output, const JsonView& study) 
   }
 }
 
-std::vector<Output> read_outputs(const JsonView& study) {
+std::vector<StudyOutput> read_outputs(const JsonView& study) {
   const auto read = [&](const JsonView& place, std::size_t number, const std::string& title) {
     const Scale scale = read_scale(place);
     check_scale(scale, number, study);
-    return Output{title, scale, describe_scale(scale, place)};
+    return StudyOutput{title, scale, describe_scale(scale, place)};
   };
   const auto several = study.find("outputs");
   if (!several) return {read(study, 0, "")};
   if (study.has("scale")) throw study["scale"].error("expected it in each of 'outputs'");
-  std::vector<Output> outputs;
+  std::vector<StudyOutput> outputs;
   for (const auto& entry : several->entries())
     outputs.push_back(read(entry.second, outputs.size(), entry.second.text("title")));
   return outputs;

@@ -54,7 +54,7 @@ struct Scale {
 };
 
 /// What errors are measured of together, with one scale: where P is, the torques of the drives.
-struct Output {
+struct StudyOutput {
   std::string title;  ///< empty where it is the only one
   Scale scale;
   std::string scale_description;
@@ -69,7 +69,7 @@ struct CostStudy {
   std::size_t baseline = 0;           ///< among the settings
   /// The first is that of figure, front and conclusion; every setting gives it, the others where it
   /// can.
-  std::vector<Output> outputs{1};
+  std::vector<StudyOutput> outputs{1};
   Norm norm = Norm::max;
   int time_limit_s = 60;
 };

@@ -220,6 +220,27 @@ BOOST_AUTO_TEST_CASE(the_readme_of_a_folder_names_its_rooms_and_their_arrows) {
   }
 }
 
+// The linker takes either for both, and memory is overwritten.
+BOOST_AUTO_TEST_CASE(no_two_types_of_a_namespace_have_one_name) {
+  static const std::regex space("^namespace (trammel\\S*) \\{"),
+      type("^(struct|class|enum class) (\\w+)(<.*>)? (: .*)?\\{.*");
+  std::map<std::string, std::string> first;
+  for (const std::string& top : rooms().tops()) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+      if (entry.path().extension() != ".h") continue;
+      std::string inside;
+      std::smatch found;
+      for (const std::string& line : lines_of(entry.path())) {
+        if (std::regex_match(line, found, space)) inside = found[1];
+        if (!std::regex_match(line, found, type) || found[3].matched) continue;
+        const auto [known, fresh] = first.emplace(inside + "::" + found[2].str(), entry.path());
+        BOOST_TEST(fresh, known->first << " in " << known->second << " and " << entry.path());
+      }
+    }
+  }
+  BOOST_TEST(first.size() > 100U);
+}
+
 BOOST_AUTO_TEST_CASE(the_tests_mirror_the_rooms) {
   const std::set<std::string> tops = rooms().tops();
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {

@@ -87,9 +87,16 @@ std::vector<Json> further_cases() {
   soft["model"]["manipulator"]["platform"].update({{"kind", "triangles"}, {"refinements", 0}});
   Json still = soft;
   still["model"]["trajectory"]["circle"]["angular_speed_rad_s"] = 0;
+  Json readings = patched(load_named_case("table-2-models"), "planar").value();
+  for (auto& [name, choices] : readings["analysis"]["model-probabilities"]["factors"].items()) {
+    Json first = Json::object();
+    first[choices.begin().key()] = choices.begin().value();
+    choices = first;
+  }
   const std::string motion = R"("step_s": 0.002, "initial_state": "quasi-static")";
   return {
       strip,
+      readings,
       with_analysis(buckled, R"({"buckling": {"count": 1}})"),
       with_analysis(strip, R"({"modes": {"count": 2, "rotating": {"angular_speed_rad_s": 3}}})"),
       with_analysis(strip, R"({"transient": {"duration_s": 0.01, "step_s": 0.001, "outputs": )" +
