@@ -14,7 +14,10 @@
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/printing/print_effects.h"
+#include "harness/results/unfinished_folder.h"
+#include "harness/run/output_lock.h"
 #include "harness/run/results.h"
+#include "harness/run/stored_results.h"
 #include "harness/studies/effect_study.h"
 #include "harness/studies/random_scenes.h"
 

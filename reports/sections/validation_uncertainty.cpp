@@ -15,7 +15,8 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMaxUnfoldedComparisons = 8;
-constexpr double kFullColourOfUncertainty = 0.4;  ///< relative difference that is drawn in full colour
+constexpr double kFullColourOfUncertainty =
+    0.4;  ///< relative difference that is drawn in full colour
 
 /// One variant in one check.
 struct ComparisonRow {

@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(a_platform_numbered_clockwise_is_the_same_plate) {
 
 BOOST_AUTO_TEST_CASE(pin_weights_move_the_pin_with_any_rigid_motion_and_any_uniform_strain) {
   const auto vertices = uneven_design().geometry.platform;
-  for (const auto [refinements, six_nodes] :
+  for (const auto& [refinements, six_nodes] :
        {std::pair{0, false}, {2, false}, {5, false}, {0, true}, {4, true}}) {
     const TriangleMesh mesh = platform_mesh(vertices, Vector2d::Zero(), refinements, six_nodes);
     for (std::size_t v = 0; v < 4; ++v) {
