@@ -62,6 +62,21 @@ Table table_of(const std::vector<EffectScene>& scenes) {
   return table;
 }
 
+/// @param alt  what the picture shows; the caption follows it
+Figure figure_of(const Scatter& scatter, const std::vector<EffectScene>& scenes,
+                 const std::string& id, const std::string& title, const std::string& caption,
+                 const std::string& alt) {
+  Figure figure;
+  figure.id = id;
+  figure.title = title;
+  figure.caption = caption;
+  figure.alt = alt + caption;
+  figure.is_linked = true;
+  draw_scatter(scatter, figure);
+  figure.data = table_of(scenes);
+  return figure;
+}
+
 Figure obtained_figure(const std::vector<EffectScene>& scenes) {
   Scatter scatter{
       "change asked for at most", "change obtained", {1, 1}, {0, 0}, {}, "asked for", {}};
@@ -77,20 +92,14 @@ Figure obtained_figure(const std::vector<EffectScene>& scenes) {
     minimal += scene.minimal ? 1 : 0;
   }
   scatter.line = {{scatter.low.x, scatter.low.x}, {scatter.high.x, scatter.high.x}};
-  Figure figure;
-  figure.id = "effects-obtained";
-  figure.title = "Effects chosen automatically: asked for and obtained";
-  figure.caption = std::to_string(within) + " of " + count(scenes.size(), "scene") +
-                   " keep within what was asked for (below the line); in " +
-                   std::to_string(minimal) + " no chosen effect could be left out. Changes below " +
-                   power_of_ten(-9) + " stand at the lower edge.";
-  figure.alt =
+  return figure_of(
+      scatter, scenes, "effects-obtained", "Effects chosen automatically: asked for and obtained",
+      std::to_string(within) + " of " + count(scenes.size(), "scene") +
+          " keep within what was asked for (below the line); in " + std::to_string(minimal) +
+          " no chosen effect could be left out. Changes below " + power_of_ten(-9) +
+          " stand at the lower edge.",
       "Each scene a point: the largest change that leaving effects out makes, over the "
-      "change that was allowed. " +
-      figure.caption;
-  draw_scatter(scatter, figure);
-  figure.data = table_of(scenes);
-  return figure;
+      "change that was allowed. ");
 }
 
 Figure time_figure(const std::vector<EffectScene>& scenes) {
@@ -118,29 +127,21 @@ Figure time_figure(const std::vector<EffectScene>& scenes) {
     faster += time <= scene.whole_s ? 1 : 0;
   }
   scatter.line = {{scatter.low.x, 1}, {scatter.high.x, 1}};
-  Figure figure;
-  figure.id = "effects-time";
-  figure.title = "Effects chosen automatically: time spent and saved";
-  figure.caption = std::to_string(faster) + " of " + count(long_ones, "scene") +
-                   " over 10 ms take no longer with deciding than with all effects; all scenes "
-                   "together take " +
-                   trimmed(whole > 0 ? spent / whole : 0, 3) + " times as long.";
-  figure.alt =
-      "Each scene a point: time of deciding and running over that with all effects, "
-      "against the latter. " +
-      figure.caption;
-  draw_scatter(scatter, figure);
-  figure.data = table_of(scenes);
-  return figure;
+  return figure_of(scatter, scenes, "effects-time",
+                   "Effects chosen automatically: time spent and saved",
+                   std::to_string(faster) + " of " + count(long_ones, "scene") +
+                       " over 10 ms take no longer with deciding than with all effects; all scenes "
+                       "together take " +
+                       trimmed(whole > 0 ? spent / whole : 0, 3) + " times as long.",
+                   "Each scene a point: time of deciding and running over that with all effects, "
+                   "against the latter. ");
 }
 
 }  // namespace
 
 std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
   if (scenes.empty()) return {};
-  std::vector<Figure> figures = {obtained_figure(scenes), time_figure(scenes)};
-  for (Figure& figure : figures) figure.is_linked = true;
-  return figures;
+  return {obtained_figure(scenes), time_figure(scenes)};
 }
 
 }  // namespace trammel::reports
