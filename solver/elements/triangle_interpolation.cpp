@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "solver/model/triangle_shape.h"
+
 namespace trammel::solver {
 namespace {
 
@@ -18,17 +20,6 @@ Eigen::Matrix<double, 2, 6> local_gradient(bool quadratic, const Eigen::Vector3d
   return d;
 }
 
-Eigen::Matrix<double, 6, 1> values(bool quadratic, const Eigen::Vector3d& L) {
-  Eigen::Matrix<double, 6, 1> N = Eigen::Matrix<double, 6, 1>::Zero();
-  if (quadratic) {
-    N << L[0] * (2 * L[0] - 1), L[1] * (2 * L[1] - 1), L[2] * (2 * L[2] - 1), 4 * L[0] * L[1],
-        4 * L[1] * L[2], 4 * L[2] * L[0];
-  } else {
-    N.head<3>() = L;
-  }
-  return N;
-}
-
 }  // namespace
 
 TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
@@ -36,7 +27,7 @@ TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
   const bool quadratic = triangle.quadratic();
   TriangleInterpolation result;
   result.nodes = quadratic ? 6 : 3;
-  result.N = values(quadratic, at);
+  result.N = triangle_shape_functions(at, quadratic);
   const Eigen::Matrix<double, 2, 6> local = local_gradient(quadratic, at);
   Eigen::Matrix2d J = Eigen::Matrix2d::Zero();  // d(x, y) / d(L_0, L_1), by rows of L
   for (Index i = 0; i < result.nodes; ++i) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/model/plane.h"
+#include "solver/model/triangle_shape.h"
 
 namespace trammel::solver {
 
@@ -115,17 +116,6 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
 /// Moments of one node's share: int N_i phi (1, xi, eta) dA with (xi, eta) = (x - x0) / radius.
 using Shares = std::unordered_map<Index, Vector3d>;
 
-/// Shape functions at area coordinates; of three nodes the last three are zero.
-Eigen::Matrix<double, 6, 1> shape_functions(const Vector3d& L, bool six_nodes) {
-  Eigen::Matrix<double, 6, 1> N = Eigen::Matrix<double, 6, 1>::Zero();
-  N.head<3>() = L;
-  for (Index k = 0; six_nodes && k < 3; ++k) {
-    N[k] = L[k] * (2 * L[k] - 1);
-    N[3 + k] = 4 * L[k] * L[(k + 1) % 3];
-  }
-  return N;
-}
-
 void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,
                 double radius, Shares& shares) {
   Corners t;
@@ -139,7 +129,7 @@ void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, cons
     if (gap <= 0) return;
     const Vector3d L(twice_area(x, t[1], t[2]) / whole, twice_area(t[0], x, t[2]) / whole,
                      twice_area(t[0], t[1], x) / whole);
-    moments += (area * gap * gap * gap) * shape_functions(L, six_nodes) *
+    moments += (area * gap * gap * gap) * triangle_shape_functions(L, six_nodes) *
                Vector3d(1, xi.x(), xi.y()).transpose();
   });
   if (moments.isZero(0)) return;
