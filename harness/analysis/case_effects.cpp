@@ -85,10 +85,11 @@ solver::Effects read_names(const JsonView& names, const EffectScope& scope,
 }
 
 std::string describe_decision(const EffectReason& one, const EffectScope& scope,
-                              const Elimination& found, double tolerance) {
+                              const Elimination& found, double tolerance, bool estimated) {
   if (one.change) {
     return "without it and what was left out before it the results change by " +
-           percent(*one.change) + (one.active ? ", more than " : ", within ") + percent(tolerance);
+           std::string(estimated ? "at most " : "") + percent(*one.change) +
+           (one.active ? ", more than " : ", within ") + percent(tolerance);
   }
   for (const solver::Effect carried :
        scope.dependents[static_cast<std::size_t>(one.effect)].list()) {
@@ -97,12 +98,11 @@ std::string describe_decision(const EffectReason& one, const EffectScope& scope,
   return "decided";
 }
 
-/// By estimates, which add up; the smallest goes first. What they leave out is measured where they
-/// may come near the tolerance.
-Elimination eliminate_by_estimates(const JsonView& analysis, const CaseModel& case_model,
-                                   const AnalysisKind& kind, solver::EffectEstimates& estimates,
-                                   const EffectScope& scope, double tolerance,
-                                   std::vector<EffectReason>& reasons) {
+/// By estimates, which add up; the smallest goes first. Nothing is measured: that takes a run of
+/// the whole scene, and no choice could save what it had cost.
+Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const EffectScope& scope,
+                                   double tolerance, std::vector<EffectReason>& reasons) {
+  constexpr double kBeyondFirstOrder = 1.25;
   std::stable_sort(estimates.effects.begin(), estimates.effects.end(),
                    [](const auto& a, const auto& b) { return a.change < b.change; });
   std::vector<solver::Effect> order;
@@ -110,21 +110,17 @@ Elimination eliminate_by_estimates(const JsonView& analysis, const CaseModel& ca
     order.push_back(one.effect);
     reasons[static_cast<std::size_t>(one.effect)].number = one.number;
   }
-  const ChangeWith estimated = [&](solver::Effects active) {
+  const double factor = kBeyondFirstOrder * std::max(1.0, estimates.amplification_bound);
+  const ChangeWith at_most = [&](solver::Effects active) {
     double change = 0;
     for (const solver::EffectEstimate& one : estimates.effects)
       if (!active.has(one.effect)) change += one.change;
-    return change;
+    return factor * change;
   };
   Elimination found;
-  if (estimates.outcome.solved()) found = eliminate(scope, order, {}, tolerance, estimated);
+  if (estimates.outcome.solved()) found = eliminate(scope, order, {}, tolerance, at_most);
   found.outcome = estimates.outcome;
   found.counters = estimates.counters;
-  constexpr double kNear = 0.5;
-  const bool is_settled =
-      estimated(found.chosen) * estimates.amplification_bound <= kNear * tolerance;
-  if (found.outcome.solved() && !(found.chosen == scope.applicable) && !is_settled)
-    put_back_by_measurement(kind, analysis, case_model, scope, order, tolerance, estimated, found);
   return found;
 }
 
@@ -162,8 +158,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
   if (rules.estimate != nullptr) estimates = rules.estimate(analysis, case_model, scope);
   const Elimination found =
       rules.estimate != nullptr
-          ? eliminate_by_estimates(analysis, case_model, kind, estimates, scope, tolerance,
-                                   choice.reasons)
+          ? eliminate_by_estimates(estimates, scope, tolerance, choice.reasons)
           : eliminate_by_measurement(kind, analysis, case_model, scope, tolerance);
   choice.counters = found.counters;
   choice.chosen = found.outcome.solved() ? found.chosen : scope.applicable;
@@ -171,9 +166,10 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
     if (!one.applicable || scope.required.has(one.effect)) continue;
     one.active = choice.chosen.has(one.effect);
     one.change = found.change[static_cast<std::size_t>(one.effect)];
-    one.why = found.outcome.solved() ? describe_decision(one, scope, found, tolerance)
-                                     : "on: the whole scene has no solution to compare with (" +
-                                           found.outcome.reason + ")";
+    one.why =
+        found.outcome.solved()
+            ? describe_decision(one, scope, found, tolerance, rules.estimate != nullptr)
+            : "on: the whole scene has no solution to compare with (" + found.outcome.reason + ")";
     if (rules.estimate == nullptr)
       one.number = slenderness_number(one.effect, first_model(case_model));
   }

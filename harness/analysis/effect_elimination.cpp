@@ -428,29 +428,6 @@ Elimination eliminate_by_measurement(const AnalysisKind& kind, const JsonView& a
   return Measurement(kind, analysis, scene, scope, tolerance).run();
 }
 
-void put_back_by_measurement(const AnalysisKind& kind, const JsonView& analysis,
-                             const CaseModel& scene, const EffectScope& scope,
-                             const std::vector<Effect>& order, double tolerance,
-                             const ChangeWith& estimated, Elimination& found) {
-  const Effects whole = found.chosen.has(Effect::inertia)
-                            ? scope.applicable
-                            : scope.without(scope.applicable, Effect::inertia);
-  MeshedScene own(kind, analysis, scene, whole, model_size(first_model(scene)));
-  for (auto next = order.rbegin(); next != order.rend(); ++next) {
-    const double change = estimated(whole) + own.change(whole, found.chosen, {0});
-    if (change <= tolerance) break;
-    if (found.chosen.has(*next) || !whole.has(*next)) continue;
-    found.change[static_cast<std::size_t>(*next)] = change;
-    found.chosen = found.chosen.with(*next);
-    for (const Effect carrier : whole.list()) {
-      if (scope.dependents[static_cast<std::size_t>(carrier)].has(*next))
-        found.chosen = found.chosen.with(carrier);
-    }
-  }
-  found.outcome = own.outcome;
-  found.counters += own.counters;
-}
-
 std::optional<double> large_displacement_at_rest(const JsonView& analysis, CaseModel scene,
                                                  const std::vector<double>& times) {
   std::vector<solver::TrajectoryPoint> points;

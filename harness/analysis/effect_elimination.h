@@ -40,15 +40,6 @@ struct Elimination {
                                                    const JsonView& analysis, const CaseModel& scene,
                                                    const EffectScope& scope, double tolerance);
 
-/// Effects that estimates left out go back, the one of the largest estimate first, until the
-/// analysis of the scene itself is within the tolerance of the whole. Where inertia is left out,
-/// what it is worth stays an estimate and the rest is measured without it.
-/// @param order  of the estimates, from the smallest on
-void put_back_by_measurement(const AnalysisKind& kind, const JsonView& analysis,
-                             const CaseModel& scene, const EffectScope& scope,
-                             const std::vector<solver::Effect>& order, double tolerance,
-                             const ChangeWith& estimated, Elimination& found);
-
 /// What geometric stiffening and large displacement change in statics under the loads at rest, at
 /// these times of the path; nothing without loads, or without a solution.
 [[nodiscard]] std::optional<double> large_displacement_at_rest(const JsonView& analysis,

@@ -22,7 +22,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr std::size_t kPoses = 2, kPathSamples = 16;
+constexpr std::size_t kPathSamples = 12;
+constexpr Index kModesFromRest = 16, kModesBesidePath = 4;
 constexpr Index kElements = 8;
 /// (W / w1)^2 of a path whose harmonics come near no resonance.
 constexpr double kSlow = 0.1;
@@ -78,17 +79,22 @@ struct Light {
   std::optional<PathFollower> follower;
 };
 
+/// One mode, as far as it vibrates.
+struct Vibration {
+  double share = 0;                ///< of the response
+  std::map<Effect, double> phase;  ///< what it loses step by [rad]
+  double damping_ratio = 0, damped = 0, gyroscopic = 0;
+};
+
 class MotionEstimates {
  public:
   MotionEstimates(const ElastodynamicsOptions& options, Effects applicable)
       : options_(coarsened(options)), applicable_(applicable), rate_(path_rate(options)) {}
 
   EffectEstimates run() {
-    for (const double time : estimate_along_path()) estimate_at(time, true);
-    for (std::size_t k = 0; k < kPoses; ++k) {
-      const double share = (static_cast<double>(k) + 0.5) / kPoses;
-      estimate_at(options_.time.start + share * (options_.time.end - options_.time.start), false);
-    }
+    const std::set<double> extremes = estimate_along_path();
+    for (const double time : extremes) estimate_at(time, time == *extremes.begin());
+    estimate_at((options_.time.start + options_.time.end) / 2, false);
     if (estimates_.outcome.solved() && frequency_ <= 0) {
       estimates_.outcome = {Status::singular, "nothing vibrates"};
     }
@@ -199,7 +205,7 @@ class MotionEstimates {
     without_masses(time, load, pose);
     if (with_modes && estimates_.outcome.solved()) {
       bound_large_displacement(system, q);
-      estimate_frequency_changes(system);
+      estimate_vibration(system, q);
     }
     if (applicable_.has(Effect::gravity) && estimates_.outcome.solved()) {
       estimates_.outcome = pose.move_to(time, Vector2d::Zero());
@@ -272,51 +278,78 @@ class MotionEstimates {
         {estimates_.large_displacement_bound, kOfRotation * rotation, kOfBucklingLoad * load});
   }
 
-  /// The first modes that are no rigid motions, and what the first one's frequency owes to each
-  /// effect.
-  void estimate_frequency_changes(const MovingSystem& moving) {
+  /// The first modes that are no rigid motions: all that vibrate where load and inertia set in at
+  /// once, else those that may resonate; and what they lose step by without each effect.
+  void estimate_vibration(const MovingSystem& moving, const VectorXd& response) {
     const System& system = moving.start();
-    const ModalSolution modes = solve_modes(system, {.count = 4});
+    const bool from_rest = !options_.time.quasi_static_start;
+    const ModalSolution modes =
+        solve_modes(system, {.count = from_rest ? kModesFromRest : kModesBesidePath});
     estimates_.counters += modes.counters;
     estimates_.outcome = modes.outcome;
     if (!modes.outcome.solved()) return;
     Index first = 0;
     while (first < modes.frequency.size() && !(modes.frequency[first] > 0)) ++first;
     if (first == modes.frequency.size()) return;
-    const double omega = 2 * std::numbers::pi * modes.frequency[first];
-    estimate_gyroscopic_coupling(moving, modes, first);
-    if (frequency_ > 0 && omega >= frequency_) return;
-    frequency_ = omega;
-    damping_ = damping_ratio(options_.damping, omega);
-    const EnergyShares shares(system, modes.shape.col(first), omega * omega);
-    for (const Effect effect : flexibilities())
-      frequency_change_[effect] = frequency_change_without(shares.elastic(effect));
-    const double rotary = shares.kinetic(true), all = shares.kinetic(false);
-    frequency_change_[Effect::link_mass] = frequency_change_without(all - rotary);
-    frequency_change_[Effect::rotary_inertia] = frequency_change_without(rotary);
-    sizes_.share[Effect::link_mass] = all - rotary;
+    frequency_ = 2 * std::numbers::pi * modes.frequency[first];
+    damping_ = damping_ratio(options_.damping, frequency_);
+    const VectorXd load = moving.K() * response;
+    const ResponseSize total = size_of(moving, response);
+    double energy_left = 1;
+    for (Index k = first; k < (from_rest ? modes.frequency.size() : first + 1); ++k) {
+      const double omega = 2 * std::numbers::pi * modes.frequency[k];
+      const VectorXd& shape = modes.shape.col(k);
+      const double amplitude = std::abs(shape.dot(load)) / (omega * omega);
+      Vibration one = vibration_without_effects(system, shape, omega);
+      one.gyroscopic = gyroscopic_coupling(moving, modes, first, k);
+      if (from_rest && total.translation > 0 && total.energy > 0) {
+        const double energy = amplitude * omega / total.energy;
+        one.share = std::max(energy, amplitude * translation_of(moving, shape) / total.translation);
+        energy_left -= energy * energy;
+      }
+      vibrations_.push_back(one);
+    }
+    if (from_rest) beyond_modes_ = std::sqrt(std::max(0.0, energy_left));
+    const EnergyShares shares(system, modes.shape.col(first), frequency_ * frequency_);
+    const double rotary = shares.kinetic(true);
+    sizes_.share[Effect::link_mass] = shares.kinetic(false) - rotary;
     sizes_.share[Effect::rotary_inertia] = rotary;
   }
 
-  /// By how much gyroscopic forces change one of the first modes while it lasts, or turn it into
-  /// another: the slower, the nearer their frequencies.
-  void estimate_gyroscopic_coupling(const MovingSystem& moving, const ModalSolution& modes,
-                                    Index first) {
-    const SparseMatrix& C = moving.gyroscopic_matrix();
-    const SparseMatrix& S = moving.centrifugal_and_euler_matrix();
-    const auto omega = [&](Index i) { return 2 * std::numbers::pi * modes.frequency[i]; };
-    const double time =
-        vibration_duration(omega(first), damping_ratio(options_.damping, omega(first)));
-    for (Index i = first; i < modes.shape.cols(); ++i) {
-      for (Index j = first; j < modes.shape.cols(); ++j) {
-        const double rate = (std::abs(modes.shape.col(i).dot(C * modes.shape.col(j))) +
-                             std::abs(modes.shape.col(i).dot(S * modes.shape.col(j))) / omega(i)) /
-                            2;
-        const double frequency_difference = std::abs(omega(i) - omega(j));
-        coupling_ = std::max(
-            coupling_, rate * (frequency_difference * time > 1 ? 1 / frequency_difference : time));
-      }
+  /// How far a mode of unit modal mass is out of step at last without each effect [rad], and what
+  /// damping takes of it.
+  [[nodiscard]] Vibration vibration_without_effects(const System& system, const VectorXd& shape,
+                                                    double omega) const {
+    Vibration one;
+    const double ratio = one.damping_ratio = damping_ratio(options_.damping, omega);
+    const double phase = vibration_duration(omega, ratio) * omega;
+    const EnergyShares shares(system, shape, omega * omega);
+    for (const Effect effect : flexibilities())
+      one.phase[effect] = phase * frequency_change_without(shares.elastic(effect));
+    const double rotary = shares.kinetic(true), all = shares.kinetic(false);
+    one.phase[Effect::link_mass] = phase * frequency_change_without(all - rotary);
+    one.phase[Effect::rotary_inertia] = phase * frequency_change_without(rotary);
+    one.damped = -std::expm1(-ratio * omega * (options_.time.end - options_.time.start));
+    return one;
+  }
+
+  /// By how much gyroscopic forces change a mode while it lasts, or turn it into another: the
+  /// slower, the nearer their frequencies.
+  [[nodiscard]] double gyroscopic_coupling(const MovingSystem& moving, const ModalSolution& modes,
+                                           Index first, Index i) const {
+    const auto omega = [&](Index k) { return 2 * std::numbers::pi * modes.frequency[k]; };
+    const double time = vibration_duration(omega(i), damping_ratio(options_.damping, omega(i)));
+    const VectorXd C = moving.gyroscopic_matrix().transpose() * modes.shape.col(i);
+    const VectorXd S = moving.centrifugal_and_euler_matrix().transpose() * modes.shape.col(i);
+    double coupling = 0;
+    for (Index j = first; j < modes.shape.cols(); ++j) {
+      const double rate =
+          (std::abs(C.dot(modes.shape.col(j))) + std::abs(S.dot(modes.shape.col(j))) / omega(i)) /
+          2;
+      const double difference = std::abs(omega(i) - omega(j));
+      coupling = std::max(coupling, rate * (difference * time > 1 ? 1 / difference : time));
     }
+    return coupling;
   }
 
   /// How long a vibration lasts.
@@ -348,19 +381,19 @@ class MotionEstimates {
   void collect_estimates() {
     const double r = rate_ / frequency_;
     const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
-    const double time = options_.time.end - options_.time.start;
-    if (!options_.time.quasi_static_start) {
-      estimates_.amplification_bound = std::numeric_limits<double>::infinity();
-    } else if (r * r > kSlow) {
-      estimates_.amplification_bound = frequency_ * resonance_duration() / 2;
-    }
+    if (r * r > kSlow) estimates_.amplification_bound = frequency_ * resonance_duration() / 2;
     // Half a period later what started on q_s is twice as far from the response beside it.
     const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
-    const double duration_in_phase = vibration_duration(frequency_, damping_) * frequency_;
-    const double vibration_share =
-        options_.time.quasi_static_start
-            ? std::min(1.0, translation_share(Effect::inertia) * amplified)
-            : 1;
+    double vibration_share = 1;
+    if (options_.time.quasi_static_start && !vibrations_.empty()) {
+      vibration_share = std::min(1.0, translation_share(Effect::inertia) * amplified);
+      vibrations_.front().share = vibration_share;
+    }
+    const auto sum = [&](auto change_of) {
+      double change = 2 * beyond_modes_;
+      for (const Vibration& one : vibrations_) change += one.share * std::min(2.0, change_of(one));
+      return change;
+    };
     for (const Effect effect : applicable_.list()) {
       double change = of_response(effect) * amplified;
       double number = sizes_.share[effect];
@@ -372,11 +405,11 @@ class MotionEstimates {
         case Effect::damping:
           number = damping_;
           change *= from_start;
-          change += vibration_share * -std::expm1(-damping_ * frequency_ * time);
+          change += sum([](const Vibration& one) { return one.damped; });
           break;
         case Effect::gyroscopic:
           number = 2 * max_angular_velocity_ / frequency_;
-          change += vibration_share * std::min(2.0, coupling_);
+          change += sum([](const Vibration& one) { return one.gyroscopic; });
           break;
         case Effect::gravity:
           break;
@@ -384,8 +417,15 @@ class MotionEstimates {
           if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping)) {
             change += options_.damping.stiffness * max_angular_velocity_;
           }
-          change += vibration_share *
-                    std::min(2.0, std::abs(frequency_change_[effect]) * duration_in_phase);
+          // A stiff part has a mode of its own, in which the force it carries swings by itself, for
+          // half a period at least.
+          if (!options_.time.quasi_static_start &&
+              (effect == Effect::platform_flexibility || effect == Effect::joint_compliance))
+            change += std::exp(-std::numbers::pi * vibrations_.back().damping_ratio);
+          change += sum([effect](const Vibration& one) {
+            const auto phase = one.phase.find(effect);
+            return phase == one.phase.end() ? 0 : std::abs(phase->second);
+          });
       }
       estimates_.effects.push_back({effect, number, change});
     }
@@ -397,8 +437,8 @@ class MotionEstimates {
   std::map<Effect, std::unique_ptr<Light>> light_;
   LargestSizes sizes_;
   double frequency_ = 0, damping_ = 0, max_angular_velocity_ = 0;
-  std::map<Effect, double> frequency_change_;  ///< relative change of the first frequency
-  double coupling_ = 0;
+  std::vector<Vibration> vibrations_;
+  double beyond_modes_ = 0;  ///< of what vibrates from rest, by energy
   EffectEstimates estimates_;
 };
 

@@ -19,14 +19,15 @@ namespace trammel::solver {
 /// times the amplification of a steady vibration, 1 / sqrt((1 - r^2)^2 + (2 z r)^2), r = W / w1,
 /// where that is larger than one.
 /// Inertia and damping count 1 + exp(-pi z) times: what starts on q_s swings about the response
-/// beside it. What the start or the motion sets vibrating, a share v of q_s (1 where load and
-/// inertia set in at once), loses step with itself by the change of w1 that the effect means
-/// (Rayleigh), for as long as it lasts, the smaller of T and 1 / (e z w1); undamped it does not die
-/// away, by 1 - exp(-z w1 T); gyroscopic forces turn the first modes into each other at the rate
-/// x_i^T (G + S / w_i) x_j / 2, for no longer than they keep step, 1 / |w_i - w_j|. On
-/// a path as fast that a harmonic of it may resonate, r^2 > 0.1, that makes at most min(1 / (2 z),
-/// w1 T / 2) of them; a load that sets in at once sets all modes vibrating, of which this knows
-/// one.
+/// beside it. What the start or the motion sets vibrating, a share v of q_s, loses step with itself
+/// by the change of its frequency w that the effect means (Rayleigh), for as long as it lasts, the
+/// smaller of T and 1 / (e z w); undamped it does not die away, by 1 - exp(-z w T); gyroscopic
+/// forces turn modes into each other at the rate x_i^T (G + S / w_i) x_j / 2, for no longer than
+/// they keep step, 1 / |w_i - w_j|. From a start on q_s it is the first mode with what inertia
+/// makes of q_s; where load and inertia set in at once, the first 16 modes, each with its share of
+/// q_s, what is left twice, and stiff parts have modes of their own: platform and joints stay
+/// flexible. On a path as fast that a harmonic of it may resonate, r^2 > 0.1, all of it counts at
+/// most min(1 / (2 z), w1 T / 2) times.
 ///   Source: quasi-static expansion, e.g. L. Meirovitch, Analytical Methods in Vibrations (1967).
 /// @param options  the whole motion, gyroscopic terms included; what `applicable` lacks is not
 /// there

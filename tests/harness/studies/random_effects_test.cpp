@@ -47,13 +47,22 @@ BOOST_AUTO_TEST_CASE(second_order_theory_is_enough_for_columns_below_their_buckl
   }
 }
 
-/// A load that sets in at once sets every mode vibrating, where estimates know the first: forces
-/// were off by 33 times the tolerance without a stiff joint, and by 2.4 without rotary inertia.
-BOOST_AUTO_TEST_CASE(what_estimates_leave_out_of_a_sudden_start_is_measured) {
-  for (const auto& [seed, number] : {std::pair(1, 139), std::pair(2, 19)}) {
+/// A load that sets in at once sets every mode vibrating, where estimates knew the first: forces
+/// were off by 33 times the tolerance without a stiff joint, by 2.4 without rotary inertia, and by
+/// ten without the flexibility of a light platform.
+BOOST_AUTO_TEST_CASE(estimates_of_a_sudden_start_know_its_modes) {
+  for (const auto& [seed, number] : {std::pair(1, 139), std::pair(2, 19), std::pair(2, 69)}) {
     const EffectStudy study = study_effects(random_scene(seed, number), {0.01, false, 0});
     BOOST_TEST(study.within_tolerance(), "scene " << seed << ", " << number);
-    BOOST_TEST(study.is_minimal(), "scene " << seed << ", " << number);
+  }
+}
+
+/// It took twice the whole scene, which it ran, to save a fifth of it.
+BOOST_AUTO_TEST_CASE(deciding_for_a_motion_takes_no_step_of_it) {
+  for (const int number : {29, 89, 169}) {
+    const EffectStudy study = study_effects(random_scene(2, number), {0.01, false, 0});
+    BOOST_TEST(study.within_tolerance(), "scene " << number);
+    BOOST_TEST(study.choice.counters.factorizations < 0.2 * study.full.counters.factorizations);
   }
 }
 
