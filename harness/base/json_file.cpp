@@ -40,7 +40,9 @@ class StrictReader : public nlohmann::json_sax<Json> {
                        "expected every key once (got '" + printable(name) + "' twice)");
     }
     // Not through operator[], which looks through all keys once more.
-    member_ = &static_cast<Json::object_t::Container&>(members).emplace_back(name, nullptr).second;
+    auto& container = static_cast<Json::object_t::Container&>(members);
+    make_room(container);
+    member_ = &container.emplace_back(name, nullptr).second;
     return true;
   }
 
@@ -70,6 +72,15 @@ class StrictReader : public nlohmann::json_sax<Json> {
     if (keys.empty())
       for (const auto& member : members) keys.insert(member.first);
     return !keys.insert(name).second;
+  }
+  /// For one member more. A vector of members that grows by itself copies them with all that is in
+  /// them: their keys are constant, which cannot be moved.
+  static void make_room(Json::object_t::Container& members) {
+    if (members.size() < members.capacity()) return;
+    Json::object_t::Container more;
+    more.reserve(2 * members.size() + 4);
+    for (auto& [name, value] : members) more.emplace_back(name, std::move(value));
+    members.swap(more);
   }
   /// Of the innermost open object or array.
   [[nodiscard]] JsonPointer pointer() const {

@@ -232,7 +232,7 @@ class CommandLine {
                   "Also checks, worst share of a tolerance and time as ctest's measurements")
         ->excludes(json);
     sub->add_flag("--vtk", run_.vtk,
-                  "Also OUT/vtk: shapes and poses for ParaView, each set as PVD of VTU files");
+                  "Also OUT/vtk: shapes, poses and motions for ParaView, each set as PVD of VTU files");
     sub->callback([this] {
       if (run_.cases.empty() && run_.labels.empty() && run_.shard.empty()) {
         throw CLI::RequiredError("a case or a label");

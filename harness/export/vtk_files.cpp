@@ -39,16 +39,21 @@ std::vector<VtkCell> cells_of(const results::Drawing& drawing) {
   return cells;
 }
 
-/// A collection and its files. @param grids  label and text of each
+struct Grid {
+  std::string label, text;
+  double time = 0;
+};
+
+/// A collection and its files.
 void write_collection(const std::filesystem::path& folder, const std::string& name,
-                      const std::vector<std::pair<std::string, std::string>>& grids) {
+                      const std::vector<Grid>& grids) {
   if (grids.empty()) return;
   std::string sets;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const std::string file = fmt::format("{}-{}.vtu", name, i + 1);
-    write_file(folder / file, grids[i].second);
-    sets += fmt::format("<!-- {} -->\n<DataSet timestep=\"{}\" file=\"{}\"/>\n", grids[i].first,
-                        i + 1, file);
+    write_file(folder / file, grids[i].text);
+    sets += fmt::format("<!-- {} -->\n<DataSet timestep=\"{}\" file=\"{}\"/>\n", grids[i].label,
+                        grids[i].time, file);
   }
   write_file(
       folder / (name + ".pvd"),
@@ -89,15 +94,21 @@ void write_vtk(const results::Run& run, const std::filesystem::path& folder) {
   const std::vector<VtkCell> cells = cells_of(drawing);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  std::vector<std::pair<std::string, std::string>> shapes, poses;
+  std::vector<Grid> shapes, poses, moments;
+  const auto number_of = [](const auto& grids) { return static_cast<double>(grids.size() + 1); };
   for (const results::Shape& shape : drawing.shapes)
-    shapes.emplace_back(shape.label, vtu(drawing.nodes, cells, "is_plate", shape.displacement));
-  poses.emplace_back("first", vtu(drawing.nodes, cells, "is_plate"));
-  for (const results::Pose& pose : drawing.poses)
-    poses.emplace_back(pose.label, vtu(pose.nodes, cells, "is_plate"));
+    shapes.push_back({shape.label, vtu(drawing.nodes, cells, "is_plate", shape.displacement),
+                      number_of(shapes)});
+  poses.push_back({"first", vtu(drawing.nodes, cells, "is_plate"), 1});
+  for (const results::Pose& pose : drawing.poses) {
+    std::vector<Grid>& grids = pose.time_s ? moments : poses;
+    grids.push_back({pose.label, vtu(pose.nodes, cells, "is_plate", pose.displacement),
+                     pose.time_s.value_or(number_of(grids))});
+  }
   const std::string name = run.case_id + "-" + run.variant;
   write_collection(folder, name + "-shapes", shapes);
   write_collection(folder, name + "-poses", poses);
+  write_collection(folder, name + "-motion", moments);
 }
 
 }  // namespace trammel::harness

@@ -24,8 +24,9 @@ struct VtkCell {
                               const std::vector<VtkCell>& cells, const std::string& part,
                               const std::vector<results::Point>& displacement = {});
 
-/// What is drawn of a run: CASE-VARIANT-shapes.pvd and -poses.pvd, which name a VTU file for each
-/// shape (as point vectors "displacement" [m]) and each pose. Nothing where nothing is drawn.
+/// What is drawn of a run: CASE-VARIANT-shapes.pvd, -poses.pvd and -motion.pvd, which name a VTU
+/// file for each shape, pose and moment of a motion, these by their time [s]; what is displaced
+/// has point vectors "displacement" [m]. Nothing where nothing is drawn.
 /// @throws InputError  where the folder cannot be written.
 void write_vtk(const results::Run& run, const std::filesystem::path& folder);
 

@@ -128,6 +128,19 @@ void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& re
   record.add("step_residual", "", summary.largest_residual);
 }
 
+/// Moments of the motion: the nominal pose, and what links and platform deflect from there.
+void draw_motion(const CaseModel& case_model, const solver::ElastodynamicsSolution& solution,
+                 Drawing& drawing) {
+  std::vector<Eigen::VectorXd> q;
+  for (const solver::StaticSolution& state : solution.state) q.push_back(state.q);
+  for (const std::size_t i : drawn_samples(q, drawing.nodes.size())) {
+    const solver::System system = solver::assemble(build_model(case_model, i));
+    const std::string label = moment_label(solution.time[i]);
+    drawing.poses.push_back({label, draw_model(system, true)->nodes, solution.time[i],
+                             draw_shape(system, q[i], label).displacement});
+  }
+}
+
 }  // namespace
 
 solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
@@ -201,6 +214,7 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
   if (analysis.get("step_errors", false)) record_step_errors(options, solution, record);
   if (options.elastic_inertia) record_damping(options.damping, start, record);
   record_summary(solution, record);
+  if (result.drawing) draw_motion(case_model, solution, *result.drawing);
   return result;
 }
 

@@ -13,7 +13,7 @@ StepResult analyse_kinematics(const JsonView&, const CaseModel& case_model, std:
   const solver::Posture posture = solver::inverse_kinematics(geometry, pose);
   StepResult result;
   result.outcome = posture.outcome;
-  if (draw) result.drawing = draw_manipulator(geometry, case_model.motion);
+  if (draw && step == 0) result.drawing = draw_manipulator(geometry, case_model.motion);
   if (!posture.outcome.solved()) return result;
   const solver::Jacobians at = solver::jacobians(geometry, pose, posture);
   const solver::HoldingTorques holding =

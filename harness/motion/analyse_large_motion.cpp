@@ -18,8 +18,6 @@ namespace {
 using solver::large_motion::GeometricallyExactSystem;
 using solver::large_motion::State;
 
-constexpr int kMaxPoses = 8;
-
 /// Rotation of a node, less that of another (-1: of the ground).
 struct Angle {
   std::string name;
@@ -252,13 +250,17 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   MotionRecorder log(system, read_kept(analysis, model), record);
-  int poses = 0;
+  const auto moments =
+      static_cast<double>(result.drawing ? max_drawn_moments(result.drawing->nodes.size()) - 1 : 1);
   const auto look = [&](const State& state) {
     log.look(state);
     if (tracking) record_deflection(system, state, *case_model.path, record);
-    if (!result.drawing || state.t < options.end_time * poses / kMaxPoses) return;
-    ++poses;
-    result.drawing->poses.push_back(draw_large_pose(system, state.q, rounded(state.t, 3) + " s"));
+    if (!result.drawing) return;
+    std::vector<Drawing::Pose>& poses = result.drawing->poses;
+    const double next = options.end_time * static_cast<double>(poses.size()) / moments;
+    if (state.t < next * (1 - 1e-9)) return;
+    poses.push_back(draw_large_pose(system, state.q, moment_label(state.t)));
+    poses.back().time = state.t;
   };
   const solver::large_motion::IntegrationSummary summary =
       integrate_motion(system, case_model, tracking, options, extrapolated, look);

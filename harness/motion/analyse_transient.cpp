@@ -66,6 +66,16 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
   }
 }
 
+void draw_motion(const solver::System& system, const MotionHistory& motion, Drawing& drawing) {
+  std::vector<Eigen::VectorXd> q;
+  for (solver::Index i = 0; i < motion.q.cols(); ++i) q.emplace_back(motion.q.col(i));
+  for (const std::size_t i : drawn_samples(q, drawing.nodes.size())) {
+    const std::string label = moment_label(motion.time[i]);
+    drawing.poses.push_back(
+        {label, drawing.nodes, motion.time[i], draw_shape(system, q[i], label).displacement});
+  }
+}
+
 }  // namespace
 
 StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model,
@@ -100,6 +110,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   if (system.load.isZero(0) && !analysis.has("rotating_frame")) drift.record(record);
   record.add("steps", "", static_cast<double>(motion.steps));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  if (result.drawing) draw_motion(system, motion, *result.drawing);
   return result;
 }
 

@@ -107,7 +107,8 @@ inline constexpr auto kFields<Shape> =
     std::tuple{required("displacement_m", &Shape::displacement), TRAMMEL_REQUIRED(Shape, label)};
 template <>
 inline constexpr auto kFields<Pose> =
-    std::tuple{required("nodes_m", &Pose::nodes), TRAMMEL_REQUIRED(Pose, label)};
+    std::tuple{required("nodes_m", &Pose::nodes), TRAMMEL_REQUIRED(Pose, label),
+               TRAMMEL_OPTIONAL(Pose, time_s), optional("displacement_m", &Pose::displacement)};
 template <>
 inline constexpr auto kFields<Drawing> =
     std::tuple{required("nodes_m", &Drawing::nodes),
@@ -336,6 +337,8 @@ void require_consistent(const Drawing& drawing, const Place& place) {
   };
   one_per_node(drawing.shapes, "shapes", &Shape::displacement, "displacement_m");
   one_per_node(drawing.poses, "poses", &Pose::nodes, "nodes_m");
+  if (std::ranges::any_of(drawing.poses, [](const Pose& p) { return !p.displacement.empty(); }))
+    one_per_node(drawing.poses, "poses", &Pose::displacement, "displacement_m");
 }
 
 void require_consistent(const CostStudy& study, const Place& place) {

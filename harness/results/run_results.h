@@ -125,7 +125,9 @@ struct Shape {
 
 struct Pose {
   std::string label;
-  std::vector<Point> nodes;  ///< one a node of the drawing [m]
+  std::vector<Point> nodes;              ///< one a node of the drawing [m]
+  Number time_s = {};                    ///< of a moment of a motion
+  std::vector<Point> displacement = {};  ///< from there, one a node [m]; empty: none
 };
 
 struct Drawing {

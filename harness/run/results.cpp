@@ -138,7 +138,8 @@ results::Drawing drawing(const Drawing& drawn) {
   for (const Drawing::Shape& shape : drawn.shapes)
     out.shapes.push_back({shape.label, points(shape.displacement)});
   for (const Drawing::Pose& pose : drawn.poses)
-    out.poses.push_back({pose.label, points(pose.nodes)});
+    out.poses.push_back(
+        {pose.label, points(pose.nodes), number(pose.time), points(pose.displacement)});
   return out;
 }
 

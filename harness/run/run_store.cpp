@@ -108,13 +108,31 @@ inline void from_json(const nlohmann::json& in, Drawing::Shape& shape) {
   unpack(in.at(1), shape.displacement);
 }
 
+/// Many moments of a motion: seven digits are enough of what is only drawn.
+inline nlohmann::json drawn(const std::vector<Eigen::Vector2d>& points) {
+  std::vector<Eigen::Vector2f> rounded;
+  for (const Eigen::Vector2d& point : points) rounded.emplace_back(point.cast<float>());
+  return packed(rounded);
+}
+inline std::vector<Eigen::Vector2d> drawn(const nlohmann::json& json) {
+  std::vector<Eigen::Vector2f> rounded;
+  unpack(json, rounded);
+  std::vector<Eigen::Vector2d> points;
+  for (const Eigen::Vector2f& point : rounded) points.emplace_back(point.cast<double>());
+  return points;
+}
+
 inline void to_json(nlohmann::json& out, const Drawing::Pose& pose) {
-  const auto& [label, nodes] = pose;
-  out = {label, packed(nodes)};
+  const auto& [label, nodes, time, displacement] = pose;
+  out = {label, drawn(nodes), packed(std::vector<double>{time}), drawn(displacement)};
 }
 inline void from_json(const nlohmann::json& in, Drawing::Pose& pose) {
   in.at(0).get_to(pose.label);
-  unpack(in.at(1), pose.nodes);
+  pose.nodes = drawn(in.at(1));
+  std::vector<double> time;
+  unpack(in.at(2), time);
+  pose.time = time.at(0);
+  pose.displacement = drawn(in.at(3));
 }
 
 TRAMMEL_KEPT(Drawing::Joint, node, kind, name)

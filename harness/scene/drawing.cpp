@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
-#include "solver/model/numbers.h"
+#include "harness/base/text.h"
 
 namespace trammel::harness {
 namespace {
 
 constexpr std::size_t kMaxNodesWithMidpoints = 1500;
 constexpr std::size_t kPointsPerMember = 12;
+constexpr std::size_t kMaxMovedNodes = 6000;  ///< of all moments together
+constexpr double kShownShare = 0.8;           ///< of the way that the coordinates go
 
 /// Pieces that an element is drawn in.
 std::size_t pieces(const solver::System& system, const solver::FrameElement& element) {
@@ -188,6 +190,29 @@ Drawing::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q
   return shape;
 }
 
+std::size_t max_drawn_moments(std::size_t nodes) {
+  return std::clamp<std::size_t>(kMaxMovedNodes / std::max<std::size_t>(nodes, 1), 6, 48);
+}
+
+std::string moment_label(double time) {
+  return rounded(time, 4) + " s";
+}
+
+std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q, std::size_t nodes) {
+  const std::size_t most = max_drawn_moments(nodes);
+  std::vector<std::size_t> samples;
+  for (std::size_t count = q.size(); count > 1; count = (count + 1) / 2) {
+    const std::size_t moments = std::min(count, most);
+    samples.clear();
+    for (std::size_t k = 0; k < moments; ++k) samples.push_back(k * (count - 1) / (moments - 1));
+    double all = 0, shown = 0;
+    for (std::size_t i = 1; i < count; ++i) all += (q[i] - q[i - 1]).norm();
+    for (std::size_t k = 1; k < moments; ++k) shown += (q[samples[k]] - q[samples[k - 1]]).norm();
+    if (!(shown < kShownShare * all)) break;
+  }
+  return samples;
+}
+
 Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
                          const std::vector<solver::TrajectoryPoint>& motion) {
   const auto nodes_at = [&](const solver::Pose& pose) {
@@ -209,10 +234,11 @@ Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
     drawing.joints.push_back({3 + i, "hinged", "B" + limb});
     drawing.joints.push_back({6 + i, "hinged", "C" + limb});
   }
-  constexpr std::size_t more = 4;
-  for (std::size_t k = 1; k < more && motion.size() >= more; ++k) {
-    const std::size_t point = k * (motion.size() - 1) / more;
-    drawing.poses.push_back({"point " + std::to_string(point), nodes_at(motion[point].pose)});
+  if (motion.size() < 2) return drawing;
+  const std::size_t moments = std::min(motion.size(), max_drawn_moments(drawing.nodes.size()));
+  for (std::size_t k = 0; k < moments; ++k) {
+    const solver::TrajectoryPoint& point = motion[k * (motion.size() - 1) / (moments - 1)];
+    drawing.poses.push_back({moment_label(point.time), nodes_at(point.pose), point.time});
   }
   return drawing;
 }

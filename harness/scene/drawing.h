@@ -8,6 +8,7 @@
 #include "solver/assembly/system.h"
 #include "solver/manipulator/kinematics.h"
 #include "solver/manipulator/trajectory.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 
@@ -24,7 +25,9 @@ struct Drawing {
   };
   struct Pose {
     std::string label;
-    std::vector<Eigen::Vector2d> nodes;  ///< [m]
+    std::vector<Eigen::Vector2d> nodes;              ///< [m]
+    double time = solver::kNaN;                      ///< of a moment of a motion [s]
+    std::vector<Eigen::Vector2d> displacement = {};  ///< from there [m]; empty: none
   };
   std::vector<Eigen::Vector2d> nodes;               ///< [m]
   std::vector<std::array<std::size_t, 2>> members;  ///< elements
@@ -50,11 +53,24 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 [[nodiscard]] Drawing::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
                                         const std::string& label);
 
+/// The samples of a motion that a picture can show: 48 at most, fewer of a fine mesh. Where so few
+/// would miss vibrations, they are of the beginning alone.
+/// @param q      coordinates of each sample
+/// @param nodes  of the drawing
+[[nodiscard]] std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q,
+                                                     std::size_t nodes);
+
+/// How many moments of a motion a picture with so many nodes can show.
+[[nodiscard]] std::size_t max_drawn_moments(std::size_t nodes);
+
+/// "0.25 s"
+[[nodiscard]] std::string moment_label(double time);
+
 /// Displacement at s in [0, 1] along an element, from the unconstrained coordinates u = T q [m].
 [[nodiscard]] Eigen::Vector2d displacement_along(const solver::FrameElement& element,
                                                  const Eigen::VectorXd& u, double s);
 
-/// A rigid manipulator at the first point and at a few more of the path.
+/// A rigid manipulator at the first point and, where there are more, at moments of its path.
 [[nodiscard]] Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
                                        const std::vector<solver::TrajectoryPoint>& motion);
 

@@ -10,6 +10,7 @@
 #include "reports/figures/discrepancy.h"
 #include "reports/figures/map.h"
 #include "reports/figures/mechanism.h"
+#include "reports/figures/motion.h"
 #include "reports/figures/shapes.h"
 #include "reports/figures/tolerance.h"
 
@@ -74,6 +75,14 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
                                std::to_string(kMaxDrawnVariants) + " variants; those of " +
                                std::to_string(variants - kMaxDrawnVariants) +
                                " more stand in results.json.");
+  std::size_t motions = 0;
+  for (const Run* run : runs)
+    if (auto motion = motion_figure(info, *run); motion && ++motions == 1)
+      gallery.shown.push_back(*motion);
+  if (motions > 1)
+    gallery.problems.push_back("The page moves the first variant; the motions of " +
+                               std::to_string(motions - 1) +
+                               " more are written by 'run --vtk', and stand in the store.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     const auto draw = request.value.empty() ? curves_figure : map_figure;

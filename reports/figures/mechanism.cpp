@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "reports/drawing/palette.h"
@@ -111,8 +112,11 @@ std::optional<Figure> mechanism_figure(
   if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty()) {
     return std::nullopt;
   }
+  std::vector<Pose> poses;  // moments of a motion have a figure of their own
+  std::ranges::copy_if(drawing.poses, std::back_inserter(poses),
+                       [](const Pose& pose) { return !pose.time_s; });
   std::vector<std::vector<Point>> sets = {drawing.nodes};
-  for (const Pose& pose : drawing.poses) sets.push_back(pose.nodes);
+  for (const Pose& pose : poses) sets.push_back(pose.nodes);
   for (const auto& [_, other] : further) sets.push_back(other->nodes);
   const Box box = box_around(sets, 0.09, 0.2);
 
@@ -120,11 +124,11 @@ std::optional<Figure> mechanism_figure(
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  const std::string base_label = sets.size() == 1        ? ""
-                                 : drawing.poses.empty() ? info.variant_title(run.variant)
-                                                         : "first pose";
+  const std::string base_label = sets.size() == 1 ? ""
+                                 : poses.empty()  ? info.variant_title(run.variant)
+                                                  : "first pose";
   std::vector<std::string> titles;
-  for (const Pose& pose : drawing.poses) titles.push_back(pose.label);
+  for (const Pose& pose : poses) titles.push_back(pose.label);
   for (const auto& [label, _] : further) titles.push_back(label);
   if (!titles.empty()) titles.push_back(base_label);
   for (const JointSymbol& symbol : kJointSymbols)
@@ -132,8 +136,8 @@ std::optional<Figure> mechanism_figure(
   const int key_height = script.key_below(titles);
   Figure figure;
   figure.data.heads = {"pose", "node", "x_m", "y_m", "joint", "name"};
-  for (std::size_t i = 0; i < drawing.poses.size(); ++i) {
-    const Pose& pose = drawing.poses[i];
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Pose& pose = poses[i];
     draw_body(script, drawing, pose.nodes, palette::color(2 + i), 1.2, pose.label);
     add_rows(figure.data, pose.label, drawing, pose.nodes);
   }

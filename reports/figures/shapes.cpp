@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/moving.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
 
@@ -14,10 +13,7 @@ namespace trammel::reports {
 
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::size_t kMaxShapes = 8;
-constexpr double kDrawnAmplitude = 0.13;  ///< of the longer side
 
 double factor_for(const Shape& shape, double side) {
   double largest = 0;
@@ -43,66 +39,15 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
   script.plot();
 }
 
-/// Lines by the places of their nodes among those that are drawn.
-Json renumbered(std::vector<std::vector<int>> lines, std::map<int, int>& places) {
-  for (auto& line : lines)
-    for (int& node : line)
-      node = places.emplace(node, static_cast<int>(places.size())).first->second;
-  return lines;
-}
-
-/// The modes for a page's script: a panel each, in tenths of a unit of the drawing, y downwards,
-/// displacements as they are drawn.
-/// @param factor  of each shape
-std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor, const Box& box,
-                         double panel) {
-  const double scale = 10 * panel / box.width();
-  std::map<int, int> places;
-  Json json;
-  json["panel"] = {std::lround(10 * panel), std::lround(scale * box.height())};
-  json["lines"] = renumbered(polylines(drawing), places);
-  const auto edges = triangle_edges(drawing);
-  const bool loops = !edges.empty() && edges.front().front() == edges.front().back();
-  json["edges"] = renumbered(edges, places);
-  json["fill"] = renumbered(loops ? edges : drawing.triangles, places);
-  const auto points = [&](const auto& of) {
-    std::vector<long> numbers(2 * places.size());
-    for (const auto& [node, place] : places) {
-      const auto [x, y] = of(static_cast<std::size_t>(node));
-      numbers[2 * static_cast<std::size_t>(place)] = std::lround(scale * x);
-      numbers[2 * static_cast<std::size_t>(place) + 1] = std::lround(-scale * y);
-    }
-    return numbers;
-  };
-  json["nodes"] = points([&](std::size_t i) {
-    const auto& [x, y] = drawing.nodes[i];
-    return Point(x - box.x0, y - box.y1);
-  });
-  for (std::size_t s = 0; s < factor.size(); ++s) {
-    const Shape& shape = drawing.shapes[s];
-    const auto moved = points([&](std::size_t i) {
-      const auto& [ux, uy] = shape.displacement[i];
-      return Point(factor[s] * ux, factor[s] * uy);
-    });
-    json["shapes"].push_back({{"label", shape.label}, {"moved", moved}});
-  }
-  return json.dump();
-}
-
 /// "mode 3, 15.1 Hz": what swings with a frequency.
 bool is_mode(const Shape& shape) {
   return shape.label.rfind("mode", 0) == 0 && shape.label.find(" Hz") != std::string::npos;
 }
 
 bool is_drawn_whole(const Drawing& drawing, std::size_t shapes) {
-  const auto finite = [](const Point& p) {
-    return std::isfinite(p.first) && std::isfinite(p.second);
-  };
-  bool whole = std::all_of(drawing.nodes.begin(), drawing.nodes.end(), finite);
-  for (std::size_t s = 0; s < shapes; ++s) {
-    const auto& u = drawing.shapes[s].displacement;
-    whole = whole && is_mode(drawing.shapes[s]) && std::all_of(u.begin(), u.end(), finite);
-  }
+  bool whole = are_finite(drawing.nodes);
+  for (std::size_t s = 0; s < shapes; ++s)
+    whole = whole && is_mode(drawing.shapes[s]) && are_finite(drawing.shapes[s].displacement);
   return whole;
 }
 

@@ -98,53 +98,78 @@ function readable(svg) {
 }
 document.querySelectorAll("figure svg[data-axes]").forEach(readable);
 
-// Modes swing, slowed down alike; still where the reader prefers so, until asked.
-function swinging(svg) {
-  const modes = JSON.parse(svg.querySelector("metadata").textContent), [width, height] = modes.panel;
-  const columns = modes.shapes.length > 1 ? 2 : 1, head = 240, rows = Math.ceil(modes.shapes.length / columns);
-  const moving = made(svg.parentElement, "svg", {viewBox: `0 0 ${columns * width} ${rows * (height + head)}`, role: "img",
-    "aria-label": svg.getAttribute("aria-label"), "font-family": "Helvetica, Arial, sans-serif", fill: "none", class: "moving"});
-  const text = (lines, u, s) => lines.map(line => "M" + line.map(i =>
-    (modes.nodes[2 * i] + s * u[2 * i]).toFixed() + "," + (modes.nodes[2 * i + 1] + s * u[2 * i + 1]).toFixed()).join("L")).join("");
-  const panels = modes.shapes.map((shape, k) => {
-    const g = made(moving, "g", {transform: `translate(${k % columns * width},${Math.floor(k / columns) * (height + head) + head})`});
-    made(g, "text", {x: width / 2, y: -70, fill: "#1d232b", "text-anchor": "middle", "font-size": 150}, shape.label);
-    for (const lines of [modes.edges, modes.lines]) made(g, "path", {stroke: "#a6aeb8", "stroke-width": 11, d: text(lines, shape.moved, 0)});
-    const fill = made(g, "path", {fill: "#dde6f0", "fill-rule": "evenodd"});
-    return {hz: parseFloat(shape.label.split(", ")[1]) || 0, u: shape.moved, paths: [[fill, modes.fill],
-      [made(g, "path", {stroke: "#1f5fa8", "stroke-width": 12}), modes.edges], [made(g, "path", {stroke: "#1f5fa8", "stroke-width": 22, "stroke-linejoin": "round"}), modes.lines]]};
+// Modes swing, slowed down alike, and motions run along their paths; still where the reader prefers so, until asked.
+function outlines(parent, drawn, color) {
+  const paths = color ? [["fill", {fill: "#dde6f0", "fill-rule": "evenodd"}], ["edges", {stroke: color, "stroke-width": 12}],
+    ["lines", {stroke: color, "stroke-width": 22, "stroke-linejoin": "round"}]] : ["edges", "lines"].map(name => [name, {stroke: "#a6aeb8", "stroke-width": 11}]);
+  const all = paths.map(([name, style]) => [made(parent, "path", {fill: "none", ...style}), drawn[name]]);
+  return at => all.forEach(([path, lines]) => path.setAttribute("d",
+    lines.map(line => "M" + line.map(i => at[2 * i].toFixed() + "," + at[2 * i + 1].toFixed()).join("L")).join("")));
+}
+// Drawings of the modes at a time, and how much they are slowed down.
+function swinging(modes, panel) {
+  const shapes = modes.shapes.map((shape, k) => {
+    const g = panel(k);
+    made(g, "text", {x: modes.panel[0] / 2, y: -70}, shape.label);
+    outlines(g, modes)(modes.nodes);
+    const show = outlines(g, modes, "#1f5fa8"), hz = parseFloat(shape.label.split(", ")[1]) || 0;
+    return {hz, draw: t => { const s = Math.cos(2 * Math.PI * hz * t); show(modes.nodes.map((x, i) => x + s * shape.moved[i])); }};
   });
-  const draw = t => panels.forEach(({hz, u, paths}) => paths.forEach(([path, lines]) => path.setAttribute("d", text(lines, u, Math.cos(2 * Math.PI * hz * t)))));
-  const all = panels.map(p => p.hz).filter(hz => hz > 0), fastest = Math.max(...all);
-  const usual = Math.max(Math.min(...all.filter(hz => hz > 1e-6 * fastest)) / 0.5, fastest / 4);
+  const all = shapes.map(p => p.hz).filter(hz => hz > 0), fastest = Math.max(...all);
+  return {draw: t => shapes.forEach(shape => shape.draw(t)), slowed: Math.max(Math.min(...all.filter(hz => hz > 1e-6 * fastest)) / 0.5, fastest / 4)};
+}
+// The same of a motion, from its first moment to its last and again.
+function running(motion, panel) {
+  const sums = rows => rows.slice(1).reduce((all, row) => [...all, row.map((step, i) => all.at(-1)[i] + step)], [rows[0]]);
+  const g = panel(0), text = made(g, "text", {x: motion.panel[0] / 2, y: -70}), times = motion.times, start = times[0], length = times.at(-1) - start;
+  const sets = [motion.still && [sums(motion.still), outlines(g, motion)], [sums(motion.moved), outlines(g, motion, "#1f5fa8")]].filter(Boolean);
+  return {length, slowed: 4 / length, draw: t => {
+    const now = start + t % length, k = Math.max(1, times.findIndex(time => time >= now)), share = (now - times[k - 1]) / (times[k] - times[k - 1]);
+    text.textContent = `${Number(now.toPrecision(3))} s`;
+    for (const [rows, show] of sets) show(rows[k].map((x, i) => share * x + (1 - share) * rows[k - 1][i]));
+  }};
+}
+function moving(svg) {
+  const data = JSON.parse(svg.querySelector("metadata").textContent), [width, height] = data.panel;
+  const panels = data.shapes ? data.shapes.length : 1, columns = panels > 1 ? 2 : 1, head = 240, rows = Math.ceil(panels / columns);
+  const picture = made(svg.parentElement, "svg", {viewBox: `0 0 ${columns * width} ${rows * (height + head)}`, role: "img",
+    "aria-label": svg.getAttribute("aria-label"), "font-family": "Helvetica, Arial, sans-serif", fill: "none", class: "moving"});
+  const {draw, slowed, length} = (data.shapes ? swinging : running)(data, k => made(picture, "g", {fill: "#1d232b", "font-size": 150, "text-anchor": "middle",
+    transform: `translate(${k % columns * width},${Math.floor(k / columns) * (height + head) + head})`}));
   const bar = made(svg.parentElement, "p", {class: "motion"}), button = made(bar, "button", {type: "button"});
-  const label = made(bar, "label", {}, "slower ");
-  const speed = made(label, "input", {type: "range", min: -1, max: 1, step: 0.1, value: 0});
-  label.append(" faster");
+  const slider = (name, before, after, values) => {
+    const label = made(bar, "label", {}, before), input = made(label, "input", {type: "range", name, ...values});
+    label.append(after);
+    return input;
+  };
+  const speed = slider("speed", "slower ", " faster", {min: -1, max: 1, step: 0.1, value: 0});
+  const time = length && slider("time", "time ", "", {min: 0, max: 1, step: 0.01, value: 0});
   const said = made(bar, "span");
-  let t = 0, before, wanted = !matchMedia("(prefers-reduced-motion: reduce)").matches, seen = false, running = false;
-  const slowed = () => usual / 10 ** speed.value;
+  let t = 0, before, wanted = !matchMedia("(prefers-reduced-motion: reduce)").matches, seen = false, isRunning = false;
+  const slower = () => slowed / 10 ** speed.value;
   const step = now => {
-    running = wanted && seen;
-    if (before !== undefined) t += Math.min(now - before, 100) / 1000 / slowed();
-    before = running ? now : undefined;
+    isRunning = wanted && seen;
+    if (before !== undefined) t += Math.min(now - before, 100) / 1000 / slower();
+    before = isRunning ? now : undefined;
+    if (isRunning && time) time.value = t % length / length;
     draw(t);
-    if (running) requestAnimationFrame(step);
+    if (isRunning) requestAnimationFrame(step);
   };
   const update = () => {
     button.textContent = wanted ? "Stop" : "Move";
-    const n = slowed();
+    const n = slower();
     said.textContent = n >= 1 ? `slowed down ${Number(n.toPrecision(2))} times` : `sped up ${Number((1 / n).toPrecision(2))} times`;
-    if (wanted && seen && !running) { running = true; requestAnimationFrame(step); }
+    if (wanted && seen && !isRunning) { isRunning = true; requestAnimationFrame(step); }
   };
   button.addEventListener("click", () => { wanted = !wanted; update(); });
   speed.addEventListener("input", update);
-  new IntersectionObserver(entries => { seen = entries.at(-1).isIntersecting; update(); }).observe(moving);
+  if (time) time.addEventListener("input", () => { wanted = false; t = 0.999999 * time.value * length; draw(t); update(); });
+  new IntersectionObserver(entries => { seen = entries.at(-1).isIntersecting; update(); }).observe(picture);
   svg.classList.add("still");
   draw(0);
   update();
 }
-for (const data of document.querySelectorAll("figure svg metadata")) swinging(data.parentElement);
+for (const data of document.querySelectorAll("figure svg metadata")) moving(data.parentElement);
 
 // Search over all checks, whose list is loaded when it is first asked for.
 const find = document.getElementById("find");

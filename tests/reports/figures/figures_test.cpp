@@ -5,6 +5,7 @@
 #include "reports/figures/curves.h"
 #include "reports/figures/discrepancy.h"
 #include "reports/figures/gallery.h"
+#include "reports/figures/motion.h"
 #include "reports/figures/outline.h"
 #include "reports/figures/tolerance.h"
 
@@ -170,6 +171,31 @@ BOOST_AUTO_TEST_CASE(hinges_without_a_name_are_no_further_pose) {
   const Gallery& gallery = families.front().galleries.at("beam");
   BOOST_TEST_REQUIRE(!gallery.shown.empty());
   BOOST_TEST(!contains(gallery.shown.front().caption, "poses"), gallery.shown.front().caption);
+}
+
+BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
+  Run run = run_with({});
+  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
+  BOOST_TEST(!motion_figure(beam(), run));
+  run.drawing->poses = {{"0 s", {{0, 0}, {1, 0}}, 0.0, {{0, 0}, {0, 0}}},
+                        {"1 s", {{0, 0}, {1, 0}}, 1.0, {{0, 0}, {0, 0.001}}},
+                        {"2 s", {{0, 0}, {0.8, 0.6}}, 2.0, {{0, 0}, {0, -0.0005}}}};
+  const auto figure = motion_figure(beam(), run);
+  BOOST_REQUIRE(figure);
+  BOOST_TEST(
+      contains(figure->caption, "is 1\u202fmm, at 1\u202fs; deflections are drawn 130 times"),
+      figure->caption);
+  BOOST_TEST(contains(figure->caption, "3 moments up to 2\u202fs"), figure->caption);
+  BOOST_TEST(contains(figure->moving, R"("times":[0.0,1.0,2.0])"), figure->moving);
+  // y of the free end, downwards: at rest it comes up by 0.6 m; displaced it is 0.13 m up at 1 s.
+  const double unit = 5000 / 1.08;
+  const std::string still = "[0,0," + std::to_string(std::lround(-0.2 * unit)) + "," +
+                            std::to_string(std::lround(-0.6 * unit)) + "]";
+  BOOST_TEST(contains(figure->moving, still), figure->moving);
+  BOOST_TEST(contains(figure->moving, "[0,0,0," + std::to_string(std::lround(-0.13 * unit)) + "]"),
+             figure->moving);
+  run.drawing->poses[1].displacement[1].second = std::nan("");
+  BOOST_TEST(contains(motion_figure(beam(), run)->caption, "2 moments"));
 }
 
 BOOST_AUTO_TEST_CASE(a_straight_limb_is_two_points_and_a_bent_one_keeps_its_corner) {

@@ -27,7 +27,7 @@ const puppeteer = require("puppeteer-core");
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 
 const out = join(folder, "report");
-execFileSync(program, ["report", "manipulator-modes", "circle-load", "--out", out], {stdio: "inherit"});
+execFileSync(program, ["report", "manipulator-modes", "circle-load", "elastodynamics-circle", "--out", out], {stdio: "inherit"});
 const at = name => pathToFileURL(join(out, name)).href;
 const browser = await puppeteer.launch({executablePath: chromium, args: ["--no-sandbox", "--disable-gpu"]});
 let faults = 0;
@@ -133,9 +133,38 @@ await pause(300);
 expect("with reduced motion they are still", await shape(page) === still);
 await page.close();
 
+// A motion along its path.
+for (const reduced of [false, true]) {
+  page = await visit("cases/elastodynamics-circle.html", 1280, {features: reduced ? [["prefers-reduced-motion", "reduce"]] : []});
+  const motion = () => page.$eval("figure[id$=-motion] svg.moving", e => e.querySelector("text").textContent + [...e.querySelectorAll("path")].map(p => p.getAttribute("d")).join());
+  await page.$eval("figure[id$=-motion]", e => e.scrollIntoView({block: "center"}));
+  const moments = [];
+  for (let i = 0; i < 3; ++i) {
+    await pause(300);
+    moments.push(await motion());
+    if (!reduced) await picture(page, `motion-${i + 1}`);
+  }
+  expect(reduced ? "with reduced motion it is still" : "a motion moves", new Set(moments).size === (reduced ? 1 : 3));
+  await page.focus("figure[id$=-motion] input[name=time]");
+  await page.keyboard.press("Home");
+  const start = await motion();
+  await page.keyboard.press("ArrowRight");
+  expect("arrow keys move it", start.startsWith("0 s") && /^0\.06\d* s/.test(await motion()));
+  const later = await motion();
+  await pause(200);
+  expect("and it stays there", await motion() === later);
+  await page.close();
+}
+
 // Without scripts.
 page = await visit("cases/manipulator-modes.html", 1280, {scripts: false});
 await picture(page, "no-script");
+await page.close();
+page = await visit("cases/elastodynamics-circle.html", 1280, {scripts: false});
+const outlines = await page.$$eval("figure[id$=-motion] svg path", paths => paths.filter(p => p.getBoundingClientRect().height > 50).length);
+expect(`a motion is a picture without scripts (${outlines} outlines)`, outlines > 8);
+await (pictures && page.$eval("figure[id$=-motion]", e => e.scrollIntoView({block: "center"})));
+await picture(page, "motion-no-script");
 await page.close();
 for (const name of ["index.html", "cases/manipulator-modes.html"]) {
   const html = readFileSync(join(out, name), "utf8");
@@ -143,7 +172,7 @@ for (const name of ["index.html", "cases/manipulator-modes.html"]) {
 }
 
 // Accessibility, and no page that scrolls sideways.
-for (const name of ["index.html", "cases/manipulator-modes.html", "cases/circle-load.html", "families/manipulator-modes.html", "references.html", "references/manipulator-modes.html"])
+for (const name of ["index.html", "cases/manipulator-modes.html", "cases/circle-load.html", "cases/elastodynamics-circle.html", "families/manipulator-modes.html", "references.html", "references/manipulator-modes.html"])
   for (const width of [1280, 400])
     for (const scheme of ["light", "dark"]) {
       if (!existsSync(join(out, name))) continue;

@@ -1,0 +1,147 @@
+#include "reports/figures/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
+#include "reports/figures/moving.h"
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t kMaxLaidOver = 6;
+
+/// The largest length among vectors of all moments, and when.
+struct Largest {
+  double length = 0, time = 0;
+};
+
+/// @param of  the vectors of a moment
+template <class Vectors>
+Largest largest(const std::vector<Pose>& moments, const Vectors& of) {
+  Largest found;
+  for (const Pose& moment : moments)
+    for (const auto& [x, y] : of(moment))
+      if (std::hypot(x, y) > found.length) found = {std::hypot(x, y), *moment.time_s};
+  return found;
+}
+
+std::vector<Pose> moments_of(const Drawing& drawing) {
+  std::vector<Pose> moments;
+  for (const Pose& pose : drawing.poses) {
+    const bool whole = are_finite(pose.nodes) && are_finite(pose.displacement);
+    if (pose.time_s && whole && (moments.empty() || *pose.time_s > *moments.back().time_s))
+      moments.push_back(pose);
+  }
+  return moments;
+}
+
+/// Two digits, never less than life.
+double magnification(double deflection, double side) {
+  if (!(deflection > 0)) return 1;
+  const double factor = kDrawnAmplitude * side / deflection;
+  const double unit = std::pow(10.0, std::floor(std::log10(factor)) - 1);
+  return std::max(1.0, std::floor(factor / unit) * unit);
+}
+
+std::string metres(double length) {
+  return length < 0.01 ? trimmed(1000 * length, 3) + "\u202fmm" : trimmed(length, 3) + "\u202fm";
+}
+
+std::string caption_of(const std::vector<Pose>& moments, const Largest& deflection, double factor,
+                       const std::string& drawn) {
+  const std::string end = trimmed(*moments.back().time_s, 4) + "\u202fs";
+  std::string text;
+  if (deflection.length > 0) {
+    text = "The largest deflection is " + metres(deflection.length) + ", at " +
+           trimmed(deflection.time, 3) + "\u202fs; deflections are drawn " +
+           (factor > 1 ? trimmed(factor, 2) + " times (blue), from where rigid links are (grey)"
+                       : std::string("as they are (blue)")) +
+           ".";
+  } else {
+    const std::vector<Point>& first = moments.front().nodes;
+    const Largest way = largest(moments, [&](const Pose& moment) {
+      std::vector<Point> moved = moment.nodes;
+      for (std::size_t i = 0; i < moved.size(); ++i)
+        moved[i].first -= first[i].first, moved[i].second -= first[i].second;
+      return moved;
+    });
+    text = "Places as they are; no point is farther than " + metres(way.length) +
+           " from where it begins, at " + trimmed(way.time, 3) + "\u202fs.";
+  }
+  return text + " Laid over each other: " + drawn + "; moving: " + std::to_string(moments.size()) +
+         " moments up to " + end + ", straight between them.";
+}
+
+/// Thin lines of the moments, a thick one of the last.
+void draw_moment(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
+                 const std::string& color, double width) {
+  const std::string style = "with lines lw " + shortest(width) + lc(color);
+  script.curve(rows_of(triangle_edges(drawing), nodes), style);
+  script.curve(rows_of(polylines(drawing), nodes), style);
+}
+
+Table table_of(const std::vector<Pose>& moments) {
+  Table table;
+  table.heads = {"time_s", "node", "x_m", "y_m", "u_x_m", "u_y_m"};
+  for (const Pose& moment : moments)
+    for (std::size_t i = 0; i < moment.nodes.size(); ++i) {
+      const Point u = moment.displacement.empty() ? Point() : moment.displacement[i];
+      table.rows.push_back({*moment.time_s, static_cast<double>(i), moment.nodes[i].first,
+                            moment.nodes[i].second, u.first, u.second});
+    }
+  return table;
+}
+
+}  // namespace
+
+std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
+  if (!run.drawing || (run.drawing->members.empty() && run.drawing->triangles.empty()))
+    return std::nullopt;
+  const Drawing& drawing = *run.drawing;
+  const std::vector<Pose> moments = moments_of(drawing);
+  if (moments.size() < 2) return std::nullopt;
+  const Box body = box_around({drawing.nodes}, 0, 0);
+  const Largest deflection = largest(
+      moments, [](const Pose& moment) -> const std::vector<Point>& { return moment.displacement; });
+  const double factor = magnification(deflection.length, std::max(body.width(), body.height()));
+  std::vector<std::vector<Point>> places, everything;
+  for (const Pose& moment : moments) {
+    everything.push_back(moment.nodes);
+    places.push_back(moment.nodes);
+    if (!moment.displacement.empty())
+      places.back() = displaced(moment.nodes, {moment.label, moment.displacement}, factor);
+    everything.push_back(places.back());
+  }
+  const Box box = box_around(everything, 0.04, 0.22);
+  PlotScript script;
+  frame(script, box);
+  script.axis_label("x", "x (m)");
+  script.axis_label("y", "y (m)");
+  const std::size_t stride = (moments.size() + kMaxLaidOver - 2) / (kMaxLaidOver - 1);
+  std::string drawn;
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const bool last = k + 1 == moments.size();
+    if (k % stride != 0 && !last) continue;
+    drawn += (k == 0 ? "" : ", ") + trimmed(*moments[k].time_s, 3);
+    draw_moment(script, drawing, moments[k].nodes, palette::kStructure, 1);
+    draw_moment(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
+  }
+  script.plot();
+  Figure figure;
+  figure.data = table_of(moments);
+  figure.id = slug(info.id + "-" + run.variant + "-motion");
+  figure.title = titled("Motion", info, run);
+  figure.caption = caption_of(moments, deflection, factor, drawn + "\u202fs (thick: the first)");
+  figure.alt = "Outlines of the mechanism at a few moments. " + figure.caption;
+  figure.height =
+      static_cast<int>(std::clamp(410.0 * box.height() / box.width(), 90.0, 470.0)) + 80;
+  figure.commands = script.commands();
+  figure.moving = moving_poses(drawing, moments, factor, box, 500);
+  return figure;
+}
+
+}  // namespace trammel::reports
