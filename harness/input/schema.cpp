@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <unordered_map>
 
 #include "harness/input/schema_diagnostics.h"
 #include "harness/input/schema_rules.h"
@@ -79,16 +80,16 @@ class Checker {
   explicit Checker(const SchemaRule& root) : root_(root) {}
 
   bool check(const SchemaRule& stated, const Json& value) {
-    const SchemaRule& rule = resolved(root_, stated);
+    const SchemaRule& rule = meant(stated);
     if (const SchemaRule* any = keyword(rule, "anyOf")) return check_any(*any, value);
     const auto obeyed = [&](const auto& item) {
-      return obeys(value, item.name.GetString(), item.value);
+      return obeys(value, {item.name.GetString(), item.name.GetStringLength()}, item.value);
     };
-    const bool good = has_type(value, rule) &&
-                      std::all_of(rule.MemberBegin(), rule.MemberEnd(), obeyed) &&
-                      (!value.is_object() || has_known_keys(value, rule));
+    bool good = has_type(value, rule) && std::all_of(rule.MemberBegin(), rule.MemberEnd(), obeyed);
+    const bool good_inside =
+        value.is_array() ? check_items(rule, value) : check_members(rule, value, good);
     if (!good) note(rule, value);
-    return check_inside(rule, value) && good;
+    return good_inside && good;
   }
 
   [[nodiscard]] const BrokenRules& deepest() const { return deepest_; }
@@ -104,29 +105,39 @@ class Checker {
     return false;
   }
 
-  /// The rule of a member; "additionalProperties", which may be false, where it has no own.
-  static const SchemaRule* member_rule(const SchemaRule& rule, const std::string& key) {
-    const SchemaRule* properties = keyword(rule, "properties");
-    const SchemaRule* own = properties == nullptr ? nullptr : keyword(*properties, key.c_str());
-    return own != nullptr ? own : keyword(rule, "additionalProperties");
+  /// What "$ref" stands for, looked up once.
+  const SchemaRule& meant(const SchemaRule& stated) {
+    const SchemaRule*& rule = meant_[&stated];
+    if (rule == nullptr) rule = &resolved(root_, stated);
+    return *rule;
   }
 
-  static bool has_known_keys(const Json& value, const SchemaRule& rule) {
-    return std::none_of(value.items().begin(), value.items().end(), [&](const auto& item) {
-      const SchemaRule* inner = member_rule(rule, item.key());
-      return inner != nullptr && inner->IsFalse();
-    });
-  }
-
-  bool check_inside(const SchemaRule& rule, const Json& value) {
-    if (!value.is_structured()) return true;
+  bool check_items(const SchemaRule& rule, const Json& value) {
+    const SchemaRule* inner = keyword(rule, "items");
+    if (inner == nullptr || !inner->IsObject()) return true;
     bool good = true;
-    for (const auto& item : value.items()) {
-      const SchemaRule* inner =
-          value.is_array() ? keyword(rule, "items") : member_rule(rule, item.key());
+    path_.push_back({nullptr, 0});
+    for (const Json& item : value) {
+      good &= check(*inner, item);
+      ++path_.back().index;
+    }
+    path_.pop_back();
+    return good;
+  }
+
+  /// @param known  becomes false where a key has no rule and "additionalProperties" is false
+  bool check_members(const SchemaRule& rule, const Json& value, bool& known) {
+    if (!value.is_object()) return true;
+    const SchemaRule* properties = keyword(rule, "properties");
+    const SchemaRule* others = keyword(rule, "additionalProperties");
+    bool good = true;
+    for (const auto& [key, item] : value.get_ref<const Json::object_t&>()) {
+      const SchemaRule* own = properties == nullptr ? nullptr : keyword(*properties, key.c_str());
+      const SchemaRule* inner = own != nullptr ? own : others;
+      known &= inner == nullptr || !inner->IsFalse();
       if (inner == nullptr || !inner->IsObject()) continue;
-      path_.push_back(item.key());
-      good &= check(*inner, item.value());
+      path_.push_back({&key, 0});
+      good &= check(*inner, item);
       path_.pop_back();
     }
     return good;
@@ -134,13 +145,21 @@ class Checker {
 
   void note(const SchemaRule& rule, const Json& value) {
     if (deepest_.value == nullptr || path_.size() > deepest_.path.size()) {
-      deepest_ = {&value, path_, {}};
+      deepest_ = {&value, {}, {}};
+      for (const Step& step : path_)
+        deepest_.path.push_back(step.key != nullptr ? *step.key : std::to_string(step.index));
     }
     if (deepest_.value == &value) deepest_.rules.push_back(&rule);
   }
 
+  /// Into a member or an item.
+  struct Step {
+    const std::string* key = nullptr;
+    std::size_t index = 0;
+  };
   const SchemaRule& root_;
-  std::vector<std::string> path_;
+  std::unordered_map<const SchemaRule*, const SchemaRule*> meant_;
+  std::vector<Step> path_;
   BrokenRules deepest_;
 };
 

@@ -68,8 +68,8 @@ std::string usual_measure(const Check&) {
 template <>
 inline constexpr auto kFields<Check> =
     std::tuple{TRAMMEL_REQUIRED(Check, name, quantity),
-               TRAMMEL_OPTIONAL(Check, index),
-               TRAMMEL_REQUIRED(Check, computed, expected, difference, tolerance, why, verdict),
+               TRAMMEL_OPTIONAL(Check, index, computed, expected, difference),
+               TRAMMEL_REQUIRED(Check, tolerance, why, verdict),
                usual("unit", &Check::unit, usual_unit),
                usual("role", &Check::role, usual_role),
                usual("measure", &Check::measure, usual_measure),
@@ -428,9 +428,16 @@ std::vector<Json*> references_in(Json& json) {
   return references;
 }
 
-const std::array<SharedTexts, 3> kSharedTexts = {{
+const std::array<SharedTexts, 4> kSharedTexts = {{
+    {"names",
+     {"name", "quantity", "reference", "against_quantity"},
+     "a name for each place that a check holds",
+     checks_in},
     {"reasons", {"why", "title", "message"}, "a text for each place that a check holds", checks_in},
-    {"citations", {"citation"}, "a citation for each place that a reference holds", references_in},
+    {"citations",
+     {"citation", "doi", "place"},
+     "a text for each place that a reference holds",
+     references_in},
     {"notes", {"notes"}, "a note for each place that a reference holds", references_in},
 }};
 

@@ -169,8 +169,8 @@ struct Results {
   [[nodiscard]] const Reference* reference(const std::string& id) const;
 };
 
-/// A reason, citation or note that many share stands once, under /reasons, /citations or /notes,
-/// and they hold its place there.
+/// A name, reason, citation or note that many share stands once, under /names, /reasons, /citations
+/// or /notes, and they hold its place there.
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
 [[nodiscard]] nlohmann::ordered_json to_json(const Run& run);
 [[nodiscard]] Run read_run(const nlohmann::ordered_json& json);
