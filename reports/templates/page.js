@@ -163,7 +163,7 @@ function moving(svg) {
   };
   button.addEventListener("click", () => { wanted = !wanted; update(); });
   speed.addEventListener("input", update);
-  if (time) time.addEventListener("input", () => { wanted = false; t = 0.999999 * time.value * length; draw(t); update(); });
+  if (time) time.addEventListener("input", () => { wanted = false; before = undefined; t = 0.999999 * time.value * length; draw(t); update(); });
   new IntersectionObserver(entries => { seen = entries.at(-1).isIntersecting; update(); }).observe(picture);
   svg.classList.add("still");
   draw(0);

@@ -1,5 +1,6 @@
 #include "harness/run/compare_sides.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -115,6 +116,10 @@ BOOST_AUTO_TEST_CASE(two_equal_frequencies_are_one_set_whose_shapes_may_turn) {
   const results::SideComparison found = compared(a, drawn("b", {11, 11}, {{s, s}, {s, -s}}));
   const auto& modes = found.runs.at(0).modes;
   BOOST_REQUIRE(modes.size() == 1U);
+  for (std::vector<std::size_t> set : modes[0].modes) {
+    std::ranges::sort(set);
+    BOOST_TEST(set == (std::vector<std::size_t>{1, 2}), boost::test_tools::per_element());
+  }
   BOOST_TEST(*modes[0].alike[1] == 1, boost::test_tools::tolerance(1e-12));
 }
 

@@ -1,6 +1,7 @@
 #include "harness/run/history.h"
 
 #include <boost/test/unit_test.hpp>
+#include <fstream>
 
 #include "harness/base/errors.h"
 #include "tests/support/harness/support.h"
@@ -87,7 +88,10 @@ BOOST_AUTO_TEST_CASE(counted_work_is_compared_exactly_and_a_check_that_is_gone_i
 
 BOOST_AUTO_TEST_CASE(what_does_not_change_is_not_written_again) {
   const Folder folder;
-  std::vector<results::Results> calls(50, call("same", 10));
+  results::Results many = call("same", 10);
+  std::vector<results::Check>& checks = many.runs[0].checks;
+  for (int i = 3; i < 200; ++i) checks.push_back(checks[0]), checks.back().index = i;
+  std::vector<results::Results> calls(50, many);
   (void)kept(folder, {calls[0]});
   const auto before = std::filesystem::file_size(folder.path() / "history.db");
   (void)kept(folder, calls);
@@ -99,6 +103,18 @@ BOOST_AUTO_TEST_CASE(a_file_that_is_no_history_is_left_as_it_is) {
   (void)folder.write("history.db", "not a database, but long enough to be read as one");
   BOOST_CHECK_THROW(append_history(folder.path() / "history.db", call("one", 10)), InputError);
   BOOST_CHECK_THROW((void)read_history(folder.path() / "none.db"), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_history_of_a_later_format_is_refused_and_not_added_to) {
+  const Folder folder;
+  const auto file = folder.path() / "history.db";
+  (void)kept(folder, {call("one", 10)});
+  std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(63);  // SQLite's user_version ends here
+  bytes.put(2);
+  bytes.close();
+  BOOST_CHECK_THROW(append_history(file, call("two", 10)), InputError);
+  BOOST_CHECK_THROW((void)read_history(file), InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
