@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "harness/base/content_hash.h"
@@ -71,23 +72,28 @@ TRAMMEL_KEPT(ModelProbabilities, rows, excluded)
 
 namespace trammel::harness {
 
-/// Numbers as the bytes they are: an array of JSON is hundreds of instructions for each.
+/// The numbers of the computation that is being written or read, beside its structure: the reader
+/// of CBOR takes bytes one by one.
+inline thread_local std::string written_numbers;
+inline thread_local std::string_view read_numbers;
+
+/// Where they are: first byte and length.
 template <class Number>
 nlohmann::json packed(const std::vector<Number>& numbers) {
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(numbers.data());
-  // By the constructor: json::binary() frees what it has not got where memory runs out.
-  using Bytes = nlohmann::json::binary_t;
-  return nlohmann::json(
-      Bytes(Bytes::container_type(bytes, bytes + numbers.size() * sizeof(Number))));
+  const std::size_t start = written_numbers.size(), length = numbers.size() * sizeof(Number);
+  written_numbers.append(reinterpret_cast<const char*>(numbers.data()), length);
+  return {start, length};
 }
 
 /// @throws std::exception  where the JSON is not what `packed` gives.
 template <class Number>
 void unpack(const nlohmann::json& json, std::vector<Number>& numbers) {
-  const auto& bytes = json.get_binary();
-  if (bytes.size() % sizeof(Number) != 0) throw std::runtime_error("expected whole numbers");
-  numbers.resize(bytes.size() / sizeof(Number));
-  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::uint8_t*>(numbers.data()));
+  const auto start = json.at(0).get<std::size_t>(), length = json.at(1).get<std::size_t>();
+  if (length % sizeof(Number) != 0 || start > read_numbers.size() ||
+      length > read_numbers.size() - start)
+    throw std::runtime_error("expected whole numbers");
+  numbers.resize(length / sizeof(Number));
+  std::copy_n(read_numbers.data() + start, length, reinterpret_cast<char*>(numbers.data()));
 }
 
 inline void to_json(nlohmann::json& out, const Quantity& quantity) {
@@ -201,19 +207,37 @@ std::string checksum(std::string_view bytes) {
 }
 constexpr std::size_t kChecksumLength = sizeof(std::uint64_t);
 
-template <class AnyJson>
-std::string with_checksum(const AnyJson& json) {
-  std::string bytes;
-  AnyJson::to_cbor(json, bytes);
+std::string with_checksum(const std::string& bytes) {
   return checksum(bytes) + bytes;
 }
 
-template <class AnyJson = nlohmann::json>
-AnyJson without_checksum(std::string_view bytes) {
+std::string_view without_checksum(std::string_view bytes) {
   const std::string_view body = bytes.substr(std::min(kChecksumLength, bytes.size()));
   if (body.empty() || checksum(body) != bytes.substr(0, kChecksumLength))
     throw std::runtime_error("the computation ended without an answer");
-  return AnyJson::from_cbor(body.begin(), body.end());
+  return body;
+}
+
+/// Numbers and structure of what is kept.
+template <class Kept>
+std::string stored_bytes(const Kept& kept) {
+  written_numbers.clear();
+  std::string structure;
+  nlohmann::json::to_cbor(nlohmann::json(kept), structure);
+  const std::uint64_t length = written_numbers.size();
+  const std::string head(reinterpret_cast<const char*>(&length), sizeof length);
+  return with_checksum(head + std::exchange(written_numbers, {}) + structure);
+}
+
+template <class Kept>
+Kept stored_from(std::string_view bytes) {
+  std::string_view body = without_checksum(bytes);
+  std::uint64_t length = 0;
+  if (body.size() < sizeof length) throw std::runtime_error("expected a computation");
+  std::memcpy(&length, body.data(), sizeof length);
+  body.remove_prefix(sizeof length);
+  read_numbers = body.substr(0, length);
+  return nlohmann::json::from_cbor(body.substr(read_numbers.size())).get<Kept>();
 }
 
 bool stand(const std::map<std::string, std::string>& references) {
@@ -276,18 +300,20 @@ std::string computation_name(const Document& document, bool requested,
 }
 
 std::string to_bytes(const Json& json) {
-  return with_checksum(json);
+  std::string bytes;
+  Json::to_cbor(json, bytes);
+  return with_checksum(bytes);
 }
 Json json_from(const std::string& bytes) {
-  return without_checksum<Json>(bytes);
+  return Json::from_cbor(without_checksum(bytes));
 }
 
 std::string to_bytes(const Computation& computation) {
-  return with_checksum(nlohmann::json(computation));
+  return stored_bytes(computation);
 }
 
 Computation computation_from(const std::string& bytes) {
-  return without_checksum(bytes).get<Computation>();
+  return stored_from<Computation>(bytes);
 }
 
 bool find_stored(const std::filesystem::path& file, Computation& computation, bool any_machine) {
@@ -325,15 +351,15 @@ MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
   const std::filesystem::path file = store / name_of(study, options.timing);
   KeptStudy kept;
   try {
-    if (resume) kept = without_checksum(read_text(file)).get<KeptStudy>();
+    if (resume) kept = stored_from<KeptStudy>(read_text(file));
   } catch (const std::exception&) {
     kept = {};  // as above
   }
   if (kept.settings.empty() || !stand(kept.references)) {
     MeasuredStudy measured = measure(std::move(study), options, references);
     std::filesystem::create_directories(store);
-    write_file(file, with_checksum(nlohmann::json(
-                         KeptStudy{measured.settings, measured.wall_s, references.hashes()})));
+    write_file(file,
+               stored_bytes(KeptStudy{measured.settings, measured.wall_s, references.hashes()}));
     return measured;
   }
   mark_used(file);
@@ -352,7 +378,7 @@ SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const Referen
   const std::filesystem::path file = store / name_of(all);
   try {
     if (resume) {
-      const SandboxedRun kept = without_checksum(read_text(file)).get<SandboxedRun>();
+      const SandboxedRun kept = stored_from<SandboxedRun>(read_text(file));
       mark_used(file);
       return kept;
     }
@@ -360,8 +386,7 @@ SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const Referen
   }
   const SandboxedRun run = run_sandboxed(setting, time_limit_s, references);
   std::filesystem::create_directories(store);
-  if (run.termination == SandboxedRun::Termination::solved)
-    write_file(file, with_checksum(nlohmann::json(run)));
+  if (run.termination == SandboxedRun::Termination::solved) write_file(file, stored_bytes(run));
   return run;
 }
 
