@@ -15,7 +15,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMaxDrawnPoints = 1500;
-constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "_ "};
+constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "-.."};
 
 struct Series {
   std::string quantity, variant, label;

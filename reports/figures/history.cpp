@@ -1,9 +1,29 @@
 #include "reports/figures/history.h"
 
+#include <algorithm>
+
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
+
+namespace {
+
+/// @param work, time  call and what it came to, relative to the first
+std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& time) {
+  const auto last = [](const PlotScript::Rows& rows) { return trimmed(rows.back()[1], 3); };
+  std::string text;
+  if (!work.empty()) text = "Counted work is " + last(work) + " times the first call's";
+  if (time.size() > 1)
+    text += (text.empty() ? "Processor time is " : ", processor time ") + last(time) + " times";
+  if (!text.empty()) text += ". ";
+  return text +
+         "All runs of a call together; times where it computed all of them, on the machine of the "
+         "newest.";
+}
+
+}  // namespace
 
 Figure history_figure(const History& history) {
   const std::string machine = history.calls.back().machine;
@@ -27,7 +47,9 @@ Figure history_figure(const History& history) {
   PlotScript script;
   script.axis_label("x", "call");
   script.axis_label("y", "relative to the first");
-  script.command("set yrange [0:*]; set xtics 1,1; set xtics autofreq");
+  const std::size_t step = std::max<std::size_t>(history.calls.size() / 8, 1);  // no half calls
+  script.command("set yrange [0:*]; set xtics " + std::to_string(history.calls.front().id) + "," +
+                 std::to_string(step));
   script.range("x", static_cast<double>(history.calls.front().id) - 0.5,
                static_cast<double>(history.calls.back().id) + 0.5);
   const int key = script.key_below({"counted work", "processor time", "with failures"});
@@ -38,9 +60,7 @@ Figure history_figure(const History& history) {
   script.plot();
   figure.id = "history";
   figure.title = "Work and time of the calls";
-  figure.caption =
-      "All runs of a call together; times where it computed all of them, on the machine of the "
-      "newest.";
+  figure.caption = caption_of(work, time);
   figure.alt = "Curves of counted work and processor time over the calls.";
   figure.height = 260 + key;
   figure.commands = script.commands();

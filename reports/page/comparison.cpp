@@ -149,7 +149,7 @@ PlainTable numbers_table(const ComparedRun& run, const SideComparison& compariso
 /// The figures that the case asks for, then what differs without standing in one of them.
 std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   std::vector<PlotRequest> requests;
-  std::set<std::string> drawn;
+  std::set<std::string> drawn = {"time_s"};  // what others are drawn over
   for (PlotRequest request : run.info.figures) {
     if (!request.value.empty()) continue;
     request.variants.clear();
@@ -162,7 +162,7 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
     PlotRequest request;
     request.id = request.title = number.quantity;
     request.y = {number.quantity};
-    if (time && time->size() == number.entries && number.quantity != "time_s") request.x = "time_s";
+    if (time && time->size() == number.entries) request.x = "time_s";
     requests.push_back(std::move(request));
   }
   return requests;

@@ -323,6 +323,7 @@ BOOST_AUTO_TEST_CASE(a_report_draws_its_history_and_notes_no_time_twice) {
   BOOST_TEST(contains(page, "<section id=\"history\">"));
   BOOST_TEST(contains(page, "2 calls; nothing has changed since call 1"));
   BOOST_TEST(contains(page, "<figure id=\"fig-history\">"));
+  BOOST_TEST(contains(page, "Counted work is 1 times the first call"));
   BOOST_TEST(run(folder, "report out/results.json --out again").status == 0);
   BOOST_TEST(contains(text_of(folder.path() / "again/index.html"), "<section id=\"history\">"));
 }
