@@ -6,6 +6,8 @@
 #include "references/manipulator/newton_euler.h"
 #include "solver/manipulator/inverse_dynamics.h"
 
+BOOST_AUTO_TEST_SUITE(torques)
+
 namespace {
 
 using namespace trammel;
@@ -91,8 +93,6 @@ struct RandomState {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(torques)
 
 BOOST_AUTO_TEST_CASE(ten_thousand_random_states_have_the_torques_of_newton_and_euler) {
   double worst = 0, symmetry = 0, skewness = 0, least = 1;

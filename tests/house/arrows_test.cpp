@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(arrows)
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -153,8 +155,6 @@ std::vector<std::string> code() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(arrows)
 
 BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_above_it_in_the_table) {
   BOOST_TEST(rooms().order.size() > 20U);

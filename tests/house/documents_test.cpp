@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(documents)
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -31,8 +33,6 @@ std::vector<std::string> found(const std::string& text, const std::regex& patter
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(documents)
 
 BOOST_AUTO_TEST_CASE(every_file_that_the_tour_names_is_there) {
   const std::regex path("`((?:cases|harness|references|reports|solver|tests|\\.ci)/[\\w./-]*)`");

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 
+BOOST_AUTO_TEST_SUITE(wrapper)
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -74,8 +76,6 @@ bool says(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(wrapper)
 
 BOOST_AUTO_TEST_CASE(two_calls_at_once_build_one_after_the_other) {
   const Checkout checkout;

@@ -8,6 +8,8 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(analysis)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -28,8 +30,6 @@ Json on_a_circle(Json json, int points) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(analysis)
 
 BOOST_AUTO_TEST_CASE(a_cantilever_bends_under_its_tip_force_as_beam_theory_says) {
   const AnalysisResult result = result_of(testing::cantilever());

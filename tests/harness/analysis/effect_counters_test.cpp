@@ -6,6 +6,8 @@
 #include "harness/input/catalogue.h"
 #include "harness/input/reference_library.h"
 
+BOOST_AUTO_TEST_SUITE(effect_counters)
+
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;
@@ -35,8 +37,6 @@ void check_counters(const Document& document, const References& references) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(effect_counters)
 
 /// Every case whose analysis knows effects, with every variant: as it stands, and with nothing that
 /// it can do without.

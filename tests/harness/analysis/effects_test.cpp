@@ -10,6 +10,8 @@
 #include "harness/studies/effect_study.h"
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(effects)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -36,8 +38,6 @@ double tip(const AnalysisResult& result) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(effects)
 
 BOOST_AUTO_TEST_CASE(effects_by_name_are_what_there_is) {
   Json json = timoshenko_cantilever();

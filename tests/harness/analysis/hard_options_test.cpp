@@ -7,6 +7,8 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(hard_options)
+
 /// Battery 14: whatever the options, a result is finite or says why there is none.
 using namespace trammel;
 using namespace trammel::references;
@@ -78,8 +80,6 @@ void try_motion_options(Json json, double end, const std::vector<double>& steps)
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(hard_options)
 
 BOOST_AUTO_TEST_CASE(every_option_of_motion_gives_numbers_or_a_reason) {
   try_motion_options(catalogue_case("iftomm-a01-pendulum"), 0.5, {1e-3, 0.1, 1});

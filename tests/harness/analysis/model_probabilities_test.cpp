@@ -8,6 +8,8 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(model_probabilities)
+
 using namespace trammel;
 using namespace trammel::harness;
 using Eigen::MatrixXd;
@@ -79,8 +81,6 @@ Held trials(const std::vector<ModelReading>& readings, double drawn_with, double
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(model_probabilities)
 
 BOOST_AUTO_TEST_CASE(the_odds_of_two_readings_are_those_of_their_densities) {
   // One number: normal densities with variances s^2 and s^2 + g^2.

@@ -5,6 +5,8 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(options)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -37,8 +39,6 @@ double number(const Quantities& quantities, const char* name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(options)
 
 BOOST_AUTO_TEST_CASE(every_combination_is_tried_on_every_variant) {
   const Quantities found =

@@ -10,6 +10,8 @@
 #include "harness/run/run_store.h"
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(size_estimate)
+
 using namespace trammel;
 using namespace trammel::harness;
 
@@ -93,8 +95,6 @@ Json samples(int count) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(size_estimate)
 
 BOOST_AUTO_TEST_CASE(what_is_estimated_is_what_is_needed_or_up_to_three_times_that) {
   check("points of a response", [](int n) { return harmonic(10, n); }, {20000, 40000, 100000});

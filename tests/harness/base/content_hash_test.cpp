@@ -2,9 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-namespace harness = trammel::harness;
-
 BOOST_AUTO_TEST_SUITE(content_hash)
+
+namespace harness = trammel::harness;
 
 BOOST_AUTO_TEST_CASE(texts_that_differ_have_hashes_that_differ) {
   BOOST_TEST(harness::content_hash("a") == harness::content_hash("a"));

@@ -6,6 +6,8 @@
 #include "harness/base/text.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(json_file)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
@@ -17,8 +19,6 @@ std::string fault(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(json_file)
 
 BOOST_AUTO_TEST_CASE(text_that_is_no_json_is_answered_with_its_line_and_column) {
   BOOST_TEST(fault(R"({"a": nan})").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);

@@ -9,6 +9,8 @@
 #include <map>
 #include <stdexcept>
 
+BOOST_AUTO_TEST_SUITE(processes)
+
 using namespace trammel::harness;
 using Termination = ProcessOutcome::Termination;
 
@@ -39,8 +41,6 @@ std::map<std::size_t, ProcessOutcome> run_all(const std::vector<ProcessTask>& ta
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(processes)
 
 BOOST_AUTO_TEST_CASE(what_ends_one_process_leaves_the_others_alone) {
   const std::string large(1 << 20, 'x');

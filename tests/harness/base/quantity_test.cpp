@@ -4,9 +4,9 @@
 
 #include "harness/base/diagnostic.h"
 
-using namespace trammel::harness;
-
 BOOST_AUTO_TEST_SUITE(quantity)
+
+using namespace trammel::harness;
 
 BOOST_AUTO_TEST_CASE(the_unit_is_the_end_of_the_name) {
   BOOST_TEST(unit_of("frequency_Hz") == "Hz");

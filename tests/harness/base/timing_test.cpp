@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-using namespace trammel::harness;
-
 BOOST_AUTO_TEST_SUITE(timing)
+
+using namespace trammel::harness;
 
 BOOST_AUTO_TEST_CASE(quantiles_lie_between_the_sorted_values) {
   BOOST_TEST(quantile({3, 1, 2}, 0.5) == 2);

@@ -12,6 +12,8 @@
 #include "harness/input/schema.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(command_line)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
@@ -54,8 +56,6 @@ std::size_t lines(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(command_line)
 
 BOOST_AUTO_TEST_CASE(the_exit_status_says_how_it_went) {
   const Folder folder;

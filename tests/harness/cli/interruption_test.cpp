@@ -15,12 +15,12 @@
 #include "harness/base/json_file.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(interruption)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
 using testing::Folder;
-
-BOOST_AUTO_TEST_SUITE(interruption)
 
 BOOST_AUTO_TEST_CASE(ten_kills_lose_and_double_nothing) {
   testing::interrupt_and_resume(10, 1);

@@ -6,6 +6,8 @@
 #include "harness/coverage/case_features.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(evidence_coverage)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::Folder;
@@ -45,8 +47,6 @@ Json printed_check() {
 using List = std::vector<std::string>;
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(evidence_coverage)
 
 BOOST_AUTO_TEST_CASE(keys_and_values_of_a_case_are_named_as_the_schema_names_them) {
   const CaseFeatures all = features_of_schema();

@@ -8,12 +8,12 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/export_twin.h"
 
+BOOST_AUTO_TEST_SUITE(catalogue_export)
+
 /// Every case of the catalogue with its variants and levels, exported and computed again.
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::testing;
-
-BOOST_AUTO_TEST_SUITE(catalogue_export)
 
 BOOST_AUTO_TEST_CASE(what_is_exported_of_the_catalogue_has_the_same_numbers) {
   std::map<std::string, int> refused;

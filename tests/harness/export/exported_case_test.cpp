@@ -15,6 +15,8 @@
 #include "tests/support/harness/analysing.h"
 #include "tests/support/harness/export_twin.h"
 
+BOOST_AUTO_TEST_SUITE(exported_case)
+
 /// A resolved case is the same computation, and says all that another code needs.
 using namespace trammel;
 using namespace trammel::harness;
@@ -69,8 +71,6 @@ std::string refusal_of(const Json& json) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(exported_case)
 
 BOOST_AUTO_TEST_CASE(plain_models_have_the_same_numbers_to_the_last_bit) {
   check_twins(

@@ -17,6 +17,8 @@
 #include "harness/results/run_grade.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(grade)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
@@ -89,8 +91,6 @@ bool is_alive(const fs::path& pid_file) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(grade)
 
 BOOST_AUTO_TEST_CASE(whatever_an_adapter_does_costs_its_own_row_and_leaves_nothing_behind) {
   const Folder folder;

@@ -5,13 +5,13 @@
 #include "harness/input/case.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(case_file)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
 using testing::Folder;
-
-BOOST_AUTO_TEST_SUITE(case_file)
 
 BOOST_AUTO_TEST_CASE(a_variant_is_a_merge_patch) {
   const Folder folder;

@@ -4,11 +4,11 @@
 
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(catalogue)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
-
-BOOST_AUTO_TEST_SUITE(catalogue)
 
 BOOST_AUTO_TEST_CASE(two_rooms_cannot_hold_cases_of_one_name) {
   const testing::Folder folder;

@@ -5,6 +5,8 @@
 #include "harness/input/case.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(check)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
@@ -35,8 +37,6 @@ std::string fault(const Json& expect) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(check)
 
 BOOST_AUTO_TEST_CASE(stated_values_share_one_half_width) {
   const Check each =

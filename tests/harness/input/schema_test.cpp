@@ -12,6 +12,8 @@
 #include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(schema)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::harness;
@@ -31,8 +33,6 @@ std::string robot_fault(const std::string& pointer, const Json& value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(schema)
 
 BOOST_AUTO_TEST_CASE(good_cases_obey_the_schema) {
   BOOST_TEST(!find_schema_fault(testing::manipulator(), "case").has_value());

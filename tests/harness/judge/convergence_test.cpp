@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(convergence)
+
 using namespace trammel::harness;
 
 namespace {
@@ -23,8 +25,6 @@ Series made_up(double p, double a, double b, std::size_t levels, double roundoff
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(convergence)
 
 BOOST_AUTO_TEST_CASE(the_order_of_a_power_is_that_power) {
   for (const double p : {1.0, 2.0, 4.0}) {

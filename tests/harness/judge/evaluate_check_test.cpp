@@ -8,6 +8,8 @@
 #include "harness/base/statistic.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(evaluate_check)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::harness;
@@ -71,8 +73,6 @@ Bench validation(const char* kind, const Json& window) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(evaluate_check)
 
 BOOST_AUTO_TEST_CASE(what_agrees_passes_entry_by_entry) {
   Bench bench;

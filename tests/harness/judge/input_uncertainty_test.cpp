@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+BOOST_AUTO_TEST_SUITE(input_uncertainty)
+
 using namespace trammel;
 using namespace trammel::harness;
 
@@ -19,8 +21,6 @@ std::optional<Values> linear_and_square(const Values& d) {
 const Values kHalfWidths = {0.1, 0.2};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(input_uncertainty)
 
 BOOST_AUTO_TEST_CASE(a_linear_model_adds_its_inputs_in_quadrature) {
   const auto u = uncertainty_by_derivatives(linear_and_square, kHalfWidths);

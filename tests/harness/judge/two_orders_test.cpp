@@ -5,6 +5,8 @@
 
 #include "harness/judge/convergence.h"
 
+BOOST_AUTO_TEST_SUITE(two_orders)
+
 using namespace trammel::harness;
 
 namespace {
@@ -32,8 +34,6 @@ Series mixed(double a, double b, std::size_t levels) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(two_orders)
 
 BOOST_AUTO_TEST_CASE(a_mixture_of_two_orders_is_fitted_and_extrapolated_as_such) {
   Series series = mixed(0.5, 2e-3, 7);

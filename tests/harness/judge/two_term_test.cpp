@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(two_term)
+
 using namespace trammel;
 using namespace trammel::harness;
 
@@ -21,8 +23,6 @@ std::vector<double> errors(double a, double b, double c = 0) {
 const std::vector<bool> kAll(5, true);
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(two_term)
 
 BOOST_AUTO_TEST_CASE(both_coefficients_of_a_two_term_error_are_found) {
   const auto fit = fit_two_terms(kSizes, errors(0.3, 2e-3), kAll, {4, 2}, 0.05);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+BOOST_AUTO_TEST_SUITE(uncertainty_summary)
+
 using namespace trammel::harness;
 
 namespace {
@@ -32,8 +34,6 @@ NumericalUncertaintySummary summarise(const std::vector<Convergence>& all) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(uncertainty_summary)
 
 BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_and_are_a_quarter_too_wide) {
   const NumericalUncertaintySummary summary =

@@ -3,10 +3,10 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
+BOOST_AUTO_TEST_SUITE(validation_verdict)
+
 using namespace trammel;
 using namespace trammel::harness;
-
-BOOST_AUTO_TEST_SUITE(validation_verdict)
 
 BOOST_AUTO_TEST_CASE(uncertainties_add_in_quadrature_and_count_twice) {
   const auto v = evaluate_validation_row({{17.0, 10.0, 2.0, 3.0, 6.0}}, "Hz").front();

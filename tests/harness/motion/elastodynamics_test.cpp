@@ -4,6 +4,8 @@
 
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(elastodynamics)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -49,8 +51,6 @@ Json& options(Json& json) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(elastodynamics)
 
 BOOST_AUTO_TEST_CASE(a_platform_at_constant_speed_does_not_stand_still) {
   // without acceleration its path frequency is nothing, and it was once compared with a pose held

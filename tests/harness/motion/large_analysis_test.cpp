@@ -4,6 +4,8 @@
 
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(large_analysis)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -65,8 +67,6 @@ constexpr const char* kStraightSpline = R"({"spline": {"points": 2, "step_s": 0.
   {"time_s": 0.1, "x_m": 0.26, "y_m": 0.154, "phi_rad": 0.02}]}})";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(large_analysis)
 
 BOOST_AUTO_TEST_CASE(small_loads_give_what_linear_statics_gives) {
   Json json = testing::cantilever();

@@ -4,6 +4,8 @@
 
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(motion)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -47,8 +49,6 @@ Json harmonic() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(motion)
 
 BOOST_AUTO_TEST_CASE(a_step_swings_to_twice_the_static_displacement) {
   for (const char* method : {"average-acceleration", "linear-acceleration", "central-difference",

@@ -8,6 +8,8 @@
 #include "solver/elements/frame_element.h"
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(member_chain)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -32,8 +34,6 @@ Json quarter(Index elements) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(member_chain)
 
 BOOST_AUTO_TEST_CASE(an_arc_is_cut_into_chords_between_points_of_the_circle) {
   const Model model = build_model(read_case_model(document_of(quarter(6))), 0);

@@ -9,6 +9,8 @@
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(quantity_definitions)
+
 using namespace trammel;
 using namespace trammel::harness;
 
@@ -137,8 +139,6 @@ std::vector<Json> further_cases() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(quantity_definitions)
 
 BOOST_AUTO_TEST_CASE(every_quantity_of_every_analysis_is_defined_and_every_definition_is_given) {
   Recorded recorded;

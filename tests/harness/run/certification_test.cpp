@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(certification)
+
 using namespace trammel::harness;
 namespace results = trammel::results;
 
@@ -30,8 +32,6 @@ Configuration configuration(const std::string& name, double first, double second
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(certification)
 
 BOOST_AUTO_TEST_CASE(digits_that_agree_are_counted_and_the_worst_is_named) {
   const Certification found =

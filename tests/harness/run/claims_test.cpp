@@ -9,6 +9,8 @@
 #include "harness/results/results.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(claims)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -71,8 +73,6 @@ ClaimVerdict verdict(const Document& document, const std::vector<Run>& runs) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(claims)
 
 BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");

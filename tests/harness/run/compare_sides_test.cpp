@@ -6,6 +6,8 @@
 
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(compare_sides)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
@@ -57,8 +59,6 @@ results::Check check_of(const std::string& quantity, double expected, double tol
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(compare_sides)
 
 BOOST_AUTO_TEST_CASE(a_difference_within_the_round_off_that_a_check_states_is_no_change) {
   Side a = side("a", {{"mass_kg", {1.0}}}), b = side("b", {{"mass_kg", {1 + 1e-8}}});

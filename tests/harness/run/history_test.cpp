@@ -6,6 +6,8 @@
 #include "harness/base/errors.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(history)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::Folder;
@@ -40,8 +42,6 @@ History kept(const Folder& folder, const std::vector<results::Results>& calls) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(history)
 
 BOOST_AUTO_TEST_CASE(the_first_commit_of_a_changed_value_is_named_against_the_last_green_call) {
   const Folder folder;

@@ -6,6 +6,8 @@
 #include "harness/run/claims.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(paper_items)
+
 using namespace trammel;
 using namespace trammel::harness;
 using results::PaperItem;
@@ -27,8 +29,6 @@ std::string fault_of(Json item) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(paper_items)
 
 BOOST_AUTO_TEST_CASE(every_equation_table_figure_and_claim_of_the_paper_has_a_row) {
   const Document claim_set = load_claims();

@@ -8,6 +8,8 @@
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(run_store)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
@@ -62,8 +64,6 @@ Resumed run_all(const Folder& folder, const Json& json, bool resume) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(run_store)
 
 BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
   Computation computation;

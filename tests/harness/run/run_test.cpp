@@ -8,6 +8,8 @@
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(run)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -72,8 +74,6 @@ const CheckResult& find(const Run& run, const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(run)
 
 BOOST_AUTO_TEST_CASE(the_order_its_leading_term_and_the_extrapolated_value_are_judged) {
   const Folder folder;

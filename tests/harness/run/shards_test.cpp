@@ -6,6 +6,8 @@
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(shards)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
@@ -63,8 +65,6 @@ void change(const fs::path& folder, const char* key, const Json& value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(shards)
 
 BOOST_AUTO_TEST_CASE(a_shard_is_k_of_n) {
   BOOST_TEST(shard_from("2/8").number == 2U);

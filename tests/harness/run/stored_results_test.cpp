@@ -6,6 +6,8 @@
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(stored_results)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
@@ -31,8 +33,6 @@ results::Results computed(const Folder& folder) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(stored_results)
 
 BOOST_AUTO_TEST_CASE(what_is_read_back_with_its_store_is_what_was_written) {
   const Folder folder;

@@ -7,6 +7,8 @@
 
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(case_model)
+
 using namespace trammel;
 using namespace trammel::solver;
 using namespace trammel::harness;
@@ -27,8 +29,6 @@ std::string fault(Json json, const std::string& pointer, const Json& value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(case_model)
 
 BOOST_AUTO_TEST_CASE(a_rectangle_has_the_stiffness_and_mass_of_a_rectangle) {
   const Section section =

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(drawing)
+
 using namespace trammel::harness;
 
 namespace {
@@ -15,8 +17,6 @@ std::vector<Eigen::VectorXd> wave(double periods) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(drawing)
 
 BOOST_AUTO_TEST_CASE(moments_are_of_all_of_a_slow_motion_and_of_the_beginning_of_a_fast_one) {
   const std::vector<std::size_t> slow = drawn_samples(wave(1), 20);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(manufactured)
+
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::solver;
@@ -113,8 +115,6 @@ constexpr double kMembraneOmega = 4000;  // rad/s
 constexpr double kBeamOmega = 3000;      // rad/s, above the first frequency
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(manufactured)
 
 BOOST_AUTO_TEST_CASE(three_node_triangles_converge_with_order_two_and_their_stress_with_one) {
   for (const double distortion : kDistortions) {

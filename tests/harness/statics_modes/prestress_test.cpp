@@ -4,6 +4,8 @@
 
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(prestress)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -30,8 +32,6 @@ Json column(double force) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(prestress)
 
 BOOST_AUTO_TEST_CASE(a_column_buckles_at_the_load_of_euler) {
   const AnalysisResult result = result_of(column(-10));

@@ -4,6 +4,8 @@
 
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(range_warnings)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
@@ -21,8 +23,6 @@ AnalysisResult of_cantilever(double force_x, double force_y, const char* analysi
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(range_warnings)
 
 // The tip turns by F L^2 / 2 EI = 2.4e-6 rad a newton.
 BOOST_AUTO_TEST_CASE(a_linear_rotation_beyond_its_range_is_solved_with_a_warning) {

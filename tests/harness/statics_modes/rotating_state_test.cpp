@@ -6,6 +6,8 @@
 
 #include "tests/support/harness/analysing.h"
 
+BOOST_AUTO_TEST_SUITE(rotating_state)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -32,8 +34,6 @@ Json mass_on_springs() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rotating_state)
 
 BOOST_AUTO_TEST_CASE(one_speed_gives_the_modes_of_that_speed) {
   const AnalysisResult result = result_of(mass_on_springs());

@@ -5,6 +5,8 @@
 #include "harness/analysis/analysis.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(accuracy_search)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::complaint;
@@ -29,8 +31,6 @@ Json with_modes() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(accuracy_search)
 
 BOOST_AUTO_TEST_CASE(the_settings_found_are_within_the_accuracy_and_coarser_ones_are_not) {
   const AccuracySearch found = searched(with_modes(), {1e-3, {}, 60});

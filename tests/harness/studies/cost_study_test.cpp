@@ -4,6 +4,8 @@
 #include "harness/studies/cost_study_of_sweeps.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(cost_study)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::harness;
@@ -42,8 +44,6 @@ std::string fault_of(const Json& json, SweepExtent sweeping = SweepExtent::full)
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cost_study)
 
 BOOST_AUTO_TEST_CASE(settings_are_the_case_with_the_patches_of_study_curve_and_value) {
   const CostStudy study = load(study_json());

@@ -9,6 +9,8 @@
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(cost)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -49,8 +51,6 @@ MeasuredStudy measured(const Json& json) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cost)
 
 BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
   const Observations reference_solution = {{10, 0, -5}}, found = {{11, 1, -5}};

@@ -5,6 +5,8 @@
 
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(mode_match)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::Folder;
@@ -16,8 +18,6 @@ SampledModes modes(std::vector<double> frequency, const Eigen::MatrixXd& shape) 
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(mode_match)
 
 BOOST_AUTO_TEST_CASE(modes_are_matched_by_shape_and_not_by_number) {
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(5, 3);

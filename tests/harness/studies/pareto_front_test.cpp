@@ -4,6 +4,8 @@
 
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(pareto_front)
+
 using namespace trammel;
 using namespace trammel::harness;
 using testing::contains;
@@ -24,8 +26,6 @@ std::vector<CostPoint> sample() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(pareto_front)
 
 BOOST_AUTO_TEST_CASE(what_is_beaten_in_error_and_time_is_not_on_the_front) {
   const std::vector<std::size_t> expected = {0, 2, 3, 4};

@@ -3,11 +3,11 @@
 #include "harness/studies/effect_study.h"
 #include "harness/studies/random_scenes.h"
 
+BOOST_AUTO_TEST_SUITE(random_effects)
+
 using namespace trammel::references;
 using namespace trammel::solver;
 using namespace trammel::harness;
-
-BOOST_AUTO_TEST_SUITE(random_effects)
 
 BOOST_AUTO_TEST_CASE(a_random_scene_is_the_same_every_time) {
   BOOST_TEST(random_scene(1, 7).value() == random_scene(1, 7).value());

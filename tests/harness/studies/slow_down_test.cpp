@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+BOOST_AUTO_TEST_SUITE(slow_down)
+
 using namespace trammel::harness;
 
 namespace {
@@ -65,8 +67,6 @@ Alarms count_alarms(int trials, double slow_down) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(slow_down)
 
 BOOST_AUTO_TEST_CASE(a_program_against_itself_gives_at_most_4_false_alarms_in_200_trials) {
   BOOST_TEST(count_alarms(200, 0).false_ones <= 4);

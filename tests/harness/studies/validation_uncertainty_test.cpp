@@ -8,6 +8,8 @@
 #include "harness/run/run.h"
 #include "tests/support/harness/support.h"
 
+BOOST_AUTO_TEST_SUITE(validation_uncertainty)
+
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
@@ -62,8 +64,6 @@ Run run(const Case& given) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(validation_uncertainty)
 
 BOOST_AUTO_TEST_CASE(derivatives_and_samples_agree_with_the_scaling_laws_of_a_beam) {
   const Folder folder;

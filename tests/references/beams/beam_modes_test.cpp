@@ -8,6 +8,8 @@
 #include "references/numerics/roots.h"
 #include "references/programs/program.h"
 
+BOOST_AUTO_TEST_SUITE(beam_modes)
+
 using namespace trammel::references;
 
 namespace {
@@ -35,8 +37,6 @@ const std::vector<Known> known = {
 };
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(beam_modes)
 
 BOOST_AUTO_TEST_CASE(classical_roots_agree_with_those_computed_elsewhere) {
   for (const Known& beam : known) {

@@ -9,11 +9,11 @@
 #include "references/programs/program.h"
 #include "tests/support/references/frames.h"
 
+BOOST_AUTO_TEST_SUITE(characteristic_equations)
+
 using namespace trammel::references;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
-
-BOOST_AUTO_TEST_SUITE(characteristic_equations)
 
 BOOST_AUTO_TEST_CASE(a_clamped_corner_is_as_singular_as_is_known) {
   // B. A. Szabo, I. Babuska, Finite Element Analysis, 1991: 0.71117 for a square, nu = 0.3.

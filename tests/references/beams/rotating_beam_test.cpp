@@ -5,11 +5,11 @@
 
 #include "tests/support/references/frames.h"
 
+BOOST_AUTO_TEST_SUITE(rotating_beam)
+
 using namespace trammel::references;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
-
-BOOST_AUTO_TEST_SUITE(rotating_beam)
 
 BOOST_AUTO_TEST_CASE(rotating_beams_agree_with_values_computed_elsewhere) {
   check_equal(

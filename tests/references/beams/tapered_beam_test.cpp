@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+BOOST_AUTO_TEST_SUITE(tapered_beam)
+
 using namespace trammel::references;
 using boost::test_tools::tolerance;
 
@@ -21,8 +23,6 @@ std::vector<double> dimensionless(double depth_ratio, double width_ratio) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(tapered_beam)
 
 BOOST_AUTO_TEST_CASE(without_taper_it_is_the_uniform_cantilever) {
   const std::vector<double> w = dimensionless(1, 1);

@@ -7,6 +7,8 @@
 #include <complex>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(manufactured)
+
 namespace m = trammel::references::manufactured;
 
 namespace {
@@ -44,8 +46,6 @@ std::vector<m::BeamProblem> beams() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(manufactured)
 
 BOOST_AUTO_TEST_CASE(membrane_strains_are_the_derivatives_of_the_displacements) {
   for (const auto& problem : membranes()) {

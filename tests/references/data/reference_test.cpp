@@ -2,9 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-using namespace trammel::references;
-
 BOOST_AUTO_TEST_SUITE(reference)
+
+using namespace trammel::references;
 
 BOOST_AUTO_TEST_CASE(a_printed_value_is_uncertain_by_half_a_unit_in_its_last_place) {
   BOOST_TEST(half_unit_in_last_place("12.768") == 5e-4);

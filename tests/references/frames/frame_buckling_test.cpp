@@ -5,10 +5,10 @@
 
 #include "tests/support/references/frames.h"
 
+BOOST_AUTO_TEST_SUITE(frame_buckling)
+
 using namespace trammel::references;
 using namespace trammel::testing;
-
-BOOST_AUTO_TEST_SUITE(frame_buckling)
 
 BOOST_AUTO_TEST_CASE(columns_buckle_at_their_textbook_loads) {
   check_equal(run("column-buckling", R"({"ends": "clamped-pinned", "load": "end", "count": 1})"),

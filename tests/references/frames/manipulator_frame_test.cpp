@@ -4,11 +4,11 @@
 
 #include "tests/support/references/frames.h"
 
+BOOST_AUTO_TEST_SUITE(manipulator_frame)
+
 using namespace trammel::references;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
-
-BOOST_AUTO_TEST_SUITE(manipulator_frame)
 
 BOOST_AUTO_TEST_CASE(the_centred_manipulator_has_pairs_and_the_moved_one_has_none) {
   Json arguments = manipulator(R"({"count": 8})");

@@ -7,6 +7,8 @@
 
 #include "tests/support/references/frames.h"
 
+BOOST_AUTO_TEST_SUITE(unit_load)
+
 using namespace trammel::references;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
@@ -21,8 +23,6 @@ std::vector<double> statics(const Json& model, const std::vector<std::string>& o
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(unit_load)
 
 BOOST_AUTO_TEST_CASE(a_cantilever_bends_as_the_closed_forms_say) {
   const Json model = beam_model(R"({"supports": {"A": ["x", "y", "rotation"]},

@@ -10,6 +10,8 @@
 #include "references/frames/frame_json.h"
 #include "tests/support/references/frames.h"
 
+BOOST_AUTO_TEST_SUITE(wittrick_williams)
+
 using namespace trammel::references;
 using namespace trammel::testing;
 
@@ -43,8 +45,6 @@ Json double_cross() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(wittrick_williams)
 
 BOOST_AUTO_TEST_CASE(a_frame_of_one_member_has_the_frequencies_of_its_characteristic_equation) {
   const std::vector<std::pair<const char*, const char*>> beams = {

@@ -5,9 +5,9 @@
 #include "references/numerics/arguments.h"
 #include "references/programs/program.h"
 
-using namespace trammel::references;
-
 BOOST_AUTO_TEST_SUITE(ball)
+
+using namespace trammel::references;
 
 BOOST_AUTO_TEST_CASE(a_ball_tells_what_holds_for_all_its_numbers_and_refuses_the_rest) {
   const Ball third = Ball(1) / 3, doubtful = Ball(Real(1) / 3);

@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <string>
 
+BOOST_AUTO_TEST_SUITE(expression)
+
 using namespace trammel::references;
 
 namespace {
@@ -13,8 +15,6 @@ double value(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(expression)
 
 BOOST_AUTO_TEST_CASE(the_usual_precedence_holds) {
   BOOST_TEST(value("1 + 2*a^2/6 - -1") == 5.0);

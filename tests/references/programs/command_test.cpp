@@ -9,6 +9,8 @@
 
 #include "references/programs/derivation_comparison.h"
 
+BOOST_AUTO_TEST_SUITE(command)
+
 namespace fs = std::filesystem;
 using namespace trammel::references;
 
@@ -51,8 +53,6 @@ bool one_line(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(command)
 
 BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
   const Outcome outcome = run({(values / "beams/beam-modes/cantilever-roots.json").string()});

@@ -11,6 +11,8 @@
 #include "references/programs/derivation_comparison.h"
 #include "references/programs/program.h"
 
+BOOST_AUTO_TEST_SUITE(derivation)
+
 namespace fs = std::filesystem;
 using namespace trammel::references;
 
@@ -43,8 +45,6 @@ double with_tenth_digit_changed(double value) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(derivation)
 
 BOOST_AUTO_TEST_CASE(every_stored_value_with_a_derivation_is_what_comes_out_of_it) {
   int derived = 0;

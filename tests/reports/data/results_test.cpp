@@ -6,6 +6,8 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(results)
+
 using namespace trammel::testing;
 using nlohmann::ordered_json;
 using trammel::results::read_results;
@@ -37,8 +39,6 @@ ordered_json drop(const std::string& pointer) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(results)
 
 BOOST_AUTO_TEST_CASE(what_is_missing_or_wrong_is_named_by_its_pointer) {
   BOOST_TEST(complaint(drop("/runs")) == "/runs: expected a value, found nothing");

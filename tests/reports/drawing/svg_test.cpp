@@ -4,6 +4,8 @@
 
 #include "tests/support/reports/markup.h"
 
+BOOST_AUTO_TEST_SUITE(svg)
+
 using namespace trammel::reports;
 using namespace trammel::testing;
 
@@ -29,8 +31,6 @@ constexpr const char* kDrawnSvg = R"(<?xml version="1.0"?>
 </svg>)";
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(svg)
 
 BOOST_AUTO_TEST_CASE(a_drawing_becomes_one_element_that_can_stand_beside_others) {
   const std::string tidy = tidy_svg(kDrawnSvg, "fig-a", "Title", "What <it> shows");

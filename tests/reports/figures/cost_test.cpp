@@ -8,6 +8,8 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(cost)
+
 using namespace trammel::testing;
 using namespace trammel::reports;
 
@@ -28,8 +30,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(cost)
 
 BOOST_AUTO_TEST_CASE(all_settings_stand_in_the_data_those_without_an_answer_too) {
   const CostStudies cost = sample_studies();

@@ -7,6 +7,8 @@
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(effect_scenes)
+
 using namespace trammel::testing;
 using namespace trammel::reports;
 
@@ -23,8 +25,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(effect_scenes)
 
 BOOST_AUTO_TEST_CASE(captions_count_what_is_within_minimal_and_no_slower) {
   const std::vector<Figure> figures = effect_scene_figures(kScenes);

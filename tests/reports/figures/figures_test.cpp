@@ -9,6 +9,8 @@
 #include "reports/figures/outline.h"
 #include "reports/figures/tolerance.h"
 
+BOOST_AUTO_TEST_SUITE(figures)
+
 using namespace trammel::reports;
 
 namespace {
@@ -72,8 +74,6 @@ Check judged(const std::string& name, double difference, double tolerance) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(figures)
 
 BOOST_AUTO_TEST_CASE(convergence_caption_says_what_was_fitted_and_what_theory_wants) {
   const auto good = convergence_figures(beam(), run_with({sweep(0, 3.98), sweep(1, 4.01)}));

@@ -5,6 +5,8 @@
 
 #include "reports/drawing/palette.h"
 
+BOOST_AUTO_TEST_SUITE(map)
+
 using namespace trammel::reports;
 
 namespace {
@@ -49,8 +51,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(map)
 
 BOOST_AUTO_TEST_CASE(a_map_keeps_every_position_and_says_what_its_colours_mean) {
   std::string problem;

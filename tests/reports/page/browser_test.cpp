@@ -7,6 +7,8 @@
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(browser)
+
 using namespace trammel::testing;
 
 namespace {
@@ -29,8 +31,6 @@ void check_at(int width, const std::string& name) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(browser)
 
 BOOST_AUTO_TEST_CASE(report_opens_without_errors_and_shows_every_figure_on_a_desk) {
   for (const char* page : kPages) check_at(1280, page);

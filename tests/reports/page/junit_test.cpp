@@ -6,6 +6,8 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(junit)
+
 using namespace trammel::testing;
 
 namespace {
@@ -18,8 +20,6 @@ std::string junit_of(const nlohmann::ordered_json& results) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(junit)
 
 BOOST_AUTO_TEST_CASE(a_testcase_stands_for_every_check_and_every_run) {
   const auto results = sample_results();

@@ -12,6 +12,8 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(report)
+
 namespace fs = std::filesystem;
 using namespace trammel::testing;
 
@@ -57,8 +59,6 @@ bool says(const std::string& text) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(report)
 
 BOOST_AUTO_TEST_CASE(every_figure_stands_in_the_page_and_beside_it_with_its_data) {
   const std::set<std::string> drawings = files_with(".svg");

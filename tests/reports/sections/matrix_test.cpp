@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(matrix)
+
 using namespace trammel::reports;
 
 namespace {
@@ -60,8 +62,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(matrix)
 
 BOOST_AUTO_TEST_CASE(targets_that_no_variant_reaches_are_named_with_the_nearest) {
   Sample sample;

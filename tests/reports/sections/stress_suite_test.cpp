@@ -5,6 +5,8 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(stress_suite)
+
 using namespace trammel::testing;
 
 namespace {
@@ -41,8 +43,6 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(stress_suite)
 
 BOOST_AUTO_TEST_CASE(items_stand_in_order_with_the_worst_of_each_indicator) {
   const std::string text = stress_suite_of(with_stress_suite());

@@ -6,6 +6,8 @@
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
+BOOST_AUTO_TEST_SUITE(verification_tables)
+
 using namespace trammel::testing;
 
 namespace {
@@ -31,8 +33,6 @@ bool says(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(verification_tables)
 
 BOOST_AUTO_TEST_CASE(a_target_stands_as_printed_beside_the_better_value_and_both_ratios) {
   const std::string targets = section("targets");

@@ -2,9 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-using namespace trammel::reports;
-
 BOOST_AUTO_TEST_SUITE(csv)
+
+using namespace trammel::reports;
 
 BOOST_AUTO_TEST_CASE(numbers_keep_all_digits_and_texts_are_quoted_where_they_must) {
   const Table table{{"time_s", "title, free"}, {{0.1 + 0.2, std::string("say \"no\"")}, {{}, {}}}};

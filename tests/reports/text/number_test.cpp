@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
-using namespace trammel::reports;
-
 BOOST_AUTO_TEST_SUITE(number)
+
+using namespace trammel::reports;
 
 BOOST_AUTO_TEST_CASE(digits_are_significant_ones) {
   BOOST_TEST(significant(12.768, 4) == "12.77");

@@ -2,9 +2,9 @@
 
 #include <boost/test/unit_test.hpp>
 
-using namespace trammel::reports;
-
 BOOST_AUTO_TEST_SUITE(quantity)
+
+using namespace trammel::reports;
 
 BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
   const QuantityLabel moment = parse_quantity("reaction_moment_N_m:A1");

@@ -4,6 +4,8 @@
 
 #include "solver/mesh/distorted_mesh.h"
 
+BOOST_AUTO_TEST_SUITE(consistent_load)
+
 namespace t = trammel::solver;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -43,8 +45,6 @@ t::System inclined_beam(t::BeamTheory theory) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(consistent_load)
 
 BOOST_AUTO_TEST_CASE(body_force_has_the_resultant_of_its_integral) {
   t::System system = membrane(0.25);

@@ -6,6 +6,8 @@
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(constraints)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 
@@ -35,8 +37,6 @@ Model rigid_triangle() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(constraints)
 
 BOOST_AUTO_TEST_CASE(a_model_without_constraints_pays_nothing_for_them) {
   const System system = assemble(beam(unit_section(), 1, 5));

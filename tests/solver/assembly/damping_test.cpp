@@ -6,6 +6,8 @@
 
 #include "solver/time/modal_superposition.h"
 
+BOOST_AUTO_TEST_SUITE(damping)
+
 using namespace trammel::solver;
 using std::numbers::pi;
 
@@ -18,8 +20,6 @@ SparseMatrix sparse(const Eigen::MatrixXd& A) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(damping)
 
 BOOST_AUTO_TEST_CASE(the_printed_factors_mean_12_percent_at_13_Hz_and_overdamping_above_106_Hz) {
   const RayleighDamping printed{.mass = 0.02, .stiffness = 0.003};

@@ -6,6 +6,8 @@
 
 #include "solver/mesh/distorted_mesh.h"
 
+BOOST_AUTO_TEST_SUITE(field_error)
+
 namespace t = trammel::solver;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -60,8 +62,6 @@ VectorXd nodal_bending(const t::System& system, double c) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(field_error)
 
 BOOST_AUTO_TEST_CASE(a_membrane_whose_field_is_hit_has_no_error) {
   const t::System system = membrane();

@@ -10,6 +10,8 @@
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(prestress)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
@@ -40,8 +42,6 @@ double first_factor(const Model& model, EigenMethod path = EigenMethod::automati
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(prestress)
 
 BOOST_AUTO_TEST_CASE(eulers_four_columns_buckle_at_their_loads_but_for_the_fourth_power_over_720) {
   const auto check = [](const Model& model, double k) {

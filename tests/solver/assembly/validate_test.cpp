@@ -7,6 +7,8 @@
 #include "solver/assembly/system.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(validate)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 
@@ -36,8 +38,6 @@ std::string complaint(const std::function<void(Model&)>& spoil) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(validate)
 
 BOOST_AUTO_TEST_CASE(a_sound_model_is_accepted) {
   BOOST_TEST(complaint([](Model&) {}) == "no complaint");

@@ -6,6 +6,8 @@
 
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(elastodynamics)
+
 using namespace trammel::solver;
 using Eigen::VectorXd;
 using std::numbers::pi;
@@ -39,8 +41,6 @@ double largest_difference(const ElastodynamicsSolution& a, const ElastodynamicsS
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(elastodynamics)
 
 BOOST_AUTO_TEST_CASE(without_inertia_every_pose_is_the_static_solution) {
   for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {

@@ -12,6 +12,8 @@
 #include "solver/time/modal_superposition.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(moving_system)
+
 using namespace trammel::solver;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -152,8 +154,6 @@ double difference(const MatrixXd& a, const MatrixXd& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(moving_system)
 
 BOOST_AUTO_TEST_CASE(a_pose_reached_by_motion_has_the_matrices_of_a_model_built_there) {
   for (const ManipulatorDesign& design : designs()) {

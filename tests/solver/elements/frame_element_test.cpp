@@ -6,6 +6,8 @@
 
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(frame_element)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 
@@ -32,8 +34,6 @@ Vector6d rigid_motion(double a, double b, double w, double angle) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(frame_element)
 
 BOOST_AUTO_TEST_CASE(the_stiffness_of_euler_bernoulli_is_equation_7) {
   const double L = kLength;

@@ -5,6 +5,8 @@
 
 #include "solver/statics/statics.h"
 
+BOOST_AUTO_TEST_SUITE(triangle6_element)
+
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
@@ -39,8 +41,6 @@ Matrix12d stiffness(const Model& model) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(triangle6_element)
 
 BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
   for (const bool curved : {false, true}) {

@@ -4,6 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(triangle_element)
+
 using namespace trammel::solver;
 
 namespace {
@@ -20,8 +22,6 @@ Vector6d sample(const TrianglePoints& points, const Vector2d& shift, const Eigen
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(triangle_element)
 
 BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
   const Matrix6d k = triangle_stiffness(kPoints, kPlate);

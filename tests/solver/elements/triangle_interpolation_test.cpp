@@ -4,6 +4,8 @@
 
 #include "solver/model/quadrature.h"
 
+BOOST_AUTO_TEST_SUITE(triangle_interpolation)
+
 namespace t = trammel::solver;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -37,8 +39,6 @@ t::TriangleInterpolation at(const t::Model& model, const Vector3d& L) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(triangle_interpolation)
 
 BOOST_AUTO_TEST_CASE(each_shape_function_is_one_at_its_node_and_zero_at_the_others) {
   for (const bool six : {false, true}) {

@@ -9,6 +9,8 @@
 
 #include "solver/grnn/grnn_validation.h"
 
+BOOST_AUTO_TEST_SUITE(grnn)
+
 namespace {
 
 using namespace trammel::solver;
@@ -53,8 +55,6 @@ double rms(const MatrixXd& m) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(grnn)
 
 BOOST_AUTO_TEST_CASE(the_newgrnn_example_comes_out_in_matlab_convention) {
   const Grnn g = make_grnn(column({1, 2, 3}), column({2, 4.1, 5.9}), sigma_of_spread(1));

@@ -8,6 +8,8 @@
 #include "solver/large_motion/solve/state_results.h"
 #include "tests/support/solver/large_models.h"
 
+BOOST_AUTO_TEST_SUITE(large_dynamics)
+
 namespace {
 
 using namespace trammel::solver;
@@ -96,8 +98,6 @@ double energy_drift(Integrator integrator, double step, double end) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(large_dynamics)
 
 BOOST_AUTO_TEST_CASE(places_velocities_and_multipliers_of_a_pendulum_converge_with_order_2) {
   for (const Integrator which : {Integrator::generalized_alpha, Integrator::energy_momentum}) {

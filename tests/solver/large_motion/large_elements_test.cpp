@@ -6,6 +6,8 @@
 #include "solver/large_motion/elements/joints.h"
 #include "solver/large_motion/elements/triangle.h"
 
+BOOST_AUTO_TEST_SUITE(large_elements)
+
 namespace {
 
 using namespace trammel::solver;
@@ -127,8 +129,6 @@ Triangle2d<6> some_curved_triangle() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(large_elements)
 
 BOOST_AUTO_TEST_CASE(tangents_are_derivatives_and_discrete_gradients_do_the_work_of_the_change) {
   check_derivatives(some_beam<1>());

@@ -7,6 +7,8 @@
 #include "solver/large_motion/solve/static_path.h"
 #include "tests/support/solver/large_models.h"
 
+BOOST_AUTO_TEST_SUITE(large_stability)
+
 namespace {
 
 using namespace trammel::solver;
@@ -69,8 +71,6 @@ Model shallow_arch(double across) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(large_stability)
 
 BOOST_AUTO_TEST_CASE(columns_buckle_at_eulers_loads) {
   BOOST_TEST(std::abs(critical_load(column(32), 5) / (kPi * kPi / 4) - 1) < 1e-9);

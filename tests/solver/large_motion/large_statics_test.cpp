@@ -8,6 +8,8 @@
 #include "solver/large_motion/solve/static_path.h"
 #include "tests/support/solver/large_models.h"
 
+BOOST_AUTO_TEST_SUITE(large_statics)
+
 namespace {
 
 using namespace trammel::solver;
@@ -69,8 +71,6 @@ NewtonResult roll_up(double turns, Index elements, Vector3d& tip_motion) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(large_statics)
 
 BOOST_AUTO_TEST_CASE(the_elastica_under_a_tip_load_agrees_to_eleven_digits) {
   for (const Elastica& exact : kElastica) BOOST_TEST(elastica_error(exact, 64, 3) < 5e-12);

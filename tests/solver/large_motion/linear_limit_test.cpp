@@ -7,6 +7,8 @@
 #include "tests/support/solver/large_models.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(linear_limit)
+
 namespace {
 
 using namespace trammel::solver;
@@ -43,8 +45,6 @@ void check_linear_limit(const Model& model, double floor) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(linear_limit)
 
 BOOST_AUTO_TEST_CASE(small_loads_give_linear_statics_of_a_portal_frame) {
   Model model;

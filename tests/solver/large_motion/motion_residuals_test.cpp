@@ -10,6 +10,8 @@
 #include "tests/support/solver/callable_system.h"
 #include "tests/support/solver/large_models.h"
 
+BOOST_AUTO_TEST_SUITE(motion_residuals)
+
 namespace {
 
 using namespace trammel::solver;
@@ -89,8 +91,6 @@ Outcome outcome_of(const std::function<void(State&)>& change) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(motion_residuals)
 
 BOOST_AUTO_TEST_CASE(a_motion_that_was_found_is_solved_and_changed_ones_are_not) {
   const Outcome found = outcome_of([](State&) {});

@@ -6,6 +6,8 @@
 #include "solver/large_motion/solve/integrate.h"
 #include "tests/support/solver/callable_system.h"
 
+BOOST_AUTO_TEST_SUITE(slider_crank)
+
 /// The slider-crank with a flexible connecting rod of the IVP test set (B. Simeon; F. Mazzia,
 /// C. Magherini, problem "crank"): equations that are not a model of ours and try the integrator
 /// alone. The rod has two bending shapes, q1 and q2, and a quadratic longitudinal one, q3 and q4;
@@ -170,8 +172,6 @@ VectorXd reference_multipliers() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(slider_crank)
 
 BOOST_AUTO_TEST_CASE(the_flexible_slider_crank_of_the_ivp_test_set_agrees_to_seven_digits) {
   IntegrationSummary summary;

@@ -9,6 +9,8 @@
 #include "solver/modes/modes.h"
 #include "tests/support/solver/large_models.h"
 
+BOOST_AUTO_TEST_SUITE(small_vibration)
+
 namespace {
 
 using namespace trammel::solver;
@@ -34,8 +36,6 @@ SmallVibration loaded_column(double force, bool follows) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(small_vibration)
 
 BOOST_AUTO_TEST_CASE(about_the_unloaded_state_it_has_the_frequencies_of_linear_modes) {
   const Model model = elastica(8);

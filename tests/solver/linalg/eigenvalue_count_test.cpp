@@ -2,6 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 
+BOOST_AUTO_TEST_SUITE(eigenvalue_count)
+
 namespace {
 
 using namespace trammel::solver;
@@ -13,8 +15,6 @@ SparseMatrix diagonal(const VectorXd& values) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(eigenvalue_count)
 
 BOOST_AUTO_TEST_CASE(a_missed_mode_is_counted_and_one_found_twice_does_not_hide_it) {
   const SparseMatrix A = diagonal(VectorXd{{1, 2, 2, 5, 9}}), B = diagonal(VectorXd::Ones(5));

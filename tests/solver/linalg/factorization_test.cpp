@@ -5,6 +5,8 @@
 #include <thread>
 #include <vector>
 
+BOOST_AUTO_TEST_SUITE(factorization)
+
 using namespace trammel::solver;
 using Eigen::Index;
 
@@ -27,8 +29,6 @@ Eigen::SparseMatrix<double> square(Index n) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(factorization)
 
 BOOST_AUTO_TEST_CASE(orderings_made_side_by_side_are_those_made_one_by_one) {
   constexpr std::size_t kThreads = 4;

@@ -4,6 +4,8 @@
 
 #include "solver/linalg/forward_error.h"
 
+BOOST_AUTO_TEST_SUITE(forward_error_bound)
+
 using namespace trammel::solver;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -15,8 +17,6 @@ StiffnessFactors factors(const MatrixXd& A) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(forward_error_bound)
 
 BOOST_AUTO_TEST_CASE(the_estimated_norm_is_no_larger_than_the_norm_and_close_to_it) {
   std::mt19937 random(3);

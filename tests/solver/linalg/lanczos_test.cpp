@@ -2,10 +2,10 @@
 
 #include <boost/test/unit_test.hpp>
 
+BOOST_AUTO_TEST_SUITE(lanczos)
+
 using namespace trammel::solver;
 using Eigen::VectorXd;
-
-BOOST_AUTO_TEST_SUITE(lanczos)
 
 // Spectra throws for both, which was told as our own fault.
 BOOST_AUTO_TEST_CASE(an_operator_that_is_no_number_and_a_start_of_zeros_have_no_eigenpairs) {

@@ -8,6 +8,8 @@
 #include "solver/model/numbers.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(forward_dynamics)
+
 namespace {
 
 using namespace trammel::solver;
@@ -24,8 +26,6 @@ double distance(const Pose& a, const Pose& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(forward_dynamics)
 
 BOOST_AUTO_TEST_CASE(the_acceleration_that_needs_a_torque_is_the_one_that_the_torque_gives) {
   RigidManipulator m = rigid_manipulator(table_1_design());

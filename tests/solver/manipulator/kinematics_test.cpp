@@ -10,6 +10,8 @@
 #include "tests/support/solver/differences.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(kinematics)
+
 namespace {
 
 using namespace trammel::solver;
@@ -29,8 +31,6 @@ Pose moved(const Pose& pose, const Vector3d& direction, double s) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(kinematics)
 
 BOOST_AUTO_TEST_CASE(the_circle_of_table_1_stays_within_the_ticks_of_figure_17) {
   const ManipulatorGeometry g = table_1_geometry();

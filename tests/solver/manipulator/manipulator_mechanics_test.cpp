@@ -10,6 +10,8 @@
 #include "solver/statics/statics.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(manipulator_mechanics)
+
 namespace {
 
 using namespace trammel::solver;
@@ -86,8 +88,6 @@ std::vector<ManipulatorDesign> platforms() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(manipulator_mechanics)
 
 BOOST_AUTO_TEST_CASE(the_assembled_mass_is_the_sum_of_what_is_printed_or_what_the_density_gives) {
   for (ManipulatorDesign design : platforms()) {

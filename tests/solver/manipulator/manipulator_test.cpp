@@ -9,6 +9,8 @@
 #include "solver/mesh/platform_mesh.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(manipulator)
+
 namespace {
 
 using namespace trammel::solver;
@@ -100,8 +102,6 @@ ManipulatorDesign uneven_design() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(manipulator)
 
 BOOST_AUTO_TEST_CASE(the_nodes_stand_where_the_kinematics_puts_them) {
   const ManipulatorDesign design = uneven_design();

@@ -13,6 +13,8 @@
 #include "tests/support/solver/differences.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(rigid_dynamics)
+
 namespace {
 
 using namespace trammel::solver;
@@ -80,8 +82,6 @@ TrajectoryPoint along(const TrajectoryPoint& p, double s) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rigid_dynamics)
 
 BOOST_AUTO_TEST_CASE(velocities_and_accelerations_are_derivatives_of_the_inverse_kinematics) {
   RandomStates random(1);

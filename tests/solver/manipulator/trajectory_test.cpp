@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+BOOST_AUTO_TEST_SUITE(trajectory)
+
 namespace {
 
 using namespace trammel::solver;
@@ -29,8 +31,6 @@ const Pose kFrom{0.2, 0.1, -0.1};
 const Pose kTo{0.3, 0.15, 0.4};
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(trajectory)
 
 BOOST_AUTO_TEST_CASE(the_paper_circle_starts_on_the_right_and_turns_counterclockwise) {
   const Path circle = Circle{{0.25, 0.144}, 0.01};

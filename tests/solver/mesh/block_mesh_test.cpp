@@ -9,6 +9,8 @@
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
 
+BOOST_AUTO_TEST_SUITE(block_mesh)
+
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
@@ -69,8 +71,6 @@ StaticSolution elliptic_membrane(Index cells, Index& D) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(block_mesh)
 
 BOOST_AUTO_TEST_CASE(six_node_triangles_follow_the_ellipse_and_have_its_area) {
   const double exact = kPi / 4 * (3.25 * 2.75 - 2 * 1);

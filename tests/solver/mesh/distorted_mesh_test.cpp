@@ -4,6 +4,8 @@
 
 #include "solver/elements/triangle_element.h"
 
+BOOST_AUTO_TEST_SUITE(distorted_mesh)
+
 namespace t = trammel::solver;
 using Eigen::Vector2d;
 
@@ -18,8 +20,6 @@ double area(const t::Model& model, const t::Triangle& triangle) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(distorted_mesh)
 
 BOOST_AUTO_TEST_CASE(triangles_cover_the_rectangle_and_none_is_turned_over) {
   for (const double distortion : {0.0, 0.29}) {

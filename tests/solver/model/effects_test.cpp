@@ -8,6 +8,8 @@
 #include "solver/modes/modes.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(effects)
+
 using namespace trammel;
 using namespace trammel::solver;
 
@@ -39,8 +41,6 @@ double first_frequency_squared(BeamTheory theory, Index mode) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(effects)
 
 BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
   for (const Effect effect : Effects::all().list()) {

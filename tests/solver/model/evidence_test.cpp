@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
-using namespace trammel::solver;
-
 BOOST_AUTO_TEST_SUITE(evidence)
+
+using namespace trammel::solver;
 
 BOOST_AUTO_TEST_CASE(a_claim_without_residuals_does_not_count_as_solved) {
   BOOST_TEST(!outcome_by_evidence({}, {}).solved());

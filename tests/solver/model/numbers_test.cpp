@@ -3,9 +3,9 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 
-using namespace trammel::solver;
-
 BOOST_AUTO_TEST_SUITE(numbers)
+
+using namespace trammel::solver;
 
 BOOST_AUTO_TEST_CASE(what_is_not_a_number_stays_whatever_follows) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();

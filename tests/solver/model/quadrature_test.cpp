@@ -3,6 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+BOOST_AUTO_TEST_SUITE(quadrature)
+
 namespace t = trammel::solver;
 
 namespace {
@@ -29,8 +31,6 @@ double mean(int a, int b, int c) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(quadrature)
 
 BOOST_AUTO_TEST_CASE(the_line_rule_is_exact_to_degree_nine_and_no_further) {
   for (int power = 0; power <= 9; ++power) {

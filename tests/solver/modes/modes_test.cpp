@@ -10,6 +10,8 @@
 #include "tests/support/solver/frames.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(modes)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
@@ -59,8 +61,6 @@ double angle_between(const Pair& a, const Pair& b) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(modes)
 
 BOOST_AUTO_TEST_CASE(the_span_of_a_repeated_pair_moves_by_no_more_than_a_perturbation_is_due) {
   // The pair stands apart from the third mode by three tenths of its eigenvalue, so that a relative

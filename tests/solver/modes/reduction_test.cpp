@@ -7,6 +7,8 @@
 #include "solver/time/harmonic.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(reduction)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 
@@ -30,8 +32,6 @@ Eigen::VectorXd frequencies(const System& system, Index count) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(reduction)
 
 BOOST_AUTO_TEST_CASE(statics_are_exact_in_the_reduced_coordinates) {
   const System full = assemble(angle(8));

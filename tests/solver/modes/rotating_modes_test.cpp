@@ -7,6 +7,8 @@
 #include "solver/modes/modes.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(rotating_modes)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
@@ -40,8 +42,6 @@ RotatingModes rotate(const Model& model, double speed, Index count,
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rotating_modes)
 
 BOOST_AUTO_TEST_CASE(a_mass_on_springs_in_a_rotating_frame_is_that_of_friswell) {
   const double rpm = kPi / 30;

@@ -13,6 +13,8 @@
 #include "solver/poses/moving_pencil.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(pose_modes)
+
 using namespace trammel::solver;
 
 namespace {
@@ -68,8 +70,6 @@ void check(const char* what, const ManipulatorDesign& design, const std::vector<
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(pose_modes)
 
 BOOST_AUTO_TEST_CASE(every_pose_of_a_circle_has_the_frequencies_it_has_alone) {
   for (const Index elements : {1, 2, 4})

@@ -4,6 +4,8 @@
 
 #include "tests/support/solver/sensitivity_differences.h"
 
+BOOST_AUTO_TEST_SUITE(sensitivity_sweep)
+
 using namespace trammel::solver;
 
 namespace {
@@ -23,8 +25,6 @@ ManipulatorDesign design_with(bool total_mass) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(sensitivity_sweep)
 
 // Modes 1 to 6, the worst error over the largest |df/dL| of the mode.
 BOOST_AUTO_TEST_CASE(five_hundred_poses_agree_with_differences) {

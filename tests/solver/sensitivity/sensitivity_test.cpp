@@ -7,10 +7,10 @@
 #include "solver/sensitivity/workspace_curves.h"
 #include "tests/support/solver/sensitivity_differences.h"
 
+BOOST_AUTO_TEST_SUITE(sensitivity)
+
 using namespace trammel::solver;
 using Eigen::VectorXd;
-
-BOOST_AUTO_TEST_SUITE(sensitivity)
 
 BOOST_AUTO_TEST_CASE(frequencies_grow_with_the_root_of_E_and_fall_with_that_of_density) {
   const Pose pose{0.26, 0.15, 0.1};

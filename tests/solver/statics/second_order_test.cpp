@@ -9,6 +9,8 @@
 #include "tests/support/solver/frames.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(second_order)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
@@ -37,8 +39,6 @@ StaticSolution manipulator(double force) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(second_order)
 
 BOOST_AUTO_TEST_CASE(a_column_deflects_as_theory_says_however_near_its_buckling_load) {
   for (const double share : {0.1, 0.5, 0.6, 0.8, 0.98, 0.999}) {

@@ -10,6 +10,8 @@
 #include "solver/model/numbers.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(statics)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
@@ -55,8 +57,6 @@ Vector2d joint_of_a_toggle(const Model& model) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(statics)
 
 BOOST_AUTO_TEST_CASE(a_cantilever_is_exact_on_every_mesh_and_at_every_angle) {
   for (const Index elements : {1, 3, 64, 1000}) {

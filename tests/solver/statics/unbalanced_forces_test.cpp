@@ -8,6 +8,8 @@
 #include "tests/support/solver/frames.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(unbalanced_forces)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 
@@ -39,8 +41,6 @@ Solved manipulator() {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(unbalanced_forces)
 
 BOOST_AUTO_TEST_CASE(what_is_reported_balances_at_every_node) {
   BOOST_TEST(manipulator().unbalanced() < 1e-14);

@@ -6,6 +6,8 @@
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(zero_energy_modes)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 
@@ -30,8 +32,6 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(zero_energy_modes)
 
 BOOST_AUTO_TEST_CASE(a_beam_without_supports_floats) {
   BOOST_TEST(words(beam(unit_section(), 1, 4, 0.3)) ==

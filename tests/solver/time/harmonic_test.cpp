@@ -9,6 +9,8 @@
 #include "tests/support/solver/frames.h"
 #include "tests/support/solver/table_1.h"
 
+BOOST_AUTO_TEST_SUITE(harmonic)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
@@ -41,8 +43,6 @@ Model test_5h(Index elements) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(harmonic)
 
 BOOST_AUTO_TEST_CASE(an_oscillator_answers_as_its_formula_with_either_damping) {
   const System system = assemble(oscillator());

@@ -8,6 +8,8 @@
 #include "solver/assembly/damping.h"
 #include "solver/time/oscillator.h"
 
+BOOST_AUTO_TEST_SUITE(modal_superposition)
+
 using namespace trammel::solver;
 using std::numbers::pi;
 
@@ -57,8 +59,6 @@ SparseMatrix sparse(const Eigen::MatrixXd& A) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(modal_superposition)
 
 BOOST_AUTO_TEST_CASE(an_oscillator_keeps_its_digits_in_every_kind_of_damping) {
   double worst = 0;

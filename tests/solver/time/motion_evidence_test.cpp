@@ -6,6 +6,8 @@
 #include "solver/model/numbers.h"
 #include "solver/time/transient_history.h"
 
+BOOST_AUTO_TEST_SUITE(motion_evidence)
+
 using namespace trammel::solver;
 using Eigen::VectorXd;
 
@@ -58,8 +60,6 @@ EquationOfMotion seen_wrongly(const Spoil& spoil) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(motion_evidence)
 
 BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_own_balance_of_energy) {
   for (const TimeScheme& scheme :

@@ -7,6 +7,8 @@
 #include "solver/time/transient_history.h"
 #include "tests/support/solver/frames.h"
 
+BOOST_AUTO_TEST_SUITE(rotating_frame_transient)
+
 using namespace trammel::solver;
 using namespace trammel::testing;
 using Eigen::VectorXd;
@@ -28,8 +30,6 @@ PrescribedRotation steady(double speed) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(rotating_frame_transient)
 
 BOOST_AUTO_TEST_CASE(at_a_steady_speed_it_has_the_steady_state_of_the_rotating_frame) {
   Model model = cantilever(unit_section(), 1, 8);

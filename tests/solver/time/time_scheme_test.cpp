@@ -5,9 +5,9 @@
 
 #include "solver/model/model.h"
 
-using namespace trammel::solver;
-
 BOOST_AUTO_TEST_SUITE(time_scheme)
+
+using namespace trammel::solver;
 
 BOOST_AUTO_TEST_CASE(the_named_schemes_are_of_second_order) {
   for (const double radius : {0.0, 0.3, 0.8, 1.0})

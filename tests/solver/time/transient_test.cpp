@@ -7,6 +7,8 @@
 #include "solver/time/transient_history.h"
 #include "tests/support/solver/allocations.h"
 
+BOOST_AUTO_TEST_SUITE(transient)
+
 using namespace trammel::solver;
 using Eigen::VectorXd;
 using std::numbers::pi;
@@ -78,8 +80,6 @@ double total_energy(const MotionEnergy& e) {
 }
 
 }  // namespace
-
-BOOST_AUTO_TEST_SUITE(transient)
 
 BOOST_AUTO_TEST_CASE(every_second_order_scheme_converges_to_the_modal_response_with_order_2) {
   const std::vector<TimeScheme> schemes = {average_acceleration(), linear_acceleration(),
