@@ -64,7 +64,7 @@ Held trials(const std::vector<ModelReading>& readings, double drawn_with, double
   Held held;
   for (int trial = 0; trial < kTrials; ++trial) {
     const std::size_t truth = choose(random);
-    const auto found = model_probabilities(
+    const auto found = harness::model_probabilities(
         readings, draw_row(readings[truth], like, kCandidates, drawn_with, random), kCandidates,
         judged_with);
     double left = kLevel;

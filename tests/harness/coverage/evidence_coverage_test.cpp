@@ -30,7 +30,7 @@ std::vector<std::string> evidence(const Json& check, const std::string& feature,
   json["checks"] = {{"c", check}};
   if (!analysis.is_null()) json["analysis"] = analysis;
   const References references;
-  const auto rows = evidence_coverage({testing::read(folder, json)}, references);
+  const auto rows = harness::evidence_coverage({testing::read(folder, json)}, references);
   const auto row = std::find_if(rows.begin(), rows.end(),
                                 [&](const auto& one) { return one.feature == feature; });
   BOOST_REQUIRE((row != rows.end()));

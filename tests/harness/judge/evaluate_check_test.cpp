@@ -47,8 +47,8 @@ struct Bench {
     const auto checks = read_checks(document, "base", {"base", "other"});
     const References references;
     const auto variant = [&](const std::string&) { return has_other ? &other : nullptr; };
-    return evaluate_check(checks.at(0),
-                          {document, quantities, {}, references, variant, other_solver});
+    return harness::evaluate_check(checks.at(0),
+                                   {document, quantities, {}, references, variant, other_solver});
   }
   /// The worst verdict, with its message.
   std::string verdict() {

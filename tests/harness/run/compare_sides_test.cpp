@@ -30,7 +30,7 @@ Side side(const std::string& label,
 }
 
 results::SideComparison compared(const Side& a, const Side& b) {
-  return compare_sides({a, b}, false);
+  return harness::compare_sides({a, b}, false);
 }
 
 /// Modes of two nodes that move along y only.

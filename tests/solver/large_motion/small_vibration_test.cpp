@@ -32,7 +32,7 @@ SmallVibration loaded_column(double force, bool follows) {
   options.keep_points = false;
   const StaticPath path = follow_static_path(system, options);
   BOOST_REQUIRE(path.outcome.solved());
-  return small_vibration(system, path.points.back().state, 4);
+  return large_motion::small_vibration(system, path.points.back().state, 4);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Solved {
     EquationRows rows(system);
     rows.add_stiffness(state.u);
     rows.add_load(system.load, -1);
-    return unbalanced_forces(system, state, solution, rows.terms());
+    return trammel::solver::unbalanced_forces(system, state, solution, rows.terms());
   }
 };
 
