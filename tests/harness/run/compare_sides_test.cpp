@@ -159,4 +159,29 @@ BOOST_AUTO_TEST_CASE(sides_are_ranked_by_error_only_where_an_interval_tells_them
   BOOST_TEST((ranks(3) == std::pair<std::size_t, std::size_t>(1, 1)));
 }
 
+BOOST_AUTO_TEST_CASE(sides_that_cannot_be_told_from_the_best_of_a_rank_share_it) {
+  const auto with_errors = [](const std::string& label, double error, double scatter, double one) {
+    Side made = side(label, {{"mass_kg", {1.0}}});
+    for (int i = 0; i < 12; ++i) {
+      results::Check check = check_of("mass_kg", 1, 1, "");
+      check.index = i;
+      check.reference = "printed";
+      check.computed = 1 + error * (i == 0 ? one : i % 2 == 0 ? 1 + scatter : 1 - scatter);
+      made.results.runs[0].checks.push_back(check);
+    }
+    return made;
+  };
+  const auto found = harness::compare_sides(
+      {with_errors("worst", 0.31, 0.2, 1.2), with_errors("best", 0.1, 0, 50),
+       with_errors("worse", 0.3, 0, 1), with_errors("good", 0.101, 0.2, 1.2)},
+      false);
+  std::vector<std::size_t> ranks;
+  for (const results::ComparedSide& one : found.sides) ranks.push_back(one.rank);
+  BOOST_TEST(ranks == (std::vector<std::size_t>{3, 1, 3, 1}), boost::test_tools::per_element());
+  BOOST_TEST(*found.sides[1].largest_error == 5, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(*found.sides[2].median_error == 0.3, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(*found.sides[0].largest_error == 0.372, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(*found.sides[2].error_ratio.at(0) == 3, boost::test_tools::tolerance(1e-9));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

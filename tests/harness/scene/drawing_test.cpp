@@ -1,11 +1,18 @@
 #include "harness/scene/drawing.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "tests/support/harness/analysing.h"
+
 BOOST_AUTO_TEST_SUITE(drawing)
 
+using namespace trammel;
 using namespace trammel::harness;
+using boost::test_tools::tolerance;
+using testing::result_of;
+using testing::values;
 
 namespace {
 
@@ -15,6 +22,35 @@ std::vector<Eigen::VectorXd> wave(double periods) {
     q.emplace_back(Eigen::VectorXd::Constant(1, std::sin(2 * M_PI * periods * i / 960)));
   return q;
 }
+
+/// The manipulator on a line of 10 mm in 0.1 s, pushed at P.
+Json on_a_line(const Json& analysis) {
+  Json json = testing::manipulator();
+  json["model"].erase("pose");
+  json["model"]["trajectory"]["line"] =
+      Json::parse(R"({"duration_s": 0.1, "points": 101, "step_s": 0.001,
+        "from": {"x_m": 0.25, "y_m": 0.144, "phi_rad": 0}, "to": {"x_m": 0.26, "y_m": 0.144, "phi_rad": 0}})");
+  json["model"]["loads"]["F"] = {{"node", "P"}, {"force_N", {1, 0}}};
+  json["analysis"] = analysis;
+  return json;
+}
+
+/// The value of a quantity at a moment that is drawn.
+double at(const AnalysisResult& result, const std::string& name, const Drawing::Pose& moment) {
+  const std::vector<double>& time = values(result, "time_s");
+  const auto found =
+      std::ranges::min_element(time, {}, [&](double t) { return std::abs(t - moment.time); });
+  BOOST_TEST(*found == moment.time, tolerance(1e-12));
+  return values(result, name).at(static_cast<std::size_t>(found - time.begin()));
+}
+
+const std::vector<Drawing::Pose>& moments(const AnalysisResult& result, std::size_t least) {
+  BOOST_REQUIRE(result.drawing.has_value());
+  BOOST_TEST_REQUIRE(result.drawing->poses.size() >= least);
+  return result.drawing->poses;
+}
+
+constexpr std::size_t kP = 9;  ///< the platform's centre among the nodes of a manipulator
 
 }  // namespace
 
@@ -29,6 +65,66 @@ BOOST_AUTO_TEST_CASE(moments_are_of_all_of_a_slow_motion_and_of_the_beginning_of
   BOOST_TEST(fast.back() < 250);
   BOOST_TEST(drawn_samples(wave(1), 1000).size() == 6);
   BOOST_TEST(drawn_samples({Eigen::VectorXd::Zero(1)}, 20).empty());
+  for (std::size_t k = 1; k < slow.size(); ++k) BOOST_TEST((slow[k] - slow[k - 1]) / 2 == 10U);
+}
+
+BOOST_AUTO_TEST_CASE(a_moment_along_a_path_is_drawn_in_its_pose_with_its_deflection) {
+  for (const Json& analysis :
+       {Json{{"elastodynamics", {{"step_s", 0.001}, {"initial_state", "quasi-static"}}}},
+        Json{{"statics", Json::object()}}, Json{{"kinematics", Json::object()}}}) {
+    const AnalysisResult result = result_of(on_a_line(analysis));
+    const std::string deflection =
+        analysis.contains("statics") ? "displacement_x_m:P" : "deflection_m:P";
+    for (const Drawing::Pose& moment : moments(result, 6)) {
+      BOOST_TEST(moment.nodes.at(kP).x() == 0.25 + 0.1 * moment.time, tolerance(1e-12));
+      BOOST_TEST(moment.label == moment_label(moment.time));
+      if (analysis.contains("kinematics")) continue;
+      const Eigen::Vector2d moved = moment.displacement.at(kP);
+      BOOST_TEST((analysis.contains("statics") ? moved.x() : moved.norm()) ==
+                     at(result, deflection, moment),
+                 tolerance(1e-9));
+    }
+    BOOST_TEST(moments(result, 6).back().time == 0.1, tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_moment_of_a_vibration_is_drawn_with_its_displacement) {
+  const AnalysisResult result = result_of(Json::parse(R"({
+    "id": "oscillator", "title": "A mass on a spring",
+    "model": {
+      "nodes": {"P": [0, 0]},
+      "point_masses": {"m": {"node": "P", "mass_kg": 1}},
+      "springs": {"k": {"nodes": ["P"], "stiffness_N_per_m": [100, 0]}},
+      "supports": {"P": ["y"]},
+      "loads": {"F": {"node": "P", "force_N": [1, 0]}}
+    },
+    "analysis": {"transient": {"duration_s": 0.5, "step_s": 0.001, "outputs": ["displacement_x_m:P"]}}
+  })"));
+  for (const Drawing::Pose& moment : moments(result, 48))
+    BOOST_TEST(moment.displacement.at(0).x() == at(result, "displacement_x_m:P", moment),
+               tolerance(1e-9));
+  BOOST_TEST(moments(result, 48).back().time == 0.5);
+}
+
+BOOST_AUTO_TEST_CASE(a_moment_of_a_large_motion_is_drawn_where_it_is) {
+  const AnalysisResult result = result_of(Json::parse(R"({
+    "id": "pendulum", "title": "A pendulum that is turned",
+    "model": {
+      "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}},
+      "sections": {"bar": {"material": "steel", "rectangle": {"thickness_m": 0.1, "width_m": 0.05}}},
+      "nodes": {"O": [0, 0], "A": [0, 1]},
+      "members": {"crank": {"nodes": ["O", "A"], "section": "bar"}},
+      "supports": {"O": ["x", "y"]}
+    },
+    "analysis": {"large-motion": {
+      "end_time_s": 1, "step_s": 0.01, "nodes": ["A"],
+      "drives": {"motor": {"node": "O", "motion": "rotation",
+                           "law": {"rest_to_rest": {"travel": 1, "duration_s": 1}}}}
+    }}
+  })"));
+  for (const Drawing::Pose& moment : moments(result, 40))
+    BOOST_TEST(moment.nodes.at(1).x() == at(result, "position_x_m:A", moment), tolerance(1e-9));
+  BOOST_TEST(moments(result, 40).back().time == 1, tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
