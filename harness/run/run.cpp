@@ -264,7 +264,7 @@ void evaluate_validation_verdicts(const Check& check, Run& run) {
   result.measure = "validation";
   result.reference.clear();
   result.expectation = Expectation::none;
-  result.why = "the verdicts of ASME V&V 20 that were found to follow";
+  result.why = "the case records what the comparison of these values comes to";
   std::vector<std::string> found;
   for (const ComparedEntry& entry : run.uncertainty.entries)
     if (entry.check == check.name) found.push_back(to_string(entry.validation.verdict));

@@ -82,6 +82,7 @@ std::string check_title(const Check& check) {
 }
 
 std::string target_text(const Check& check) {
+  if (check.measure == "validation") return "as recorded";
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
   // A value that was printed with few digits is shown with those; a long one as far as it tells.
   const int own = digits_in(shortest(*check.expected));
@@ -91,6 +92,8 @@ std::string target_text(const Check& check) {
 
 std::string computed_text(const Check& check) {
   if (check.measure == "status") return check.message.substr(0, check.message.find(':'));
+  if (check.measure == "validation" && check.verdict == Verdict::pass) return "the same";
+  if (check.measure == "validation" && check.verdict == Verdict::fail) return "others";
   if (!check.computed) return check.verdict == Verdict::not_run ? "–" : "none";
   const double x = *check.computed;
   if (x == std::round(x) && std::abs(x) < 1e6) return trimmed(x, 7);
@@ -130,6 +133,7 @@ std::string quantity_text(const Check& check) {
   const QuantityLabel quantity = parse_quantity(check.quantity);
   std::string text = to_text(quantity);
   if (check.measure == "status") return "how the run ends";
+  if (check.measure == "validation") return "verdicts of ASME V&V 20 on " + text;
   if (check.measure == "order") return "order of convergence of " + text;
   if (check.measure == "leading-term")
     return "error of " + text + " over the leading term of theory";

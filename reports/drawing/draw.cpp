@@ -48,10 +48,10 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
       << "set tics nomirror out scale 0.5 textcolor rgb '" << palette::kMuted << "'\n"
       << "set grid" << lc(palette::kGrid) << " lw 1 lt 1," << lc(palette::kGrid) << " lw 1 lt 1\n"
       << "set xtics offset 0,0.35\nset ytics offset 0.3,0\n"
-      << "set xlabel offset 0,0.7 textcolor rgb '" << palette::kInk << "'\n"
+      << "set xlabel offset 0,0.8 textcolor rgb '" << palette::kInk << "'\n"
       << "set ylabel offset 0.6,0 textcolor rgb '" << palette::kInk << "'\n"
-      << "set key outside below center horizontal Left reverse samplen 1.6 spacing 1.15 textcolor "
-         "rgb '"
+      << "set key outside below center horizontal Left reverse samplen 1.6 spacing 1.15 height 0.5 "
+         "textcolor rgb '"
       << palette::kInk << "'\n"
       << "set style fill solid 1 noborder\n";
   return out.str();

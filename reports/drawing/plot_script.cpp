@@ -121,7 +121,7 @@ int PlotScript::key_below(const std::vector<std::string>& titles) {
     longest = std::max(longest, std::min(characters(title), kMaxKeyCharacters));
   const std::size_t columns = std::clamp<std::size_t>(56 / (longest + 7), 1, 4);
   command("set key maxcols " + std::to_string(columns));
-  return 22 * static_cast<int>((titles.size() + columns - 1) / columns);
+  return 8 + 22 * static_cast<int>((titles.size() + columns - 1) / columns);
 }
 
 void PlotScript::range(const std::string& axis, double low, double high) {

@@ -198,9 +198,13 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Discrepancy
   script.axis_label("x", unit.empty() ? what : what + " (" + unit + ")");
   for (std::size_t i = 0; i < subject.rows.size(); ++i)
     draw_row(script, subject.rows[i], i, factor, span);
-  const double bottom = -static_cast<double>(subject.rows.size());
-  script.curve({{factor * origin, bottom}, {factor * origin, 0}},
-               "with lines lw 1.5" + lc(palette::kInk), percent ? "agreement" : "");
+  PlotScript::Rows agreement;  // below the labels of the rows, which it would strike through
+  for (std::size_t i = 0; i < subject.rows.size(); ++i) {
+    const double top = -static_cast<double>(i);
+    agreement.insert(agreement.end(),
+                     {{factor * origin, top - 1}, {factor * origin, top - 0.5}, {}});
+  }
+  script.curve(agreement, "with lines lw 1.5" + lc(palette::kInk), percent ? "agreement" : "");
   script.plot();
 
   const Reference* reference = results.reference(first.reference);

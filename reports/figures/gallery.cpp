@@ -74,7 +74,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     gallery.problems.push_back("The page draws the shapes of the first " +
                                std::to_string(kMaxDrawnVariants) + " variants; those of " +
                                std::to_string(variants - kMaxDrawnVariants) +
-                               " more stand in results.json.");
+                               " more stand in the store of runs.");
   std::size_t motions = 0;
   for (const Run* run : runs)
     if (auto motion = motion_figure(info, *run); motion && ++motions == 1)
@@ -82,7 +82,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   if (motions > 1)
     gallery.problems.push_back("The page moves the first variant; the motions of " +
                                std::to_string(motions - 1) +
-                               " more are written by 'run --vtk', and stand in the store.");
+                               " more are written by 'run --vtk', and stand in the store of runs.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     const auto draw = request.value.empty() ? curves_figure : map_figure;

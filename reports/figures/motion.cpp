@@ -47,16 +47,12 @@ double magnification(double deflection, double side) {
   return std::max(1.0, std::floor(factor / unit) * unit);
 }
 
-std::string metres(double length) {
-  return length < 0.01 ? trimmed(1000 * length, 3) + "\u202fmm" : trimmed(length, 3) + "\u202fm";
-}
-
 std::string caption_of(const std::vector<Pose>& moments, const Largest& deflection, double factor,
                        const std::string& drawn) {
   const std::string end = trimmed(*moments.back().time_s, 4) + "\u202fs";
   std::string text;
   if (deflection.length > 0) {
-    text = "The largest deflection is " + metres(deflection.length) + ", at " +
+    text = "The largest deflection is " + length_text(deflection.length) + ", at " +
            trimmed(deflection.time, 3) + "\u202fs; deflections are drawn " +
            (factor > 1 ? trimmed(factor, 2) + " times (blue), from where rigid links are (grey)"
                        : std::string("as they are (blue)")) +
@@ -69,14 +65,14 @@ std::string caption_of(const std::vector<Pose>& moments, const Largest& deflecti
         moved[i].first -= first[i].first, moved[i].second -= first[i].second;
       return moved;
     });
-    text = "Places as they are; no point is farther than " + metres(way.length) +
+    text = "Places as they are; no point is farther than " + length_text(way.length) +
            " from where it begins, at " + trimmed(way.time, 3) + "\u202fs.";
   }
   return text + " Laid over each other: " + drawn + "; moving: " + std::to_string(moments.size()) +
          " moments up to " + end + ", straight between them.";
 }
 
-/// Thin lines of the moments, a thick one of the last.
+/// Outlines of the mechanism at a moment.
 void draw_moment(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
                  const std::string& color, double width) {
   const std::string style = "with lines lw " + shortest(width) + lc(color);

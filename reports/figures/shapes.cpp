@@ -51,6 +51,52 @@ bool is_drawn_whole(const Drawing& drawing, std::size_t shapes) {
   return whole;
 }
 
+/// "1 mode moves freely. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal. "
+std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
+  if (!is_mode(drawing.shapes.front())) {
+    const std::string label = drawing.shapes.front().label;
+    return "The lowest mode has " + label.substr(label.find(", ") + 2) + ". ";
+  }
+  const auto* frequency = run.quantity("frequency_Hz");
+  std::vector<double> values;
+  for (std::size_t s = 0; frequency && s < std::min(n, frequency->size()); ++s)
+    values.push_back((*frequency)[s].value_or(0));
+  if (values.size() < n) return "";
+  std::size_t free = 0;
+  while (free < n && values[free] <= 1e-4 * values.back()) ++free;
+  const auto hertz = [](double value) { return trimmed(value, 4) + "\u202fHz"; };
+  std::string text;
+  if (free > 0) text = count(free, "mode") + (free == 1 ? " moves" : " move") + " freely. ";
+  if (free == n) return text;
+  if (free + 1 == n)
+    return text + "Mode " + std::to_string(n) + " has " + hertz(values.back()) + ". ";
+  const auto gap = [&](std::size_t s) { return 1 - values[s] / values[s + 1]; };
+  std::size_t nearest = free;
+  std::string equal;
+  for (std::size_t s = free; s + 1 < n; ++s) {
+    const std::string pair = std::to_string(s + 1) + " and " + std::to_string(s + 2);
+    if (gap(s) < 1e-9) equal += (equal.empty() ? "" : ", ") + pair;
+    if (gap(s) < gap(nearest)) nearest = s;
+  }
+  text += "Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
+          hertz(values[free]) + " to " + hertz(values.back()) + "; ";
+  if (!equal.empty()) return text + equal + " are equal. ";
+  return text + std::to_string(nearest + 1) + " and " + std::to_string(nearest + 2) +
+         " are nearest to each other, " + relative(gap(nearest), 2, false) + " apart. ";
+}
+
+/// "The largest displacement is 1.2 mm, drawn 83 times. "
+std::string displacements_text(const Drawing& drawing, const std::vector<double>& factors,
+                               double side) {
+  std::size_t largest = 0;
+  for (std::size_t s = 1; s < factors.size(); ++s)  // the least magnified
+    if (factors[s] > 0 && !(factors[largest] > 0 && factors[largest] <= factors[s])) largest = s;
+  if (!(factors[largest] > 0)) return "Nothing is displaced. ";
+  const std::string of = factors.size() > 1 ? " (" + drawing.shapes[largest].label + ")" : "";
+  return "The largest displacement is " + length_text(kDrawnAmplitude * side / factors[largest]) +
+         of + ", drawn " + trimmed(factors[largest], 2) + " times. ";
+}
+
 }  // namespace
 
 std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
@@ -95,6 +141,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   const bool modes = drawing.shapes.front().label.rfind("mode", 0) == 0;
   figure.title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run);
   figure.caption =
+      (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)) +
       "Grey: at rest; blue: displaced. Each shape is scaled so that its largest "
       "displacement is " +
       trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side.";

@@ -52,8 +52,9 @@ Data changes_of(const History& history) {
 
 Data history_section(const Results& results, const std::optional<Figure>& figure) {
   Data section = object();
-  set_flag(section, "has_rows", results.history && figure);
-  if (!results.history || !figure) return section;
+  const bool any = results.history && !results.history->calls.empty();
+  set_flag(section, "has_rows", any);
+  if (!any) return section;
   const History& history = *results.history;
   const std::size_t changes = history.changes.size() + history.work.size();
   std::string words = count(history.calls.size(), "call") + "; ";
@@ -64,7 +65,7 @@ Data history_section(const Results& results, const std::optional<Figure>& figure
                      " changed since call " + std::to_string(history.since) +
                      ", the last green one.";
   section.set("words", words);
-  section.set("figure", figure_data(*figure));
+  section.set("figure", figure ? figure_data(*figure) : Data(Data::type::bool_false));
   section.set("calls", calls_of(history));
   section.set("changes", changes_of(history));
   set_flag(section, "has_changes", changes > 0);

@@ -6,7 +6,8 @@
 
 namespace trammel::reports {
 
-/// A template filled in, without the control characters that HTML cannot hold.
+/// A template filled in, without the control characters that HTML cannot hold; numbers as 1e-6 in
+/// its text are 10⁻⁶.
 /// @throws std::logic_error  where the template is broken.
 [[nodiscard]] std::string render(const std::string& template_name, const Data& data);
 

@@ -65,7 +65,7 @@ fs::path write_report(const Results& results, const fs::path& out, bool single_f
     std::vector<std::vector<Figure*>> pages = figures_by_page(families);
     pages.push_back(panels.figures());
     std::optional<Figure> over_time;
-    if (results.history && !results.history->calls.empty())
+    if (results.history && results.history->calls.size() > 1)
       pages.back().push_back(&over_time.emplace(history_figure(*results.history)));
     number_figures(pages);
     std::vector<Figure*> figures;

@@ -33,7 +33,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMaxSingleBytes = 6'000'000;  ///< what a mail may carry
+constexpr std::size_t kMaxSingleBytes = 5'800'000;  ///< a mail may carry 6 MB
 constexpr const char *kMark = "<!--drawing ", *kBody = "<!--body-->", *kLeftOut = "<!--left out-->";
 
 /// A section of the index: key of its data, anchor, title, and the key of its summary.

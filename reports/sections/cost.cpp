@@ -95,7 +95,11 @@ Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
   const CostSetting& setting = study.settings[*cheapest.setting];
   const Number error_of = study.error(setting);
   std::string settings = setting.title;
-  for (const std::size_t tied : cheapest.tied) settings += " or " + study.settings[tied].title;
+  const std::size_t named = std::min<std::size_t>(cheapest.tied.size(), 2);
+  for (std::size_t i = 0; i < named; ++i)
+    settings += " or " + study.settings[cheapest.tied[i]].title;
+  if (cheapest.tied.size() > named)
+    settings += " or one of " + std::to_string(cheapest.tied.size() - named) + " more";
   row.set("setting", settings);
   row.set("error", error_of ? relative(*error_of, 2, false) : "–");
   row.set("times", times(setting.relative));

@@ -9,6 +9,7 @@ function unfold() {
   if (folded) target.scrollIntoView();
 }
 addEventListener("hashchange", unfold);
+addEventListener("beforeprint", () => document.querySelectorAll("#cost > details").forEach(e => e.open = true));
 unfold();
 const contents = document.querySelector(".contents details");
 if (contents && matchMedia("(max-width: 70rem)").matches) contents.open = false;
@@ -188,7 +189,8 @@ if (find) {
       const all = tidy([id, name, variant, title, quantity].join(" "));
       return words.every(word => all.includes(word));
     });
-    if (asked.get("order") === "worst") hit.sort((a, b) => statuses[b[5]][3] - statuses[a[5]][3] || (b[6] ?? 1e99) - (a[6] ?? 1e99));
+    const share = row => row[6] ?? (statuses[row[5]][1] === "passes" ? -1 : 1e99);  // none: by status alone
+    if (asked.get("order") === "worst") hit.sort((a, b) => statuses[b[5]][3] - statuses[a[5]][3] || share(b) - share(a));
     status.textContent = `${hit.length} of ${rows.length} checks` + (hit.length > most ? `, the first ${most}` : "");
     body.replaceChildren();
     for (const [c, variant, title, quantity, role, state, share, anchor] of hit.slice(0, most)) {

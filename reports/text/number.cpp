@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -93,6 +94,30 @@ std::string power_of_ten(int exponent) {
   return out;
 }
 
+std::string with_powers(const std::string& text) {
+  const auto is_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  const char* const end = text.data() + text.size();
+  std::string out;
+  for (const char* at = text.data(); at != end;) {
+    const char before = at == text.data() ? ' ' : at[-1];
+    double number = 0;
+    const auto [after, error] = std::from_chars(at, end, number, std::chars_format::scientific);
+    if (std::isdigit(static_cast<unsigned char>(*at)) == 0 || is_word(before) ||
+        error != std::errc() || (after != end && is_word(*after))) {
+      out += *at++;
+      continue;
+    }
+    const char* const e = std::find_if(at, after, [](char c) { return c == 'e' || c == 'E'; });
+    const std::string mantissa(at, e);
+    if (mantissa != "1") out += mantissa + "\u202f×\u202f";
+    out += power_of_ten(std::stoi(std::string(e + 1, after)));
+    at = after;
+  }
+  return out;
+}
+
 std::string count(std::size_t n, const std::string& singular, const std::string& plural) {
   return std::to_string(n) + " " + (n == 1 ? singular : (plural.empty() ? singular + "s" : plural));
 }
@@ -103,6 +128,10 @@ std::string duration(double seconds) {
   if (seconds < 100) return trimmed(seconds, 3) + " s";
   const long total = std::lround(seconds);
   return std::to_string(total / 60) + " min " + std::to_string(total % 60) + " s";
+}
+
+std::string length_text(double metres) {
+  return metres < 0.2 ? trimmed(1000 * metres, 3) + "\u202fmm" : trimmed(metres, 3) + "\u202fm";
 }
 
 std::string or_dash(const std::optional<double>& x, int digits) {

@@ -34,12 +34,18 @@ namespace trammel::reports {
 /// 10⁻⁷.
 [[nodiscard]] std::string power_of_ten(int exponent);
 
+/// A text whose numbers written as 1e-6 and 2.1e-09 are 10⁻⁶ and 2.1 × 10⁻⁹.
+[[nodiscard]] std::string with_powers(const std::string& text);
+
 /// "1 check", "3 checks".
 [[nodiscard]] std::string count(std::size_t n, const std::string& singular,
                                 const std::string& plural = "");
 
 /// Seconds as people say them: 840 µs, 12 ms, 3.4 s, 2 min 5 s.
 [[nodiscard]] std::string duration(double seconds);
+
+/// 8.1 mm, 1.25 m: metres from 0.2 m up, as on axes.
+[[nodiscard]] std::string length_text(double metres);
 
 /// An em dash for what is not there.
 [[nodiscard]] std::string or_dash(const std::optional<double>& x, int digits);

@@ -1,12 +1,15 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "reports/figures/convergence.h"
 #include "reports/figures/curves.h"
 #include "reports/figures/discrepancy.h"
 #include "reports/figures/gallery.h"
+#include "reports/figures/history.h"
 #include "reports/figures/motion.h"
 #include "reports/figures/outline.h"
+#include "reports/figures/shapes.h"
 #include "reports/figures/tolerance.h"
 
 BOOST_AUTO_TEST_SUITE(figures)
@@ -178,24 +181,86 @@ BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
   BOOST_TEST(!motion_figure(beam(), run));
   run.drawing->poses = {{"0 s", {{0, 0}, {1, 0}}, 0.0, {{0, 0}, {0, 0}}},
-                        {"1 s", {{0, 0}, {1, 0}}, 1.0, {{0, 0}, {0, 0.001}}},
+                        {"1 s", {{0, 0}, {0.9, 0.3}}, 1.0, {{0, 0}, {0, 0.0011}}},
                         {"2 s", {{0, 0}, {0.8, 0.6}}, 2.0, {{0, 0}, {0, -0.0005}}}};
   const auto figure = motion_figure(beam(), run);
   BOOST_REQUIRE(figure);
   BOOST_TEST(
-      contains(figure->caption, "is 1\u202fmm, at 1\u202fs; deflections are drawn 130 times"),
+      contains(figure->caption, "is 1.1\u202fmm, at 1\u202fs; deflections are drawn 110 times"),
       figure->caption);
   BOOST_TEST(contains(figure->caption, "3 moments up to 2\u202fs"), figure->caption);
-  BOOST_TEST(contains(figure->moving, R"("times":[0.0,1.0,2.0])"), figure->moving);
-  // y of the free end, downwards: at rest it comes up by 0.6 m; displaced it is 0.13 m up at 1 s.
-  const double unit = 5000 / 1.08;
-  const std::string still = "[0,0," + std::to_string(std::lround(-0.2 * unit)) + "," +
-                            std::to_string(std::lround(-0.6 * unit)) + "]";
-  BOOST_TEST(contains(figure->moving, still), figure->moving);
-  BOOST_TEST(contains(figure->moving, "[0,0,0," + std::to_string(std::lround(-0.13 * unit)) + "]"),
-             figure->moving);
+  const auto moving = nlohmann::json::parse(figure->moving);
+  BOOST_TEST(moving["times"] == nlohmann::json({0.0, 1.0, 2.0}));
+  // What the free end moves by from one moment to the next, y downwards.
+  const auto step = [&](const char* set, std::size_t k, double x, double y) {
+    const double unit = 5000 / 1.08;
+    BOOST_TEST(std::abs(moving[set][k][2].get<double>() - unit * x) <= 1);
+    BOOST_TEST(std::abs(moving[set][k][3].get<double>() + unit * y) <= 1);
+  };
+  step("still", 1, -0.1, 0.3);
+  step("still", 2, -0.1, 0.3);
+  step("moved", 1, -0.1, 0.3 + 0.121);
+  step("moved", 2, -0.1, 0.3 - 0.121 - 0.055);
   run.drawing->poses[1].displacement[1].second = std::nan("");
   BOOST_TEST(contains(motion_figure(beam(), run)->caption, "2 moments"));
+}
+
+BOOST_AUTO_TEST_CASE(a_rigid_motion_says_how_far_it_goes_and_lays_few_moments_over_each_other) {
+  Run run = run_with({});
+  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
+  for (int k = 0; k <= 20; ++k)
+    run.drawing->poses.push_back(
+        {"", {{0, 0}, {std::cos(0.1 * k), std::sin(0.1 * k)}}, 0.5 * k, {}});
+  run.drawing->poses.push_back(run.drawing->poses.back());  // a moment that is there twice
+  const auto figure = motion_figure(beam(), run);
+  BOOST_REQUIRE(figure);
+  BOOST_TEST(contains(figure->caption,
+                      "no point is farther than 1.68\u202fm from where it begins, at "
+                      "10\u202fs. Laid over each other: 0, 2.5, 5, 7.5, 10\u202fs"),
+             figure->caption);
+  BOOST_TEST(contains(figure->caption, "21 moments up to 10\u202fs"), figure->caption);
+  BOOST_TEST(figure->data.rows.size() == 42U);
+  BOOST_TEST(!contains(figure->moving, "still"));
+}
+
+BOOST_AUTO_TEST_CASE(shapes_say_how_far_apart_modes_are_and_how_much_is_displaced) {
+  Run run = run_with({});
+  run.quantities = {{"frequency_Hz", {0.0, 10.0, 19.6, 20.0}}};
+  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
+  for (const char* label : {"mode 1, 0 Hz", "mode 2, 10 Hz", "mode 3, 19.6 Hz", "mode 4, 20 Hz"})
+    run.drawing->shapes.push_back({label, {{0, 0}, {0, 1}}});
+  BOOST_TEST(
+      contains(shapes_figure(beam(), run)->caption,
+               "1 mode moves freely. Modes 2 to 4 have 10\u202fHz to 20\u202fHz; 3 and 4 are "
+               "nearest to each other, 2\u202f% apart."),
+      shapes_figure(beam(), run)->caption);
+  run.drawing->shapes = {{"in phase", {{0, 0}, {0, 0}}}, {"behind", {{0, 0}, {0, -0.001}}}};
+  BOOST_TEST(contains(shapes_figure(beam(), run)->caption,
+                      "largest displacement is 1\u202fmm (behind), drawn 130 times."),
+             shapes_figure(beam(), run)->caption);
+}
+
+BOOST_AUTO_TEST_CASE(a_history_concludes_with_work_since_the_first_call_and_time_on_one_machine) {
+  History history;
+  const auto call = [&](const char* machine, double cpu_s, std::size_t work, std::size_t failures) {
+    const auto number = static_cast<std::int64_t>(history.calls.size() + 1);
+    history.calls.push_back({number, "2026-11-23", "c", machine, 1, 2, failures, work, cpu_s});
+  };
+  call("another", 900, 10, 0);
+  call("this", 100, 12, 0);
+  call("this", 0, 15, 1);  // some of it came from the store
+  call("this", 150, 20, 0);
+  const Figure figure = history_figure(history);
+  BOOST_TEST(contains(figure.caption,
+                      "Counted work is 2 times the first call's, processor time 1.5 times. "),
+             figure.caption);
+  BOOST_TEST(contains(figure.commands, "EOD\n1 1\n2 1.2\n3 1.5\n4 2\nEOD"), figure.commands);
+  BOOST_TEST(contains(figure.commands, "EOD\n2 1\n4 1.5\nEOD"), figure.commands);
+  BOOST_TEST(contains(figure.commands, "EOD\n3 1.5\nEOD"), figure.commands);
+  BOOST_TEST(figure.data.rows.size() == 4U);
+  history.calls.resize(1);
+  BOOST_TEST(
+      contains(history_figure(history).caption, "Counted work is 1 times the first call's. "));
 }
 
 BOOST_AUTO_TEST_CASE(a_straight_limb_is_two_points_and_a_bent_one_keeps_its_corner) {

@@ -82,6 +82,18 @@ BOOST_AUTO_TEST_CASE(a_curve_of_631_points_has_631_rows_of_data_with_units_in_th
   BOOST_TEST(occurrences(data, "\n") == 632U);
 }
 
+BOOST_AUTO_TEST_CASE(powers_of_ten_are_written_as_such_but_not_in_code) {
+  const Workspace workspace;
+  auto results = sample_results();
+  results["cases"]["cantilever"]["description"] = "below 1e-6 of all";
+  results["cases"]["cantilever"]["title"] = "Beam of 2.5e3";
+  write_report_of(workspace.results(results), workspace.path() / "out");
+  const std::string text = text_of(workspace.path() / "out/cases/cantilever.html");
+  BOOST_TEST(text.find("below 10⁻⁶ of all") != std::string::npos);
+  BOOST_TEST(text.find("Beam of 2.5\u202f×\u202f10³") != std::string::npos);
+  BOOST_TEST(text.find("Checks of Beam of 2.5e3") != std::string::npos);  // an attribute
+}
+
 BOOST_AUTO_TEST_CASE(page_and_drawings_are_balanced_and_escaped) {
   for (const auto& [path, text] : pages_of(sample_report()))
     BOOST_TEST(markup_fault(text, true) == "", path);

@@ -57,4 +57,11 @@ BOOST_AUTO_TEST_CASE(durations_are_said_as_people_do) {
   BOOST_TEST(duration(125) == "2 min 5 s");
 }
 
+BOOST_AUTO_TEST_CASE(numbers_within_a_text_get_powers_and_what_is_no_number_does_not) {
+  BOOST_TEST(with_powers("1e-6 takes 'fine'") == "10⁻⁶ takes 'fine'");
+  BOOST_TEST(with_powers("off by 2.1e-09.") == "off by 2.1\u202f×\u202f10⁻⁹.");
+  for (const char* same : {"", "0.01 % of 3", "information", "v1e6", "3e5a", "1.e", "x_1e-6"})
+    BOOST_TEST(with_powers(same) == same);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
