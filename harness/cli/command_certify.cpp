@@ -63,11 +63,11 @@ void print(const Certification& certificate) {
     tight.print(std::cout, "  ");
   }
   if (certificate.flips.empty()) {
-    std::cout << "\nNo verdict differs.\n";
+    std::cout << "\nNo verdict differs, and none is missing.\n";
     return;
   }
-  std::cout << "\nVerdicts that differ\n";
-  Table flips({"check", "verdict", "is", "configuration"});
+  std::cout << "\nVerdicts and runs that differ or are missing\n";
+  Table flips({"check or run", "verdict", "is", "configuration"});
   for (const VerdictFlip& flip : certificate.flips)
     flips.add({flip.check, flip.from, flip.to, flip.configuration});
   flips.print(std::cout, "  ");

@@ -17,13 +17,15 @@ struct Configuration {
 
 struct ConfigurationRow {
   std::string name;
-  std::size_t checks = 0, missing = 0;            ///< judged in both; judged in the first alone
+  std::size_t checks = 0, missing = 0;            ///< judged in both; judged in one alone
   double fewest_digits = 16, median_digits = 16;  ///< of a judged number that agree with the first
   std::string least_certain;                      ///< where they are fewest
 };
 
+/// A verdict of a check "case:variant name[index]", or the status of a run "case:variant", that is
+/// not that of the first configuration, or missing; and a status without an answer in any of them.
 struct VerdictFlip {
-  std::string configuration, check, from, to;  ///< check: "case:variant name[index]"
+  std::string configuration, check, from, to;
 };
 
 /// A tolerance less than ten times what the configurations make of the difference.

@@ -1,5 +1,6 @@
 #include "solver/linalg/forward_error.h"
 
+#include <cfenv>
 #include <cmath>
 
 namespace trammel::solver {
@@ -33,7 +34,7 @@ double forward_error(const StiffnessFactors& factors, const SparseMatrix& R, con
   const VectorXd& C = factors.C;
   const SparseMatrix ones = size.unaryExpr([](double v) { return v > 0 ? 1.0 : 0.0; });
   const Index m = A.rows(), n = A.cols();
-  const double u = kEps / 2;
+  const double u = std::fegetround() == FE_TONEAREST ? kEps / 2 : kEps;
   const VectorXd in_row = ((ones * VectorXd::Ones(n)).array() + 1).sqrt();
   const VectorXd in_column = ((ones.transpose() * VectorXd::Ones(m)).array() + 1).sqrt();
   const VectorXd g = u * in_row.cwiseProduct(size * q.cwiseAbs());

@@ -16,11 +16,12 @@ namespace trammel::solver {
 /// Estimate of max |R dq| / max |R q| for q with A^T C A q = f, where dq is what rounding of the
 /// rows of A, of their products with q and of f can do:
 ///   dq = K^-1 (A^T C g + h),  |g| <= c size |q|,  |h| <= c (size^T |C A q| + |f|),
-/// c = (n + 1)^1/2 u with n terms in a row or column, u = eps / 2: roundings are taken as
-/// independent within a sum, and all signs at their worst beyond it. Perturbing the factors of K,
-/// and not K itself, keeps what is lost beside a singularity to the condition number of A.
-/// Source: Oettli & Prager (1964), Skeel (1979); Bjorck (1991), BIT 31, for least squares; the
-/// maximum over the signs as in LAPACK's xPORFS; c from Higham & Mary (2019), SIAM J. Sci. Comput.
+/// c = (n + 1)^1/2 u with n terms in a row or column, u = eps / 2, or eps while arithmetic rounds
+/// in one direction: roundings are taken as independent within a sum, and all signs at their worst
+/// beyond it. Perturbing the factors of K, and not K itself, keeps what is lost beside a
+/// singularity to the condition number of A. Source: Oettli & Prager (1964), Skeel (1979); Bjorck
+/// (1991), BIT 31, for least squares; the maximum over the signs as in LAPACK's xPORFS; c from
+/// Higham & Mary (2019), SIAM J. Sci. Comput.
 /// @param R  what is wanted of q, in units that compare
 /// @param solve  x -> K^-1 x
 [[nodiscard]] double forward_error(const StiffnessFactors& factors, const SparseMatrix& R,

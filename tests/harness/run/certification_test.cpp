@@ -16,6 +16,7 @@ Configuration configuration(const std::string& name, double first, double second
   results::Run run;
   run.case_id = "beam";
   run.variant = "base";
+  run.status = results::Status::solved;
   for (const double computed : {first, second}) {
     results::Check check;
     check.name = "tip";
@@ -29,6 +30,13 @@ Configuration configuration(const std::string& name, double first, double second
   Configuration made{name, {}};
   made.results.runs.push_back(run);
   return made;
+}
+
+std::string told(const Certification& certificate) {
+  std::string text;
+  for (const VerdictFlip& flip : certificate.flips)
+    text += flip.configuration + " " + flip.check + " " + flip.from + " " + flip.to + "; ";
+  return text;
 }
 
 }  // namespace
@@ -60,10 +68,34 @@ BOOST_AUTO_TEST_CASE(a_verdict_that_differs_and_a_check_that_is_not_there_are_to
   short_one.results.runs[0].checks.pop_back();
   const Certification found = certify({configuration("here", 2, 2), short_one});
   BOOST_TEST(found.rows[0].missing == 1U);
-  BOOST_TEST_REQUIRE(found.flips.size() == 1U);
-  BOOST_TEST(found.flips[0].from == "pass");
-  BOOST_TEST(found.flips[0].to == "fail");
-  BOOST_TEST(found.flips[0].configuration == "short");
+  BOOST_TEST(told(found) ==
+             "short beam:base tip[0] pass fail; short beam:base tip[1] pass missing; ");
+  const Certification more = certify({short_one, configuration("whole", 2, 2)});
+  BOOST_TEST(told(more) ==
+             "whole beam:base tip[0] fail pass; whole beam:base tip[1] missing pass; ");
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_ends_otherwise_or_is_not_there_is_told) {
+  for (const auto status : {results::Status::not_converged, results::Status::error}) {
+    Configuration other = configuration("other", 2, 2);
+    other.results.runs[0].status = status;
+    other.results.runs[0].checks.clear();
+    const Certification found = certify({configuration("here", 2, 2), other});
+    BOOST_TEST(found.rows[0].missing == 2U);
+    BOOST_TEST(told(found) == "other beam:base solved " + to_string(status) + "; ");
+  }
+  const Certification none = certify({configuration("here", 2, 2), {"none", {}}});
+  BOOST_TEST(told(none) == "none beam:base solved missing; ");
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_no_configuration_brings_to_an_end_is_told_of_each) {
+  Configuration here = configuration("here", 2, 2), there = configuration("there", 2, 2);
+  for (Configuration* one : {&here, &there}) one->results.runs[0].status = results::Status::error;
+  BOOST_TEST(told(certify({here, there})) ==
+             "here beam:base error error; there beam:base error error; ");
+  for (Configuration* one : {&here, &there})
+    one->results.runs[0].status = results::Status::singular;
+  BOOST_TEST(told(certify({here, there})).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,4 +1,5 @@
 #include <boost/test/unit_test.hpp>
+#include <cfenv>
 #include <cmath>
 #include <random>
 
@@ -63,6 +64,22 @@ BOOST_AUTO_TEST_CASE(a_stiff_part_costs_no_digits) {
     R.setIdentity();
     BOOST_TEST(q[1] == 1 + 1 / stiff, boost::test_tools::tolerance(1e-15));
     BOOST_TEST(forward_error(K, R, q, f, solve) < 20 * kEps);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(where_arithmetic_rounds_in_one_direction_the_bound_is_twice_as_wide) {
+  const StiffnessFactors K = factors(MatrixXd{{1, 0}, {-1, 1}});
+  const VectorXd q = Eigen::Vector2d(1, 2), f = Eigen::Vector2d(0, 1);
+  const AugmentedSystem augmented(K);
+  const Operator solve = [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; };
+  SparseMatrix R(2, 2);
+  R.setIdentity();
+  const double nearest = forward_error(K, R, q, f, solve);
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    const double directed = forward_error(K, R, q, f, solve);
+    std::fesetround(FE_TONEAREST);
+    BOOST_TEST(directed == 2 * nearest, boost::test_tools::tolerance(1e-14));
   }
 }
 
