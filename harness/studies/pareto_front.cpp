@@ -115,9 +115,9 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   }
   std::string text = "Within 1 %, " + title(*first);
   const std::vector<std::size_t> tied = tied_settings(points, 0.01);
-  for (std::size_t i = 0; i < std::min<std::size_t>(tied.size(), 2); ++i)
-    text += " or '" + titles[tied[i]] + "'";
-  if (tied.size() > 2) text += " or one of " + std::to_string(tied.size() - 2) + " more";
+  const std::size_t named = tied.size() <= 3 ? tied.size() : 2;
+  for (std::size_t i = 0; i < named; ++i) text += " or '" + titles[tied[i]] + "'";
+  if (tied.size() > named) text += " or one of " + std::to_string(tied.size() - named) + " more";
   text += tied.empty() ? " is cheapest" : " is cheapest (times that cannot be told apart)";
   if (std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance)) {
     if (first->setting != baseline) text += ", as quick as '" + titles[baseline] + "'";

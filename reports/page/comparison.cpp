@@ -11,6 +11,7 @@
 #include "reports/text/files.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
+#include "reports/text/quantity.h"
 #include "reports/text/templates.h"
 
 namespace trammel::reports {
@@ -160,7 +161,9 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   for (const ComparedNumber& number : run.numbers) {
     if (!number.changed || number.entries < 7 || !drawn.insert(number.quantity).second) continue;
     PlotRequest request;
-    request.id = request.title = number.quantity;
+    request.id = number.quantity;
+    request.title = to_text(parse_quantity(number.quantity));
+    if (request.title[0] >= 'a' && request.title[0] <= 'z') request.title[0] -= 'a' - 'A';
     request.y = {number.quantity};
     if (time && time->size() == number.entries) request.x = "time_s";
     requests.push_back(std::move(request));
@@ -217,7 +220,10 @@ void write_comparison(const SideComparison& comparison, const fs::path& file) {
     const ComparedRun& run = comparison.runs[i];
     if (!run.changed && figures[i].empty()) continue;
     Data entry = object(), tables = list(), drawings = list();
-    entry.set("name", run.info.title.empty() ? run.name : run.info.title + " (" + run.name + ")");
+    const bool variants = run.name == comparison.sides.front().label;
+    entry.set("name", run.info.title.empty() ? run.name
+                      : variants             ? run.info.title
+                                             : run.info.title + " (" + run.name + ")");
     entry.set("remarks", texts(run.remarks));
     for (const PlainTable& table : {modes_table(run, comparison), numbers_table(run, comparison)})
       if (!table.rows.empty()) tables.push_back(table_data(table));

@@ -95,7 +95,7 @@ Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
   const CostSetting& setting = study.settings[*cheapest.setting];
   const Number error_of = study.error(setting);
   std::string settings = setting.title;
-  const std::size_t named = std::min<std::size_t>(cheapest.tied.size(), 2);
+  const std::size_t named = cheapest.tied.size() <= 3 ? cheapest.tied.size() : 2;
   for (std::size_t i = 0; i < named; ++i)
     settings += " or " + study.settings[cheapest.tied[i]].title;
   if (cheapest.tied.size() > named)
