@@ -30,7 +30,7 @@ void print_group(const std::vector<CoverageRow>& rows, const std::string& group,
   }
   if (!table.empty()) table.print(std::cout);
   std::cout << group << ": " << verified << " of " << all << " with independent evidence, "
-            << stated << " without for a recorded reason (" << open << " of them open), "
+            << stated << " without, for a recorded reason (" << open << " of them open), "
             << all - verified - stated << " without\n\n";
 }
 

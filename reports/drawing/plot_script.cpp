@@ -33,8 +33,9 @@ bool starts_character(char c) {
 }
 
 std::string titled(const std::string& title) {
-  return title.empty() ? " notitle"
-                       : " title " + gnuplot_string(shortened(title, kMaxKeyCharacters));
+  return title.empty()
+             ? " notitle"
+             : " title " + gnuplot_string(shortened(with_powers(title), kMaxKeyCharacters));
 }
 
 }  // namespace
@@ -105,7 +106,7 @@ void PlotScript::key_entry(const std::string& style, const std::string& title) {
 }
 
 void PlotScript::label(const std::string& text, const std::string& place) {
-  command("set label " + gnuplot_string(text) + " at " + place);
+  command("set label " + gnuplot_string(with_powers(text)) + " at " + place);
 }
 
 void PlotScript::plot() {

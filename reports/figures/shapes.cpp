@@ -55,7 +55,7 @@ bool is_drawn_whole(const Drawing& drawing, std::size_t shapes) {
 std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   if (!is_mode(drawing.shapes.front())) {
     const std::string label = drawing.shapes.front().label;
-    return "The lowest mode has " + label.substr(label.find(", ") + 2) + ". ";
+    return "The lowest mode buckles at " + label.substr(label.find(", ") + 2) + ". ";
   }
   const auto* frequency = run.quantity("frequency_Hz");
   std::vector<double> values;

@@ -47,7 +47,7 @@ Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
   data.set("rows", all);
   data.set("count", std::to_string(verified) + " of " + std::to_string(count_all) +
                         " with independent evidence, " + std::to_string(stated) +
-                        " without for a recorded reason");
+                        " without, for a recorded reason");
   return data;
 }
 

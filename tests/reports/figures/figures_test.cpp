@@ -234,6 +234,11 @@ BOOST_AUTO_TEST_CASE(shapes_say_how_far_apart_modes_are_and_how_much_is_displace
                "1 mode moves freely. Modes 2 to 4 have 10\u202fHz to 20\u202fHz; 3 and 4 are "
                "nearest to each other, 2\u202f% apart."),
       shapes_figure(beam(), run)->caption);
+  run.drawing->shapes.resize(1);
+  run.drawing->shapes[0].label = "mode 1, 1.4e+04 times the loads";
+  const auto buckled = shapes_figure(beam(), run);
+  BOOST_TEST(contains(buckled->caption, "The lowest mode buckles at 1.4e+04 times the loads."));
+  BOOST_TEST(contains(buckled->commands, "mode 1, 1.4\u202f×\u202f10⁴ times the loads"));
   run.drawing->shapes = {{"in phase", {{0, 0}, {0, 0}}}, {"behind", {{0, 0}, {0, -0.001}}}};
   BOOST_TEST(contains(shapes_figure(beam(), run)->caption,
                       "largest displacement is 1\u202fmm (behind), drawn 130 times."),
