@@ -85,7 +85,8 @@ std::vector<double> sample_times(const JsonView& transient) {
       "samples", static_cast<std::size_t>(std::clamp(steps, 1.0, most_samples)));
   std::vector<double> times;
   for (std::size_t i = 0; i <= count; ++i) {
-    times.push_back(duration * static_cast<double>(i) / static_cast<double>(count));
+    times.push_back(
+        std::min(duration, duration * static_cast<double>(i) / static_cast<double>(count)));
   }
   return times;
 }

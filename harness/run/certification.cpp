@@ -51,6 +51,11 @@ bool has_answer(results::Status status) {
   return status == Status::solved || status == Status::singular || status == Status::not_converged;
 }
 
+std::string ending(const results::Run& run) {
+  const std::string status = to_string(run.status);
+  return has_answer(run.status) || run.reason.empty() ? status : status + ": " + run.reason;
+}
+
 double agreeing_digits(double a, double b) {
   if (a == b) return kAllDigits;
   const double apart = std::abs(a - b) / std::max(std::abs(a), std::abs(b));
@@ -73,7 +78,7 @@ class Beside {
     const results::Run& own = found == runs_.end() ? none : *found->second;
     const bool same = found != runs_.end() && own.status == first.status;
     if (!same || !has_answer(own.status))
-      flip(name, to_string(first.status), &own == &none ? kMissing : to_string(own.status));
+      flip(name, ending(first), &own == &none ? kMissing : ending(own));
     const ChecksByName before = checks_of(first), after = checks_of(own);
     for (const auto& [check_name, check] : before) {
       const auto at = after.find(check_name);
@@ -87,6 +92,7 @@ class Beside {
       if (before.count(check_name) == 0)
         note_missing(same, check_name, kMissing, to_string(check->verdict));
   }
+
   void end() {
     if (!digits_.empty()) {
       const auto middle = digits_.begin() + static_cast<std::ptrdiff_t>(digits_.size() / 2);
@@ -152,9 +158,8 @@ Certification certify(const std::vector<Configuration>& configurations) {
   if (configurations.empty()) return result;
   const RunsByName first = runs_of(configurations.front().results);
   for (const auto& [name, run] : first) {
-    const std::string status = to_string(run->status);
     if (!has_answer(run->status))
-      result.flips.push_back({configurations.front().name, name, status, status});
+      result.flips.push_back({configurations.front().name, name, ending(*run), ending(*run)});
   }
   for (std::size_t i = 1; i < configurations.size(); ++i) {
     Beside beside(configurations[i], result);

@@ -23,7 +23,8 @@ struct ConfigurationRow {
 };
 
 /// A verdict of a check "case:variant name[index]", or the status of a run "case:variant", that is
-/// not that of the first configuration, or missing; and a status without an answer in any of them.
+/// not that of the first configuration, or missing; and a status without an answer in any of them,
+/// with its reason.
 struct VerdictFlip {
   std::string configuration, check, from, to;
 };

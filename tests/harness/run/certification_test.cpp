@@ -84,6 +84,11 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_otherwise_or_is_not_there_is_told) {
     BOOST_TEST(found.rows[0].missing == 2U);
     BOOST_TEST(told(found) == "other beam:base solved " + to_string(status) + "; ");
   }
+  Configuration late = configuration("late", 2, 2);
+  late.results.runs[0].status = results::Status::error;
+  late.results.runs[0].reason = "took more than 5 s";
+  BOOST_TEST(told(certify({configuration("here", 2, 2), late})) ==
+             "late beam:base solved error: took more than 5 s; ");
   const Certification none = certify({configuration("here", 2, 2), {"none", {}}});
   BOOST_TEST(told(none) == "none beam:base solved missing; ");
 }
