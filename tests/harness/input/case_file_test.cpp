@@ -67,6 +67,7 @@ BOOST_AUTO_TEST_CASE(a_case_extends_another_and_keeps_its_own_judgement) {
   BOOST_TEST(given.title() == "Longer");
   BOOST_TEST(given.labels().empty());
   BOOST_TEST(!given.document.value().contains("checks"));
+  BOOST_TEST(!given.document.value()["variants"]["v"].contains("checks"));
   BOOST_TEST((given.variants() == std::vector<std::string>{"base", "v"}));
   BOOST_TEST(patched(given, "v").value()["model"]["elements"] == 2);
 }

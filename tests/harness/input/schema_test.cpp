@@ -80,6 +80,12 @@ BOOST_AUTO_TEST_CASE(a_value_outside_of_its_range_is_answered_with_the_range) {
              "/model/pose/x_m: expected a number (got \"far\")");
 }
 
+BOOST_AUTO_TEST_CASE(what_stands_twice_in_a_list_of_names_is_refused) {
+  BOOST_TEST(fault(testing::cantilever(), "/model/supports/A", {"x", "y"}).empty());
+  BOOST_TEST(contains(fault(testing::cantilever(), "/model/supports/A", {"x", "x"}),
+                      "/model/supports/A: expected"));
+}
+
 BOOST_AUTO_TEST_CASE(alternatives_are_all_named) {
   BOOST_TEST(robot_fault("/model/manipulator/links/mass_kg", true) ==
              "/model/manipulator/links/mass_kg: expected a number above 0 or 'from-density' "

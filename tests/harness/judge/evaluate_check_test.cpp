@@ -132,6 +132,23 @@ BOOST_AUTO_TEST_CASE(a_number_that_is_not_finite_is_an_error) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(what_is_no_number_is_named_computed_expected_or_their_comparison) {
+  Bench computed;
+  computed.set(1, not_a_number);
+  BOOST_TEST(computed.verdict() == "error");
+  BOOST_TEST(contains(computed.message, "the computed value is"), computed.message);
+  Bench expected;
+  expected.check.erase("reference");
+  expected.check["against_variant"] = "other";
+  expected.other = {{"frequency_Hz", {{infinity, 20, 30}, {}}}};
+  BOOST_TEST(expected.verdict() == "error");
+  BOOST_TEST(contains(expected.message, "the expected value is"), expected.message);
+  Bench none;
+  none.reference["values"] = {0, 20, 30};
+  BOOST_TEST(none.verdict() == "error");
+  BOOST_TEST(contains(none.message, "there is no relative comparison"), none.message);
+}
+
 BOOST_AUTO_TEST_CASE(a_missing_quantity_is_an_error_that_names_the_nearest) {
   Bench bench;
   bench.check["quantity"] = "frequncy_Hz";

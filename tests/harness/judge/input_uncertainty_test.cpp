@@ -59,6 +59,21 @@ BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
   BOOST_TEST(*visited[1].rbegin() == 49);
 }
 
+BOOST_AUTO_TEST_CASE(a_deviation_of_few_samples_is_divided_by_one_less_than_their_number) {
+  Values seen;
+  const auto record = [&](const Values& d) -> std::optional<Values> {
+    seen.push_back(d[0]);
+    return Values{d[0]};
+  };
+  const auto u = uncertainty_by_sampling(record, kHalfWidths, 4, 7);
+  BOOST_TEST_REQUIRE(seen.size() >= 4U);
+  const Values last(seen.end() - 4, seen.end());
+  double mean = 0, square = 0;
+  for (const double x : last) mean += x / 4;
+  for (const double x : last) square += (x - mean) * (x - mean);
+  BOOST_TEST(u.standard[0] == std::sqrt(square / 3), boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(the_same_seed_gives_the_same_samples_and_another_gives_others) {
   const auto a = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
   const auto b = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);

@@ -105,6 +105,24 @@ BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
   BOOST_TEST((verdict(document, {half}) == ClaimVerdict::not_measured));
 }
 
+BOOST_AUTO_TEST_CASE(an_interpretation_that_misses_a_number_has_no_verdict_of_its_own) {
+  Run half = bend(1, 1);
+  half.check_results[1].computed.reset();
+  const auto found = evaluate_claims(claims_of({{"r", ratio}}, "confirmed"), {half});
+  BOOST_TEST(
+      (found.claims.at(0).interpretations.at(0).verdict == InterpretationVerdict::not_measured));
+}
+
+BOOST_AUTO_TEST_CASE(a_relative_difference_is_one_of_what_is_expected) {
+  Json relative = ratio;
+  relative["metric"] = "relative";
+  relative["confirms"] = {0.45, 0.55};
+  relative["contradicts"] = {0.6, nullptr};
+  const Document document = claims_of({{"r", relative}}, "confirmed");
+  BOOST_TEST((verdict(document, {bend(1.5, 1.5)}) == ClaimVerdict::confirmed));
+  BOOST_TEST((verdict(document, {bend(3, 3)}) == ClaimVerdict::contradicted));
+}
+
 BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm_in_part) {
   Json second = ratio;
   second["check"] = "tip-y";
