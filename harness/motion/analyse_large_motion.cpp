@@ -157,6 +157,8 @@ class MotionRecorder {
       record_.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
                   drive_force(system_, state, static_cast<solver::Index>(i)));
     }
+    for (const solver::large_motion::Torque& torque : system_.large_motion().torques)
+      record_.add("torque_N_m", torque.name, torque.law(state.t));
   }
 
   void look_at_energy(const State& state) {
@@ -234,9 +236,9 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
                       (large_motion.mass_damping > 0 || large_motion.strain_rate_damping > 0);
   if (!damped) large_motion.mass_damping = large_motion.strain_rate_damping = 0;
   const bool extrapolated = analysis.get("extrapolated", false);
-  const bool tracking = analysis.get("track", false);
+  const bool tracking = analysis.has("track");
   if (tracking) {
-    add_tracking_drives(analysis, case_model, model, large_motion);
+    add_tracking(analysis, case_model, model, large_motion);
     for (const char* key : {"extrapolated", "initial_velocities"}) {
       if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
     }

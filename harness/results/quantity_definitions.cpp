@@ -145,7 +145,7 @@ steps  accepted steps
 rejected_steps  rejected steps
 [large-motion elastodynamics]
 smallest_step_s  smallest step
-[elastodynamics inverse-dynamics]
+[large-motion elastodynamics inverse-dynamics]
 torque_N_m:JOINT  torque of an active joint
 [elastodynamics]
 largest_step_s  largest step

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 #include <variant>
 
+#include "harness/scene/rigid_case_model.h"
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/inverse_dynamics.h"
 
@@ -23,15 +26,18 @@ void require_joints(const JsonView& place, const solver::ManipulatorDesign& desi
   }
 }
 
+std::pair<double, double> ends(const solver::Path& path) {
+  const auto* spline = std::get_if<solver::Spline>(&path);
+  if (spline != nullptr) return {spline->times.front(), spline->times.back()};
+  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+}
+
 /// The law goes on beyond the ends of its table, with the acceleration and its rate there: the
 /// solver takes differences about the first instant and the last.
 solver::large_motion::TimeFunction extended(const solver::large_motion::TimeFunction& law,
                                             const solver::Path& path) {
-  const auto* spline = std::get_if<solver::Spline>(&path);
-  if (spline == nullptr) return law;
-  const double first = spline->times.front(), last = spline->times.back();
-  return [law, first, last](double t) {
-    const double end = std::clamp(t, first, last), d = t - end;
+  return [law, limits = ends(path)](double t) {
+    const double end = std::clamp(t, limits.first, limits.second), d = t - end;
     std::array<double, 3> motion = law(end);
     if (d == 0) return motion;
     const double a = motion[2], beyond = 2 * a - law(end - d)[2];
@@ -53,6 +59,20 @@ solver::large_motion::TimeFunction actuator(const solver::RigidManipulator& rigi
   return extended(law, path);
 }
 
+/// Torque on one actuator [N m]; beyond the ends of the path, that of the end.
+std::function<double(double)> actuator_torque(const solver::RigidManipulator& rigid,
+                                              const CaseModel& case_model,
+                                              const std::function<double(double)>& load_history,
+                                              std::size_t limb) {
+  return [rigid, case_model, load_history, limb](double t) {
+    const auto [first, last] = ends(*case_model.path);
+    const solver::TrajectoryPoint point = solver::at(*case_model.path, std::clamp(t, first, last));
+    const Eigen::Vector3d wrench =
+        (load_history ? load_history(t) : 1.0) * wrench_on_platform(case_model, point.pose);
+    return solver::inverse_dynamics(rigid, point, wrench).torque[static_cast<solver::Index>(limb)];
+  };
+}
+
 solver::Index member_between(const solver::Model& model, solver::Index first,
                              solver::Index second) {
   for (std::size_t m = 0; m < model.members.size(); ++m) {
@@ -64,9 +84,8 @@ solver::Index member_between(const solver::Model& model, solver::Index first,
 
 }  // namespace
 
-void add_tracking_drives(const JsonView& analysis, const CaseModel& case_model,
-                         const solver::Model& model,
-                         solver::large_motion::LargeMotionModel& large_motion) {
+void add_tracking(const JsonView& analysis, const CaseModel& case_model, const solver::Model& model,
+                  solver::large_motion::LargeMotionModel& large_motion) {
   const JsonView place = analysis["track"];
   if (!case_model.manipulator || !case_model.path) {
     throw place.error("expected a manipulator with a trajectory");
@@ -78,10 +97,19 @@ void add_tracking_drives(const JsonView& analysis, const CaseModel& case_model,
   } catch (const solver::ModelError& error) {
     throw analysis["end_time_s"].error(std::string("expected a time on the path: ") + error.what());
   }
-  const solver::RigidManipulator rigid = solver::rigid_manipulator(*case_model.manipulator);
+  const bool torques = place.get<std::string>() == "torques";
+  const solver::RigidManipulator rigid = torques
+                                             ? read_rigid_manipulator(analysis, case_model)
+                                             : solver::rigid_manipulator(*case_model.manipulator);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = "A" + std::to_string(i + 1);
-    large_motion.drives.push_back({name, model.find_node(name), 2, actuator(rigid, path, i)});
+    const solver::Index node = model.find_node(name);
+    if (torques) {
+      large_motion.torques.push_back(
+          {name, node, actuator_torque(rigid, case_model, large_motion.load_history, i)});
+    } else {
+      large_motion.drives.push_back({name, node, 2, actuator(rigid, path, i)});
+    }
   }
 }
 
@@ -98,6 +126,8 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
     }
     model.supports[limb].fixed[2] = false;
   }
+  for (const solver::large_motion::Torque& torque : large_motion.torques)
+    model.supports[static_cast<std::size_t>(torque.node)].fixed[2] = false;
 }
 
 solver::large_motion::PrescribedVelocities tracking_start(

@@ -5,17 +5,18 @@
 #include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/system/geometrically_exact_system.h"
 
-/// The manipulator in large motion, its actuators driven as its rigid twin would follow the path.
+/// The manipulator in large motion, its actuators driven as its rigid twin follows the path, or
+/// under the torques that this one needs for it.
 namespace trammel::harness {
 
-/// Drives the actuators along the trajectory.
+/// Drives the actuators along the trajectory ("angles"), or applies the torques of the rigid twin's
+/// inverse dynamics under the same loads ("torques").
 /// @throws InputError  without a trajectory that lasts to the end, locked actuators and hinged
-///                     elbows.
-void add_tracking_drives(const JsonView& analysis, const CaseModel& case_model,
-                         const solver::Model& model,
-                         solver::large_motion::LargeMotionModel& large_motion);
+///                     elbows; for torques, where rigid dynamics would leave something out.
+void add_tracking(const JsonView& analysis, const CaseModel& case_model, const solver::Model& model,
+                  solver::large_motion::LargeMotionModel& large_motion);
 
-/// Takes away what holds the actuators that are driven.
+/// Takes away what holds the actuators that are driven or under a torque.
 /// @throws InputError  where one is free: no link is joined to it.
 void release_driven_actuators(const JsonView& analysis, const CaseModel& case_model,
                               const solver::large_motion::LargeMotionModel& large_motion,

@@ -11,6 +11,7 @@
 #include "reports/figures/map.h"
 #include "reports/figures/mechanism.h"
 #include "reports/figures/motion.h"
+#include "reports/figures/readings.h"
 #include "reports/figures/shapes.h"
 #include "reports/figures/tolerance.h"
 
@@ -92,6 +93,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
       gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
     }
   }
+  append(gallery.shown, reading_figures(info, runs));
   append(gallery.shown, discrepancy_figures(info, results, runs));
   bool first = true;
   for (const Run* run : runs) {

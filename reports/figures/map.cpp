@@ -55,9 +55,7 @@ Field read_field(const Numbers& x, const Numbers& y, const Numbers& value) {
 }
 
 /// Limits between classes that hold about as many cells each, in two digits.
-std::vector<double> class_limits(const Field& field) {
-  std::vector<double> sorted;
-  for (const Cell& cell : field.cells) sorted.push_back(cell.value);
+std::vector<double> class_limits(std::vector<double> sorted) {
   std::sort(sorted.begin(), sorted.end());
   const std::size_t classes = palette::kSequence.size();
   std::vector<double> limits;
@@ -118,6 +116,23 @@ const Run* run_for(const PlotRequest& request, const std::vector<const Run*>& ru
   return nullptr;
 }
 
+/// Values of all maps of the case that show the same quantity, so that one colour means one thing.
+std::vector<double> values_of_all_maps(const CaseInfo& info, const PlotRequest& request,
+                                       const std::vector<const Run*>& runs, const Field& own) {
+  const auto name = [](const PlotRequest& map) { return map.value.substr(0, map.value.find(':')); };
+  std::vector<double> values;
+  for (const Cell& cell : own.cells) values.push_back(cell.value);
+  for (const PlotRequest& other : info.figures) {
+    if (other.id == request.id || name(other) != name(request)) continue;
+    const Run* run = run_for(other, runs);
+    const Numbers* numbers = run ? run->quantity(other.value) : nullptr;
+    if (!numbers) continue;
+    for (const Number& number : *numbers)
+      if (number) values.push_back(*number);
+  }
+  return values;
+}
+
 PlotScript::Rows line_rows(const Numbers& x, const Numbers& y) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
@@ -171,7 +186,8 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   }
   double largest = 0;
   for (const Cell& cell : field.cells) largest = std::max(largest, std::abs(cell.value));
-  const std::vector<double> limits = class_limits(field);
+  const std::vector<double> values = values_of_all_maps(info, request, runs, field);
+  const std::vector<double> limits = class_limits(values);
   for (Cell& cell : field.cells) {
     const auto above = std::upper_bound(limits.begin(), limits.end(), cell.value);
     cell.color = static_cast<std::size_t>(above - limits.begin());
@@ -186,10 +202,10 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   const auto by_color = boxes(field);
   std::vector<std::string> titles;
   // Dark is far from zero: of negative numbers the lowest.
-  const bool negative = std::all_of(field.cells.begin(), field.cells.end(),
-                                    [](const Cell& cell) { return cell.value <= 0; });
-  const bool positive = std::all_of(field.cells.begin(), field.cells.end(),
-                                    [](const Cell& cell) { return cell.value >= 0; });
+  const bool negative =
+      std::all_of(values.begin(), values.end(), [](double one) { return one <= 0; });
+  const bool positive =
+      std::all_of(values.begin(), values.end(), [](double one) { return one >= 0; });
   for (std::size_t k = 0; k < by_color.size(); ++k) {
     const std::size_t shade = negative ? limits.size() - std::min(k, limits.size()) : k;
     const std::string color = lc(palette::kSequence[shade]);
@@ -205,11 +221,12 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   Figure figure;
   figure.id = slug(info.id + "-" + request.id);
   figure.title = request.title;
-  figure.caption = request.caption + (request.caption.empty() ? "" : " ") +
-                   "Colours: " + quantity.label +
-                   (quantity.unit.empty() ? "" : " in " + quantity.unit) +
-                   (negative || positive ? ", dark far from zero" : ", dark where it is high") +
-                   ", in classes of about equally many positions.";
+  figure.caption =
+      request.caption + (request.caption.empty() ? "" : " ") + "Colours: " + quantity.label +
+      (quantity.unit.empty() ? "" : " in " + quantity.unit) +
+      (negative || positive ? ", dark far from zero" : ", dark where it is high") +
+      (values.size() == field.cells.size() ? ", in classes of about equally many positions."
+                                           : ", in the same classes in all maps of it here.");
   figure.alt = "Map of " + to_text(quantity) + " over positions; the largest magnitude is " +
                trimmed(largest, 3) + " " + quantity.unit + ".";
   figure.height = 420 + key_height;

@@ -57,6 +57,10 @@ void validate_line_springs(const LargeMotionModel& large_motion, const Model& mo
 
 void validate(const LargeMotionModel& large_motion, const Model& model) {
   validate_drives(large_motion, model);
+  for (const Torque& torque : large_motion.torques) {
+    require_node(torque.node, model, "a torque");
+    require(static_cast<bool>(torque.law), "a torque", "has no law");
+  }
   validate_sliders(large_motion, model);
   validate_line_springs(large_motion, model);
   for (const FollowerLoad& load : large_motion.follower_loads) {

@@ -9,8 +9,8 @@
 
 #include "solver/model/model.h"
 
-/// What large motion adds to a `Model`: drives, sliding joints, springs along a line, follower
-/// loads, histories, damping and a start. Everything in SI units and the model's pose.
+/// What large motion adds to a `Model`: drives, torques, sliding joints, springs along a line,
+/// follower loads, histories, damping and a start. Everything in SI units and the model's pose.
 namespace trammel::solver::large_motion {
 
 /// Value, rate and second derivative at a time or, in statics, at a load factor.
@@ -23,6 +23,13 @@ struct Drive {
   Index node = 0;
   int direction = 2;  ///< 0: x [m], 1: y [m], 2: rotation [rad]
   TimeFunction law;
+};
+
+/// A torque on a node as a function of time, whatever the load factor.
+struct Torque {
+  std::string name;
+  Index node = 0;
+  std::function<double(double)> law;  ///< [N m]
 };
 
 /// A node slides along a line through its position in the model's pose; the line rotates with the
@@ -59,6 +66,7 @@ struct InitialVelocity {
 
 struct LargeMotionModel {
   std::vector<Drive> drives;
+  std::vector<Torque> torques;
   std::vector<Slider> sliders;
   std::vector<LineSpring> line_springs;
   std::vector<FollowerLoad> follower_loads;

@@ -96,8 +96,16 @@ void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<Vec
     product_.noalias() = mass_ * padded_;
     r += product_.head(size);
   }
+  add_torques(-1, state.t, r);
   for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
     group->forces(state, large_motion_.strain_rate_damping, r);
+  }
+}
+
+void GeometricallyExactSystem::add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const {
+  for (const Torque& torque : large_motion_.torques) {
+    const Index coordinate = layout_.node[to_size(torque.node)][2];
+    if (coordinate < r.size()) r[coordinate] += factor * torque.law(t);
   }
 }
 
@@ -158,6 +166,7 @@ void GeometricallyExactSystem::discrete_gradient_residual(const State& from, con
   padded_.head(n) = (to.v - from.v) / h + large_motion_.mass_damping * (from.v + to.v) / 2;
   product_.noalias() = mass_ * padded_;
   r += product_.head(size);
+  for (const double t : {from.t, to.t}) add_torques(-0.5, t, r);
   for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
     group->discrete_gradient_forces(from, to, lambda, large_motion_.strain_rate_damping, r);
   }
@@ -213,6 +222,7 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
     work -= compliance_[i] > 0 ? tau / h * change * change / compliance_[i] : lambda[i] * change;
   }
   VectorXd forces = VectorXd::Zero(n), elastic = forces;
+  for (const double t : {from.t, to.t}) add_torques(-0.5, t, forces);
   if (parts_.follower_loads != nullptr)
     parts_.follower_loads->discrete_gradient_forces(from, to, lambda, 0, forces);
   if (tau != 0) {

@@ -70,6 +70,7 @@ class GeometricallyExactSystem final : public ConservativeSystem {
  private:
   [[nodiscard]] TangentCoefficients with_damping(TangentCoefficients coefficients) const;
   void count_elements() const;
+  void add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const;
   void add_point_masses(const TangentCoefficients& coefficients, KktMatrix& matrix) const;
 
   Model model_;

@@ -73,6 +73,7 @@ class Numbering {
     for (const Drive& drive : large_motion_.drives) {
       if (drive.direction == 2) require_rotation(drive.node);
     }
+    for (const Torque& torque : large_motion_.torques) require_rotation(torque.node);
     for (const FollowerLoad& load : large_motion_.follower_loads) require_rotation(load.node);
     for (const Slider& slider : large_motion_.sliders) {
       require_rotation(slider.rail);

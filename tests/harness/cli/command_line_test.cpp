@@ -473,7 +473,7 @@ BOOST_AUTO_TEST_CASE(a_refused_drive_and_a_path_that_ends_too_soon_are_told_by_t
       {"time_s": 0, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
       {"time_s": 0.1, "x_m": 0.26, "y_m": 0.144, "phi_rad": 0},
       {"time_s": 0.2, "x_m": 0.27, "y_m": 0.144, "phi_rad": 0}]}})");
-  json["analysis"] = {{"large-motion", {{"track", true}, {"end_time_s", 1}, {"step_s", 0.05}}}};
+  json["analysis"] = {{"large-motion", {{"track", "angles"}, {"end_time_s", 1}, {"step_s", 0.05}}}};
   (void)folder.write(json);
   const std::string path = run(folder, "run robot.json").err;
   BOOST_TEST(contains(path, ": /analysis/large-motion/end_time_s: "), path);

@@ -57,7 +57,7 @@ Json tracking(const char* trajectory) {
   Json json = hinged_manipulator();
   json["model"]["pose"] = nullptr;
   json["model"]["trajectory"] = Json::parse(trajectory);
-  json["analysis"]["large-motion"]["track"] = true;
+  json["analysis"]["large-motion"]["track"] = "angles";
   return json;
 }
 

@@ -130,7 +130,9 @@ std::vector<Json> further_cases() {
       with_analysis(hinged,
                     R"({"inverse-dynamics": {"bodies": true, "points_per_revolution": 16}})"),
       with_analysis(hinged,
-                    R"({"large-motion": {"track": true, "end_time_s": 0.02, "step_s": 0.01}})"),
+                    R"({"large-motion": {"track": "angles", "end_time_s": 0.02, "step_s": 0.01}})"),
+      with_analysis(
+          hinged, R"({"large-motion": {"track": "torques", "end_time_s": 0.02, "step_s": 0.01}})"),
       with_analysis(long_way,
                     R"({"grnn": {"train": 16, "search": {"from": 0.01, "to": 1, "count": 5}}})"),
       with_analysis(soft, "{\"elastodynamics\": {" + motion + "}}"),

@@ -81,6 +81,32 @@ BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
   BOOST_TEST(contains(draw(run, problem)->caption, "dark where it is high"));
 }
 
+BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
+  Run run = field(14, 5);
+  run.quantities[2].first = "frequency_Hz:cold";
+  Numbers hot = run.quantities[2].second;
+  for (Number& number : hot) number = *number + 100;
+  run.quantities.emplace_back("frequency_Hz:hot", hot);
+  CaseInfo info = workspace();
+  for (const char* name : {"cold", "hot"}) {
+    PlotRequest request;
+    request.id = name;
+    request.x = "position_x_m";
+    request.y = {"position_y_m"};
+    request.value = std::string("frequency_Hz:") + name;
+    info.figures.push_back(request);
+  }
+  std::string problem;
+  const auto cold = map_figure(info, info.figures[0], {&run}, problem);
+  const auto high = map_figure(info, info.figures[1], {&run}, problem);
+  BOOST_TEST_REQUIRE((cold && high), problem);
+  BOOST_TEST(contains(cold->caption, "the same classes in all maps"));
+  BOOST_TEST(contains(cold->commands, "'below "));
+  BOOST_TEST(!contains(cold->commands, "'above "));
+  BOOST_TEST(contains(high->commands, "'above "));
+  BOOST_TEST(!contains(high->commands, "'below "));
+}
+
 BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
   Run run = field(14, 5);
   run.quantities[2].second[3].reset();

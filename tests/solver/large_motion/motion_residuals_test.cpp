@@ -125,6 +125,7 @@ BOOST_AUTO_TEST_CASE(work_and_energy_balance_to_rounding_with_every_kind_of_work
   large_motion.initial_velocities = {{1, 1, 2.0}};
   large_motion.follower_loads = {{1, {0, 30, 4}}};
   large_motion.load_history = [](double t) { return std::sin(9 * t); };
+  large_motion.torques = {{"motor", 1, [](double t) { return 40 * std::sin(5 * t); }}};
   large_motion.mass_damping = 0.4;
   large_motion.strain_rate_damping = 1e-3;
   large_motion.drives = {

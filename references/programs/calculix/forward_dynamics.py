@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Motion of the flexible manipulator of Table 1 under the torques of rigid links, by CalculiX: elbows and platform on hinges, undamped.
+
+    forward_dynamics.py OUT      writes OUT/calculix-forward-dynamics.json: how far P is from the path, x and y, at POINTS times
+
+The manipulator of circle_motion.py goes along a straight line from rest to rest, by 10 u^3 - 15 u^4 + 6 u^5, and is watched for half as long
+again. The feet of the links turn freely about their middles, each under the torque that rigid links need for that, as two forces on the
+edges of the foot, along the link as it stands there: computed first with the angles of rigid links, then with those found (a foot bent by
+0.03 rad would lose 4e-4 of its torque). The torques are those of virtual work, with virtual displacements and accelerations from differences
+of places.
+"""
+import math
+import os
+import sys
+
+from circle_motion import ALONG, build
+from planar_manipulator import DEFAULT, DEPTH, geometry, run, store
+
+START, END, DURATION = (0.26, 0.144, 0.0), (0.235, 0.16, 0.1), 0.1  # poses [m, rad], the time from one to the other [s]
+WATCHED, POINTS, STEPS = 0.15, 10, (1600, 3200)  # [s]
+TURN, TICK = 1e-5, 1e-4  # of virtual displacements [m, rad] and of differences in time [s]
+
+
+def pose(t):
+    u = min(max(t / DURATION, 0.0), 1.0)
+    return tuple(a + (b - a) * u**3 * (10 - 15 * u + 6 * u * u) for a, b in zip(START, END))
+
+
+def bodies(at):
+    """(x, y, angle) of the middles of the six links and of the platform at this pose."""
+    links = [pair for limb in zip(*geometry({**DEFAULT, "pose": at})) for pair in zip(limb, limb[1:])]
+    return [((p[0] + q[0]) / 2, (p[1] + q[1]) / 2, math.atan2(q[1] - p[1], q[0] - p[0])) for p, q in links] + [at]
+
+
+def inertias():
+    """(mass, moment of inertia about the middle) of the same."""
+    link = DEFAULT["rho"] * DEFAULT["width"] * DEFAULT["thickness"]
+    plate = DEFAULT["rho"] * math.sqrt(3) / 4 * DEFAULT["side"]**2 * DEFAULT["plate_thickness"]
+    limb = [math.dist(*pair) for at in [geometry({**DEFAULT, "pose": START})] for i in range(3)
+            for pair in ((at[0][i], at[1][i]), (at[1][i], at[2][i]))]
+    return [(link * length, link * length**3 / 12) for length in limb] + [(plate, plate * DEFAULT["side"]**2 / 12)]
+
+
+def solved(matrix, right):
+    """Cramer's rule for three unknowns."""
+    def det(m):
+        return sum(m[0][i] * (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3]) for i in range(3))
+    return [det([[right[r] if c == k else matrix[r][c] for c in range(3)] for r in range(3)]) / det(matrix) for k in range(3)]
+
+
+def torques(t):
+    """Of the three actuators on rigid links [N m]."""
+    at = pose(t)
+    before, now, after = (bodies(pose(t + s * TICK)) for s in (-1, 0, 1))
+    second = [[(a - 2 * b + c) / TICK**2 for a, b, c in zip(*body)] for body in zip(before, now, after)]
+    rows, work = [], []
+    for k in range(3):
+        less, more = (bodies([x + s * TURN * (i == k) for i, x in enumerate(at)]) for s in (-1, 1))
+        virtual = [[(b - a) / (2 * TURN) for a, b in zip(*body)] for body in zip(less, more)]
+        rows.append([virtual[2 * i][2] for i in range(3)])
+        work.append(sum(m * (a[0] * d[0] + a[1] * d[1]) + J * a[2] * d[2] for (m, J), a, d in zip(inertias(), second, virtual)))
+    return solved(rows, work)
+
+
+def motion(along, steps, angles=None):
+    """What P is away from the line at POINTS points [m], and the angles of the feet at each step; first under forces along rigid links."""
+    lines, feet, p = build(along)
+    times = [WATCHED * i / steps for i in range(steps + 1)]
+    table = [(t, bodies(pose(t)), torques(t)) for t in times]
+    angles = angles or [[links[2 * i][2] for i in range(3)] for _, links, _ in table]
+    start, loads, edges = [links[2 * i][2] for links in (table[0][1],) for i in range(3)], [], []
+    for i, foot in enumerate(feet):
+        lines += ["*BOUNDARY", f"{foot[DEPTH][0]},1,2"]
+        for (node, _), sign in ((foot[0], 1), (foot[-1], -1)):
+            edges.append(node)
+            for dof, along_link in ((1, math.cos), (2, math.sin)):
+                lines.append(f"*AMPLITUDE,NAME=F{node}-{dof}")
+                lines += [f"{t:.12e},{sign * torque[i] / DEFAULT['thickness'] * along_link(angle[i]):.12e}"
+                          for (t, _, torque), angle in zip(table, angles)]
+                loads += [f"*CLOAD,AMPLITUDE=F{node}-{dof}", f"{node},{dof},1."]
+    rows = run(lines + ["*NSET,NSET=SHOWN", *(f"{n}," for n in [*edges, p]), f"*STEP,NLGEOM,INC={2 * steps}", "*DYNAMIC,DIRECT,ALPHA=0.",
+                        f"{WATCHED / steps:.14e},{WATCHED:.14e}", *loads, "*NODE PRINT,NSET=SHOWN", "U", "*END STEP"])
+    moved = [{int(row[0]): row[1:3] for row in rows[k:k + len(edges) + 1]} for k in range(0, len(rows), len(edges) + 1)]
+    found = [start]
+    for step in moved:
+        turned = []
+        for i, foot in enumerate(feet):
+            (low, a), (high, b) = foot[0], foot[-1]
+            face = [b[k] - a[k] + step[high][k] - step[low][k] for k in (0, 1)]
+            turned.append(math.atan2(-face[0], face[1]))
+        found.append(turned)
+    away = [START[k] + moved[steps * i // POINTS - 1][p][k] - pose(WATCHED * i / POINTS)[k] for i in range(1, POINTS + 1) for k in (0, 1)]
+    return away, found
+
+
+def main():
+    folder = sys.argv[1]
+    os.makedirs(folder, exist_ok=True)
+    coarse, fine = (motion(ALONG, steps, motion(ALONG, steps)[1])[0] for steps in STEPS)
+    change = max(abs(a - b) for a, b in zip(coarse, fine)) / max(map(abs, fine))
+    store(folder, "calculix-forward-dynamics", "Flexible 3-RRR under the torques of rigid links from rest to rest: how far P is from the line, "
+          f"x and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
+          f"CPS8R, {ALONG} elements along a link and {DEPTH} through it, {STEPS[1]} steps; {STEPS[0]} change the values by the uncertainty, "
+          "of the largest. Elbows and platform on hinges, rigid platform, no damping.", "references/programs/calculix/forward_dynamics.py")
+    print(change, fine, flush=True)
+
+
+if __name__ == "__main__":
+    main()
