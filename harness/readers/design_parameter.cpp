@@ -16,12 +16,27 @@ void choose(const std::string& link, solver::DesignParameter& parameter) {
 }  // namespace
 
 solver::DesignParameter read_design_parameter(const JsonView& parameter) {
-  static const std::map<std::string, Kind> kinds = {{"length", Kind::length},
-                                                    {"thickness", Kind::thickness},
-                                                    {"width", Kind::width},
-                                                    {"E", Kind::E},
-                                                    {"density", Kind::density}};
+  static const std::map<std::string, Kind> kinds = {
+      {"length", Kind::length},
+      {"thickness", Kind::thickness},
+      {"width", Kind::width},
+      {"E", Kind::E},
+      {"density", Kind::density},
+      {"poisson_ratio", Kind::poisson_ratio},
+      {"base_side", Kind::base_side},
+      {"platform_side", Kind::platform_side},
+      {"platform_mass", Kind::platform_mass},
+      {"platform_inertia", Kind::platform_inertia},
+      {"active_stiffness", Kind::active_stiffness},
+      {"elbow_stiffness", Kind::elbow_stiffness},
+      {"platform_joint_stiffness", Kind::platform_joint_stiffness},
+      {"orientation", Kind::orientation}};
   solver::DesignParameter read{.kind = kinds.at(parameter.text("property"))};
+  if (read.kind > Kind::poisson_ratio) {
+    for (const char* key : {"links", "platform"})
+      if (parameter.has(key)) throw parameter[key].error("expected it beside a property of links");
+    return read;
+  }
   read.platform = parameter.get("platform", false);
   if (const auto links = parameter.find("links")) {
     read.proximal.fill(false);
@@ -30,7 +45,8 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   }
   const bool platform_has = read.kind != Kind::length && read.kind != Kind::width;
   if (read.platform && !platform_has) {
-    throw parameter["platform"].error("expected the thickness, E or density of the platform");
+    throw parameter["platform"].error(
+        "expected the thickness, E, density or Poisson's ratio of the platform");
   }
   const auto any = [](const std::array<bool, 3>& selected) {
     return std::count(selected.begin(), selected.end(), true) > 0;
@@ -47,12 +63,21 @@ std::string sensitivity_name(Kind kind) {
       return "sensitivity_Hz_per_Pa";
     case Kind::density:
       return "sensitivity_Hz_m3_per_kg";
-    case Kind::length:
-    case Kind::thickness:
-    case Kind::width:
-      break;
+    case Kind::poisson_ratio:
+      return "sensitivity_Hz";
+    case Kind::platform_mass:
+      return "sensitivity_Hz_per_kg";
+    case Kind::platform_inertia:
+      return "sensitivity_Hz_per_kg_m2";
+    case Kind::active_stiffness:
+    case Kind::elbow_stiffness:
+    case Kind::platform_joint_stiffness:
+      return "sensitivity_Hz_rad_per_N_m";
+    case Kind::orientation:
+      return "sensitivity_Hz_per_rad";
+    default:
+      return "sensitivity_Hz_per_m";
   }
-  return "sensitivity_Hz_per_m";
 }
 
 }  // namespace trammel::harness

@@ -208,6 +208,11 @@ sensitivity_Hz_per_m:PARAMETER  derivative of the frequency with a length
 [sensitivity]
 sensitivity_Hz_per_Pa:PARAMETER  derivative of the frequency with Young's modulus
 sensitivity_Hz_m3_per_kg:PARAMETER  derivative of the frequency with a density
+sensitivity_Hz_per_kg:PARAMETER  derivative of the frequency with a mass
+sensitivity_Hz_per_kg_m2:PARAMETER  derivative of the frequency with a moment of inertia
+sensitivity_Hz_rad_per_N_m:PARAMETER  derivative of the frequency with a joint's stiffness
+sensitivity_Hz_per_rad:PARAMETER  derivative of the frequency with the orientation
+sensitivity_Hz:PARAMETER  derivative of the frequency with Poisson's ratio
 relative_sensitivity:PARAMETER  derivative times parameter over frequency
 finite_difference_error:PARAMETER  error of a difference quotient, relative
 frequency_gap  relative distance from the nearest frequency

@@ -15,10 +15,19 @@ struct Named {
   solver::DesignParameter parameter;
 };
 
-std::vector<Named> read_parameters(const JsonView& parameters) {
+std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& case_model) {
+  const auto method = analysis.find("method");
+  const bool complex = method && method->json() == "complex-step";
   std::vector<Named> read;
-  for (const auto& [name, place] : parameters.entries()) {
+  for (const auto& [name, place] : analysis["parameters"].entries()) {
     read.push_back({name, read_design_parameter(place)});
+    const solver::DesignParameter& parameter = read.back().parameter;
+    if (complex && !solver::is_seeded(parameter.kind))
+      throw place["property"].error(
+          "expected another 'method': complex-step knows lengths, "
+          "thickness, width, E and density");
+    if (!(solver::parameter_value(*case_model.manipulator, parameter) > 0))
+      throw place["property"].error("expected a property that the manipulator has");
   }
   return read;
 }
@@ -99,7 +108,7 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
   if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
   static_cast<void>(
       read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
-  const std::vector<Named> named = read_parameters(analysis["parameters"]);
+  const std::vector<Named> named = read_parameters(analysis, case_model);
   std::vector<solver::DesignParameter> parameters;
   parameters.reserve(named.size());
   for (const Named& one : named) parameters.push_back(one.parameter);

@@ -98,7 +98,11 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
       read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
   const solver::ManipulatorDesign& design = *case_model.manipulator;
   solver::DesignParameter parameter;
-  if (const auto given = analysis.find("parameter")) parameter = read_design_parameter(*given);
+  if (const auto given = analysis.find("parameter")) {
+    parameter = read_design_parameter(*given);
+    if (!(solver::parameter_value(design, parameter) > 0))
+      throw(*given)["property"].error("expected a property that the manipulator has");
+  }
   const std::string quantity = sensitivity_name(parameter.kind);
   const double margin = analysis.get("serial_margin", 0.1);
   const bool positions = analysis.get("positions", true);

@@ -12,7 +12,7 @@ namespace trammel::reports {
 namespace {
 
 /// Longest first, so that N_m is not read as m.
-constexpr std::array<std::pair<const char*, const char*>, 29> kUnits = {{
+constexpr std::array<std::pair<const char*, const char*>, 33> kUnits = {{
     {"Hz_m3_per_kg", "Hz·m³/kg"},
     {"N_m_per_rad", "N·m/rad"},
     {"rad_per_s2", "rad/s²"},
@@ -22,6 +22,10 @@ constexpr std::array<std::pair<const char*, const char*>, 29> kUnits = {{
     {"m_per_s2", "m/s²"},
     {"m_per_s", "m/s"},
     {"m_per_N", "m/N"},
+    {"Hz_rad_per_N_m", "Hz·rad/(N·m)"},
+    {"Hz_per_kg_m2", "Hz/(kg·m²)"},
+    {"Hz_per_rad", "Hz/rad"},
+    {"Hz_per_kg", "Hz/kg"},
     {"Hz_per_Pa", "Hz/Pa"},
     {"Hz_per_m", "Hz/m"},
     {"kg_per_m3", "kg/m³"},

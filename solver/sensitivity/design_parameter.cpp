@@ -8,7 +8,7 @@ using Kind = trammel::solver::DesignParameter::Kind;
 
 namespace {
 
-/// Calls visit(number) for each number of the design that the parameter names.
+/// Calls visit(number) for each number of links and platform that the parameter names.
 template <class Visit>
 void for_each_number(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
   const Kind kind = parameter.kind;
@@ -27,34 +27,94 @@ void for_each_number(ManipulatorDesign& design, const DesignParameter& parameter
   if (parameter.platform) meet(detail::number(design.platform, kind));
 }
 
-}  // namespace
-
-const char* unit(Kind kind) {
-  switch (kind) {
-    case Kind::E:
-      return "Pa";
-    case Kind::density:
-      return "kg/m^3";
-    case Kind::length:
-    case Kind::thickness:
-    case Kind::width:
-      break;
+/// Calls visit(stiffness) for each spring at the joints that the parameter names.
+template <class Visit>
+void for_each_spring(ManipulatorDesign& design, Kind kind, Visit&& visit) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (kind == Kind::active_stiffness && design.active[i].kind == ActiveKind::sprung)
+      visit(design.active[i].stiffness);
+    if (kind == Kind::elbow_stiffness && design.elbow[i].kind == ElbowKind::sprung)
+      visit(design.elbow[i].stiffness);
+    if (kind == Kind::platform_joint_stiffness &&
+        design.platform_joint[i].kind == PlatformJointKind::sprung)
+      visit(design.platform_joint[i].stiffness);
   }
-  return "m";
 }
 
-ManipulatorDesign perturbed(const ManipulatorDesign& design, const DesignParameter& parameter,
-                            double change) {
-  ManipulatorDesign result = design;
-  for_each_number(result, parameter, [change](double& x) { x += change; });
-  return result;
+double side(const std::array<Vector2d, 3>& triangle) {
+  return (triangle[1] - triangle[0]).norm();
+}
+
+void grow(std::array<Vector2d, 3>& triangle, const Vector2d& about, double change) {
+  const double factor = change / side(triangle);
+  for (Vector2d& corner : triangle) corner += factor * (corner - about);
+}
+
+}  // namespace
+
+bool is_seeded(Kind kind) {
+  return kind <= Kind::density;
+}
+
+DesignInPose perturbed(const ManipulatorDesign& design, const Pose& pose,
+                       const DesignParameter& parameter, double change) {
+  DesignInPose changed{design, pose};
+  ManipulatorDesign& result = changed.design;
+  const auto add = [change](double& x) { x += change; };
+  switch (parameter.kind) {
+    case Kind::base_side:
+      grow(result.geometry.base, design.geometry.base[0], change);
+      break;
+    case Kind::platform_side:
+      grow(result.geometry.platform, Vector2d::Zero(), change);
+      break;
+    case Kind::platform_mass:
+      result.platform.mass = platform_mass(design).mass + change;
+      break;
+    case Kind::platform_inertia:
+      result.platform.inertia = parameter_value(design, parameter) + change;
+      break;
+    case Kind::orientation:
+      changed.pose.phi += change;
+      break;
+    case Kind::active_stiffness:
+    case Kind::elbow_stiffness:
+    case Kind::platform_joint_stiffness:
+      for_each_spring(result, parameter.kind, add);
+      break;
+    default:
+      for_each_number(result, parameter, add);
+  }
+  return changed;
 }
 
 double parameter_value(const ManipulatorDesign& design, const DesignParameter& parameter) {
   ManipulatorDesign copy = design;
   double largest = 0;
-  for_each_number(copy, parameter, [&largest](double& x) { largest = std::max(largest, x); });
-  return largest;
+  const auto meet = [&largest](double& x) { largest = std::max(largest, x); };
+  switch (parameter.kind) {
+    case Kind::base_side:
+      return side(design.geometry.base);
+    case Kind::platform_side:
+      return side(design.geometry.platform);
+    case Kind::platform_mass:
+      return platform_mass(design).mass;
+    case Kind::platform_inertia: {
+      if (design.platform.kind != PlatformKind::rigid) return 0;
+      const PlatformMass mass = platform_mass(design);
+      return design.platform.inertia.value_or(mass.inertia + mass.mass * mass.center.squaredNorm());
+    }
+    case Kind::orientation:
+      return 1;
+    case Kind::active_stiffness:
+    case Kind::elbow_stiffness:
+    case Kind::platform_joint_stiffness:
+      for_each_spring(copy, parameter.kind, meet);
+      return largest;
+    default:
+      for_each_number(copy, parameter, meet);
+      return largest;
+  }
 }
 
 }  // namespace trammel::solver

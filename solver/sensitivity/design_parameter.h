@@ -6,23 +6,46 @@
 
 namespace trammel::solver {
 
-/// A number of the design, or several that change together by the same amount.
+/// A number of the design or its pose, or several that change together by the same amount.
 struct DesignParameter {
-  enum class Kind { length, thickness, width, E, density };
+  enum class Kind {
+    length,
+    thickness,
+    width,
+    E,
+    density,
+    poisson_ratio,             ///< of links and platform
+    base_side,                 ///< A1-A2; the base grows about A1
+    platform_side,             ///< C1-C2; the platform grows about P
+    platform_mass,             ///< as if printed; a printed inertia stays
+    platform_inertia,          ///< about P, as if printed; of a rigid platform
+    active_stiffness,          ///< of the springs at A
+    elbow_stiffness,           ///< at B
+    platform_joint_stiffness,  ///< at C
+    orientation                ///< phi of the pose
+  };
   Kind kind = Kind::length;
   std::array<bool, 3> proximal{true, true, true};
   std::array<bool, 3> distal{true, true, true};
   bool platform = false;  ///< its thickness, E or density too
 };
 
-/// [m], [m], [m], [Pa], [kg/m^3].
-[[nodiscard]] const char* unit(DesignParameter::Kind kind);
+/// Whether `SeededDesign` carries its derivatives through to the elements: lengths, thickness,
+/// width, E and density.
+[[nodiscard]] bool is_seeded(DesignParameter::Kind kind);
 
-/// The design with the parameter increased by `change` [unit of the parameter].
-[[nodiscard]] ManipulatorDesign perturbed(const ManipulatorDesign& design,
-                                          const DesignParameter& parameter, double change);
+struct DesignInPose {
+  ManipulatorDesign design;
+  Pose pose;
+};
 
-/// The parameter's value [its unit]: the largest of the numbers that it names.
+/// The design with the parameter increased by `change` [unit of the parameter: m, Pa, kg/m^3, -,
+/// kg, kg m^2, N m/rad, rad].
+[[nodiscard]] DesignInPose perturbed(const ManipulatorDesign& design, const Pose& pose,
+                                     const DesignParameter& parameter, double change);
+
+/// The parameter's value [its unit]: the largest of the numbers that it names; 0 where the design
+/// has none. Of the orientation 1 rad, for no angle counts as none.
 [[nodiscard]] double parameter_value(const ManipulatorDesign& design,
                                      const DesignParameter& parameter);
 
@@ -38,11 +61,11 @@ template <class Part>
       return &part.material.E;
     case DesignParameter::Kind::density:
       return &part.material.rho;
-    case DesignParameter::Kind::length:
-    case DesignParameter::Kind::width:
-      break;
+    case DesignParameter::Kind::poisson_ratio:
+      return &part.material.nu;
+    default:
+      return nullptr;
   }
-  return nullptr;
 }
 
 template <class T>

@@ -58,9 +58,9 @@ class Differences {
   }
 
   VectorXd frequencies(double change) {
-    const ManipulatorDesign design = perturbed(design_, parameter_, change);
-    const ModalSolution modes =
-        solve_modes(assemble(build_manipulator(design, pose_)), {.count = count_ + kExtraModes});
+    const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
+    const ModalSolution modes = solve_modes(
+        assemble(build_manipulator(changed.design, changed.pose)), {.count = count_ + kExtraModes});
     result_.counters += modes.counters;
     result_.evidence.add(modes.evidence);
     if (!modes.outcome.solved()) result_.outcome = modes.outcome;
@@ -68,8 +68,8 @@ class Differences {
   }
 
   [[nodiscard]] bool within_reach(double change) const {
-    const ManipulatorDesign design = perturbed(design_, parameter_, change);
-    return inverse_kinematics(design.geometry, pose_).outcome.solved();
+    const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
+    return inverse_kinematics(changed.design.geometry, changed.pose).outcome.solved();
   }
 
   VectorXd central(double step) {

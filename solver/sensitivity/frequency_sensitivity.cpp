@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/sensitivity/frequency_differences.h"
 #include "solver/sensitivity/set_derivative.h"
 
 namespace trammel::solver {
@@ -35,6 +36,22 @@ double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   if (set.first > 0) gap = f - frequency[set.first - 1];
   if (end < frequency.size()) gap = std::min(gap, frequency[end] - f);
   return f > 0 ? gap / f : gap;
+}
+
+/// Parameters that no element's derivative knows.
+void differentiate_numerically(const ManipulatorDesign& design, const Pose& pose,
+                               const std::vector<DesignParameter>& parameters,
+                               FrequencySensitivity& result) {
+  for (std::size_t p = 0; p < parameters.size() && result.outcome.solved(); ++p) {
+    if (is_seeded(parameters[p].kind)) continue;
+    const FrequencyDifferences found =
+        differentiate_frequencies(design, pose, parameters[p], result.frequency.size());
+    result.outcome = found.outcome;
+    result.evidence.add(found.evidence);
+    result.counters += found.counters;
+    if (found.derivative.size() == result.frequency.size())
+      result.derivative.col(static_cast<Index>(p)) = found.derivative;
+  }
 }
 
 }  // namespace
@@ -75,6 +92,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
     const MatrixXd U = system.T * modes.shape.middleCols(set.first, set.count);
     const SetDerivative derivative(system, U, omega * omega);
     for (Index p = 0; p < columns; ++p) {
+      if (!is_seeded(parameters[static_cast<std::size_t>(p)].kind)) continue;
       const MatrixXd small = derivative.of(designs[static_cast<std::size_t>(p)]);
       result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
       if (!small.allFinite()) {
@@ -95,6 +113,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
           rates.value.head(shown) / (4 * std::numbers::pi * omega);
     }
   }
+  differentiate_numerically(design, pose, parameters, result);
   return result;
 }
 

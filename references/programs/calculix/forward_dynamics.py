@@ -13,11 +13,12 @@ import math
 import os
 import sys
 
-from circle_motion import ALONG, build
+from circle_motion import build
 from planar_manipulator import DEFAULT, DEPTH, geometry, run, store
 
 START, END, DURATION = (0.26, 0.144, 0.0), (0.235, 0.16, 0.1), 0.1  # poses [m, rad], the time from one to the other [s]
-WATCHED, POINTS, STEPS = 0.15, 10, (1600, 3200)  # [s]
+WATCHED, POINTS = 0.15, 10  # [s]
+MESHES = ((4, 800), (8, 1600))  # elements along a link, steps
 TURN, TICK = 1e-5, 1e-4  # of virtual displacements [m, rad] and of differences in time [s]
 
 
@@ -96,12 +97,12 @@ def motion(along, steps, angles=None):
 def main():
     folder = sys.argv[1]
     os.makedirs(folder, exist_ok=True)
-    coarse, fine = (motion(ALONG, steps, motion(ALONG, steps)[1])[0] for steps in STEPS)
+    coarse, fine = (motion(*mesh, motion(*mesh)[1])[0] for mesh in MESHES)
     change = max(abs(a - b) for a, b in zip(coarse, fine)) / max(map(abs, fine))
     store(folder, "calculix-forward-dynamics", "Flexible 3-RRR under the torques of rigid links from rest to rest: how far P is from the line, "
           f"x and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
-          f"CPS8R, {ALONG} elements along a link and {DEPTH} through it, {STEPS[1]} steps; {STEPS[0]} change the values by the uncertainty, "
-          "of the largest. Elbows and platform on hinges, rigid platform, no damping.", "references/programs/calculix/forward_dynamics.py")
+          f"CPS8R, {MESHES[1][0]} elements along a link and {DEPTH} through it, {MESHES[1][1]} steps; {MESHES[0][0]} elements and {MESHES[0][1]} steps "
+          "change the values by the uncertainty, of the largest. Elbows and platform on hinges, rigid platform, no damping.", "references/programs/calculix/forward_dynamics.py")
     print(change, fine, flush=True)
 
 

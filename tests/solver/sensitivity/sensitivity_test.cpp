@@ -124,6 +124,48 @@ BOOST_AUTO_TEST_CASE(complex_steps_of_the_eigenvalue_problem_agree_with_its_ener
   }
 }
 
+/// A frequency goes with the root of all stiffness, and with one over the root of all inertia.
+BOOST_AUTO_TEST_CASE(derivatives_with_every_parameter_add_up_as_dimensions_say) {
+  ManipulatorDesign design = coarse_design();
+  design.platform.kind = PlatformKind::rigid;
+  design.platform.mass = 0.12;
+  design.platform.inertia = 8e-4;
+  design.active.fill({ActiveKind::sprung, 10});
+  design.elbow.fill({ElbowKind::sprung, 5});
+  design.platform_joint.fill({PlatformJointKind::sprung, 2});
+  const Pose pose{0.27, 0.15, 0.1};
+  const std::vector<Kind> stiff = {Kind::E, Kind::active_stiffness, Kind::elbow_stiffness,
+                                   Kind::platform_joint_stiffness};
+  const std::vector<Kind> inert = {Kind::density, Kind::platform_mass, Kind::platform_inertia};
+  for (const auto& [kinds, degree] : {std::pair(stiff, 0.5), std::pair(inert, -0.5)}) {
+    std::vector<DesignParameter> parameters;
+    for (const Kind kind : kinds) parameters.push_back({.kind = kind});
+    const FrequencySensitivity s = frequency_sensitivity(design, pose, parameters, 4);
+    BOOST_TEST_REQUIRE(s.outcome.solved());
+    for (Index n = 0; n < 4; ++n) {
+      double sum = 0;
+      for (std::size_t p = 0; p < parameters.size(); ++p)
+        sum += parameter_value(design, parameters[p]) * s.derivative(n, static_cast<Index>(p));
+      BOOST_TEST(std::abs(sum / (degree * s.frequency[n]) - 1) < 1e-8);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_a_design_lacks_has_no_value_and_none_is_changed_but_what_is_named) {
+  const ManipulatorDesign design = coarse_design();  // triangles, no springs
+  for (const Kind kind : {Kind::platform_inertia, Kind::active_stiffness, Kind::elbow_stiffness,
+                          Kind::platform_joint_stiffness})
+    BOOST_TEST(parameter_value(design, {.kind = kind}) == 0);
+  const Pose pose{0.27, 0.15, 0.1};
+  const DesignInPose wider = perturbed(design, pose, {.kind = Kind::base_side}, 0.1);
+  BOOST_TEST(wider.design.geometry.base[0].norm() == 0);
+  BOOST_TEST((wider.design.geometry.base[1] - Vector2d(0.6, 0)).norm() < 1e-15);
+  BOOST_TEST(wider.pose.phi == pose.phi);
+  const DesignInPose turned = perturbed(design, pose, {.kind = Kind::orientation}, 0.2);
+  BOOST_TEST(turned.pose.phi == pose.phi + 0.2);
+  BOOST_TEST(turned.design.geometry.base[1] == design.geometry.base[1]);
+}
+
 BOOST_AUTO_TEST_CASE(complex_steps_say_where_they_cannot_tell) {
   ManipulatorDesign design = coarse_design();
   const FrequencyComplexStep repeated =
