@@ -235,7 +235,9 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
   const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   if (!case_model.path) throw analysis.error("expected a model with a trajectory, or samples");
   StepResult result;
-  const PathSamples path = samples_of_path(manipulator, case_model);
+  PathSamples path = samples_of_path(manipulator, case_model);
+  const auto flexible = analysis.find("flexible_links");
+  if (flexible && path.outcome.solved()) let_links_bend(*flexible, case_model, path);
   result.outcome = path.outcome;
   if (!result.outcome.solved()) return result;
   const GrnnSamples& samples = path.samples;

@@ -179,6 +179,14 @@ class MotionRecorder {
   double start_energy_ = 0, drift_ = 0, max_kinetic_ = 0;
 };
 
+void require_path_to_the_end(const JsonView& analysis, const solver::Path& path) {
+  try {
+    (void)solver::at(path, analysis.number("end_time_s"));
+  } catch (const solver::ModelError& error) {
+    throw analysis["end_time_s"].error(std::string("expected a time on the path: ") + error.what());
+  }
+}
+
 /// How far P is from where the rigid twin would have it.
 void record_deflection(const GeometricallyExactSystem& system, const State& state,
                        const solver::Path& path, Recorder& record) {
@@ -238,7 +246,10 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   const bool extrapolated = analysis.get("extrapolated", false);
   const bool tracking = analysis.has("track");
   if (tracking) {
-    add_tracking(analysis, case_model, model, large_motion);
+    add_tracking(analysis["track"],
+                 analysis.text("track") == "torques" ? Tracking::torques : Tracking::angles,
+                 case_model, model, large_motion);
+    require_path_to_the_end(analysis, *case_model.path);
     for (const char* key : {"extrapolated", "initial_velocities"}) {
       if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
     }

@@ -3,8 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "harness/readers/time_reader.h"
 #include "harness/scene/rigid_case_model.h"
+#include "harness/scene/tracking.h"
 #include "harness/statics_modes/step_result.h"
+#include "solver/large_motion/solve/integrate.h"
+#include "solver/large_motion/solve/state_results.h"
 
 namespace trammel::harness {
 
@@ -65,6 +69,36 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
     }
   }
   return result;
+}
+
+void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
+  solver::Model model = build_bare_model(case_model, 0);
+  solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
+  large_motion.strain_rate_damping = place.get("strain_rate_damping_s", 0.0);
+  add_tracking(place, Tracking::torques, case_model, model, large_motion);
+  release_driven_actuators(place, case_model, large_motion, model);
+  const solver::large_motion::GeometricallyExactSystem system(model, large_motion, {});
+  solver::large_motion::IntegrationOptions options;
+  options.end_time = case_model.motion.back().time;
+  options.step = place.number("step_s");
+  require_step_count(place["step_s"], options.end_time);
+  if (case_model.motion.size() > 1) options.output_step = case_model.motion[1].time;
+  solver::large_motion::State state = system.reference_state();
+  path.outcome = make_consistent(system, state, tracking_start(case_model, system), options.step);
+  if (!path.outcome.solved()) return;
+  Eigen::MatrixXd& outputs = path.samples.outputs;
+  const Eigen::RowVector3d start = outputs.row(0).head<3>();
+  solver::Index k = 0;
+  const solver::large_motion::ConstrainedSystem& equations = system;
+  path.outcome =
+      integrate(equations, state, options, [&](const solver::large_motion::State& now) {
+        const bool on_time = k < outputs.rows() &&
+                             std::abs(now.t - case_model.motion[static_cast<std::size_t>(k)].time) <
+                                 options.step / 2;
+        if (!on_time) throw place.error("expected a path with points evenly spaced in time");
+        const Eigen::MatrixX3d q = node_motion(system, now.q), v = node_motion(system, now.v);
+        outputs.row(k++) << start + q.col(2).head<3>().transpose(), v.col(2).head<3>().transpose();
+      }).outcome;
 }
 
 }  // namespace trammel::harness

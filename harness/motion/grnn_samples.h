@@ -39,4 +39,9 @@ struct PathSamples {
 [[nodiscard]] PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
                                           const CaseModel& case_model);
 
+/// The same torques on flexible links, geometrically exact: angles and velocities become theirs.
+/// @param place  "flexible_links" of the case
+/// @throws InputError  as `add_tracking`, and where points of the path are not evenly spaced.
+void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path);
+
 }  // namespace trammel::harness

@@ -368,11 +368,7 @@ void complete(CaseInfo& info) {
   };
   if (info.family.empty()) info.family = info.id;
   for (PlotRequest& figure : info.figures) complete_title(figure);
-  for (TableRequest& table : info.tables) {
-    complete_title(table);
-    for (ColumnRequest& column : table.columns)
-      if (column.statistic.empty()) column.statistic = "first";
-  }
+  for (TableRequest& table : info.tables) complete_title(table);
 }
 
 template <class Entry>

@@ -39,7 +39,8 @@ struct PlotRequest {
 /// A column of a table that a case asks for: a statistic of a quantity, or one timing (over
 /// another).
 struct ColumnRequest {
-  std::string id, title, quantity, statistic, timing, over_timing;
+  std::string id, title, quantity, timing, over_timing;
+  std::string statistic;  ///< empty: the first entry
 };
 
 /// A number of each variant (all where none is named) in each column.

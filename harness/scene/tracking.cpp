@@ -84,22 +84,16 @@ solver::Index member_between(const solver::Model& model, solver::Index first,
 
 }  // namespace
 
-void add_tracking(const JsonView& analysis, const CaseModel& case_model, const solver::Model& model,
+void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& case_model,
+                  const solver::Model& model,
                   solver::large_motion::LargeMotionModel& large_motion) {
-  const JsonView place = analysis["track"];
   if (!case_model.manipulator || !case_model.path) {
     throw place.error("expected a manipulator with a trajectory");
   }
   require_joints(place, *case_model.manipulator);
-  const solver::Path& path = *case_model.path;
-  try {
-    (void)solver::at(path, analysis.number("end_time_s"));
-  } catch (const solver::ModelError& error) {
-    throw analysis["end_time_s"].error(std::string("expected a time on the path: ") + error.what());
-  }
-  const bool torques = place.get<std::string>() == "torques";
+  const bool torques = tracking == Tracking::torques;
   const solver::RigidManipulator rigid = torques
-                                             ? read_rigid_manipulator(analysis, case_model)
+                                             ? read_rigid_manipulator(place, case_model)
                                              : solver::rigid_manipulator(*case_model.manipulator);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = "A" + std::to_string(i + 1);
@@ -108,7 +102,7 @@ void add_tracking(const JsonView& analysis, const CaseModel& case_model, const s
       large_motion.torques.push_back(
           {name, node, actuator_torque(rigid, case_model, large_motion.load_history, i)});
     } else {
-      large_motion.drives.push_back({name, node, 2, actuator(rigid, path, i)});
+      large_motion.drives.push_back({name, node, 2, actuator(rigid, *case_model.path, i)});
     }
   }
 }

@@ -9,12 +9,17 @@
 /// under the torques that this one needs for it.
 namespace trammel::harness {
 
-/// Drives the actuators along the trajectory ("angles"), or applies the torques of the rigid twin's
-/// inverse dynamics under the same loads ("torques").
-/// @throws InputError  without a trajectory that lasts to the end, locked actuators and hinged
-///                     elbows; for torques, where rigid dynamics would leave something out.
-void add_tracking(const JsonView& analysis, const CaseModel& case_model, const solver::Model& model,
-                  solver::large_motion::LargeMotionModel& large_motion);
+/// What is taken from the rigid twin: the angles of its actuators, or the torques of its inverse
+/// dynamics under the same loads.
+enum class Tracking { angles, torques };
+
+/// Drives the actuators along the trajectory, or applies torques to them.
+/// @param place  of the case, where it asks for it
+/// @throws InputError  without a trajectory, locked actuators and hinged elbows and platform
+/// joints;
+///                     for torques, where rigid dynamics would leave something out.
+void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& case_model,
+                  const solver::Model& model, solver::large_motion::LargeMotionModel& large_motion);
 
 /// Takes away what holds the actuators that are driven or under a torque.
 /// @throws InputError  where one is free: no link is joined to it.

@@ -23,7 +23,7 @@ Number statistic(const std::string& name, const Numbers& numbers) {
   const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto n = static_cast<double>(values.size());
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-  if (name == "first") return values.front();
+  if (name.empty() || name == "first") return values.front();
   if (name == "last") return values.back();
   if (name == "max") return *highest;
   if (name == "min") return *lowest;

@@ -54,6 +54,7 @@ const std::vector<std::pair<const char*, const char*>> kCases = {
     {"ansys-vm85", "base"},
     {"nafems-5h", "base"},
     {"sensitivity-centred", "base"},
+    {"design-sensitivity", "base"},
     {"hard-11-four-bar", "base"},
     {"hard-11-toggle", "base"},
     {"grnn-example", "one-sample"},
