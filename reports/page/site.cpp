@@ -34,6 +34,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMaxSingleBytes = 5'800'000;  ///< a mail may carry 6 MB
+constexpr const char* kNoDrawing = "<p class=\"muted\">This drawing is left out.</p>";
 constexpr const char *kMark = "<!--drawing ", *kBody = "<!--body-->", *kLeftOut = "<!--left out-->";
 
 /// A section of the index: key of its data, anchor, title, and the key of its summary.
@@ -299,8 +300,8 @@ std::size_t take_in(std::string& html, const DrawingsByPage& pages, std::size_t 
       if (rank >= page.size()) continue;
       const auto& [mark, svg] = page[rank];
       const bool fits = size + svg.size() <= max_bytes;
-      fitting[mark] = fits ? svg : "<p class=\"muted\">This drawing is left out.</p>";
-      size += fits ? svg.size() : 0;
+      const std::string& put = fitting[mark] = fits ? svg : kNoDrawing;
+      size += put.size();
       left_out += fits ? 0 : 1;
     }
   }
@@ -397,8 +398,8 @@ std::string single_page(const Results& results, std::vector<Family> families, Co
   replace(html, kBody, body);
   const std::size_t left_out = take_in(html, drawings, kMaxSingleBytes);
   std::string note =
-      "All of it in one file: without the figures of further variants and the tables of every "
-      "check where they are long";
+      "All of it in one file: without the figures of further variants, the tables of every check "
+      "where they are long and how references are derived again";
   if (left_out > 0) note += ", and without " + count(left_out, "drawing") + " for its size";
   replace(html, kLeftOut, note + ". The report in many pages has them.");
   return html;

@@ -155,6 +155,7 @@ BOOST_AUTO_TEST_CASE(one_file_holds_all_pages_needs_no_other_and_says_what_it_le
   BOOST_TEST(attribute_values(text, "src").empty());
   BOOST_TEST(text.find("<link") == std::string::npos);
   BOOST_TEST(text.find("without the figures of further variants") != std::string::npos);
+  BOOST_TEST(text.find("class=\"derivation\"") == std::string::npos);
   std::set<std::string> ids;
   for (const std::string& id : attribute_values(text, "id"))
     BOOST_TEST(ids.insert(id).second, "twice: " << id);
