@@ -152,14 +152,15 @@ BOOST_AUTO_TEST_CASE(derivatives_with_every_parameter_add_up_as_dimensions_say) 
 }
 
 BOOST_AUTO_TEST_CASE(what_a_design_lacks_has_no_value_and_none_is_changed_but_what_is_named) {
-  const ManipulatorDesign design = coarse_design();  // triangles, no springs
+  ManipulatorDesign design = coarse_design();  // triangles, no springs
+  for (Vector2d& corner : design.geometry.base) corner += Vector2d(1, 2);
   for (const Kind kind : {Kind::platform_inertia, Kind::active_stiffness, Kind::elbow_stiffness,
                           Kind::platform_joint_stiffness})
     BOOST_TEST(parameter_value(design, {.kind = kind}) == 0);
   const Pose pose{0.27, 0.15, 0.1};
   const DesignInPose wider = perturbed(design, pose, {.kind = Kind::base_side}, 0.1);
-  BOOST_TEST(wider.design.geometry.base[0].norm() == 0);
-  BOOST_TEST((wider.design.geometry.base[1] - Vector2d(0.6, 0)).norm() < 1e-15);
+  BOOST_TEST((wider.design.geometry.base[0] - Vector2d(1, 2)).norm() == 0);
+  BOOST_TEST((wider.design.geometry.base[1] - Vector2d(1.6, 2)).norm() < 1e-15);
   BOOST_TEST(wider.pose.phi == pose.phi);
   const DesignInPose turned = perturbed(design, pose, {.kind = Kind::orientation}, 0.2);
   BOOST_TEST(turned.pose.phi == pose.phi + 0.2);
