@@ -231,8 +231,9 @@ class CommandLine {
     sub->add_flag("--ctest", run_.measurements,
                   "Also checks, worst share of a tolerance and time as ctest's measurements")
         ->excludes(json);
-    sub->add_flag("--vtk", run_.vtk,
-                  "Also OUT/vtk: shapes, poses and motions for ParaView, each set as PVD of VTU files");
+    sub->add_flag(
+        "--vtk", run_.vtk,
+        "Also OUT/vtk: shapes, poses and motions for ParaView, each set as PVD of VTU files");
     sub->callback([this] {
       if (run_.cases.empty() && run_.labels.empty() && run_.shard.empty()) {
         throw CLI::RequiredError("a case or a label");
@@ -312,7 +313,8 @@ class CommandLine {
         "zero\n(reading and judging round to the nearest), and puts results of other builds of "
         "the same cases\nbeside them: verdicts that differ, digits that agree, and tolerances "
         "less than ten times what\nthe differences come to. Exit status 1 where a verdict "
-        "differs.\n\nExamples:\n  trammel certify -L beam\n"
+        "differs or\nis missing, or a run ends otherwise or without an answer.\n\nExamples:\n"
+        "  trammel certify -L beam\n"
         "  trammel certify -L beam --results clang/results.json");
     sub->add_option("cases", run_.cases, "Names or files of cases; the catalogue by default");
     sub->add_option("-L,--label", run_.labels, "Cases of the catalogue with one of these labels");
