@@ -164,7 +164,8 @@ struct Combination {
 std::vector<Combination> combinations_of(const Document& document, const JsonView& factors) {
   Document scene = document;
   const Origin written = document.origin(factors.pointer());
-  scene.apply_patch(written.file, written.pointer, {{"analysis", nullptr}});
+  const Json modes = {{"model-probabilities", nullptr}, {"modes", {{"count", 1}}}};
+  scene.apply_patch(written.file, written.pointer, {{"analysis", modes}});
   std::vector<Combination> found = {{"", scene}};
   for (const auto& [factor, alternatives] : factors.entries()) {
     std::vector<Combination> more;
@@ -302,9 +303,13 @@ PrintedRow printed_row(const references::Reference& reference) {
 
 ModelReadings read_model_readings(const Document& document, const References& references) {
   const JsonView place = JsonView(document)["analysis"]["model-probabilities"];
+  const auto model = JsonView(document).find("model");
+  if (!model || !model->has("manipulator") || !model->has("pose"))
+    throw place.error("expected a model with a manipulator and a pose");
   const Unknowns unknowns = read_unknowns(document, place, references);
   ModelReadings all;
   for (const Combination& some : combinations_of(document, place["factors"])) {
+    some.document.validate("case");
     try {
       const ManipulatorDesign design =
           read_manipulator(JsonView(some.document)["model"]["manipulator"]);
