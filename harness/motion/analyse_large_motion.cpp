@@ -207,18 +207,10 @@ solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
     const solver::large_motion::IntegrationOptions& options, bool extrapolated,
     const solver::large_motion::Observer& look) {
+  if (tracking) return integrate_tracking(case_model, system, options, look);
   State state;
-  if (!tracking) {
-    return extrapolated ? integrate_extrapolated(system, state, options, look)
-                        : integrate(system, state, options, look);
-  }
-  state = system.reference_state();
-  solver::large_motion::IntegrationSummary summary;
-  summary.outcome =
-      make_consistent(system, state, tracking_start(case_model, system), options.step);
-  if (!summary.outcome.solved()) return summary;
-  const solver::large_motion::ConstrainedSystem& equations = system;
-  return integrate(equations, state, options, look);
+  return extrapolated ? integrate_extrapolated(system, state, options, look)
+                      : integrate(system, state, options, look);
 }
 
 void record_summary(const solver::large_motion::IntegrationSummary& summary,

@@ -7,7 +7,6 @@
 #include "harness/scene/rigid_case_model.h"
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/step_result.h"
-#include "solver/large_motion/solve/integrate.h"
 #include "solver/large_motion/solve/state_results.h"
 
 namespace trammel::harness {
@@ -83,15 +82,11 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
   options.step = place.number("step_s");
   require_step_count(place["step_s"], options.end_time);
   if (case_model.motion.size() > 1) options.output_step = case_model.motion[1].time;
-  solver::large_motion::State state = system.reference_state();
-  path.outcome = make_consistent(system, state, tracking_start(case_model, system), options.step);
-  if (!path.outcome.solved()) return;
   Eigen::MatrixXd& outputs = path.samples.outputs;
   const Eigen::RowVector3d start = outputs.row(0).head<3>();
   solver::Index k = 0;
-  const solver::large_motion::ConstrainedSystem& equations = system;
   path.outcome =
-      integrate(equations, state, options, [&](const solver::large_motion::State& now) {
+      integrate_tracking(case_model, system, options, [&](const solver::large_motion::State& now) {
         const bool on_time = k < outputs.rows() &&
                              std::abs(now.t - case_model.motion[static_cast<std::size_t>(k)].time) <
                                  options.step / 2;

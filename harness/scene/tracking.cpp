@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "harness/scene/rigid_case_model.h"
+#include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/inverse_dynamics.h"
 
@@ -82,6 +83,38 @@ solver::Index member_between(const solver::Model& model, solver::Index first,
   return -1;
 }
 
+/// Velocities at the start, those of the rigid twin.
+solver::large_motion::PrescribedVelocities tracking_start(
+    const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system) {
+  const solver::Model& model = system.model();
+  const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);
+  const solver::InverseDynamics motion =
+      solver::inverse_dynamics(solver::rigid_manipulator(*case_model.manipulator), start);
+  const auto turn = [](double rate, const Eigen::Vector2d& arm) {
+    return Eigen::Vector2d(-rate * arm.y(), rate * arm.x());
+  };
+  Eigen::MatrixX3d node(static_cast<solver::Index>(model.nodes.size()), 3);
+  const Eigen::Vector2d center(start.pose.x, start.pose.y);
+  for (solver::Index k = 0; k < node.rows(); ++k) {
+    // The platform's nodes; those of the limbs follow below.
+    const Eigen::Vector2d& place = model.nodes[static_cast<std::size_t>(k)].position;
+    node.row(k) << (start.velocity.head<2>() + turn(start.velocity[2], place - center)).transpose(),
+        start.velocity[2];
+  }
+  Eigen::VectorXd member = Eigen::VectorXd::Zero(static_cast<solver::Index>(model.members.size()));
+  for (solver::Index i = 0; i < 3; ++i) {
+    const std::string limb = std::to_string(i + 1);
+    const solver::Index a = model.find_node("A" + limb), b = model.find_node("B" + limb);
+    const Eigen::Vector2d arm = model.nodes[static_cast<std::size_t>(b)].position -
+                                model.nodes[static_cast<std::size_t>(a)].position;
+    node.row(a) << 0, 0, motion.q_dot[i];
+    node.row(b) << turn(motion.q_dot[i], arm).transpose(), motion.q_dot[i];
+    member[member_between(model, a, b)] = motion.q_dot[i];
+    member[member_between(model, b, model.find_node("C" + limb))] = motion.q_dot[3 + i];
+  }
+  return rigid_member_velocities(system, node, member);
+}
+
 }  // namespace
 
 void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& case_model,
@@ -124,35 +157,17 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
     model.supports[static_cast<std::size_t>(torque.node)].fixed[2] = false;
 }
 
-solver::large_motion::PrescribedVelocities tracking_start(
-    const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system) {
-  const solver::Model& model = system.model();
-  const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);
-  const solver::InverseDynamics motion =
-      solver::inverse_dynamics(solver::rigid_manipulator(*case_model.manipulator), start);
-  const auto turn = [](double rate, const Eigen::Vector2d& arm) {
-    return Eigen::Vector2d(-rate * arm.y(), rate * arm.x());
-  };
-  Eigen::MatrixX3d node(static_cast<solver::Index>(model.nodes.size()), 3);
-  const Eigen::Vector2d P(start.pose.x, start.pose.y);
-  for (solver::Index k = 0; k < node.rows(); ++k) {
-    // The platform's nodes; those of the limbs follow below.
-    const Eigen::Vector2d& place = model.nodes[static_cast<std::size_t>(k)].position;
-    node.row(k) << (start.velocity.head<2>() + turn(start.velocity[2], place - P)).transpose(),
-        start.velocity[2];
-  }
-  Eigen::VectorXd member = Eigen::VectorXd::Zero(static_cast<solver::Index>(model.members.size()));
-  for (solver::Index i = 0; i < 3; ++i) {
-    const std::string limb = std::to_string(i + 1);
-    const solver::Index a = model.find_node("A" + limb), b = model.find_node("B" + limb);
-    const Eigen::Vector2d arm = model.nodes[static_cast<std::size_t>(b)].position -
-                                model.nodes[static_cast<std::size_t>(a)].position;
-    node.row(a) << 0, 0, motion.q_dot[i];
-    node.row(b) << turn(motion.q_dot[i], arm).transpose(), motion.q_dot[i];
-    member[member_between(model, a, b)] = motion.q_dot[i];
-    member[member_between(model, b, model.find_node("C" + limb))] = motion.q_dot[3 + i];
-  }
-  return rigid_member_velocities(system, node, member);
+solver::large_motion::IntegrationSummary integrate_tracking(
+    const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
+    const solver::large_motion::IntegrationOptions& options,
+    const solver::large_motion::Observer& look) {
+  solver::large_motion::State state = system.reference_state();
+  solver::large_motion::IntegrationSummary summary;
+  summary.outcome =
+      make_consistent(system, state, tracking_start(case_model, system), options.step);
+  if (!summary.outcome.solved()) return summary;
+  const solver::large_motion::ConstrainedSystem& equations = system;
+  return integrate(equations, state, options, look);
 }
 
 }  // namespace trammel::harness

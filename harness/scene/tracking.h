@@ -2,7 +2,7 @@
 
 #include "harness/input/json_view.h"
 #include "harness/scene/case_model.h"
-#include "solver/large_motion/solve/consistent_initialization.h"
+#include "solver/large_motion/solve/integrate.h"
 #include "solver/large_motion/system/geometrically_exact_system.h"
 
 /// The manipulator in large motion, its actuators driven as its rigid twin follows the path, or
@@ -27,8 +27,10 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
                               const solver::large_motion::LargeMotionModel& large_motion,
                               solver::Model& model);
 
-/// Velocities at the start, those of the rigid twin.
-[[nodiscard]] solver::large_motion::PrescribedVelocities tracking_start(
-    const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system);
+/// The motion from the model's pose on, with the velocities of the rigid twin.
+[[nodiscard]] solver::large_motion::IntegrationSummary integrate_tracking(
+    const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
+    const solver::large_motion::IntegrationOptions& options,
+    const solver::large_motion::Observer& look);
 
 }  // namespace trammel::harness
