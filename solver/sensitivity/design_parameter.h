@@ -27,7 +27,7 @@ struct DesignParameter {
   Kind kind = Kind::length;
   std::array<bool, 3> proximal{true, true, true};
   std::array<bool, 3> distal{true, true, true};
-  bool platform = false;  ///< its thickness, E or density too
+  bool platform = false;  ///< its thickness, E, density or Poisson's ratio too
 };
 
 /// Whether `SeededDesign` carries its derivatives through to the elements: lengths, thickness,

@@ -49,8 +49,13 @@ void differentiate_numerically(const ManipulatorDesign& design, const Pose& pose
     result.outcome = found.outcome;
     result.evidence.add(found.evidence);
     result.counters += found.counters;
-    if (found.derivative.size() == result.frequency.size())
-      result.derivative.col(static_cast<Index>(p)) = found.derivative;
+    if (!result.outcome.solved()) return;
+    if (!found.derivative.allFinite()) {
+      result.outcome = {Status::singular,
+                        "a limb is straight or folded: no step leaves it in reach"};
+      return;
+    }
+    result.derivative.col(static_cast<Index>(p)) = found.derivative;
   }
 }
 
