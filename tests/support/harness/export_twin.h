@@ -52,8 +52,13 @@ inline bool is_of_lost_part(const std::string& name, const Json& model) {
          model.at("members").at(item).contains("end_section");
 }
 
+/// Components of a vector have one scale.
 inline double largest_of_head(const Quantities& all, const std::string& name) {
-  const auto head = [](const std::string& text) { return text.substr(0, text.find(':')); };
+  const auto head = [](const std::string& text) {
+    const std::string quantity = text.substr(0, text.find(':'));
+    const std::size_t axis = std::min(quantity.find("_x_"), quantity.find("_y_"));
+    return axis == std::string::npos ? quantity : std::string(quantity).replace(axis, 3, "_");
+  };
   double largest = 0;
   for (const auto& [other, quantity] : all) {
     if (head(other) != head(name)) continue;
