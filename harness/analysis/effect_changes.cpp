@@ -85,13 +85,4 @@ LargestDifference max_change(const Changes& changes) {
   return largest;
 }
 
-double model_size(const solver::Model& model) {
-  Eigen::Vector2d low = model.nodes.front().position, high = low;
-  for (const solver::Node& node : model.nodes) {
-    low = low.cwiseMin(node.position);
-    high = high.cwiseMax(node.position);
-  }
-  return (high - low).norm();
-}
-
 }  // namespace trammel::harness

@@ -21,7 +21,4 @@ using Changes = std::map<std::string, LargestDifference>;
 /// What a quantity is compared among; empty: it is not compared.
 [[nodiscard]] std::string change_kind(const std::string& quantity);
 
-/// The diagonal of the box around the nodes [m].
-[[nodiscard]] double model_size(const solver::Model& model);
-
 }  // namespace trammel::harness

@@ -9,6 +9,7 @@
 
 #include "harness/analysis/effect_changes.h"
 #include "harness/base/errors.h"
+#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {
@@ -226,7 +227,7 @@ class Measurement {
               const EffectScope& scope, double tolerance)
       : scope_(scope), tolerance_(tolerance) {
     const solver::Model model = first_model(scene);
-    size_ = model_size(model);
+    size_ = solver::box_diagonal(model);
     const auto members = std::max<solver::Index>(std::ssize(model.members), 1);
     CaseModel coarse = scene, coarsest = scene;
     const bool vibrates =

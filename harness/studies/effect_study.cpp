@@ -10,6 +10,7 @@
 #include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
 #include "harness/scene/with_model_errors.h"
+#include "solver/model/plane.h"
 #include "solver/statics/buckling.h"
 
 namespace trammel::harness {
@@ -26,7 +27,7 @@ class Study {
                            ? (*requested)["auto"].number("tolerance")
                            : options.tolerance;
     const CaseModel case_model = read_case_model(document_);
-    size_ = model_size(build_model(case_model, 0));
+    size_ = solver::box_diagonal(build_model(case_model, 0));
     study_.scope = effect_scope(document_, case_model);
     if (analysis_kind(document_) == "statics") {
       const solver::BucklingSolution buckling =

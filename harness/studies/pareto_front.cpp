@@ -1,5 +1,7 @@
 #include "harness/studies/pareto_front.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -21,6 +23,32 @@ std::set<std::size_t> settings_of(const std::vector<CostPoint>& points) {
   std::set<std::size_t> settings;
   for (const CostPoint& point : points) settings.insert(point.setting);
   return settings;
+}
+
+/// "'fine' or 'finer' or one of 3 more".
+std::string alternatives(std::size_t setting, const std::vector<std::size_t>& tied,
+                         const std::vector<std::string>& titles) {
+  std::string text = fmt::format("'{}'", titles[setting]);
+  const std::size_t named = tied.size() <= 3 ? tied.size() : 2;
+  for (std::size_t i = 0; i < named; ++i) text += fmt::format(" or '{}'", titles[tied[i]]);
+  if (tied.size() > named) text += fmt::format(" or one of {} more", tied.size() - named);
+  return text;
+}
+
+/// What more accuracy than that of `first` takes.
+/// @param fine  the cheapest that is good to 1e-6;  @param best  the most accurate
+std::string describe_finest(const CostPoint& first, const std::optional<CostPoint>& fine,
+                            const CostPoint& best, const std::vector<std::string>& titles) {
+  if (fine && fine->setting == first.setting) return ", and it is good to 1e-6 at no further cost.";
+  if (fine) {
+    return fmt::format("; 1e-6 takes '{}' and {} times as long.", titles[fine->setting],
+                       times(fine->time / first.time));
+  }
+  if (best.setting == first.setting) {
+    return fmt::format("; nothing more accurate is to be had than its {}.", error_text(best.error));
+  }
+  return fmt::format("; no setting reaches 1e-6, the best is '{}', off by {}, {} times as long.",
+                     titles[best.setting], error_text(best.error), times(best.time / first.time));
 }
 
 }  // namespace
@@ -107,37 +135,22 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
                                   const std::vector<std::string>& titles, std::size_t baseline) {
   const std::vector<CostPoint> front = find_pareto_front(points);
   if (front.empty()) return "No setting could be measured.";
-  const auto title = [&](const CostPoint& point) { return "'" + titles[point.setting] + "'"; };
+  const CostPoint& best = front.back();
   const auto first = cheapest(points, 0.01);
   if (!first) {
-    return "No setting comes within 1 %: the best, " + title(front.back()) + ", is off by " +
-           error_text(front.back().error) + ".";
+    return fmt::format("No setting comes within 1 %: the best, '{}', is off by {}.",
+                       titles[best.setting], error_text(best.error));
   }
-  std::string text = "Within 1 %, " + title(*first);
   const std::vector<std::size_t> tied = tied_settings(points, 0.01);
-  const std::size_t named = tied.size() <= 3 ? tied.size() : 2;
-  for (std::size_t i = 0; i < named; ++i) text += " or '" + titles[tied[i]] + "'";
-  if (tied.size() > named) text += " or one of " + std::to_string(tied.size() - named) + " more";
-  text += tied.empty() ? " is cheapest" : " is cheapest (times that cannot be told apart)";
-  if (std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance)) {
-    if (first->setting != baseline) text += ", as quick as '" + titles[baseline] + "'";
-  } else {
-    text += ", at " + times(first->time) + " times the time of '" + titles[baseline] + "'";
-  }
-  const auto fine = cheapest(points, 1e-6);
-  if (fine && fine->setting == first->setting) {
-    return text + ", and it is good to 1e-6 at no further cost.";
-  }
-  if (fine) {
-    return text + "; 1e-6 takes " + title(*fine) + " and " + times(fine->time / first->time) +
-           " times as long.";
-  }
-  const CostPoint& best = front.back();
-  if (best.setting == first->setting) {
-    return text + "; nothing more accurate is to be had than its " + error_text(best.error) + ".";
-  }
-  return text + "; no setting reaches 1e-6, the best is " + title(best) + ", off by " +
-         error_text(best.error) + ", " + times(best.time / first->time) + " times as long.";
+  std::string text =
+      fmt::format("Within 1 %, {} is cheapest{}", alternatives(first->setting, tied, titles),
+                  tied.empty() ? "" : " (times that cannot be told apart)");
+  const bool as_quick = std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance);
+  if (as_quick && first->setting != baseline)
+    text += fmt::format(", as quick as '{}'", titles[baseline]);
+  if (!as_quick)
+    text += fmt::format(", at {} times the time of '{}'", times(first->time), titles[baseline]);
+  return text + describe_finest(*first, cheapest(points, 1e-6), best, titles);
 }
 
 }  // namespace trammel::harness

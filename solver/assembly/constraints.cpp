@@ -7,6 +7,7 @@
 #include "solver/linalg/sparse_lu.h"
 #include "solver/model/labels.h"
 #include "solver/model/numbers.h"
+#include "solver/model/plane.h"
 
 namespace trammel::solver {
 namespace {
@@ -15,17 +16,6 @@ using Terms = std::vector<std::pair<Index, double>>;
 
 constexpr double kRedundant = 1e-11;      // what is left of a row that follows from the others
 constexpr double kPivotThreshold = 0.25;  // of the largest entry; bounds the growth of T
-
-double model_size(const Model& model) {
-  Vector2d low = model.nodes.front().position;
-  Vector2d high = low;
-  for (const Node& node : model.nodes) {
-    low = low.cwiseMin(node.position);
-    high = high.cwiseMax(node.position);
-  }
-  const double size = (high - low).norm();
-  return size > 0 ? size : 1.0;
-}
 
 std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& coordinates) {
   std::vector<ConstraintRow> rows;
@@ -264,7 +254,7 @@ Constraints build_constraints(const Model& model, const Discretisation& discreti
   add_linear_rows(model, coordinates, constraints.rows);
   add_rigid_rows(model, coordinates, constraints.rows);
   add_inextensible_rows(model, discretisation.mesh, constraints.rows);
-  Elimination elimination(coordinates, model_size(model));
+  Elimination elimination(coordinates, box_diagonal(model));
   constraints.pivot = elimination.run(constraints.rows);
   build_T(elimination, constraints, coordinates.size);
   return constraints;

@@ -7,6 +7,7 @@
 #include "solver/assembly/strain.h"
 #include "solver/linalg/backward_error.h"
 #include "solver/model/numbers.h"
+#include "solver/model/plane.h"
 
 namespace trammel::solver {
 
@@ -16,13 +17,6 @@ using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
 namespace {
-
-double model_size(const System& system) {
-  double size = 0;
-  for (const Vector2d& position : system.mesh.positions)
-    size = std::max(size, (position - system.mesh.positions.front()).norm());
-  return size > 0 ? size : 1;
-}
 
 /// @param size  magnitudes of the coordinates; @returns them, none below a thousandth of the
 ///              largest motion
@@ -41,7 +35,7 @@ VectorXd sizes_of(const System& system, double model, VectorXd size) {
 
 EquationRows::EquationRows(const System& system)
     : system_(system),
-      model_size_(model_size(system)),
+      model_size_(box_diagonal(system.mesh.positions)),
       sum_(VectorXcd::Zero(system.T.rows())),
       free_sum_(VectorXcd::Zero(system.T.cols())),
       terms_(VectorXd::Zero(system.T.rows())),
@@ -104,7 +98,7 @@ double mode_backward_error(const System& system, const SparseMatrix* K_G, const 
                            const VectorXd& w2) {
   // Modes along the rows, so that an element takes all of them at once.
   const MatrixXd u = (system.T * shapes).transpose();
-  const double model = model_size(system);
+  const double model = box_diagonal(system.mesh.positions);
   MatrixXd size = u.cwiseAbs();
   for (Index mode = 0; mode < size.rows(); ++mode)
     size.row(mode) = sizes_of(system, model, size.row(mode).transpose()).transpose();

@@ -6,18 +6,14 @@
 #include <string>
 #include <utility>
 
+#include "solver/model/plane.h"
+
 namespace trammel::solver {
 namespace {
 
 /// How far apart nodes of one place may be.
 double merge_tolerance(const std::vector<Vector2d>& points) {
-  Vector2d low = points.front();
-  Vector2d high = low;
-  for (const Vector2d& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return 1e-9 * (high - low).norm();
+  return 1e-9 * box_diagonal(points);
 }
 
 /// Finds the nodes that a model has so far by their place.

@@ -9,6 +9,7 @@
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/eigenvalue_count.h"
 #include "solver/linalg/start_vectors.h"
+#include "solver/statics/describe_mechanism.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {

@@ -8,6 +8,7 @@
 #include "solver/assembly/strain.h"
 #include "solver/linalg/gyroscopic.h"
 #include "solver/linalg/refinement.h"
+#include "solver/statics/describe_mechanism.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {

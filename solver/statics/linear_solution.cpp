@@ -8,6 +8,8 @@
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/forward_error.h"
 #include "solver/linalg/refinement.h"
+#include "solver/model/plane.h"
+#include "solver/statics/describe_mechanism.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
@@ -17,12 +19,7 @@ using Eigen::VectorXd;
 
 /// Translations, and rotations times the size of the model [m].
 VectorXd lengths(const System& system) {
-  Vector2d low = system.mesh.positions.front(), high = low;
-  for (const Vector2d& p : system.mesh.positions) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double size = (high - low).norm();
+  const double size = box_diagonal(system.mesh.positions);
   VectorXd factor = VectorXd::Ones(system.T.rows());
   for (Index i = 0; i < factor.size(); ++i) {
     if (system.coordinates.is_rotation[to_size(i)]) factor[i] = size;

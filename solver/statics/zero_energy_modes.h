@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 
 #include "solver/assembly/system.h"
 #include "solver/linalg/factorization.h"
@@ -21,8 +20,5 @@ struct ZeroEnergyModes {
 /// slender chain is ill-conditioned, but it is not a mechanism.
 [[nodiscard]] ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
                                                      Counters& counters);
-
-/// "rotation of the platform about (0.25, 0.144) m; node B turns freely".
-[[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
 }  // namespace trammel::solver

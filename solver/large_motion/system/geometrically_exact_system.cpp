@@ -8,25 +8,19 @@
 #include "solver/large_motion/system/linear_constraints.h"
 #include "solver/large_motion/system/loads.h"
 #include "solver/large_motion/system/member_elements.h"
+#include "solver/model/plane.h"
 
 namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Diagonal of the box about all nodes and mass centres; 1 where it has none [m].
+/// Diagonal of the box about all nodes and mass centres [m].
 double model_size(const Model& model) {
-  if (model.nodes.empty()) return 1;
-  Vector2d low = model.nodes.front().position, high = low;
-  const auto include = [&](const Vector2d& point) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  };
-  for (const Node& node : model.nodes) include(node.position);
-  for (const PointMass& mass : model.masses) {
-    include(model.nodes[to_size(mass.node)].position + mass.offset);
-  }
-  const double size = (high - low).norm();
-  return size > 0 ? size : 1;
+  std::vector<Vector2d> points;
+  for (const Node& node : model.nodes) points.push_back(node.position);
+  for (const PointMass& mass : model.masses)
+    points.push_back(points[to_size(mass.node)] + mass.offset);
+  return box_diagonal(points);
 }
 
 /// A unit change of each free coordinate: the model's size [m] or 1 rad.
