@@ -63,20 +63,31 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
   const Eigen::MatrixXd scaled = inverse.asDiagonal() * queries.transpose();  // input x query
   require(squarable(scaled), "a query is not finite or too large to be squared");
 
-  // Queries in blocks: the weights of a block meet the outputs in one matrix product.
+  // Queries in blocks: the weights of a block meet the outputs, and ones for their sums, in one
+  // matrix product of the samples within reach of any.
   constexpr Index kBlock = 32;
-  Eigen::MatrixXd result(queries.rows(), network.outputs.cols());
-  Eigen::MatrixXd weights(samples.rows(), std::min(kBlock, queries.rows()));
+  const Index columns = network.outputs.cols();
+  Eigen::MatrixXd targets(samples.rows(), columns + 1);
+  targets << network.outputs, Eigen::VectorXd::Ones(samples.rows());
+  Eigen::MatrixXd result(queries.rows(), columns), found(kBlock, columns + 1);
+  Eigen::MatrixXd weights(samples.rows(), kBlock);
   ExcessDistances excess(samples);
-  for (Index first = 0; first < queries.rows(); first += kBlock) {
-    const Index count = std::min(kBlock, queries.rows() - first);
+  const double reach = reach_of_kernel(network.sigma);
+  for (Index begin = 0; begin < queries.rows(); begin += kBlock) {
+    const Index count = std::min(kBlock, queries.rows() - begin);
+    Index first = samples.rows(), last = 0;
+    weights.leftCols(count).setZero();
     for (Index k = 0; k < count; ++k) {
-      const Eigen::ArrayXd& e = excess.compute(scaled.col(first + k));
-      kernel_weights(e, network.sigma, weights.col(k));
-      weights.col(k) /= weights.col(k).sum();
+      const Eigen::ArrayXd& e = excess.compute(scaled.col(begin + k), reach);
+      first = std::min(first, excess.first());
+      last = std::max(last, excess.last());
+      kernel_weights(&e(excess.first()), excess.last() - excess.first(), network.sigma,
+                     &weights(excess.first(), k));
     }
-    result.middleRows(first, count).noalias() =
-        weights.leftCols(count).transpose() * network.outputs;
+    found.topRows(count).noalias() = weights.block(first, 0, last - first, count).transpose() *
+                                     targets.middleRows(first, last - first);
+    result.middleRows(begin, count) = found.topLeftCorner(count, columns).array().colwise() /
+                                      found.col(columns).head(count).array();
   }
   return result;
 }

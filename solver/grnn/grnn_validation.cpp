@@ -84,6 +84,7 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   Eigen::MatrixXd targets(n, columns + 1);
   targets << network.outputs, Eigen::VectorXd::Ones(n);
   ExcessDistances excess(samples);
+  const double reach = reach_of_kernel(sigmas.maxCoeff());
   Eigen::Array<bool, Eigen::Dynamic, 1> own(n);
   Eigen::ArrayXXd excesses(n, kBlock);
   Eigen::MatrixXd weights(n, kBlock), found(kBlock, columns + 1);
@@ -93,10 +94,10 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
     const Index count = std::min(kBlock, n - first);
     for (Index k = 0; k < count; ++k) {
       own = folds == folds(first + k);
-      excesses.col(k) = excess.compute(samples.row(first + k).transpose(), &own);
+      excesses.col(k) = excess.compute(samples.row(first + k).transpose(), reach, &own);
     }
     for (Index s = 0; s < sigmas.size(); ++s) {
-      kernel_weights(excesses.leftCols(count), sigmas(s), weights.leftCols(count));
+      kernel_weights(excesses.data(), n * count, sigmas(s), weights.data());
       found.topRows(count).noalias() = weights.leftCols(count).transpose() * targets;
       for (Index k = 0; k < count; ++k) {
         miss = found.row(k).head(columns) / found(k, columns) - network.outputs.row(first + k);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <limits>
+
+#include "solver/model/model.h"
 
 /// The kernel weights of a GRNN, shared by prediction and cross-validation.
 namespace trammel::solver {
@@ -12,45 +12,30 @@ class ExcessDistances {
  public:
   /// @param samples  sample x input, scaled; must outlive this object
   explicit ExcessDistances(const Eigen::MatrixXd& samples)
-      : samples_(samples), squared_(samples.rows()), excess_(samples.rows()) {}
+      : samples_(samples), excess_(samples.rows()), last_(samples.rows()) {}
 
   /// @param query  scaled
+  /// @param reach  of what lies further only an excess that is at least as large need be told
   /// @param skip   samples to leave out (their excess is infinite), or null
-  const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query,
-                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    squared_ = (query(0) - samples_.col(0).array()).square();
-    for (Eigen::Index f = 1; f < samples_.cols(); ++f)
-      squared_ += (query(f) - samples_.col(f).array()).square();
-    if (skip) squared_ = skip->select(kInfinity, squared_);
-    const double* const first = squared_.data();
-    const Eigen::Index nearest =
-        std::min(std::find(first, first + squared_.size(), squared_.minCoeff()) - first,
-                 squared_.size() - 1);
-    excess_.setZero();
-    for (Eigen::Index f = 0; f < samples_.cols(); ++f) {
-      const double x = query(f);
-      const double m = samples_(nearest, f);
-      excess_ += (m - samples_.col(f).array()) * ((x - samples_.col(f).array()) + (x - m));
-    }
-    if (skip) excess_ = skip->select(kInfinity, excess_);
-    // Rounding may have named the second nearest: count from the least, so that none is negative.
-    excess_ -= excess_.minCoeff();
-    return excess_;
-  }
+  const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double reach,
+                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr);
+
+  /// Samples [first, last) hold all within reach of the last query.
+  [[nodiscard]] Index first() const { return first_; }
+  [[nodiscard]] Index last() const { return last_; }
 
  private:
   const Eigen::MatrixXd& samples_;
-  Eigen::ArrayXd squared_;
   Eigen::ArrayXd excess_;
+  Index first_ = 0, last_;
 };
 
-/// exp(-excess / 2 sigma^2): 1 for the nearest, whatever sigma. Two divisions, since sigma^2 may
-/// underflow or overflow where excess / sigma / sigma has its proper limit.
-template <class In, class Out>
-void kernel_weights(const In& excess, double sigma, Out&& weights) {
-  const double inverse = 1 / sigma;
-  weights = (-0.5 * (excess * inverse) * inverse).exp().matrix();
-}
+/// exp(-excess / 2 sigma^2) to 4e-16 of itself: 1 for the nearest, whatever sigma; 0 below e^-708.
+/// @param excess   [count]
+/// @param weights  [count]
+void kernel_weights(const double* excess, Index count, double sigma, double* weights);
+
+/// The excess from which on a weight is 0; infinite where sigma^2 overflows.
+[[nodiscard]] double reach_of_kernel(double sigma);
 
 }  // namespace trammel::solver
