@@ -225,7 +225,7 @@ class Solver {
       inverse_iteration_failed_ = inverse_iteration_failed_ || !(y.correction < 0.1);
       Y.col(j) = y.x;
       remove_null(Y.col(j));
-      for (int pass = 0; pass < 2; ++pass) orthogonalise(Y, j);
+      orthogonalise(Y, j);
     }
     MatrixXd A = pencil_.K_products(Y);
     const MatrixXd B = Y.transpose() * (*pencil_.B * Y);
@@ -238,24 +238,29 @@ class Solver {
     values();
   }
 
-  /// In K - s B, against the columns before it; normalised.
+  /// In K - s B, against the columns before it; normalised. Again where most of it went: else a
+  /// second pass would only find rounding (Daniel, Gragg, Kaufman and Stewart 1976).
   void orthogonalise(MatrixXd& Y, Index j) const {
-    const VectorXd image = *pencil_.K * Y.col(j) - pencil_.shift * (*pencil_.B * Y.col(j));
-    Y.col(j) -= Y.leftCols(j) * (Y.leftCols(j).transpose() * image);
-    const VectorXd again = *pencil_.K * Y.col(j) - pencil_.shift * (*pencil_.B * Y.col(j));
-    Y.col(j) /= std::sqrt(std::abs(Y.col(j).dot(again)));
+    for (const bool first : {true, false}) {
+      VectorXd image = *pencil_.K * Y.col(j);
+      if (pencil_.shift != 0) image -= pencil_.shift * (*pencil_.B * Y.col(j));
+      const VectorXd part = Y.leftCols(j).transpose() * image;
+      const double whole = Y.col(j).dot(image), left = whole - part.squaredNorm();
+      Y.col(j) -= Y.leftCols(j) * part;
+      if (first && !(left > 0.5 * whole)) continue;
+      Y.col(j) /= std::sqrt(std::abs(left));
+      return;
+    }
   }
 
   /// Rayleigh quotients, ascending.
   void values() {
     const Index p = X_.cols();
-    VectorXd value(p);
-    for (Index j = 0; j < p; ++j) {
-      const double energy = pencil_.K_products(X_.col(j))(0, 0);
-      const double b = X_.col(j).dot(*pencil_.B * X_.col(j));
-      value[j] = energy / b;
-      X_.col(j) /= std::sqrt(std::abs(b));
-    }
+    const VectorXd energy = pencil_.K_products(X_).diagonal();
+    const MatrixXd BX = *pencil_.B * X_;
+    const VectorXd norm = X_.cwiseProduct(BX).colwise().sum();
+    const VectorXd value = energy.cwiseQuotient(norm);
+    X_ *= norm.cwiseAbs().cwiseSqrt().cwiseInverse().asDiagonal();
     std::vector<Index> order(static_cast<std::size_t>(p));
     for (Index j = 0; j < p; ++j) order[static_cast<std::size_t>(j)] = j;
     std::stable_sort(order.begin(), order.end(),
