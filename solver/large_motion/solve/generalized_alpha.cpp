@@ -13,6 +13,7 @@ GeneralizedAlpha::GeneralizedAlpha(const ConstrainedSystem& system, double spect
       alpha_f_(spectral_radius / (spectral_radius + 1)),
       beta_(std::pow(1 - alpha_m_ + alpha_f_, 2) / 4),
       gamma_(0.5 - alpha_m_ + alpha_f_),
+      has_rigid_rows_((system.compliance().array() == 0).any()),
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
       constraint_residual_(VectorXd::Zero(system.constraints())),
       constraint_rate_(VectorXd::Zero(system.constraints())),
@@ -131,12 +132,16 @@ void GeneralizedAlpha::correct(double h) {
   }
   matrix_.solve(position_correction_);
   to_.q += position_correction_.head(n);
-  system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
-  for (Index r = 0; r < m; ++r) {
-    if (system_.compliance()[r] == 0)
-      velocity_correction_[n + r] = -constraint_rate_[r] / per_velocity;
+  if (has_rigid_rows_) {
+    system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
+    for (Index r = 0; r < m; ++r) {
+      if (system_.compliance()[r] == 0)
+        velocity_correction_[n + r] = -constraint_rate_[r] / per_velocity;
+    }
+    matrix_.solve(velocity_correction_);
+  } else {
+    velocity_correction_ = position_correction_;
   }
-  matrix_.solve(velocity_correction_);
   to_.v += per_velocity * velocity_correction_.head(n);
   to_.a += per_acceleration * velocity_correction_.head(n);
   A1_ += 1 / (beta_ * h * h) * velocity_correction_.head(n);

@@ -42,6 +42,7 @@ class GeneralizedAlpha final : public Stepper {
 
   const ConstrainedSystem& system_;
   double alpha_m_, alpha_f_, beta_, gamma_;
+  bool has_rigid_rows_;  ///< without them positions and velocities have the same correction
   KktMatrix matrix_;
   State from_, to_;
   VectorXd A0_, A1_, saved_A0_, defect_;  ///< the method's own accelerations
