@@ -196,7 +196,7 @@ class ProcessPool {
 
  private:
   static bool is_under_way(Child& child) {
-    std::array<char, 65536> buffer{};
+    std::array<char, 65536> buffer;  // as it comes: zeros would cost more than most answers
     const ssize_t n = read(child.answer, buffer.data(), buffer.size());
     if (n > 0) child.text.append(buffer.data(), static_cast<std::size_t>(n));
     return n > 0 || (n < 0 && errno == EINTR);

@@ -1,6 +1,7 @@
 #include "harness/motion/grnn_samples.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "harness/readers/time_reader.h"
@@ -16,12 +17,12 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
   Eigen::MatrixXd matrix(static_cast<solver::Index>(rows.size()),
                          static_cast<solver::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].size() != columns) {
+    const Json& row = rows.json()[i];  // there may be 100,000
+    if (row.size() != columns) {
       throw rows[i].error("expected " + std::to_string(columns) + " numbers as in the first row");
     }
     for (std::size_t j = 0; j < columns; ++j) {
-      matrix(static_cast<solver::Index>(i), static_cast<solver::Index>(j)) =
-          rows[i][j].get<double>();
+      matrix(static_cast<solver::Index>(i), static_cast<solver::Index>(j)) = row[j].get<double>();
     }
   }
   return matrix;

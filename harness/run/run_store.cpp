@@ -20,11 +20,19 @@
 #include "harness/base/json_file.h"
 #include "harness/input/catalogue.h"
 
-/// A struct with all its members: one that is not named here does not compile.
-#define TRAMMEL_KEPT(Type, ...)                                       \
-  NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Type, __VA_ARGS__)               \
-  [[maybe_unused]] static void name_all_members(const Type& whole_) { \
-    [[maybe_unused]] const auto& [__VA_ARGS__] = whole_;              \
+/// A struct with all its members, one after the other: one that is not named here does not compile.
+#define TRAMMEL_PUT(member) out.push_back(whole.member);
+#define TRAMMEL_TAKE(member) in.at(place++).get_to(whole.member);
+#define TRAMMEL_KEPT(Type, ...)                                          \
+  inline void to_json(nlohmann::json& out, const Type& whole) {          \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(TRAMMEL_PUT, __VA_ARGS__))  \
+  }                                                                      \
+  inline void from_json(const nlohmann::json& in, Type& whole) {         \
+    std::size_t place = 0;                                               \
+    NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(TRAMMEL_TAKE, __VA_ARGS__)) \
+  }                                                                      \
+  [[maybe_unused]] static void name_all_members(const Type& whole_) {    \
+    [[maybe_unused]] const auto& [__VA_ARGS__] = whole_;                 \
   }
 
 namespace nlohmann {
@@ -77,18 +85,23 @@ namespace trammel::harness {
 inline thread_local std::string written_numbers;
 inline thread_local std::string_view read_numbers;
 
+template <class Number>
+std::size_t append(const std::vector<Number>& numbers) {
+  const std::size_t length = numbers.size() * sizeof(Number);
+  written_numbers.append(reinterpret_cast<const char*>(numbers.data()), length);
+  return length;
+}
+
 /// Where they are: first byte and length.
 template <class Number>
 nlohmann::json packed(const std::vector<Number>& numbers) {
-  const std::size_t start = written_numbers.size(), length = numbers.size() * sizeof(Number);
-  written_numbers.append(reinterpret_cast<const char*>(numbers.data()), length);
-  return {start, length};
+  const std::size_t start = written_numbers.size();
+  return {start, append(numbers)};
 }
 
-/// @throws std::exception  where the JSON is not what `packed` gives.
+/// @throws std::exception  where they are not there.
 template <class Number>
-void unpack(const nlohmann::json& json, std::vector<Number>& numbers) {
-  const auto start = json.at(0).get<std::size_t>(), length = json.at(1).get<std::size_t>();
+void take(std::size_t start, std::size_t length, std::vector<Number>& numbers) {
   if (length % sizeof(Number) != 0 || start > read_numbers.size() ||
       length > read_numbers.size() - start)
     throw std::runtime_error("expected whole numbers");
@@ -96,13 +109,35 @@ void unpack(const nlohmann::json& json, std::vector<Number>& numbers) {
   std::copy_n(read_numbers.data() + start, length, reinterpret_cast<char*>(numbers.data()));
 }
 
-inline void to_json(nlohmann::json& out, const Quantity& quantity) {
-  const auto& [values, roundoff] = quantity;
-  out = {packed(values), packed(roundoff)};
+/// @throws std::exception  where the JSON is not what `packed` gives.
+template <class Number>
+void unpack(const nlohmann::json& json, std::vector<Number>& numbers) {
+  take(json.at(0).get<std::size_t>(), json.at(1).get<std::size_t>(), numbers);
 }
-inline void from_json(const nlohmann::json& in, Quantity& quantity) {
-  unpack(in.at(0), quantity.values);
-  unpack(in.at(1), quantity.roundoff);
+
+/// All names in one text and all numbers in a row, for there are hundreds of quantities.
+inline void to_json(nlohmann::json& out, const Quantities& quantities) {
+  std::string names;
+  std::vector<std::size_t> lengths = {written_numbers.size()};
+  for (const auto& [name, quantity] : quantities) {
+    const auto& [values, roundoff] = quantity;
+    names += name;
+    lengths.insert(lengths.end(), {name.size(), append(values), append(roundoff)});
+  }
+  out = {names, packed(lengths)};
+}
+inline void from_json(const nlohmann::json& in, Quantities& quantities) {
+  const auto& names = in.at(0).get_ref<const std::string&>();
+  std::vector<std::size_t> lengths;
+  unpack(in.at(1), lengths);
+  std::size_t letter = 0, start = lengths.at(0);
+  for (std::size_t i = 1; i < lengths.size(); i += 3) {
+    Quantity& quantity = quantities[names.substr(letter, lengths[i])];
+    letter += lengths[i];
+    take(start, lengths.at(i + 1), quantity.values);
+    take(start + lengths[i + 1], lengths.at(i + 2), quantity.roundoff);
+    start += lengths[i + 1] + lengths[i + 2];
+  }
 }
 
 inline void to_json(nlohmann::json& out, const Drawing::Shape& shape) {
@@ -250,10 +285,13 @@ void mark_used(const std::filesystem::path& file) {
   std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
 }
 
-std::string name_of(const Json& all_that_decides) {
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string name_of(const std::string& all_that_decides) {
   static const std::string program = program_hash();
-  const Json all = {program, all_that_decides};
-  return content_hash(all.dump(-1, ' ', false, Json::error_handler_t::replace)) + ".cbor";
+  return content_hash(program + all_that_decides) + ".cbor";
 }
 
 void add_setting(const Setting& setting, Json& all) {
@@ -270,7 +308,7 @@ std::string name_of(const CostStudy& study, const TimingOptions& timing) {
     all.push_back({output.scale.kind, output.scale.number});
   for (const Setting& setting : study.settings) add_setting(setting, all);
   if (study.reference_solution) add_setting(*study.reference_solution, all);
-  return name_of(all);
+  return name_of(text_of(all));
 }
 
 /// A byte for each call that has begun the computation of that file.
@@ -296,7 +334,8 @@ Json tried_cases(const Document& document) {
 std::string computation_name(const Document& document, bool requested,
                              const std::string& solver_hash) {
   const std::string file = std::filesystem::absolute(document.origin("").file).string();
-  return name_of({requested, file, document.value(), tried_cases(document), solver_hash});
+  return name_of(text_of({requested, file, tried_cases(document), solver_hash}) +
+                 text_of(document.value()));
 }
 
 std::string to_bytes(const Json& json) {
@@ -375,7 +414,7 @@ SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const Referen
                          const std::filesystem::path& store, bool resume) {
   Json all = Json::array({"setting"});
   add_setting(setting, all);
-  const std::filesystem::path file = store / name_of(all);
+  const std::filesystem::path file = store / name_of(text_of(all));
   try {
     if (resume) {
       const SandboxedRun kept = stored_from<SandboxedRun>(read_text(file));
