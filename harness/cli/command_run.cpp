@@ -417,7 +417,8 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
     print_run(run);
     if (runs.size() == 1) print_validation(run, std::cout);
   }
-  const results::Results found = results_of(runs, selection.cases, references);
+  const bool with_series = command.vtk || !command.history.empty();
+  const results::Results found = results_of(runs, selection.cases, references, with_series);
   const auto results = write_all(found, command.out, renderers);
   if (command.json) {
     std::cout << read_text(results);

@@ -5,6 +5,7 @@
 
 #include "harness/base/content_hash.h"
 #include "harness/base/environment.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {
@@ -177,7 +178,7 @@ results::Status status(const std::string& status) {
   return Status::error;
 }
 
-results::Run run_results(const Run& run) {
+results::Run run_results(const Run& run, bool with_series) {
   results::Run out;
   out.case_id = run.case_id;
   out.variant = run.variant;
@@ -189,9 +190,15 @@ results::Run run_results(const Run& run) {
                                  number(run.result.evidence.largest(kind)));
   }
   for (const Warning& warning : run.result.warnings) out.warnings.push_back(warning.text());
-  results::Run series = stored_series(run);
-  out.quantities = std::move(series.quantities);
-  out.drawing = std::move(series.drawing);
+  if (with_series || run.stored.empty()) {
+    results::Run series = stored_series(run);
+    out.quantities = std::move(series.quantities);
+    out.drawing = std::move(series.drawing);
+  } else {
+    for (const auto& [name, quantity] : run.result.quantities)
+      if (quantity.values.size() <= kSummaryEntries)
+        out.quantities.emplace_back(name, numbers(quantity.values));
+  }
   out.stored = run.stored.filename().string();
   out.was_stored = run.was_stored;
   for (const CheckResult& found : run.check_results) out.checks.push_back(check(found));
@@ -205,7 +212,7 @@ results::Run run_results(const Run& run) {
 
 results::CaseInfo case_info(const Case& given) {
   results::CaseInfo info;
-  Json json = given.document.value();
+  const Json& json = given.document.value();
   info.id = given.id();
   info.title = given.title();
   info.description = json.value("description", "");
@@ -216,7 +223,7 @@ results::CaseInfo case_info(const Case& given) {
   if (json.contains("figures")) info.figures = results::read_figures(json["figures"]);
   if (json.contains("tables")) info.tables = results::read_tables(json["tables"]);
   info.analysis = analysis_kind(given.document);
-  info.hash = content_hash(given.document.value().dump());
+  info.hash = content_hash(json.dump());
   for (const std::string& variant : given.variants())
     info.variants.push_back({variant, given.variant_title(variant)});
   return info;
@@ -270,7 +277,7 @@ results::Counters counters(const solver::Counters& counters) {
 }
 
 results::Results results_of(const std::vector<Run>& runs, const std::vector<Case>& cases,
-                            const References& references) {
+                            const References& references, bool with_series) {
   results::Results out;
   out.environment = results::read_environment(environment());
   out.environment.stored_runs = static_cast<int>(
@@ -290,7 +297,7 @@ results::Results results_of(const std::vector<Run>& runs, const std::vector<Case
       out.cases.push_back(std::move(unread));
     }
     if (!run.stored.empty()) out.store = run.stored.parent_path().string();
-    out.runs.push_back(run_results(run));
+    out.runs.push_back(run_results(run, with_series));
   }
   return out;
 }

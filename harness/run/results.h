@@ -8,9 +8,10 @@
 namespace trammel::harness {
 
 /// What results.json says of the runs.
+/// @param with_series  false: of what the store keeps no series and drawings are copied
 [[nodiscard]] results::Results results_of(const std::vector<Run>& runs,
                                           const std::vector<Case>& cases,
-                                          const References& references);
+                                          const References& references, bool with_series = true);
 
 [[nodiscard]] results::Counters counters(const solver::Counters& counters);
 

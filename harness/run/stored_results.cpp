@@ -58,9 +58,13 @@ fs::path place_of(const fs::path& folder) {
 }  // namespace
 
 fs::path write_results(const results::Results& results, const fs::path& folder) {
-  results::Results summary = results;
-  summary.runs.clear();
-  for (const results::Run& run : results.runs) {
+  // All but the runs, whose series may be most of the memory.
+  const auto& [format, environment, cases, references, runs, solver, uncertainty_coverage, cost,
+               claims, coverage, effect_scenes, history, store, missing] = results;
+  results::Results summary{
+      format, environment, cases,    references,    {},      solver, uncertainty_coverage,
+      cost,   claims,      coverage, effect_scenes, history, store,  missing};
+  for (const results::Run& run : runs) {
     summary.runs.push_back(run.stored.empty() ? run : summary_of(run));
     if (!run.stored.empty())
       write_file(judged_file(fs::path(results.store) / run.stored),
