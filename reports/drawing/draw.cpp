@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <sstream>
 #include <system_error>
 
@@ -85,6 +86,61 @@ std::string axes_of(const Figure& figure, const fs::path& extent) {
          "\" data-x=\"" + xml_escaped(x) + "\" data-y=\"" + xml_escaped(y) + "\"";
 }
 
+fs::path svg_path(const fs::path& folder, const Figure& figure) {
+  return folder / (figure.id + ".svg");
+}
+
+/// What stands before a drawing in its file, with a hash of it and of all that it tells.
+std::string head_of(const Figure& figure, const std::string& program, const std::string& svg) {
+  const std::string all = program + preamble(figure, "/") + figure.commands + figure.title +
+                          figure.alt + figure.moving + svg;
+  return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<?xml-stylesheet "
+         "href=\"figure.css\"?>\n<!-- " +
+         std::to_string(std::hash<std::string>{}(all)) + " -->\n";
+}
+
+/// Whether the folder has the drawing of this figure, whole and as it was drawn.
+bool take_drawing(const fs::path& former, const std::string& program, Figure& figure) {
+  const fs::path path = svg_path(former, figure);
+  if (!fs::is_regular_file(path)) return false;
+  const std::string drawn = read_file(path);
+  const std::size_t start = drawn.find("<svg");
+  if (start == std::string::npos) return false;
+  std::string svg = drawn.substr(start);
+  if (drawn.compare(0, start, head_of(figure, program, svg)) != 0) return false;
+  figure.svg = std::move(svg);
+  return true;
+}
+
+void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder) {
+  if (figures.empty()) return;
+  const auto extent_path = [&](const Figure& figure) { return folder / (figure.id + ".extent"); };
+  for (const Figure* figure : figures) fs::remove(svg_path(folder, *figure));
+  {
+    const NoBrokenPipe guard;
+    // Without the user's own settings; one that hangs is ended.
+    Gnuplot gnuplot("timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d");
+    for (const Figure* figure : figures)
+      gnuplot << preamble(*figure, svg_path(folder, *figure)) << figure->commands
+              << "unset output\n"
+              << "set print " << gnuplot_path(extent_path(*figure)) << '\n'
+              << "print GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX, GPVAL_TERM_XMIN, "
+                 "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX\nunset print\n";
+  }
+  for (Figure* figure : figures) {
+    const fs::path path = svg_path(folder, *figure);
+    const std::string drawn = fs::exists(path) ? read_file(path) : "";
+    if (drawn.find("</svg>") == std::string::npos)  // it does not say why: the disk may be full
+      throw std::system_error(EIO, std::generic_category(), path.string() + ": not drawn whole");
+    figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
+    figure->svg.insert(figure->svg.find(" role="), axes_of(*figure, extent_path(*figure)));
+    fs::remove(extent_path(*figure));
+    if (!figure->moving.empty())
+      figure->svg.insert(figure->svg.rfind("</svg>"),
+                         "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
+  }
+}
+
 }  // namespace
 
 std::string slug(const std::string& text) {
@@ -113,37 +169,16 @@ bool can_draw() {
   return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
 }
 
-void draw(const std::vector<Figure*>& figures, const fs::path& folder) {
+void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs::path& former,
+          const std::string& program) {
   fs::create_directories(folder);
-  if (figures.empty()) return;
-  const auto svg_path = [&](const Figure& figure) { return folder / (figure.id + ".svg"); };
-  const auto extent_path = [&](const Figure& figure) { return folder / (figure.id + ".extent"); };
-  for (const Figure* figure : figures) fs::remove(svg_path(*figure));
-  {
-    const NoBrokenPipe guard;
-    // Without the user's own settings; one that hangs is ended.
-    Gnuplot gnuplot("timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d");
-    for (const Figure* figure : figures)
-      gnuplot << preamble(*figure, svg_path(*figure)) << figure->commands << "unset output\n"
-              << "set print " << gnuplot_path(extent_path(*figure)) << '\n'
-              << "print GPVAL_X_MIN, GPVAL_X_MAX, GPVAL_Y_MIN, GPVAL_Y_MAX, GPVAL_TERM_XMIN, "
-                 "GPVAL_TERM_XMAX, GPVAL_TERM_YMIN, GPVAL_TERM_YMAX\nunset print\n";
-  }
+  std::vector<Figure*> missing;
   for (Figure* figure : figures) {
-    const fs::path path = svg_path(*figure);
-    const std::string drawn = fs::exists(path) ? read_file(path) : "";
-    if (drawn.find("</svg>") == std::string::npos)  // it does not say why: the disk may be full
-      throw std::system_error(EIO, std::generic_category(), path.string() + ": not drawn whole");
-    figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
-    figure->svg.insert(figure->svg.find(" role="), axes_of(*figure, extent_path(*figure)));
-    fs::remove(extent_path(*figure));
-    if (!figure->moving.empty())
-      figure->svg.insert(figure->svg.rfind("</svg>"),
-                         "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
-    write_file(
-        path,
-        "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<?xml-stylesheet href=\"figure.css\"?>\n" +
-            figure->svg);
+    if (former.empty() || !take_drawing(former, program, *figure)) missing.push_back(figure);
+  }
+  draw_by_gnuplot(missing, folder);
+  for (const Figure* figure : figures) {
+    write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
   }
 }

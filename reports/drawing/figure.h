@@ -32,7 +32,10 @@ struct Figure {
 
 /// Draws all figures with one gnuplot process: sets `svg`, and writes <id>.svg and <id>.csv for
 /// each into `folder`.
+/// @param former   folder of drawings, of which those are taken that tell the same; empty: none
+/// @param program  what draws: drawings of another one are not taken
 /// @throws std::runtime_error if a figure could not be drawn or written.
-void draw(const std::vector<Figure*>& figures, const std::filesystem::path& folder);
+void draw(const std::vector<Figure*>& figures, const std::filesystem::path& folder,
+          const std::filesystem::path& former = {}, const std::string& program = {});
 
 }  // namespace trammel::reports

@@ -70,7 +70,10 @@ fs::path write_report(const Results& results, const fs::path& out, bool single_f
     number_figures(pages);
     std::vector<Figure*> figures;
     for (const auto& page : pages) figures.insert(figures.end(), page.begin(), page.end());
-    draw(figures, part / "figures");
+    // Where nothing was to be computed anew, nothing is drawn anew that is there.
+    const Environment& from = results.environment;
+    draw(figures, part / "figures", from.stored_runs > 0 ? out / "figures" : fs::path(),
+         from.trammel + from.commit);
     write_checks(families, part / "checks");
     for (const SiteFile& file : site_files(results, families, panels, over_time)) {
       fs::create_directories((part / file.path).parent_path());

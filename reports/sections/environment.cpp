@@ -28,7 +28,8 @@ Data environment_section(const Results& results) {
   if (from.stored_runs > 0)
     add("not computed anew",
         std::to_string(from.stored_runs) + " of " + std::to_string(results.runs.size()) +
-            " runs, left by an earlier call of the same program on the same input");
+            " runs, left by an earlier call of the same program on the same input, and the "
+            "drawings of what did not change");
   if (results.solver) add("computed by", results.solver->name + " " + results.solver->version);
   data.set("rows", rows);
   return data;

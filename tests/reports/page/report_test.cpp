@@ -327,6 +327,25 @@ BOOST_AUTO_TEST_CASE(a_report_that_fails_or_is_replaced_leaves_whole_what_stands
   BOOST_TEST(text_of(out / "checks") == "mine");
 }
 
+BOOST_AUTO_TEST_CASE(where_runs_were_stored_the_drawings_of_what_did_not_change_are_taken) {
+  const Workspace workspace;
+  const fs::path out = workspace.path() / "out", drawing = out / "figures/circle-load-fig-7.svg";
+  auto results = sample_results();
+  results["environment"]["stored_runs"] = 1;
+  write_report_of(workspace.results(results), out);
+  const std::string drawn = text_of(drawing), search = std::getenv("PATH");
+  setenv("PATH", "/nonexistent", 1);  // without gnuplot
+  write_report_of(workspace.results(results), out);
+  BOOST_TEST(text_of(drawing) == drawn);
+  results["environment"]["commit"] = "another";
+  BOOST_CHECK_THROW(write_report_of(workspace.results(results), out), std::runtime_error);
+  setenv("PATH", search.c_str(), 1);
+  std::ofstream(drawing, std::ios::app) << "torn";
+  results["environment"]["commit"] = "abc1234";
+  write_report_of(workspace.results(results), out);
+  BOOST_TEST(text_of(drawing).find("torn") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(no_folder_of_a_report_becomes_a_command_of_gnuplot) {
   const Workspace workspace;
   const fs::path here = fs::current_path();
