@@ -1,12 +1,13 @@
-// Time and peak memory of the first ten modes of two large models, at full size and at a tenth,
-// each in its own process. Measured, never asserted.
-//   large_modes                  both models, both sizes, and their ratios
+// Processor time and peak memory of the first ten modes of two large models, at four sizes from a
+// 32nd on, each in its own process, and how they grow. Measured, never asserted.
+//   large_modes                  both models, four sizes
 //   large_modes lattice 100000   one of them: a square lattice of frame members ...
 //   large_modes plate 200000     ... or a square plate of constant-strain triangles
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <Eigen/LU>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -96,7 +97,6 @@ struct Cost {
 
 Cost measure(const std::string& kind, Index size) {
   std::fflush(stdout);
-  const double begin = seconds();
   const pid_t child = fork();
   if (child == 0) {
     const int status = run(kind, size);
@@ -106,7 +106,11 @@ Cost measure(const std::string& kind, Index size) {
   int status = 0;
   rusage usage{};
   wait4(child, &status, 0, &usage);
-  const Cost cost{seconds() - begin, static_cast<double>(usage.ru_maxrss) / 1024};
+  const auto of = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  const Cost cost{of(usage.ru_utime) + of(usage.ru_stime),
+                  static_cast<double>(usage.ru_maxrss) / 1024};
   std::printf("  %.2f s, peak memory %.0f MB\n", cost.seconds, cost.megabytes);
   return cost;
 }
@@ -116,10 +120,16 @@ Cost measure(const std::string& kind, Index size) {
 int main(int argc, char** argv) {
   if (argc == 3) return run(argv[1], std::atol(argv[2]));
   for (const auto& [kind, size] : {std::pair{"lattice", Index{100000}}, {"plate", Index{200000}}}) {
-    const Cost tenth = measure(kind, size / 10);
-    const Cost whole = measure(kind, size);
-    std::printf("  ten times the size: %.1f times the time, %.1f times the memory\n\n",
-                whole.seconds / tenth.seconds, whole.megabytes / tenth.megabytes);
+    Eigen::MatrixXd powers(4, 2), costs(4, 2);  // log cost = a + b log size
+    for (Index i = 0; i < 4; ++i) {
+      const auto part = static_cast<Index>(static_cast<double>(size) * std::pow(32, (i - 3) / 3.0));
+      const Cost cost = measure(kind, part);
+      powers.row(i) << 1, std::log(static_cast<double>(part));
+      costs.row(i) << std::log(cost.seconds), std::log(cost.megabytes);
+    }
+    const Eigen::MatrixXd fit =
+        (powers.transpose() * powers).inverse() * powers.transpose() * costs;
+    std::printf("  time grows as size^%.2f, memory as size^%.2f\n\n", fit(1, 0), fit(1, 1));
   }
   return 0;
 }

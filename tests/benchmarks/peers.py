@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""What trammel costs beside other programs that do the same work, each from start to end.
+
+Arguments: the program, then rows (all by default): manipulator-4, manipulator-64 (eight modes and statics under 10 N, elements a
+link; beside CalculiX), grnn-631, grnn-100000 (queries of 379 samples; beside numpy), instructions-4, instructions-64 (of the first
+two, by valgrind; what is done before a computation gets a process of its own counts once). Both sides run in turn, ROUNDS times; a ratio
+is the median of their processor times pair by pair, with the least and the largest. Answers are compared first.
+"""
+import json
+import math
+import os
+import pathlib
+import re
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROUNDS = 5
+HERE = pathlib.Path(__file__).resolve().parent
+ADAPTER = HERE.parent.parent / "harness" / "adapters" / "calculix.py"
+NUMPY = """
+import json, sys, numpy
+grnn = json.load(open(sys.argv[1]))["analysis"]["grnn"]
+X, Y = (numpy.array(grnn["samples"][key]) for key in ("inputs", "outputs"))
+queries, width = numpy.array(grnn["queries"]), 2 * grnn["sigma"] ** 2
+answer = numpy.empty((len(queries), Y.shape[1]))
+for first in range(0, len(queries), 1000):
+    x = queries[first:first + 1000]
+    squared = (x ** 2).sum(1)[:, None] + (X ** 2).sum(1) - 2 * x @ X.T
+    weights = numpy.exp((squared.min(1)[:, None] - squared) / width)
+    answer[first:first + 1000] = (weights @ Y) / weights.sum(1)[:, None]
+json.dump(answer.tolist(), open(sys.argv[2], "w"))
+"""
+
+
+def seconds(command, folder):
+    """Processor time of a command and all that it starts."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    subprocess.run(command, cwd=folder, env=environment, stdout=subprocess.DEVNULL, check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def beside(row, ours, theirs, folder, difference):
+    """Runs both in turn; `difference` is that of their answers, and where one is met that they do not give."""
+    pairs = [(seconds(ours, folder), sum(seconds(command, folder) for command in theirs)) for _ in range(ROUNDS)]
+    ratios = sorted(a / b for a, b in pairs)
+    a, b = (statistics.median(side) for side in zip(*pairs))
+    print(f"{row}: {a:.3f} s beside {b:.3f} s: ratio {statistics.median(ratios):.3f} ({ratios[0]:.3f} to {ratios[-1]:.3f}); "
+          f"answers differ by {difference:.1e}", flush=True)
+
+
+def write(folder, name, case):
+    head = {"id": name, "title": name, "family": "benchmark", "labels": ["benchmark"]}
+    (folder / f"{name}.json").write_text(json.dumps({**head, **case}))
+
+
+def answer(program, folder, name):
+    """Its run: quantities of one entry, and what checks computed."""
+    seconds([program, "run", f"{name}.json", "--out", "out"], folder)
+    return json.loads((folder / "out" / "results.json").read_text())["runs"][0]
+
+
+def grnn(program, folder, count):
+    def inputs(t):
+        return [2 * math.cos(t) + 0.3 * math.sin(2 * t), 1.5 * math.sin(t + 0.4), math.cos(t - 1) + 0.2 * math.cos(3 * t)]
+    times = [2 * math.pi * k / 630 for k in range(379)]
+    samples = {"inputs": [inputs(t) for t in times], "outputs": [[math.sin(t + k) for k in range(6)] for t in times]}
+    queries = [inputs(2 * math.pi * k / count) for k in range(count)]
+    for sigma in (0.3, 0.02):  # most samples count, or the nearest dozen
+        peer = ["/usr/bin/python3", "-c", NUMPY, "grnn.json", "answer.json"]
+        for name, some in (("grnn", queries), ("one", queries[count // 3:count // 3 + 1])):
+            write(folder, name, {"analysis": {"grnn": {"sigma": sigma, "samples": samples, "queries": some}}})
+        seconds(peer, folder)
+        expected = json.loads((folder / "answer.json").read_text())[count // 3]
+        found = answer(program, folder, "one")["quantities"]
+        difference = max(abs(found[f"prediction:{j + 1}"][0] - value) for j, value in enumerate(expected))
+        beside(f"grnn-{count}, sigma {sigma}", [program, "run", "grnn.json", "--out", "out"], [peer], folder, difference)
+
+
+def manipulator(folder, elements):
+    for kind, analysis in (("modes", {"count": 8}), ("statics", {})):
+        write(folder, kind, {"extends": "table-1", "analysis": {kind: analysis},
+                             "model": {"manipulator": {"links": {"elements": elements}, "platform": {"kind": "rigid"}},
+                                       **({"loads": {"P": {"node": "P", "force_N": [10, 0]}}} if kind == "statics" else {})}})
+    return ["run", "modes.json", "statics.json", "--jobs", "1", "--out", "out"]
+
+
+def beside_calculix(program, folder, elements):
+    """ccx alone, from its decks: plane-stress strips for modes, beams of their own for statics."""
+    words = manipulator(folder, elements)
+    seen = {"quantity": "frequency_Hz", "role": "verification", "bound": {"at_least": 0, "why": "to be read"}}
+    write(folder, "seen", {"extends": "modes.json", "checks": {str(k): {**seen, "index": k} for k in range(8)}})
+    for case in ("seen", "statics"):
+        (folder / case).mkdir()
+        seconds([program, "export", f"{case}.json", "--out", f"{case}/case.json"], folder)
+        seconds([sys.executable, str(ADAPTER), "case.json", "result.json"], folder / case)
+    expected = json.loads((folder / "seen" / "result.json").read_text())["quantities"]["frequency_Hz"]["values"]
+    found = [check["computed"] for check in answer(program, folder, "seen")["checks"]]
+    runs = [["ccx", "seen/deck"], ["ccx", "statics/deck"]]
+    difference = max(abs(a / b - 1) for a, b in zip(expected, found))
+    beside(f"manipulator-{elements}", [program, *words], runs, folder, difference)
+
+
+def instructions(program, folder, elements):
+    words = manipulator(folder, elements)
+    for old in folder.glob("count.*"):
+        old.unlink()
+    seconds(["valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={folder}/count.%p", program, *words], folder)
+    total = 0
+    for number, file in enumerate(sorted(folder.glob("count.*"), key=lambda f: int(f.suffix[1:]))):
+        told = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(file)], check=True,
+                              stdout=subprocess.PIPE, text=True).stdout
+        whole = r"PROGRAM TOTALS" if number == 0 else r"_Function_handler<std::__cxx11::basic_string<[^(]*\(\)"
+        total += int(re.search(r"^ *([0-9,]+) .*" + whole, told, re.M)[1].replace(",", ""))
+    print(f"instructions, manipulator-{elements}: {total / 1e6:.1f} million")
+
+
+def main():
+    program = str(pathlib.Path(sys.argv[1]).resolve())
+    rows = {f"{name}-{count}": (needs, run, count) for name, needs, run, counts in (
+        ("manipulator", "ccx", beside_calculix, (4, 64)), ("grnn", "/usr/bin/python3", grnn, (631, 100000)),
+        ("instructions", "valgrind", instructions, (4, 64))) for count in counts}
+    for row in sys.argv[2:] or rows:
+        needs, run, count = rows[row]
+        if not shutil.which(needs):
+            print(f"{row}: no {needs} here")
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            run(program, pathlib.Path(folder), count)
+
+
+main()
