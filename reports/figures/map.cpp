@@ -166,67 +166,102 @@ Table table_of(const Field& field, const PlotRequest& request) {
   return table;
 }
 
-}  // namespace
+struct MapQuantities {
+  const Run* run;
+  const Numbers *x, *y, *value;
+};
 
-std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
-                                 const std::vector<const Run*>& runs, std::string& problem) {
+/// @param problem  why there is none
+std::optional<MapQuantities> quantities_of(const PlotRequest& request,
+                                           const std::vector<const Run*>& runs,
+                                           std::string& problem) {
   const Run* run = run_for(request, runs);
-  const Numbers* x = run ? run->quantity(request.x) : nullptr;
-  const Numbers* y = run ? run->quantity(request.y.front()) : nullptr;
-  const Numbers* value = run ? run->quantity(request.value) : nullptr;
-  if (!x || !y || !value || x->size() != value->size() || y->size() != value->size()) {
-    problem = "there is no " + request.value + " over " + request.x + " and " + request.y.front();
-    return std::nullopt;
+  const auto find = [run](const std::string& name) { return run ? run->quantity(name) : nullptr; };
+  const MapQuantities found{run, find(request.x), find(request.y.front()), find(request.value)};
+  if (found.x && found.y && found.value && found.x->size() == found.value->size() &&
+      found.y->size() == found.value->size())
+    return found;
+  problem = "there is no " + request.value + " over " + request.x + " and " + request.y.front();
+  return std::nullopt;
+}
+
+/// The classes of all maps of one quantity, and where they are dark.
+struct ColorClasses {
+  explicit ColorClasses(const std::vector<double>& values)
+      : count(values.size()),
+        limits(class_limits(values)),
+        negative(std::ranges::all_of(values, [](double one) { return one <= 0; })),
+        positive(std::ranges::all_of(values, [](double one) { return one >= 0; })) {}
+
+  [[nodiscard]] std::size_t class_of(double value) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(limits, value) - limits.begin());
   }
-  const QuantityLabel quantity = parse_quantity(request.value);
-  Field field = read_field(*x, *y, *value);
-  if (field.cells.empty() || !(field.dx > 0)) {
-    problem = request.value + (field.cells.empty() ? " has no numbers" : " has a single position");
-    return std::nullopt;
+  /// Dark is far from zero: of negative numbers the lowest.
+  [[nodiscard]] std::string color(std::size_t k) const {
+    return lc(palette::kSequence[negative ? limits.size() - std::min(k, limits.size()) : k]);
   }
-  double largest = 0;
-  for (const Cell& cell : field.cells) largest = std::max(largest, std::abs(cell.value));
-  const std::vector<double> values = values_of_all_maps(info, request, runs, field);
-  const std::vector<double> limits = class_limits(values);
-  for (Cell& cell : field.cells) {
-    const auto above = std::upper_bound(limits.begin(), limits.end(), cell.value);
-    cell.color = static_cast<std::size_t>(above - limits.begin());
+  [[nodiscard]] std::string describe(std::size_t of_this_map) const {
+    return std::string(negative || positive ? ", dark far from zero" : ", dark where it is high") +
+           (count == of_this_map ? ", in classes of about equally many positions."
+                                 : ", in the same classes in all maps of it here.");
   }
-  PlotScript script;
+
+  std::size_t count;
+  std::vector<double> limits;
+  bool negative, positive;
+};
+
+/// @returns the height of the key
+int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, const Field& field,
+             const ColorClasses& classes) {
   script.command("set size ratio -1");
   const std::string step = shortest(tic_step(field));
   script.command("set xtics " + step);
   script.command("set ytics " + step);
   script.axis_label("x", axis_label(parse_quantity(request.x).label, "m"));
   script.axis_label("y", axis_label(parse_quantity(request.y.front()).label, "m"));
-  const auto by_color = boxes(field);
   std::vector<std::string> titles;
-  // Dark is far from zero: of negative numbers the lowest.
-  const bool negative =
-      std::all_of(values.begin(), values.end(), [](double one) { return one <= 0; });
-  const bool positive =
-      std::all_of(values.begin(), values.end(), [](double one) { return one >= 0; });
+  const auto by_color = boxes(field);
   for (std::size_t k = 0; k < by_color.size(); ++k) {
-    const std::size_t shade = negative ? limits.size() - std::min(k, limits.size()) : k;
-    const std::string color = lc(palette::kSequence[shade]);
+    const std::string color = classes.color(k);
     script.curve(by_color[k], "using 1:2:3:4:5:6 with boxxyerror fs solid noborder" + color);
     if (by_color[k].empty()) continue;
-    titles.push_back(class_name(limits, k));
+    titles.push_back(class_name(classes.limits, k));
     script.key_entry("with points pt 5 ps 1.6" + color, titles.back());
   }
-  draw_lines(script, request, *run, titles);
+  draw_lines(script, request, run, titles);
   const int key_height = script.key_below(titles);
   script.plot();
+  return key_height;
+}
 
+}  // namespace
+
+std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
+                                 const std::vector<const Run*>& runs, std::string& problem) {
+  const auto found = quantities_of(request, runs, problem);
+  if (!found) return std::nullopt;
+  Field field = read_field(*found->x, *found->y, *found->value);
+  if (field.cells.empty() || !(field.dx > 0)) {
+    problem = request.value + (field.cells.empty() ? " has no numbers" : " has a single position");
+    return std::nullopt;
+  }
+  const ColorClasses classes(values_of_all_maps(info, request, runs, field));
+  double largest = 0;
+  for (Cell& cell : field.cells) {
+    largest = std::max(largest, std::abs(cell.value));
+    cell.color = classes.class_of(cell.value);
+  }
+  PlotScript script;
+  const int key_height = draw_map(script, request, *found->run, field, classes);
+
+  const QuantityLabel quantity = parse_quantity(request.value);
   Figure figure;
   figure.id = slug(info.id + "-" + request.id);
   figure.title = request.title;
   figure.caption =
       request.caption + (request.caption.empty() ? "" : " ") + "Colours: " + quantity.label +
-      (quantity.unit.empty() ? "" : " in " + quantity.unit) +
-      (negative || positive ? ", dark far from zero" : ", dark where it is high") +
-      (values.size() == field.cells.size() ? ", in classes of about equally many positions."
-                                           : ", in the same classes in all maps of it here.");
+      (quantity.unit.empty() ? "" : " in " + quantity.unit) + classes.describe(field.cells.size());
   figure.alt = "Map of " + to_text(quantity) + " over positions; the largest magnitude is " +
                trimmed(largest, 3) + " " + quantity.unit + ".";
   figure.height = 420 + key_height;

@@ -101,6 +101,39 @@ std::string mechanism_caption(const Box& box, std::size_t poses) {
   return text;
 }
 
+/// One of the poses laid over the model as it stands.
+struct Overlay {
+  std::string label;
+  const Drawing* drawing;
+  const std::vector<Point>* nodes;
+};
+
+/// Moments of a motion have a figure of their own.
+std::vector<Overlay> overlays_of(
+    const Drawing& drawing, const std::vector<std::pair<std::string, const Drawing*>>& further) {
+  std::vector<Overlay> overlays;
+  for (const Pose& pose : drawing.poses)
+    if (!pose.time_s) overlays.push_back({pose.label, &drawing, &pose.nodes});
+  for (const auto& [label, other] : further) overlays.push_back({label, other, &other->nodes});
+  return overlays;
+}
+
+/// @returns the height of the key
+int draw_overlays(PlotScript& script, Table& data, const std::vector<Overlay>& overlays,
+                  const std::string& base_label, const Drawing& drawing) {
+  std::vector<std::string> titles;
+  for (const Overlay& overlay : overlays) titles.push_back(overlay.label);
+  if (!titles.empty()) titles.push_back(base_label);
+  for (const JointSymbol& symbol : kJointSymbols)
+    if (is_drawn(drawing, symbol)) titles.emplace_back(symbol.words);
+  for (std::size_t i = 0; i < overlays.size(); ++i) {
+    const Overlay& one = overlays[i];
+    draw_body(script, *one.drawing, *one.nodes, palette::color(2 + i), 1.2, one.label);
+    add_rows(data, one.label, *one.drawing, *one.nodes);
+  }
+  return script.key_below(titles);
+}
+
 }  // namespace
 
 std::optional<Figure> mechanism_figure(
@@ -112,40 +145,21 @@ std::optional<Figure> mechanism_figure(
   if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty()) {
     return std::nullopt;
   }
-  std::vector<Pose> poses;  // moments of a motion have a figure of their own
-  std::ranges::copy_if(drawing.poses, std::back_inserter(poses),
-                       [](const Pose& pose) { return !pose.time_s; });
+  const std::vector<Overlay> overlays = overlays_of(drawing, further);
   std::vector<std::vector<Point>> sets = {drawing.nodes};
-  for (const Pose& pose : poses) sets.push_back(pose.nodes);
-  for (const auto& [_, other] : further) sets.push_back(other->nodes);
-  const Box box = box_around(sets, 0.09, 0.2);
-
+  for (const Overlay& overlay : overlays) sets.push_back(*overlay.nodes);
+  const bool has_poses = overlays.size() > further.size();
+  const std::string base_label = overlays.empty() ? ""
+                                 : has_poses      ? "first pose"
+                                                  : info.variant_title(run.variant);
   PlotScript script;
+  const Box box = box_around(sets, 0.09, 0.2);
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  const std::string base_label = sets.size() == 1 ? ""
-                                 : poses.empty()  ? info.variant_title(run.variant)
-                                                  : "first pose";
-  std::vector<std::string> titles;
-  for (const Pose& pose : poses) titles.push_back(pose.label);
-  for (const auto& [label, _] : further) titles.push_back(label);
-  if (!titles.empty()) titles.push_back(base_label);
-  for (const JointSymbol& symbol : kJointSymbols)
-    if (is_drawn(drawing, symbol)) titles.emplace_back(symbol.words);
-  const int key_height = script.key_below(titles);
   Figure figure;
   figure.data.heads = {"pose", "node", "x_m", "y_m", "joint", "name"};
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Pose& pose = poses[i];
-    draw_body(script, drawing, pose.nodes, palette::color(2 + i), 1.2, pose.label);
-    add_rows(figure.data, pose.label, drawing, pose.nodes);
-  }
-  for (std::size_t i = 0; i < further.size(); ++i) {
-    const auto& [label, other] = further[i];
-    draw_body(script, *other, other->nodes, palette::color(2 + i), 1.2, label);
-    add_rows(figure.data, label, *other, other->nodes);
-  }
+  const int key_height = draw_overlays(script, figure.data, overlays, base_label, drawing);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);

@@ -149,23 +149,38 @@ double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& m
   return w.size() == 0 ? 0 : kNaN;
 }
 
+Outcome require_held(const System& system, Counters& counters) {
+  Factorization K;
+  K.compute(system.K);
+  ++counters.factorizations;
+  const ZeroEnergyModes free = find_zero_energy_modes(system, K, counters);
+  if (free.count() > 0) return {Status::singular, describe_mechanism(system, free)};
+  return {};
+}
+
+GyroscopicModes gyroscopic_modes(const GyroscopicPencil& pencil, const SteadyState& steady,
+                                 const RotatingOptions& options, Counters& counters) {
+  constexpr Index kLargestUnstable = 400;
+  if (steady.factorization.smallest_pivot() > 0) {
+    return stable_gyroscopic_modes(pencil, steady.factorization, options.count, options.method,
+                                   counters);
+  }
+  if (pencil.K.rows() <= kLargestUnstable) return all_gyroscopic_modes(pencil);
+  GyroscopicModes modes;
+  modes.outcome = {Status::not_converged,
+                   "the stiffness of the rotating frame is not positive definite, and the model "
+                   "is too large for the dense solution that this needs"};
+  return modes;
+}
+
 }  // namespace
 
 RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& options) {
-  constexpr Index kLargestUnstable = 400;
   RotatingModes result;
   result.counters = system.counters;
   if (system.K.rows() == 0) return result;
-  {
-    Factorization K;
-    K.compute(system.K);
-    ++result.counters.factorizations;
-    const ZeroEnergyModes free = find_zero_energy_modes(system, K, result.counters);
-    if (free.count() > 0) {
-      result.outcome = {Status::singular, describe_mechanism(system, free)};
-      return result;
-    }
-  }
+  result.outcome = require_held(system, result.counters);
+  if (!result.outcome.solved()) return result;
   SteadyState steady(system, options, result.counters);
   if (!steady.run()) {
     result.outcome = {Status::not_converged, "the steady state of the rotating frame is not found"};
@@ -182,18 +197,8 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   }
   const GyroscopicPencil pencil{steady.tangent(), C, system.M,
                                 [&steady](const VectorXd& x) { return steady.energy(x); }};
-  GyroscopicModes modes;
   if (system.M.coeffs().isZero(0)) return result;  // nothing swings
-  if (steady.factorization.smallest_pivot() > 0) {
-    modes = stable_gyroscopic_modes(pencil, steady.factorization, options.count, options.method,
-                                    result.counters);
-  } else if (system.K.rows() <= kLargestUnstable) {
-    modes = all_gyroscopic_modes(pencil);
-  } else {
-    modes.outcome = {Status::not_converged,
-                     "the stiffness of the rotating frame is not positive definite, and the model "
-                     "is too large for the dense solution that this needs"};
-  }
+  const GyroscopicModes modes = gyroscopic_modes(pencil, steady, options, result.counters);
   result.outcome = modes.outcome;
   result.inertia_count = modes.inertia_count;
   const Index kept = std::min(options.count, modes.omega.size());

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/model/numbers.h"
 #include "solver/sensitivity/frequency_differences.h"
 #include "solver/sensitivity/set_derivative.h"
 
@@ -59,6 +61,34 @@ void differentiate_numerically(const ManipulatorDesign& design, const Pose& pose
   }
 }
 
+/// Derivatives of one set of equal frequencies by the parameters with a seeded design.
+/// @param shown  of the set, the first
+Outcome differentiate_set(const System& system, const ModalSolution& modes, const FrequencySet& set,
+                          Index shown,
+                          const std::vector<std::optional<SeededDesign<Dual>>>& designs,
+                          FrequencySensitivity& result) {
+  const double omega = 2 * std::numbers::pi * modes.frequency[set.first];
+  const MatrixXd U = system.T * modes.shape.middleCols(set.first, set.count);
+  const SetDerivative derivative(system, U, omega * omega);
+  for (Index p = 0; p < std::ssize(designs); ++p) {
+    const auto& design = designs[to_size(p)];
+    if (!design) continue;
+    const MatrixXd small = derivative.of(*design);
+    result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
+    if (!small.allFinite()) {
+      return {Status::singular,
+              "a limb is straight or folded: its angles, and with them the frequencies, change "
+              "infinitely fast with the link lengths"};
+    }
+    const SymmetricEigenpairs<MatrixXd> rates = symmetric_eigenpairs(small);
+    if (!rates.converged)
+      return {Status::not_converged, "the rates of repeated frequencies did not converge"};
+    result.derivative.col(p).segment(set.first, shown) =
+        rates.value.head(shown) / (4 * std::numbers::pi * omega);
+  }
+  return {};
+}
+
 }  // namespace
 
 FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, const Pose& pose,
@@ -72,50 +102,28 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
   result.evidence = modes.evidence;
   result.counters = modes.counters;
   const Index kept = std::min(count, modes.frequency.size());
-  const auto columns = static_cast<Index>(parameters.size());
   result.frequency = modes.frequency.head(kept);
-  result.derivative = MatrixXd::Constant(kept, columns, kNaN);
+  result.derivative = MatrixXd::Constant(kept, std::ssize(parameters), kNaN);
   result.gap = VectorXd::Constant(kept, std::numeric_limits<double>::infinity());
   if (!modes.outcome.solved()) return result;
 
-  std::vector<SeededDesign<Dual>> designs;
-  designs.reserve(parameters.size());
-  for (const DesignParameter& parameter : parameters) {
-    designs.emplace_back(design, posture, parameter);
+  std::vector<std::optional<SeededDesign<Dual>>> designs(parameters.size());
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (is_seeded(parameters[p].kind)) designs[p].emplace(design, posture, parameters[p]);
   }
   for (const FrequencySet& set : equal_frequencies(modes.frequency)) {
     if (set.first >= kept) break;
     const Index shown = std::min(set.count, kept - set.first);
     result.sets.push_back({set.first, shown});
-    const double f = modes.frequency[set.first];
     result.gap.segment(set.first, shown).setConstant(relative_gap(modes.frequency, set));
-    if (f == 0) {
+    if (modes.frequency[set.first] == 0) {
       result.derivative.middleRows(set.first, shown).setZero();
       continue;
     }
-    const double omega = 2 * std::numbers::pi * f;
-    const MatrixXd U = system.T * modes.shape.middleCols(set.first, set.count);
-    const SetDerivative derivative(system, U, omega * omega);
-    for (Index p = 0; p < columns; ++p) {
-      if (!is_seeded(parameters[static_cast<std::size_t>(p)].kind)) continue;
-      const MatrixXd small = derivative.of(designs[static_cast<std::size_t>(p)]);
-      result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
-      if (!small.allFinite()) {
-        result.outcome = {Status::singular,
-                          "a limb is straight or folded: its angles, and with them the "
-                          "frequencies, change infinitely fast with the link lengths"};
-        result.derivative.setConstant(kNaN);
-        return result;
-      }
-      const SymmetricEigenpairs<MatrixXd> rates = symmetric_eigenpairs(small);
-      if (!rates.converged) {
-        result.outcome = {Status::not_converged,
-                          "the rates of repeated frequencies did not converge"};
-        result.derivative.setConstant(kNaN);
-        return result;
-      }
-      result.derivative.col(p).segment(set.first, shown) =
-          rates.value.head(shown) / (4 * std::numbers::pi * omega);
+    result.outcome = differentiate_set(system, modes, set, shown, designs, result);
+    if (!result.outcome.solved()) {
+      result.derivative.setConstant(kNaN);
+      return result;
     }
   }
   differentiate_numerically(design, pose, parameters, result);
