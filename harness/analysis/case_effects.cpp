@@ -110,12 +110,11 @@ Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const Eff
     order.push_back(one.effect);
     reasons[static_cast<std::size_t>(one.effect)].number = one.number;
   }
-  const double factor = kBeyondFirstOrder * std::max(1.0, estimates.amplification_bound);
   const ChangeWith at_most = [&](solver::Effects active) {
     double change = 0;
     for (const solver::EffectEstimate& one : estimates.effects)
       if (!active.has(one.effect)) change += one.change;
-    return factor * change;
+    return kBeyondFirstOrder * change;
   };
   Elimination found;
   if (estimates.outcome.solved()) found = eliminate(scope, order, {}, tolerance, at_most);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -169,19 +168,6 @@ std::map<std::string, std::string> reference_files(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (auto& [name, file] : json_files(folder)) files.emplace(std::move(name), std::move(file));
   return files;
-}
-
-Reference load_reference(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw ReferenceError(file.string() + ": expected a readable file");
-  try {
-    return read_reference(Json::parse(in), file.string());
-  } catch (const Json::parse_error& error) {
-    throw ReferenceError(file.string() + ": byte " +
-                         std::to_string(error.byte > 0 ? error.byte - 1 : 0) + ": expected JSON");
-  } catch (const Json::exception& error) {
-    throw ReferenceError(file.string() + ": /: expected a reference (" + error.what() + ")");
-  }
 }
 
 }  // namespace trammel::references

@@ -38,9 +38,6 @@ class ReferenceError : public std::runtime_error {
 /// The files of all rooms below a folder, by the ids that are their names.
 [[nodiscard]] std::map<std::string, std::string> reference_files(const std::string& folder);
 
-/// @throws ReferenceError
-[[nodiscard]] Reference load_reference(const std::filesystem::path& file);
-
 /// @param name  stands for the file in messages
 /// @throws ReferenceError  where a key is missing or of the wrong type, where lengths differ, where
 ///                         a printed number is not the value or nothing gives the uncertainty.

@@ -81,9 +81,13 @@ struct Light {
 
 /// One mode, as far as it vibrates.
 struct Vibration {
-  double share = 0;                ///< of the response
+  double translation = 0;          ///< amplitude over the largest of the response
+  double energy = 0;               ///< the same in the norm of K
   std::map<Effect, double> phase;  ///< what it loses step by [rad]
+  double frequency = 0;            ///< [rad/s]
   double damping_ratio = 0, damped = 0, gyroscopic = 0;
+  /// In resonance with the path: the mean age of the vibration over how long one lasts; else 0.
+  double resonant_share = 0;
 };
 
 class MotionEstimates {
@@ -296,16 +300,16 @@ class MotionEstimates {
     const VectorXd load = moving.K() * response;
     const ResponseSize total = size_of(moving, response);
     double energy_left = 1;
-    for (Index k = first; k < (from_rest ? modes.frequency.size() : first + 1); ++k) {
+    for (Index k = first; k < modes.frequency.size(); ++k) {
       const double omega = 2 * std::numbers::pi * modes.frequency[k];
       const VectorXd& shape = modes.shape.col(k);
       const double amplitude = std::abs(shape.dot(load)) / (omega * omega);
       Vibration one = vibration_without_effects(system, shape, omega);
       one.gyroscopic = gyroscopic_coupling(moving, modes, first, k);
       if (from_rest && total.translation > 0 && total.energy > 0) {
-        const double energy = amplitude * omega / total.energy;
-        one.share = std::max(energy, amplitude * translation_of(moving, shape) / total.translation);
-        energy_left -= energy * energy;
+        one.energy = amplitude * omega / total.energy;
+        one.translation = amplitude * translation_of(moving, shape) / total.translation;
+        energy_left -= one.energy * one.energy;
       }
       vibrations_.push_back(one);
     }
@@ -321,6 +325,7 @@ class MotionEstimates {
   [[nodiscard]] Vibration vibration_without_effects(const System& system, const VectorXd& shape,
                                                     double omega) const {
     Vibration one;
+    one.frequency = omega;
     const double ratio = one.damping_ratio = damping_ratio(options_.damping, omega);
     const double phase = vibration_duration(omega, ratio) * omega;
     const EnergyShares shares(system, shape, omega * omega);
@@ -330,6 +335,11 @@ class MotionEstimates {
     one.phase[Effect::link_mass] = phase * frequency_change_without(all - rotary);
     one.phase[Effect::rotary_inertia] = phase * frequency_change_without(rotary);
     one.damped = -std::expm1(-ratio * omega * (options_.time.end - options_.time.start));
+    if (std::pow(rate_ / omega, 2) > kSlow) {
+      const double duration = options_.time.end - options_.time.start;
+      const double age = ratio > 0 ? std::min(duration / 2, 1 / (ratio * omega)) : duration / 2;
+      one.resonant_share = age / vibration_duration(omega, ratio);
+    }
     return one;
   }
 
@@ -378,21 +388,43 @@ class MotionEstimates {
     return found->second.translation / sizes_.response.translation;
   }
 
+  /// A stiff part has a mode of its own beyond those looked at, in which the force it carries
+  /// swings by itself, for half a period at least; from a start on q_s as far as the vibration goes
+  /// and such a mode takes up its speed.
+  /// @param share  of the part in the strain energy: (w1 / w)^2 of its mode
+  [[nodiscard]] double stiff_part_vibration(double share, double vibration_share) const {
+    const Vibration& last = vibrations_.back();
+    const double decay = std::exp(-std::numbers::pi * last.damping_ratio);
+    if (!options_.time.quasi_static_start) return decay;
+    const double period = std::min(1 / last.frequency, std::sqrt(share) / frequency_);
+    return decay * vibration_share * std::min(1.0, 2 * rate_ * period);
+  }
+
   void collect_estimates() {
     const double r = rate_ / frequency_;
     const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
-    if (r * r > kSlow) estimates_.amplification_bound = frequency_ * resonance_duration() / 2;
+    const bool resonates = r * r > kSlow;
+    // A load that may be in resonance grows so far; what changes the frequency alone does not.
+    const double growth = resonates ? std::max(1.0, frequency_ * resonance_duration() / 2) : 1;
     // Half a period later what started on q_s is twice as far from the response beside it.
     const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
     double vibration_share = 1;
     if (options_.time.quasi_static_start && !vibrations_.empty()) {
       vibration_share = std::min(1.0, translation_share(Effect::inertia) * amplified);
-      vibrations_.front().share = vibration_share;
+      vibrations_.front().translation = vibrations_.front().energy = vibration_share;
     }
+    // Translations of modes may add up; they are orthogonal in energy.
     const auto sum = [&](auto change_of) {
-      double change = 2 * beyond_modes_;
-      for (const Vibration& one : vibrations_) change += one.share * std::min(2.0, change_of(one));
-      return change;
+      double translation = 0, energy = std::pow(2 * beyond_modes_, 2);
+      for (const Vibration& one : vibrations_) {
+        const double change = std::min(2.0, change_of(one));
+        translation += one.translation * change;
+        energy += std::pow(one.energy * change, 2);
+      }
+      double resonant = 0;
+      for (const Vibration& one : vibrations_)
+        resonant = std::max(resonant, std::min(2.0, one.resonant_share * change_of(one)));
+      return std::max({translation, std::sqrt(energy), resonant});
     };
     for (const Effect effect : applicable_.list()) {
       double change = of_response(effect) * amplified;
@@ -400,7 +432,7 @@ class MotionEstimates {
       switch (effect) {
         case Effect::inertia:
           number = r * r;
-          change = std::max(change * from_start, vibration_share);
+          change = growth * std::max(change * from_start, vibration_share);
           break;
         case Effect::damping:
           number = damping_;
@@ -412,16 +444,15 @@ class MotionEstimates {
           change += sum([](const Vibration& one) { return one.gyroscopic; });
           break;
         case Effect::gravity:
+          change *= growth;
           break;
         default:
           if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping)) {
             change += options_.damping.stiffness * max_angular_velocity_;
           }
-          // A stiff part has a mode of its own, in which the force it carries swings by itself, for
-          // half a period at least.
-          if (!options_.time.quasi_static_start &&
-              (effect == Effect::platform_flexibility || effect == Effect::joint_compliance))
-            change += std::exp(-std::numbers::pi * vibrations_.back().damping_ratio);
+          if (effect == Effect::platform_flexibility || effect == Effect::joint_compliance)
+            change += stiff_part_vibration(number, vibration_share);
+          if (effect == Effect::link_mass || effect == Effect::rotary_inertia) change *= growth;
           change += sum([effect](const Vibration& one) {
             const auto phase = one.phase.find(effect);
             return phase == one.phase.end() ? 0 : std::abs(phase->second);

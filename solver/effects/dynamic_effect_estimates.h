@@ -25,9 +25,12 @@ namespace trammel::solver {
 /// forces turn modes into each other at the rate x_i^T (G + S / w_i) x_j / 2, for no longer than
 /// they keep step, 1 / |w_i - w_j|. From a start on q_s it is the first mode with what inertia
 /// makes of q_s; where load and inertia set in at once, the first 16 modes, each with its share of
-/// q_s, what is left twice, and stiff parts have modes of their own: platform and joints stay
-/// flexible. On a path as fast that a harmonic of it may resonate, r^2 > 0.1, all of it counts at
-/// most min(1 / (2 z), w1 T / 2) times.
+/// q_s, and what is left twice: translations are added, energies are orthogonal. Platform and
+/// joints have modes of their own, of w1 / sqrt(share of the strain energy) at least: from rest
+/// they stay flexible, from q_s such a mode takes up at most the speed W, 2 W / w of the force.
+/// Where a harmonic of the path may resonate with a mode, (W / w)^2 > 0.1, the response consists of
+/// vibrations of the mean age min(T / 2, 1 / (z w)), which lose step in that time; loads that are
+/// left out grow at most min(1 / (2 z), w1 T / 2) times.
 ///   Source: quasi-static expansion, e.g. L. Meirovitch, Analytical Methods in Vibrations (1967).
 /// @param options  the whole motion, gyroscopic terms included; what `applicable` lacks is not
 /// there

@@ -18,8 +18,6 @@ struct EffectEstimate {
 struct EffectEstimates {
   Outcome outcome;  ///< without a linear solution there are no estimates
   std::vector<EffectEstimate> effects;
-  /// What resonance makes of the estimates at most: 1 on a slow path.
-  double amplification_bound = 1;
   /// At most what large displacement, which the analysis does not have, would change; relative.
   double large_displacement_bound = 0;
   std::vector<double> extreme_times;  ///< of the response [s]
