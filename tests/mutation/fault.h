@@ -46,4 +46,50 @@ auto scaled(int number, const T& x) {
   return fault(number) ? Number(Number(x) * (1 + mutation::error)) : Number(x);
 }
 
+/// Behind + or -, or in place of a sign: `whole`, or `size` with the fault.
+struct Factor {
+  int number, size, whole = 1;
+};
+template <class T>
+auto operator*(Factor factor, const T& x) {
+  using Number = std::conditional_t<std::is_arithmetic_v<T>, T, double>;
+  return Number(fault(factor.number) ? factor.size : factor.whole) * x;
+}
+
+/// Behind * or /: x, or with the fault 1 / x. Whole numbers are indices.
+struct Reciprocal {
+  int number;
+};
+template <class T>
+T operator->*(Reciprocal reciprocal, const T& x) {
+  static_assert(!std::is_integral_v<T>);
+  return fault(reciprocal.number) ? T(1.0 / x) : x;
+}
+
+/// Behind a comparison, before the same again: with the fault the other one of the two.
+struct Compared {
+  int number;
+};
+template <class T>
+struct ComparedLeft {
+  const T& x;
+  int number;
+};
+#define TRAMMEL_COMPARISON(is, other)                              \
+  template <class A>                                               \
+  ComparedLeft<A> operator is(const A& a, Compared compared) {     \
+    return {a, compared.number};                                   \
+  }                                                                \
+  template <class A, class B>                                      \
+  bool operator is(const ComparedLeft<A>& a, const B& b) {         \
+    return fault(a.number) ? bool(a.x other b) : bool(a.x is b);   \
+  }
+TRAMMEL_COMPARISON(<, <=)
+TRAMMEL_COMPARISON(<=, <)
+TRAMMEL_COMPARISON(>, >=)
+TRAMMEL_COMPARISON(>=, >)
+TRAMMEL_COMPARISON(==, !=)
+TRAMMEL_COMPARISON(!=, ==)
+#undef TRAMMEL_COMPARISON
+
 }  // namespace trammel

@@ -12,8 +12,9 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-KINDS = ("physical", "judging", "coefficient")
-KEYS = {"id", "file", "old", "new", "type", "why", "expected", "quick"}
+OPTIONAL = {"before", "type", "quick", "smallest_error"}
+KINDS = ("physical", "judging", "coefficient", "generic")
+KEYS = {"id", "file", "old", "new", "why", "expected"} | OPTIONAL
 FOLDERS = ("solver", "harness", "references", "reports", "tests")
 
 
@@ -21,10 +22,12 @@ def number(faults):
     """Numbers them and finds their places; a drift of the sources is an error."""
     for index, fault in enumerate(faults):
         text = (ROOT / fault["file"]).read_text()
-        if text.count(fault["old"]) != 1 or fault["old"] == fault.get("new"):
+        before = fault.get("before", "")
+        place = before + fault["old"]
+        if text.count(place) != 1 or fault["old"] == fault.get("new"):
             sys.exit(f"{fault['id']}: expected a text that occurs once in {fault['file']} (got "
-                     f"{text.count(fault['old'])}), and another in its place: {fault['old']!r}")
-        begin = text.index(fault["old"])
+                     f"{text.count(place)}), and another in its place: {place!r}")
+        begin = text.index(place) + len(before)
         fault.update(number=index, span=(begin, begin + len(fault["old"])))
     return faults
 
@@ -36,7 +39,7 @@ def load(files):
         data = json.loads(file.read_text())
         if set(data) != {"kind", "faults"} or data["kind"] not in KINDS:
             sys.exit(f"{file}: expected 'kind', one of {KINDS}, and 'faults'")
-        needed = KEYS - {"type", "quick"} - ({"new"} if data["kind"] == "coefficient" else set())
+        needed = KEYS - OPTIONAL - ({"new"} if data["kind"] == "coefficient" else set())
         for fault in data["faults"]:
             if not needed <= set(fault) <= KEYS:
                 sys.exit(f"{file}: expected the keys {sorted(needed)} (got {sorted(fault)})")
@@ -47,9 +50,22 @@ def load(files):
     return number(faults)
 
 
+# What stands behind an operator that may be another: of the same precedence, or of the highest (->*).
+OPERATORS = {**dict.fromkeys("+-", "Factor{{{number}, {size}}} *"),
+             **dict.fromkeys("*/", "Reciprocal{{{number}}} ->*"),
+             **dict.fromkeys(("<", ">", "<=", ">=", "==", "!="), "Compared{{{number}}} {old}"),
+             "&&": "fault({number}) == 0 &&", "||": "fault({number}) ||"}
+
+
 def switched(fault, old):
     """The text behind its switch; `old` has the switches inside it."""
     number, name = fault["number"], fault.get("type", "")
+    if fault["old"] in OPERATORS:
+        here = OPERATORS[fault["old"]]
+        size = 0 if fault["new"].endswith("0 *") else -1
+        if not fault["new"]:  # the sign of what follows
+            return f"::trammel::Factor{{{number}, 1, -1}} *"
+        return f"{old} ::trammel::" + here.format(number=number, size=size, old=fault["old"])
     if fault.get("kind") == "coefficient":
         return f"::trammel::scaled({number}, {name}({old}))"
     if fault["old"].endswith(";"):
@@ -106,7 +122,7 @@ class Build:
         archives = [w for w in words if w.endswith(".a") and w in self.rule and w != target]
         return {w for w in words if w.endswith(".o")}.union(*(self.objects(a) for a in archives))
 
-    def compile(self, name):
+    def compile(self, name, option=""):
         """Compiles an object from the copy of the sources. @returns  errors"""
         entry, made = self.rule[name], self.out / "objects" / name
         made.parent.mkdir(parents=True, exist_ok=True)
@@ -119,7 +135,7 @@ class Build:
         command = entry["command"].replace(f"-I{ROOT} ", f"-I{self.tree} ").replace(f" -c {source}", "")
         command = re.sub(r" -M[DTF]( \S+\.o(\.d)?)?", "", command).replace(f"-o {name}", f"-o {made}")
         command = command.replace(" -O3 ", " -O1 ")  # the same bits, which are compared, in half the time
-        command += f" -w -include {self.tree}/tests/mutation/fault.h -c {copy}"
+        command += f" -w -include {self.tree}/tests/mutation/fault.h {option} -c {copy}"
         done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
         return done.stderr if done.returncode != 0 else ""
 

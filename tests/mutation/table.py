@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+"""Writes the page's table of seeded faults by the family that notices them, from what is expected of them.
+
+With --check it writes nothing, and exit status 1 says that the page has another table.
+"""
+import collections
+import sys
+
+import seeding
+from seeding import KINDS, ROOT
+
+PAGE = ROOT / "reports/templates/detection.mustache"
+HEADS = {"physical": "Physics", "coefficient": "Coefficients", "generic": "Generic", "judging": "Judging"}
+
+
+def row_of(fault):
+    """Who notices it, or why nobody does."""
+    expected = fault["expected"]
+    if isinstance(expected, str):
+        return "Not noticed: " + ("equivalent or unobservable" if expected.startswith("survives") else "open")
+    folder, *suite = expected[0].split(".")
+    return f"Tests of {folder}" if suite else folder.replace("-", " ").capitalize()
+
+
+def table(faults):
+    counts = collections.Counter((row_of(f), f["kind"]) for f in faults)
+    order = sorted({name for name, _ in counts}, key=lambda n: (
+        n.startswith("Not"), n.startswith("Tests"), -sum(counts[n, k] for k in KINDS), n))
+    rows = [(name, [counts[name, k] for k in KINDS]) for name in order]
+    rows.append(("Together", [sum(column) for column in zip(*(numbers for _, numbers in rows))]))
+    yield '    <thead><tr><th scope="col">Noticed by</th>'
+    yield from (f'    <th scope="col">{HEADS[k]}</th>' for k in KINDS)
+    yield "    </tr></thead>\n    <tbody>"
+    for name, numbers in rows:
+        cells = "".join(f"<td>{number or ''}</td>" for number in numbers)
+        yield f'    <tr><th scope="row">{name}</th>{cells}</tr>'
+    yield "    </tbody>"
+
+
+def main():
+    faults = seeding.load(sorted((ROOT / "tests/mutation/faults").glob("*.json")))
+    noticed = sum(isinstance(f["expected"], list) for f in faults)
+    text = "\n".join([
+        '{{#detection}}<section id="detection">', "  <h2>Faults that are noticed</h2>",
+        f"  <p>Of {len(faults)} faults that were seeded into the program one at a time, {noticed} are noticed."
+        " Each counts for the family of cases that notices it first. Coefficients are 1 % off; generic faults are"
+        " drawn from all constants, operators, indices, conditions and terms of the solver.</p>",
+        "  <details>", "  <summary>Faults by family</summary>",
+        '  <div class="scroll" role="region" aria-label="Faults by family" tabindex="0">',
+        '  <table class="results-table">', *table(faults), "  </table>", "  </div>", "  </details>",
+        "</section>{{/detection}}", ""])
+    if "--check" in sys.argv[1:]:
+        return PAGE.read_text() != text
+    PAGE.write_text(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
