@@ -30,12 +30,13 @@ class ExcessDistances {
   Index first_ = 0, last_;
 };
 
-/// exp(-excess / 2 sigma^2) to 4e-16 of itself: 1 for the nearest, whatever sigma; 0 below e^-708.
+/// exp(-excess / 2 sigma^2): 1 for the nearest, whatever sigma; at least e^-708, which is a normal
+/// number and nothing beside 1.
 /// @param excess   [count]
 /// @param weights  [count]
 void kernel_weights(const double* excess, Index count, double sigma, double* weights);
 
-/// The excess from which on a weight is 0; infinite where sigma^2 overflows.
+/// The excess from which on a weight is nothing; infinite where sigma^2 overflows.
 [[nodiscard]] double reach_of_kernel(double sigma);
 
 }  // namespace trammel::solver
