@@ -85,6 +85,7 @@ tracked_frequency_Hz:MODE  frequency of the mode that continues this one of the 
 shape_assurance:MODE  how much that mode's shape resembles the one a point before (1: the same)
 mode_count_below  modes below count_below_Hz, by a Sturm count
 rigid_body_modes  modes without strain energy
+uncondensed_poses  poses of the path that condensed links could not certify, and that were solved in full
 angular_speed_rad_s  angular speed of the rotating frame
 stable  1 where no mode grows
 steady_displacement_x_m:NODE  displacement along x in steady rotation

@@ -222,6 +222,7 @@ StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& cas
                  true, record);
     record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count[step]));
     record.add("degrees_of_freedom", "", static_cast<double>(modes.free_coordinates));
+    record.add("uncondensed_poses", "", static_cast<double>(modes.by_itself));
   }
   return result;
 }
