@@ -400,6 +400,33 @@ class MotionEstimates {
     return decay * vibration_share * std::min(1.0, 2 * rate_ * period);
   }
 
+  /// Translations of modes may add up; they are orthogonal in energy.
+  /// @param change_of  what a vibration loses, relative
+  template <class Change>
+  [[nodiscard]] double vibration_change(const Change& change_of) const {
+    double translation = 0, energy = std::pow(2 * beyond_modes_, 2), resonant = 0;
+    for (const Vibration& one : vibrations_) {
+      const double change = change_of(one), bounded = std::min(2.0, change);
+      translation += one.translation * bounded;
+      energy += std::pow(one.energy * bounded, 2);
+      resonant = std::max(resonant, std::min(2.0, one.resonant_share * change));
+    }
+    return std::max({translation, std::sqrt(energy), resonant});
+  }
+
+  /// What vibrations lose by their change of frequency, and stiff parts by their own.
+  [[nodiscard]] double frequency_change(Effect effect, double vibration_share) const {
+    double change = vibration_change([effect](const Vibration& one) {
+      const auto phase = one.phase.find(effect);
+      return phase == one.phase.end() ? 0 : std::abs(phase->second);
+    });
+    if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping))
+      change += options_.damping.stiffness * max_angular_velocity_;
+    if (effect == Effect::platform_flexibility || effect == Effect::joint_compliance)
+      change += stiff_part_vibration(sizes_.share.at(effect), vibration_share);
+    return change;
+  }
+
   void collect_estimates() {
     const double r = rate_ / frequency_;
     const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
@@ -413,19 +440,6 @@ class MotionEstimates {
       vibration_share = std::min(1.0, translation_share(Effect::inertia) * amplified);
       vibrations_.front().translation = vibrations_.front().energy = vibration_share;
     }
-    // Translations of modes may add up; they are orthogonal in energy.
-    const auto sum = [&](auto change_of) {
-      double translation = 0, energy = std::pow(2 * beyond_modes_, 2);
-      for (const Vibration& one : vibrations_) {
-        const double change = std::min(2.0, change_of(one));
-        translation += one.translation * change;
-        energy += std::pow(one.energy * change, 2);
-      }
-      double resonant = 0;
-      for (const Vibration& one : vibrations_)
-        resonant = std::max(resonant, std::min(2.0, one.resonant_share * change_of(one)));
-      return std::max({translation, std::sqrt(energy), resonant});
-    };
     for (const Effect effect : applicable_.list()) {
       double change = of_response(effect) * amplified;
       double number = sizes_.share[effect];
@@ -437,26 +451,21 @@ class MotionEstimates {
         case Effect::damping:
           number = damping_;
           change *= from_start;
-          change += sum([](const Vibration& one) { return one.damped; });
+          change += vibration_change([](const Vibration& one) { return one.damped; });
           break;
         case Effect::gyroscopic:
           number = 2 * max_angular_velocity_ / frequency_;
-          change += sum([](const Vibration& one) { return one.gyroscopic; });
+          change += vibration_change([](const Vibration& one) { return one.gyroscopic; });
           break;
         case Effect::gravity:
           change *= growth;
           break;
+        case Effect::link_mass:
+        case Effect::rotary_inertia:
+          change *= growth;
+          [[fallthrough]];
         default:
-          if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping)) {
-            change += options_.damping.stiffness * max_angular_velocity_;
-          }
-          if (effect == Effect::platform_flexibility || effect == Effect::joint_compliance)
-            change += stiff_part_vibration(number, vibration_share);
-          if (effect == Effect::link_mass || effect == Effect::rotary_inertia) change *= growth;
-          change += sum([effect](const Vibration& one) {
-            const auto phase = one.phase.find(effect);
-            return phase == one.phase.end() ? 0 : std::abs(phase->second);
-          });
+          change += frequency_change(effect, vibration_share);
       }
       estimates_.effects.push_back({effect, number, change});
     }
