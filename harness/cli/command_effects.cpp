@@ -17,6 +17,7 @@
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
+#include "harness/run/run_store.h"
 #include "harness/run/stored_results.h"
 #include "harness/studies/effect_study.h"
 #include "harness/studies/random_scenes.h"
@@ -312,14 +313,21 @@ int effects_command(const EffectsCommand& command) {
   return status;
 }
 
-std::vector<results::EffectScene> catalogue_effect_scenes() {
+std::vector<results::EffectScene> catalogue_effect_scenes(const std::filesystem::path& store,
+                                                          bool resume) {
   std::vector<results::EffectScene> scenes;
   for (const Case& given : Catalogue().load({"effects"})) {
     const Document document = patched(given, kBaseVariant);
     if (!knows_effects(document)) continue;
-    const EffectStudy study = study_effects(document, {.pairs = false, .repeats = 3});
-    if (study.full.outcome.solved())
-      scenes.push_back(scene_of(given.id(), analysis_kind(document), study));
+    const auto measure = [&] {
+      const EffectStudy study = study_effects(document, {.pairs = false, .repeats = 3});
+      EffectScenes own;
+      if (study.full.outcome.solved())
+        own.push_back(scene_of(given.id(), analysis_kind(document), study));
+      return own;
+    };
+    for (results::EffectScene& scene : scenes_or_find(document, measure, store, resume))
+      scenes.push_back(std::move(scene));
   }
   return scenes;
 }

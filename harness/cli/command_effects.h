@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,9 @@ struct EffectsCommand {
 };
 
 /// What choosing effects comes to in every scene of the catalogue.
-[[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes();
+/// @param resume  takes what the store has
+[[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes(
+    const std::filesystem::path& store, bool resume);
 
 /// What each effect is worth in one scene. @returns the exit status
 int effects_command(const EffectsCommand& command);

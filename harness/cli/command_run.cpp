@@ -467,7 +467,8 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   results.coverage = evidence_coverage(selection.cases, references);
   add_reasons(results.coverage);
   count_series(results, results.coverage);
-  results.effect_scenes = catalogue_effect_scenes();
+  results.effect_scenes =
+      catalogue_effect_scenes(store_folder(command.out, command.store), command.resume);
   write_page(std::move(results), runs, command, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {

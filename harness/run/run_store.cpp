@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -76,6 +77,8 @@ TRAMMEL_KEPT(RowProbabilities, row, reference, unit, discrepancy, log_evidence, 
              printed, readings, classes, credible_classes, leading, further_numbers)
 TRAMMEL_KEPT(ExcludedReadings, reason, first, readings)
 TRAMMEL_KEPT(ModelProbabilities, rows, excluded)
+TRAMMEL_KEPT(EffectScene, scene, analysis, tolerance, change, minimal, whole_s, chosen_s,
+             deciding_s)
 }  // namespace trammel::results
 
 namespace trammel::harness {
@@ -289,6 +292,17 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// What the file holds; nothing where it is not to be taken, half a file, or of another version.
+template <class Kept>
+std::optional<Kept> kept_in(const std::filesystem::path& file, bool resume) {
+  if (!resume) return std::nullopt;
+  try {
+    return stored_from<Kept>(read_text(file));
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 std::string name_of(const std::string& all_that_decides) {
   static const std::string program = program_hash();
   return content_hash(program + all_that_decides) + ".cbor";
@@ -388,13 +402,8 @@ MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
                               const References& references, const std::filesystem::path& store,
                               bool resume) {
   const std::filesystem::path file = store / name_of(study, options.timing);
-  KeptStudy kept;
-  try {
-    if (resume) kept = stored_from<KeptStudy>(read_text(file));
-  } catch (const std::exception&) {
-    kept = {};  // as above
-  }
-  if (kept.settings.empty() || !stand(kept.references)) {
+  std::optional<KeptStudy> kept = kept_in<KeptStudy>(file, resume);
+  if (!kept || kept->settings.empty() || !stand(kept->references)) {
     MeasuredStudy measured = measure(std::move(study), options, references);
     std::filesystem::create_directories(store);
     write_file(file,
@@ -404,8 +413,8 @@ MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
   mark_used(file);
   MeasuredStudy measured;
   measured.study = std::move(study);
-  measured.settings = std::move(kept.settings);
-  measured.wall_s = kept.wall_s;
+  measured.settings = std::move(kept->settings);
+  measured.wall_s = kept->wall_s;
   derive_results(measured);
   return measured;
 }
@@ -415,18 +424,28 @@ SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const Referen
   Json all = Json::array({"setting"});
   add_setting(setting, all);
   const std::filesystem::path file = store / name_of(text_of(all));
-  try {
-    if (resume) {
-      const SandboxedRun kept = stored_from<SandboxedRun>(read_text(file));
-      mark_used(file);
-      return kept;
-    }
-  } catch (const std::exception&) {  // as above
+  if (std::optional<SandboxedRun> kept = kept_in<SandboxedRun>(file, resume)) {
+    mark_used(file);
+    return *std::move(kept);
   }
-  const SandboxedRun run = run_sandboxed(setting, time_limit_s, references);
+  SandboxedRun run = run_sandboxed(setting, time_limit_s, references);
   std::filesystem::create_directories(store);
   if (run.termination == SandboxedRun::Termination::solved) write_file(file, stored_bytes(run));
   return run;
+}
+
+EffectScenes scenes_or_find(const Document& document, const std::function<EffectScenes()>& measure,
+                            const std::filesystem::path& store, bool resume) {
+  const std::filesystem::path file =
+      store / name_of("effects " + machine_name() + text_of(document.value()));
+  if (std::optional<EffectScenes> kept = kept_in<EffectScenes>(file, resume)) {
+    mark_used(file);
+    return *std::move(kept);
+  }
+  EffectScenes scenes = measure();
+  std::filesystem::create_directories(store);
+  write_file(file, stored_bytes(scenes));
+  return scenes;
 }
 
 void drop_unused(const std::filesystem::path& store) {

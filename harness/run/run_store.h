@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
+#include "harness/results/results.h"
 #include "harness/run/run.h"
 #include "harness/studies/cost.h"
 #include "harness/studies/sandboxed_run.h"
@@ -47,6 +50,13 @@ void forget_starts(const std::filesystem::path& file);
 [[nodiscard]] SandboxedRun run_or_find(const Setting& setting, int time_limit_s,
                                        const References& references,
                                        const std::filesystem::path& store, bool resume);
+
+/// What `measure` gives of a case's scene, or the store holds of the same case by the same program
+/// on this machine.
+using EffectScenes = std::vector<results::EffectScene>;
+[[nodiscard]] EffectScenes scenes_or_find(const Document& document,
+                                          const std::function<EffectScenes()>& measure,
+                                          const std::filesystem::path& store, bool resume);
 
 /// Removes what no call has written or found for 30 days.
 void drop_unused(const std::filesystem::path& store);

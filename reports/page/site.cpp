@@ -129,17 +129,24 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
     for (const char* key :
          {"family_link", "family_title", "cases_count", "status_text", "status_class", "sign"})
       family.set(key, *section.get(key));
-    bool open = section.get("family_link")->string_value() == path;
-    set_flag(family, "is_here", open);
+    const auto& entries = section.get("cases")->list_value();
+    const auto stands_here = [&](const Data& entry) {
+      return entry.get("case_link")->string_value() == path;
+    };
+    const bool is_here = section.get("family_link")->string_value() == path;
+    const bool open = is_here || std::any_of(entries.begin(), entries.end(), stands_here);
+    const bool has_cases = open || path == "index.html";
+    set_flag(family, "is_here", is_here);
     Data cases = list();
-    for (Data entry : section.get("cases")->list_value()) {
-      const bool here = entry.get("case_link")->string_value() == path;
-      open = open || here;
-      set_flag(entry, "is_here", here);
+    for (std::size_t i = 0; has_cases && i < entries.size(); ++i) {
+      Data entry = object();
+      for (const char* key : {"case_link", "short_title", "status_text", "status_class", "sign"})
+        entry.set(key, *entries[i].get(key));
+      set_flag(entry, "is_here", stands_here(entries[i]));
       cases.push_back(entry);
     }
     set_flag(family, "open", open);
-    set_flag(family, "has_cases", open || path == "index.html");
+    set_flag(family, "has_cases", has_cases);
     family.set("cases", cases);
     out.push_back(family);
   }

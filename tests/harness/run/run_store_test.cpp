@@ -170,6 +170,30 @@ BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_taken_over) {
   BOOST_TEST(find_stored(entry, computation));
 }
 
+BOOST_AUTO_TEST_CASE(scenes_of_effects_are_measured_once_as_long_as_their_case_stands) {
+  const Folder folder;
+  int measured = 0;
+  const auto measure = [&] {
+    ++measured;
+    return EffectScenes{{"scene", "statics", 0.01, 0.002, true, 3, 2, 1}};
+  };
+  Json json = testing::cantilever();
+  const auto scenes = [&](bool resume) {
+    const Case given = testing::read(folder, json);
+    return scenes_or_find(given.document, measure, folder.path() / "store", resume);
+  };
+  (void)scenes(true);
+  const EffectScenes again = scenes(true);
+  BOOST_TEST(measured == 1);
+  BOOST_TEST(again.at(0).scene == "scene");
+  BOOST_TEST(again.at(0).chosen_s == 2);
+  (void)scenes(false);
+  BOOST_TEST(measured == 2);
+  json["model"]["nodes"]["B"] = {3, 0};
+  (void)scenes(true);
+  BOOST_TEST(measured == 3);
+}
+
 BOOST_AUTO_TEST_CASE(what_is_not_used_for_a_month_is_dropped) {
   const Folder folder;
   const auto old = folder.path() / "old.cbor", used = folder.path() / "used.cbor";
