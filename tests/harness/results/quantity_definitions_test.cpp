@@ -122,6 +122,7 @@ std::vector<Json> further_cases() {
       with_analysis(robot, R"({"sensitivity": {"count": 1, "parameters": {
           "E": {"property": "E"}, "density": {"property": "density"}}}})"),
       with_analysis(robot, R"({"sensitivity-map": {"orientations_deg": [0, 10], "columns": 5}})"),
+      with_analysis(moving, R"({"modes": {"count": 2}})"),
       with_analysis(moving, R"({"modes": {"count": 2, "track_shapes": true}})"),
       with_analysis(moving, R"({"buckling": {"count": 1}})"),
       with_analysis(moving, R"({"large-statics": {}})"),
