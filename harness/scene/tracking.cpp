@@ -11,6 +11,7 @@
 #include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/inverse_dynamics.h"
+#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {
@@ -90,15 +91,14 @@ solver::large_motion::PrescribedVelocities tracking_start(
   const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);
   const solver::InverseDynamics motion =
       solver::inverse_dynamics(solver::rigid_manipulator(*case_model.manipulator), start);
-  const auto turn = [](double rate, const Eigen::Vector2d& arm) {
-    return Eigen::Vector2d(-rate * arm.y(), rate * arm.x());
-  };
   Eigen::MatrixX3d node(static_cast<solver::Index>(model.nodes.size()), 3);
   const Eigen::Vector2d center(start.pose.x, start.pose.y);
   for (solver::Index k = 0; k < node.rows(); ++k) {
     // The platform's nodes; those of the limbs follow below.
     const Eigen::Vector2d& place = model.nodes[static_cast<std::size_t>(k)].position;
-    node.row(k) << (start.velocity.head<2>() + turn(start.velocity[2], place - center)).transpose(),
+    node.row(k) << (start.velocity.head<2>() +
+                    start.velocity[2] * solver::perpendicular(place - center))
+                       .transpose(),
         start.velocity[2];
   }
   Eigen::VectorXd member = Eigen::VectorXd::Zero(static_cast<solver::Index>(model.members.size()));
@@ -108,7 +108,7 @@ solver::large_motion::PrescribedVelocities tracking_start(
     const Eigen::Vector2d arm = model.nodes[static_cast<std::size_t>(b)].position -
                                 model.nodes[static_cast<std::size_t>(a)].position;
     node.row(a) << 0, 0, motion.q_dot[i];
-    node.row(b) << turn(motion.q_dot[i], arm).transpose(), motion.q_dot[i];
+    node.row(b) << motion.q_dot[i] * solver::perpendicular(arm).transpose(), motion.q_dot[i];
     member[member_between(model, a, b)] = motion.q_dot[i];
     member[member_between(model, b, model.find_node("C" + limb))] = motion.q_dot[3 + i];
   }

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "solver/assembly/length_scales.h"
 #include "solver/linalg/dense_qr.h"
 #include "solver/model/labels.h"
-#include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::solver {
 namespace {
@@ -36,11 +35,7 @@ class FreeMotions {
   explicit FreeMotions(const System& system)
       : system_(system),
         size_(box_diagonal(system.mesh.positions)),
-        weight_(VectorXd::Ones(system.coordinates.size)) {
-    for (Index u = 0; u < weight_.size(); ++u) {
-      if (system.coordinates.is_rotation[to_size(u)]) weight_[u] = size_;
-    }
-  }
+        weight_(length_scales(system)) {}
 
   [[nodiscard]] std::vector<Motions> find(const MatrixXd& basis) const {
     const MatrixXd U = weight_.asDiagonal() * (system_.T * basis);

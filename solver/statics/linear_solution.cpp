@@ -3,31 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/assembly/length_scales.h"
 #include "solver/assembly/stiffness_factors.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/forward_error.h"
 #include "solver/linalg/refinement.h"
-#include "solver/model/plane.h"
 #include "solver/statics/describe_mechanism.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
-namespace {
 
 using Eigen::VectorXd;
-
-/// Translations, and rotations times the size of the model [m].
-VectorXd lengths(const System& system) {
-  const double size = box_diagonal(system.mesh.positions);
-  VectorXd factor = VectorXd::Ones(system.T.rows());
-  for (Index i = 0; i < factor.size(); ++i) {
-    if (system.coordinates.is_rotation[to_size(i)]) factor[i] = size;
-  }
-  return factor;
-}
-
-}  // namespace
 
 LinearSolution solve_linear_statics(const System& system, Counters& counters) {
   LinearSolution solution;
@@ -40,7 +27,7 @@ LinearSolution solve_linear_statics(const System& system, Counters& counters) {
     return solution;
   }
   const StiffnessFactors factors = stiffness_factors(system);
-  const SparseMatrix R = lengths(system).asDiagonal() * system.T;
+  const SparseMatrix R = length_scales(system).asDiagonal() * system.T;
   const auto take = [&](const VectorXd& q, double left, const Operator& inverse) {
     solution.q = q;
     const double bound = forward_error(factors, R, q, system.f, inverse);
@@ -77,7 +64,7 @@ LinearSolution solve_linear_statics(const System& system, Counters& counters) {
 }
 
 double force_roundoff(const System& system, const VectorXd& q) {
-  const VectorXd length = lengths(system);
+  const VectorXd length = length_scales(system);
   const VectorXd u = system.T * q;
   double largest = 0, lost = 0;
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {

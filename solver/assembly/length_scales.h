@@ -1,0 +1,20 @@
+#pragma once
+
+#include "solver/assembly/system.h"
+#include "solver/model/numbers.h"
+#include "solver/model/plane.h"
+
+namespace trammel::solver {
+
+/// What makes lengths of the unconstrained coordinates u: 1 for translations, the model's size [m]
+/// for rotations.
+[[nodiscard]] inline Eigen::VectorXd length_scales(const System& system) {
+  const double size = box_diagonal(system.mesh.positions);
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(system.coordinates.size);
+  for (Index u = 0; u < scale.size(); ++u) {
+    if (system.coordinates.is_rotation[to_size(u)]) scale[u] = size;
+  }
+  return scale;
+}
+
+}  // namespace trammel::solver
