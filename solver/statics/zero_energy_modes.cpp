@@ -8,8 +8,10 @@
 namespace trammel::solver {
 namespace {
 
-constexpr double kShift = 1e-12;        // of the diagonal
-constexpr double kSmallPivot = 1e-9;    // pivots below it make us look
+constexpr double kShift = 1e-12;  // of the diagonal
+/// Pivots below it make us look: those of a mechanism are rounding, 1.2e-9 in 1,152 coordinates
+/// where all of it has one sign.
+constexpr double kSmallPivot = 1e-8;
 constexpr double kDeformation = 1e-28;  // of the magnitude, (45 eps)^2: below it, nothing deforms
 constexpr Index kMaxModes = 48;
 
