@@ -21,9 +21,11 @@ std::string run_name(const results::Run& run) {
   return run.case_id + ":" + run.variant;
 }
 
+/// Beside another variant the worst entry alone is kept: it may be another one.
 std::string name_of(const results::Run& run, const results::Check& check) {
   std::string name = run_name(run) + " " + check.name;
-  if (check.index) name += "[" + std::to_string(*check.index) + "]";
+  if (check.index && check.against_variant.empty())
+    name += "[" + std::to_string(*check.index) + "]";
   return check.statistic.empty() ? name : name + " " + check.statistic;
 }
 
@@ -106,7 +108,8 @@ class Beside {
   void look_at(const std::string& name, const results::Check& first, const results::Check& own) {
     ++row_.checks;
     if (own.verdict != first.verdict) flip(name, to_string(first.verdict), to_string(own.verdict));
-    if (first.computed && own.computed) note_digits(name, *first.computed, *own.computed);
+    if (first.computed && own.computed && first.index == own.index)
+      note_digits(name, *first.computed, *own.computed);
     if (!first.difference || !own.difference || !first.tolerance) return;
     const results::Tolerance& tolerance = *first.tolerance;
     if (!tolerance.symmetric || !tolerance.high) return;

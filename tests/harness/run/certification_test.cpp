@@ -75,6 +75,19 @@ BOOST_AUTO_TEST_CASE(a_verdict_that_differs_and_a_check_that_is_not_there_are_to
              "whole beam:base tip[0] fail pass; whole beam:base tip[1] missing pass; ");
 }
 
+BOOST_AUTO_TEST_CASE(the_worst_entry_beside_a_variant_may_be_another_one) {
+  Configuration here = configuration("here", 2, 3), there = here;
+  for (Configuration* one : {&here, &there}) {
+    std::vector<results::Check>& checks = one->results.runs[0].checks;
+    checks.erase(checks.begin() + (one == &here ? 0 : 1));
+    checks[0].against_variant = "base";
+  }
+  const Certification found = certify({here, there});
+  BOOST_TEST(found.rows[0].checks == 1U);
+  BOOST_TEST(found.rows[0].fewest_digits == 16);
+  BOOST_TEST(told(found).empty());
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_ends_otherwise_or_is_not_there_is_told) {
   for (const auto status : {results::Status::not_converged, results::Status::error}) {
     Configuration other = configuration("other", 2, 2);
