@@ -92,6 +92,23 @@ BOOST_AUTO_TEST_CASE(one_per_cent_too_much_stretch_is_one_per_cent_of_error_in_e
   BOOST_TEST(e.rotation == 1.0, boost::test_tools::tolerance(1e-10));  // exact 0.5e-3, found 0
 }
 
+BOOST_AUTO_TEST_CASE(the_energy_of_an_error_is_that_of_its_stresses) {
+  const t::System system = membrane();
+  const Eigen::Vector3d found = stretched(1e-3, {}).stress, exact(3e7, -5e7, 8e7);
+  const auto energy = [](const Eigen::Vector3d& s) {  // s^T C^-1 s
+    const double nu = kMaterial.nu;
+    Eigen::Matrix3d compliance;
+    compliance << 1, -nu, 0, -nu, 1, 0, 0, 0, 2 * (1 + nu);
+    return s.dot(compliance * s);
+  };
+  const t::MembraneErrors e =
+      t::membrane_errors(system, nodal_values(system, 1e-3), [&](const Vector2d& p) {
+        return t::MembraneFieldPoint{p, 1, exact};
+      });
+  BOOST_TEST(e.energy == std::sqrt(energy(found - exact) / energy(exact)),
+             boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(one_per_cent_too_much_bending_is_one_per_cent_of_error_in_every_norm) {
   for (const auto theory : {t::BeamTheory::euler_bernoulli, t::BeamTheory::timoshenko}) {
     const t::System system = beam(theory);

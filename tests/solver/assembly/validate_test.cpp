@@ -41,6 +41,32 @@ std::string complaint(const std::function<void(Model&)>& spoil) {
 
 BOOST_AUTO_TEST_CASE(a_sound_model_is_accepted) {
   BOOST_TEST(complaint([](Model&) {}) == "no complaint");
+  const auto thin = [](Model& m) { m.nodes[2].position = {0.5, 3e-12}; };  // 1.5e-12 m2
+  BOOST_TEST(complaint(thin) == "no complaint");
+}
+
+BOOST_AUTO_TEST_CASE(the_middle_of_a_side_may_lie_off_it_but_fold_the_triangle_at_no_node) {
+  // Moved along its side and towards the third node, as shares of the ways there.
+  const auto moved = [](std::size_t k, double along, double inwards) {
+    return complaint([&](Model& m) {
+      const auto corner = [&](std::size_t i) { return m.nodes[i % 3].position; };
+      for (std::size_t i = 0; i < 3; ++i) {
+        m.triangles[0].nodes[3 + i] = static_cast<Index>(m.nodes.size());
+        m.nodes.push_back({"", (corner(i) + corner(i + 1)) / 2});
+      }
+      const Vector2d side = corner(k + 1) - corner(k), middle = m.nodes[3 + k].position;
+      m.nodes[3 + k].position += along * side + inwards * (corner(k + 2) - middle);
+    });
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const double sign : {-1, 1}) {
+      BOOST_TEST(moved(k, sign * 0.24, 0) == "no complaint");  // det = 1 -+ 4 along at the ends
+      BOOST_TEST(moved(k, sign * 0.26, 0) ==
+                 "triangle 0 is folded by the middle nodes of its sides");
+    }
+    BOOST_TEST(moved(k, 0, 0.45) == "no complaint");  // det = 1 - 2 inwards on the whole side
+    BOOST_TEST(moved(k, 0, 0.55) == "triangle 0 is folded by the middle nodes of its sides");
+  }
 }
 
 BOOST_AUTO_TEST_CASE(each_meaningless_thing_is_told_in_one_sentence) {

@@ -48,6 +48,7 @@ std::vector<ManipulatorDesign> designs() {
   for (std::size_t i = 0; i < 3; ++i) {
     all[2].proximal[i].inertia = all[2].distal[i].inertia = 0.00078;
     all[2].distal[i].theory = BeamTheory::timoshenko;
+    all[2].distal[i].thickness = 0.03;  // so that sections turn with inertia of their own
   }
   all[2].active.fill({ActiveKind::sprung, 3});
   all[3].platform.kind = PlatformKind::rigid;

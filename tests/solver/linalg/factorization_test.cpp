@@ -2,8 +2,11 @@
 
 #include <Eigen/SparseCore>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 #include <thread>
 #include <vector>
+
+#include "solver/linalg/refinement.h"
 
 BOOST_AUTO_TEST_SUITE(factorization)
 
@@ -43,6 +46,28 @@ BOOST_AUTO_TEST_CASE(orderings_made_side_by_side_are_those_made_one_by_one) {
     for (std::thread& thread : threads) thread.join();
     for (const Permutation& mine : found) BOOST_TEST(mine.indices() == alone.indices());
   }
+}
+
+BOOST_AUTO_TEST_CASE(one_coordinate_of_negative_stiffness_has_a_negative_pivot) {
+  SparseMatrix A(1, 1);
+  A.insert(0, 0) = -2;
+  Factorization factorization;
+  factorization.compute(A);
+  BOOST_TEST(factorization.smallest_pivot() < 0);
+}
+
+BOOST_AUTO_TEST_CASE(the_last_correction_is_told_relative_to_the_solution) {
+  // 4 x = 8 by a factor of 5: what is wrong of x falls by 1 - 4/5 at each of the eight steps
+  SparseMatrix A(1, 1);
+  A.insert(0, 0) = 5;
+  Factorization factorization;
+  factorization.compute(A);
+  Counters counters;
+  const auto product = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return 4 * x; };
+  const RefinedSolution found =
+      refined_solve(product, factorization, Eigen::VectorXd::Constant(1, 8),
+                    Eigen::VectorXd::Constant(1, 1.9), counters);
+  BOOST_TEST(found.correction == 0.08 * std::pow(0.2, 7) / 2, boost::test_tools::tolerance(1e-5));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -302,6 +302,19 @@ BOOST_AUTO_TEST_CASE(a_pin_under_six_nodes_averages_a_quadratic_field_as_many_sm
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_second_moments_of_a_pin_are_those_of_its_kernel) {
+  // int r^2 (1 - r^2)^3 dA / int (1 - r^2)^3 dA = 1/5, half of it in x; six nodes hold quadratics
+  const double radius = 0.02, area = radius * radius;
+  const TriangleMesh mesh =
+      platform_mesh(uneven_design().geometry.platform, Vector2d::Zero(), 2, true);
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (const auto& [node, weight] : pin_weights(mesh, Vector2d::Zero(), radius)) {
+    const Vector2d& x = mesh.nodes[static_cast<std::size_t>(node)];
+    moments += weight * x * x.transpose();
+  }
+  BOOST_TEST((moments / area - Eigen::Matrix2d::Identity() / 10).norm() < 1e-8);
+}
+
 BOOST_AUTO_TEST_CASE(with_pins_the_links_hold_the_plate_by_constraints_only) {
   ManipulatorDesign design = table_1_design();
   design.platform.refinements = 3;
@@ -391,6 +404,12 @@ BOOST_AUTO_TEST_CASE(combinations_without_a_meaning_are_refused_with_the_reason)
   design = rigid_design();
   design.platform_joint[0] = {PlatformJointKind::eq25_sum};
   BOOST_TEST(has(refusal(design), "choose the same for C1, C2 and C3"));
+  design.platform_joint[2] = design.platform_joint[1] = {PlatformJointKind::eq25_sum};
+  design.platform_joint[0] = {PlatformJointKind::hinged};
+  BOOST_TEST(has(refusal(design), "choose the same for C1, C2 and C3"));
+  design = table_1_design();
+  design.platform.material.nu = -1;
+  BOOST_TEST(has(refusal(design), "the platform's Poisson's ratio must lie between -1 and 0.5"));
   design = table_1_design();
   design.platform.inertia = 0.000799;
   BOOST_TEST(has(refusal(design), "needs a rigid platform"));

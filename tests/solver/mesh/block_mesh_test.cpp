@@ -127,9 +127,12 @@ BOOST_AUTO_TEST_CASE(a_mesh_is_joined_to_the_nodes_that_stand_at_its_places) {
   BOOST_TEST(model.nodes.size() == 10u + 9 - 3);
 }
 
-BOOST_AUTO_TEST_CASE(a_corner_off_its_ellipse_is_an_error) {
+BOOST_AUTO_TEST_CASE(a_corner_off_its_ellipse_and_a_block_without_cells_are_errors) {
   Block block = elliptic_quarter(2);
   block.corners[1] = {3, 0};
+  BOOST_CHECK_THROW((void)mesh_blocks({block}, true), ModelError);
+  block = elliptic_quarter(2);
+  block.cells = {0, 2};
   BOOST_CHECK_THROW((void)mesh_blocks({block}, true), ModelError);
 }
 

@@ -221,6 +221,10 @@ BOOST_AUTO_TEST_CASE(at_the_symmetric_pose_each_limb_matters_alike) {
     BOOST_TEST_REQUIRE(s.outcome.solved());
     bool pair = false;
     for (const FrequencySet& set : s.sets) {
+      const double f = s.frequency[set.first];
+      const double below = set.first > 0 ? f - s.frequency[set.first - 1] : s.frequency.maxCoeff();
+      BOOST_TEST(s.gap[set.first] > 0);
+      BOOST_TEST(s.gap[set.first] * f < below * (1 + 1e-12));
       if (set.count != 2) continue;
       pair = true;
       const double size = s.derivative.middleRows(set.first, 2).cwiseAbs().maxCoeff();

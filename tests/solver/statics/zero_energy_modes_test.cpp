@@ -95,6 +95,8 @@ BOOST_AUTO_TEST_CASE(a_node_that_nothing_holds_is_named) {
   const std::string text = words(model);
   BOOST_TEST(contains(text, "node lost moves freely along x"));
   BOOST_TEST(contains(text, "node lost moves freely along y"));
+  for (const double x : {4, 5, 6}) model.nodes.push_back({"lost too", {x, 3}});
+  BOOST_TEST(contains(words(model), "; and 2 more"));  // of eight motions six are described
 }
 
 BOOST_AUTO_TEST_CASE(a_straight_pair_of_hinged_bars_has_an_infinitesimal_motion) {
