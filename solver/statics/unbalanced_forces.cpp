@@ -63,8 +63,12 @@ void add_constraints(const System& system, const ElasticState& state,
   const VectorXd multipliers = constraint_forces(system, state);
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[i];
-    if (row.source == ConstraintRow::Source::inextensible) continue;  // an axial force
     double force = multipliers[static_cast<Index>(i)];
+    if (row.source == ConstraintRow::Source::inextensible) {  // an axial force: the members have it
+      for (const auto& [coordinate, coefficient] : row.terms)
+        magnitudes[coordinate] += std::abs(coefficient * force);
+      continue;
+    }
     if (row.source == ConstraintRow::Source::support) {
       const Index u = row.terms.front().first;
       const auto& node = system.coordinates.node[static_cast<std::size_t>(
