@@ -21,10 +21,10 @@ std::string run_name(const results::Run& run) {
   return run.case_id + ":" + run.variant;
 }
 
-/// Beside another variant the worst entry alone is kept: it may be another one.
+/// Of bounds and beside another variant the worst entry alone is kept: it may be another one.
 std::string name_of(const results::Run& run, const results::Check& check) {
   std::string name = run_name(run) + " " + check.name;
-  if (check.index && check.against_variant.empty())
+  if (check.index && check.expected && check.against_variant.empty())
     name += "[" + std::to_string(*check.index) + "]";
   return check.statistic.empty() ? name : name + " " + check.statistic;
 }
