@@ -2,7 +2,8 @@
 """What trammel costs beside other programs that do the same work, each from start to end.
 
 Arguments: the program, then rows (all by default): manipulator-4, manipulator-64 (eight modes and statics under 10 N, elements a
-link; beside CalculiX), grnn-631, grnn-100000 (queries of 379 samples; beside numpy), instructions-4, instructions-64 (of the first
+link; beside CalculiX), grnn-631, grnn-100000 (queries of 379 samples; beside numpy), pendulum-16 (rods; a second of
+a flexible pendulum in large motion, the bob within 1e-6 m of where each mesh alone has it; beside Simbody), instructions-4, instructions-64 (of the first
 two, by valgrind; what is done before a computation gets a process of its own counts once). Both sides run in turn, ROUNDS times; a ratio
 is the median of their processor times pair by pair, with the least and the largest. Answers are compared first.
 """
@@ -106,6 +107,40 @@ def beside_calculix(program, folder, elements):
     beside(f"manipulator-{elements}", [program, *words], runs, folder, difference)
 
 
+def pendulum(program, folder, rods):
+    """Two elements of degree 3 beside rigid rods; the mesh's error is from 6 elements."""
+    seen = {"role": "verification", "bound": {"at_least": -2, "why": "to be read"}}
+    strip = {"material": "steel", "rectangle": {"thickness_m": 0.002, "width_m": 0.02}}
+
+    def bob(name, elements, steps):
+        write(folder, name, {
+            "model": {"materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7870, "nu": 0.3}}, "sections": {"strip": strip}, "elements": elements,
+                      "nodes": {"O": [0, 0], "bob": [1, 0]}, "supports": {"O": ["x", "y"]}, "gravity_m_s2": [0, -9.81],
+                      "members": {"rod": {"nodes": ["O", "bob"], "section": "strip", "beam": "euler-bernoulli", "axial": "inextensible"}},
+                      "point_masses": {"bob": {"node": "bob", "mass_kg": 1}}},
+            "analysis": {"large-motion": {"end_time_s": 1, "output_step_s": 0.05, "step_s": 0.05 / steps, "nodes": ["bob"],
+                                          "integrator": "energy-momentum", "extrapolated": True}},
+            "checks": {f"{axis}-{k}": {**seen, "quantity": f"position_{axis}_m:bob", "index": k} for k in range(21) for axis in "xy"}})
+        values = [check["computed"] for check in answer(program, folder, name)["checks"]]
+        return list(zip(values[::2], values[1::2]))
+
+    def chain(accuracy):
+        told = subprocess.run([*simbody, accuracy], stdout=subprocess.PIPE, check=True, text=True).stdout
+        return [tuple(map(float, line.split())) for line in told.splitlines()]
+
+    def apart(a, b):
+        return max(math.dist(p, q) for p, q in zip(a, b, strict=True))
+    simbody = [str(simbody_pendulum(program)), str(rods)]
+    continuum, fine, fine_chain = bob("continuum", 6, 200), bob("fine", 2, 400), chain("1e-8")
+    ours, theirs = apart(bob("pendulum", 2, 40), fine), apart(chain("1e-4"), fine_chain)
+    print(f"pendulum-{rods}: time's error {ours:.1e} m beside {theirs:.1e} m, the mesh's {apart(fine, continuum):.1e} m beside {apart(fine_chain, continuum):.1e} m")
+    beside(f"pendulum-{rods}", [program, "run", "pendulum.json", "--out", "out"], [[*simbody, "1e-4"]], folder, apart(fine, fine_chain))
+
+
+def simbody_pendulum(program):
+    return pathlib.Path(program).parent.parent / "tests" / "simbody_pendulum"
+
+
 def instructions(program, folder, elements):
     words = manipulator(folder, elements)
     for old in folder.glob("count.*"):
@@ -123,7 +158,7 @@ def instructions(program, folder, elements):
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     rows = {f"{name}-{count}": (needs, run, count) for name, needs, run, counts in (
-        ("manipulator", "ccx", beside_calculix, (4, 64)), ("grnn", "/usr/bin/python3", grnn, (631, 100000)),
+        ("manipulator", "ccx", beside_calculix, (4, 64)), ("grnn", "/usr/bin/python3", grnn, (631, 100000)), ("pendulum", simbody_pendulum(program), pendulum, (16,)),
         ("instructions", "valgrind", instructions, (4, 64))) for count in counts}
     for row in sys.argv[2:] or rows:
         needs, run, count = rows[row]
