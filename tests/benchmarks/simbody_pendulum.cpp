@@ -18,8 +18,8 @@ int main(int count, char** words) {
   Force::UniformGravity(forces, matter, Vec3(0, -9.81, 0));
   const Vec3 middle(length / 2, 0, 0), end(length, 0, 0);
   const double inertia = mass * length * length / 12;
-  const Body::Rigid rod(MassProperties(
-      mass, middle, Inertia(0, inertia, inertia).shiftFromMassCenter(middle, mass)));
+  const Body::Rigid rod(
+      MassProperties(mass, middle, Inertia(0, inertia, inertia).shiftFromMassCenter(middle, mass)));
   MobilizedBody last = matter.Ground();
   for (int i = 0; i < rods; ++i) {
     const MobilizedBody::Pin next(last, i == 0 ? Vec3(0) : end, rod, Vec3(0));
