@@ -5,7 +5,6 @@
 
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/lanczos.h"
-#include "solver/linalg/start_vectors.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver {

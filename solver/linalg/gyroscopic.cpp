@@ -10,7 +10,6 @@
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/dense_lu.h"
 #include "solver/linalg/lanczos.h"
-#include "solver/linalg/start_vectors.h"
 
 namespace trammel::solver {
 namespace {

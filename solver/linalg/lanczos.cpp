@@ -2,6 +2,7 @@
 
 #include <Spectra/SymEigsSolver.h>
 
+#include <random>
 #include <stdexcept>
 
 namespace trammel::solver {
@@ -37,6 +38,13 @@ LanczosPairs largest_eigenpairs(const std::function<Eigen::VectorXd(const Eigen:
   } catch (const std::invalid_argument&) {  // a start, or an image of it, that is zero
     return none;
   }
+}
+
+Eigen::MatrixXd start_vectors(Index rows, Index columns, Index variant) {
+  std::mt19937_64 engine(20170204 + static_cast<std::uint64_t>(variant));
+  Eigen::MatrixXd X(rows, columns);
+  for (double& x : X.reshaped()) x = static_cast<double>(engine() >> 11) * 0x1p-52 - 1.0;
+  return X;
 }
 
 }  // namespace trammel::solver

@@ -25,4 +25,8 @@ struct LanczosPairs {
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
     const Eigen::VectorXd& start, const LanczosOptions& options);
 
+/// Columns for an eigenvalue iteration to start from: numbers in [-1, 1), the same everywhere.
+/// @param variant  another sequence
+[[nodiscard]] Eigen::MatrixXd start_vectors(Index rows, Index columns, Index variant = 0);
+
 }  // namespace trammel::solver

@@ -8,7 +8,7 @@
 #include "solver/assembly/strain.h"
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/eigenvalue_count.h"
-#include "solver/linalg/start_vectors.h"
+#include "solver/linalg/lanczos.h"
 #include "solver/statics/describe_mechanism.h"
 #include "solver/statics/zero_energy_modes.h"
 

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "solver/assembly/restrict_model_effects.h"
-#include "solver/linalg/start_vectors.h"
+#include "solver/linalg/lanczos.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"
 #include "solver/poses/moving_pencil.h"

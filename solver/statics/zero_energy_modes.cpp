@@ -3,7 +3,7 @@
 #include "solver/assembly/strain.h"
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/dense_qr.h"
-#include "solver/linalg/start_vectors.h"
+#include "solver/linalg/lanczos.h"
 
 namespace trammel::solver {
 namespace {
