@@ -149,8 +149,11 @@ class MeshedScene {
     try {
       const StepResult result = run(steps, record);
       counters += result.counters;
+      const bool estimated =
+          scene_.estimates_large_displacement && effects.has(Effect::large_displacement);
       const solver::Outcome found =
-          solver::outcome_by_evidence(result.outcome, result.evidence, kind_.evidence);
+          estimated ? result.outcome
+                    : solver::outcome_by_evidence(result.outcome, result.evidence, kind_.evidence);
       if (effects == all_ && outcome.solved())
         outcome = outcome_at_path_point(scene_, steps.front(), found);
       if (!found.solved()) return std::nullopt;
@@ -241,6 +244,7 @@ class Measurement {
     is_coarser_ = !has_points_ && (coarsen_members(coarse, elements) || has_coarser_platform);
     coarsen_members(coarsest, 1);
     coarsen_platform(coarsest);
+    coarsest.estimates_large_displacement = true;
     is_linear_exact_ = &kind == &find_analysis("statics") && !has_coarser_platform &&
                        std::all_of(model.members.begin(), model.members.end(), is_prismatic);
     coarsest_.emplace(kind, analysis, std::move(coarsest), scope.applicable, size_);

@@ -388,6 +388,7 @@ int random_effects_command(const EffectsCommand& command, const Renderers& rende
       progress.show(n + 1, command.random);
     }
   }
+  Json each = results::effect_scenes_to_json(scenes);
   write_page(command, std::move(scenes), renderers);
   const auto share = [&](std::size_t hits) {
     return static_cast<double>(hits) / static_cast<double>(all.scenes);
@@ -397,7 +398,8 @@ int random_effects_command(const EffectsCommand& command, const Renderers& rende
     Json rows = Json::array();
     for (const auto& [kind, counts] : kinds) rows.push_back(counts_json(kind, counts));
     rows.push_back(counts_json("all", all));
-    std::cout << pretty({{"seed", command.seed}, {"kinds", rows}, {"misses", misses}}, 2);
+    std::cout << pretty(
+        {{"seed", command.seed}, {"kinds", rows}, {"misses", misses}, {"scenes", each}}, 2);
     return status;
   }
   for (const std::string& miss : misses) std::cout << wrapped(miss, "  ");

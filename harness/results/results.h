@@ -178,6 +178,7 @@ struct Results {
 [[nodiscard]] nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows);
 [[nodiscard]] nlohmann::ordered_json history_to_json(const History& history);
 [[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
+[[nodiscard]] nlohmann::ordered_json effect_scenes_to_json(const std::vector<EffectScene>& scenes);
 
 /// Figures, tables and the like of a case file, which results hold as they stand there.
 [[nodiscard]] std::vector<PlotRequest> read_figures(const nlohmann::ordered_json& json);

@@ -23,6 +23,8 @@ struct CaseModel {
   /// Sliders, line springs and follower loads, which the linear tiers know only in part.
   solver::large_motion::LargeMotionModel joint_elements;
   solver::Effects effects = solver::Effects::all();  ///< what `build_model` keeps
+  /// Statics with large displacement are wanted to six digits and without evidence.
+  bool estimates_large_displacement = false;
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
 };

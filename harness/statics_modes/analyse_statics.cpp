@@ -125,8 +125,9 @@ void record_plates(const solver::Model& model, const solver::StaticSolution& sol
 StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool draw,
                            Recorder& record) {
   const solver::Model model = build_bare_model(case_model, step);
-  const solver::StaticSolution solution =
-      solver::solve_large_statics(model, case_model.joint_elements);
+  const auto solve = case_model.estimates_large_displacement ? solver::estimate_large_statics
+                                                             : solver::solve_large_statics;
+  const solver::StaticSolution solution = solve(model, case_model.joint_elements);
   StepResult result{solution.outcome, solution.counters, std::nullopt, {}, solution.evidence};
   if (draw) {
     result.drawing = draw_model(solver::assemble(build_model(case_model, step)),

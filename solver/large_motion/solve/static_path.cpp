@@ -76,7 +76,8 @@ class PathFollower {
     point.state = system_.reference_state();
     point.newton = equilibrium_.solve(point.state, 0);
     if (!point.newton.outcome.solved()) return stop(point.newton.outcome);
-    if (!equilibrium_.factor(point.state))
+    const bool at_rest = point.newton.correction.size() == 1;  // where it was factored
+    if (!at_rest && !equilibrium_.factor(point.state))
       return stop({Status::singular, "the tangent is singular"});
     VectorXd shape;
     const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
@@ -91,7 +92,8 @@ class PathFollower {
     direction_.load = 1;
     normalize(direction_);
     point.unstable_directions = equilibrium_.matrix().negative_pivots();
-    arc_step_ = options_.first_step / direction_.load;
+    const bool small = response * std::abs(options_.target) < options_.small_response;
+    arc_step_ = (small ? std::abs(options_.target) : options_.first_step) / direction_.load;
     add_evidence(point.state);
     path_.points.push_back(std::move(point));
     return true;
@@ -147,7 +149,7 @@ class PathFollower {
     point.newton = {};
     double distance = 0;
     for (int i = 0; i < options_.newton.max_iterations; ++i) {
-      if (!equilibrium_.factor(state)) return false;
+      if (!equilibrium_.factor_if_moved(state)) return false;
       equilibrium_.correction(state, residual_step_, point.newton);
       equilibrium_.load_direction(state, load_step_);
       if (!residual_step_.allFinite() || !load_step_.allFinite()) return false;
@@ -183,7 +185,7 @@ class PathFollower {
       const bool reached = crosses_target(from) ? solve_at_target(from, point)
                                                 : corrector(from, direction_, arc_step_, point) &&
                                                       !passed_target(from, point.state) &&
-                                                      equilibrium_.factor(point.state);
+                                                      equilibrium_.factor_if_moved(point.state);
       if (reached) ahead = tangent(point.state, direction_);
       if (reached && is_smooth(from, point.state, ahead)) {
         point.unstable_directions = equilibrium_.matrix().negative_pivots();
@@ -274,7 +276,7 @@ class PathFollower {
     const VectorXd distance = point.state.q - guess.q;
     return std::sqrt(displacement_weight_) * weighted_rms_norm(system_, distance) <
                0.5 * std::abs(arc) &&
-           equilibrium_.factor(point.state);
+           equilibrium_.factor_if_moved(point.state);
   }
 
   /// Records what lies between two points. @return true: the path goes on along another branch.

@@ -14,6 +14,8 @@ struct StaticPathOptions {
   double target = 1;  ///< load factor to reach
   double first_step =
       0.1;  ///< of the load factor; later steps follow from the number of Newton iterations
+  /// A response to the whole load below it, relative to the model, is tried in one step.
+  double small_response = 0;
   int max_points = 2000;       ///< at most
   bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
   bool keep_points = true;     ///< false: keep the last point only

@@ -255,6 +255,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
       {"paper", "/0/what"},
       {"effects scene-soft-platform --repeats 0", "/full_run/element_evaluations"},
       {"effects --random 1", "/kinds/0/within"},
+      {"effects --random 1", "/scenes/0/deciding_s"},
       {"grade \"" TRAMMEL_PROGRAM " solve\"" + file, "/runs/0/checks/0/verdict"},
       {"history h.db", "/calls/0/checks"},
       {"slower " + program + file + " --repeats 10", "/0/ratio"}};

@@ -1,3 +1,5 @@
+#include "solver/large_motion/solve/large_statics.h"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
@@ -70,10 +72,34 @@ NewtonResult roll_up(double turns, Index elements, Vector3d& tip_motion) {
   return result;
 }
 
+/// Of the elastica under a force at its tip.
+StaticSolution estimate_of(const Vector2d& force) {
+  Model model = elastica(8);
+  model.loads = {{1, {force.x(), force.y(), 0}}};
+  return estimate_large_statics(model);
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_elastica_under_a_tip_load_agrees_to_eleven_digits) {
   for (const Elastica& exact : kElastica) BOOST_TEST(elastica_error(exact, 64, 3) < 5e-12);
+}
+
+BOOST_AUTO_TEST_CASE(estimates_of_the_elastica_agree_to_six_digits) {
+  for (const Elastica& exact : kElastica) {
+    const StaticSolution found = estimate_of({0, exact.load});
+    BOOST_REQUIRE(found.outcome.solved());
+    BOOST_TEST(found.displacement(1, 1) == exact.transverse, boost::test_tools::tolerance(2e-6));
+    BOOST_TEST(found.displacement(1, 2) == exact.angle, boost::test_tools::tolerance(2e-6));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(two_tangents_estimate_what_is_small_and_stable) {
+  const double critical = kPi * kPi / 4;  // P L^2 / EI
+  BOOST_TEST(estimate_of({0, 0.1}).counters.factorizations == 2);
+  BOOST_TEST(estimate_of({-0.9 * critical, 0}).counters.factorizations == 2);
+  BOOST_TEST(estimate_of({-1.1 * critical, 0}).counters.factorizations > 2);
+  BOOST_TEST(estimate_of({-0.9 * critical, 0.1}).counters.factorizations > 2);
 }
 
 BOOST_AUTO_TEST_CASE(a_turned_elastica_is_as_exact) {
