@@ -18,7 +18,7 @@ void Factorization::compute(const SparseMatrix& A) {
 }
 
 double Factorization::smallest_pivot() const {
-  const VectorXd& D = ldlt_.pivots();
+  const VectorXd D = ldlt_.pivots();
   return D.size() == 0 ? 1.0 : D.minCoeff();
 }
 

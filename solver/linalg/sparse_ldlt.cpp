@@ -6,10 +6,7 @@
 #include <iostream>  // MetisSupport needs it
 #include <mutex>
 #include <numeric>
-#include <optional>
 #include <vector>
-
-#include "solver/linalg/supernodal_ldlt.h"
 
 // after <iostream>
 #include <Eigen/MetisSupport>
@@ -18,8 +15,6 @@ namespace trammel::solver {
 namespace {
 
 using Eigen::VectorXd;
-
-constexpr Index kLarge = 5000;  // coordinates: METIS and dense fronts pay
 
 /// The upper triangle of P A P^T, whose values are the places of its entries among those of one
 /// triangle of A.
@@ -45,9 +40,10 @@ std::vector<Index> values_of(const SparseMatrix& places) {
 }  // namespace
 
 Permutation fill_reducing_order(const SparseMatrix& A) {
+  constexpr Index kSmall = 5000;
   Permutation elimination;  // its entry k is the coordinate eliminated k-th
   if (A.rows() == 0) return elimination;
-  if (A.rows() < kLarge) {
+  if (A.rows() < kSmall) {
     Eigen::AMDOrdering<int>()(A, elimination);
   } else {
     // METIS seeds and draws from the one random sequence of the process.
@@ -66,9 +62,7 @@ struct SparseLdlt::Factors {
   SparseMatrix upper;               // upper triangle in that order
   std::vector<Index> from, mirror;  // entry of upper -> that of A, and the one across its diagonal
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
-  std::optional<SupernodalLdlt> supernodal;  // in place of ldlt
-  VectorXd D;
-  mutable VectorXd ordered;
+  mutable VectorXd ordered, solved;
 
   [[nodiscard]] bool has_pattern_of(const SparseMatrix& A) const {
     return columns.size() == to_size(A.cols()) + 1 &&
@@ -79,17 +73,10 @@ struct SparseLdlt::Factors {
   void analyze(const SparseMatrix& A) {
     columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
     rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
-    supernodal.reset();
     if (ordering == Ordering::fill_reducing) {
       P = fill_reducing_order(A);
-      if (A.rows() >= kLarge) supernodal.emplace();
     } else {
       P.setIdentity(A.rows());
-    }
-    if (supernodal) {
-      const std::vector<Index> place =
-          postorder(elimination_tree(permuted_places<Eigen::Lower>(A, P)));
-      for (int& i : P.indices()) i = static_cast<int>(place[to_size(i)]);
     }
     if (triangle == Triangle::mean) {  // sorted, so that the two agree entry by entry
       upper = sorted(permuted_places<Eigen::Lower>(A, P));
@@ -99,41 +86,9 @@ struct SparseLdlt::Factors {
                                           : permuted_places<Eigen::Upper>(A, P);
     }
     from = values_of(upper);
-    supernodal ? supernodal->analyze(upper) : ldlt.analyzePattern(upper);
+    ldlt.analyzePattern(upper);
     ordered.resize(A.rows());
-  }
-
-  [[nodiscard]] bool factorize() {
-    if (supernodal) {
-      if (!supernodal->factorize(upper)) return false;
-      D = supernodal->pivots();
-      return true;
-    }
-    ldlt.factorize(upper);
-    D = ldlt.vectorD();
-    return ldlt.info() == Eigen::Success && D.allFinite();
-  }
-  [[nodiscard]] SparseMatrix L() const {
-    return supernodal ? supernodal->L() : SparseMatrix(ldlt.matrixL());
-  }
-  void solve_lower(VectorXd& x) const {
-    if (supernodal) return supernodal->solve_lower(x);
-    const auto& L = ldlt.matrixL().nestedExpression();
-    const int *start = L.outerIndexPtr(), *row = L.innerIndexPtr();
-    for (Index j = 0; j < x.size(); ++j) {
-      const double own = x[j];
-      for (int k = start[j]; k < start[j + 1]; ++k) x[row[k]] -= L.valuePtr()[k] * own;
-    }
-  }
-  void solve_lower_transposed(VectorXd& x) const {
-    if (supernodal) return supernodal->solve_lower_transposed(x);
-    const auto& L = ldlt.matrixL().nestedExpression();
-    const int *start = L.outerIndexPtr(), *row = L.innerIndexPtr();
-    for (Index j = x.size() - 1; j >= 0; --j) {
-      double own = x[j];
-      for (int k = start[j]; k < start[j + 1]; ++k) own -= L.valuePtr()[k] * x[row[k]];
-      x[j] = own;
-    }
+    solved.resize(A.rows());
   }
 };
 
@@ -154,19 +109,20 @@ bool SparseLdlt::factorize(const SparseMatrix& A) {
   for (std::size_t k = 0; k < f.mirror.size(); ++k) {
     values[k] = (values[k] + A.valuePtr()[f.mirror[k]]) / 2;
   }
-  return f.factorize();
+  f.ldlt.factorize(f.upper);
+  return f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite();
 }
 
-const VectorXd& SparseLdlt::pivots() const {
-  return factors_->D;
+VectorXd SparseLdlt::pivots() const {
+  return factors_->ldlt.vectorD();
 }
 
 Index SparseLdlt::negative_pivots() const {
-  return (factors_->D.array() < 0).count();
+  return (factors_->ldlt.vectorD().array() < 0).count();
 }
 
 double SparseLdlt::smallest_to_largest_pivot() const {
-  const VectorXd& D = factors_->D;
+  const VectorXd D = pivots();
   double smallest = 1;
   for (Index j = 0; j < D.size(); ++j) {
     for (SparseMatrix::InnerIterator it(factors_->upper, j); it; ++it) {
@@ -178,37 +134,39 @@ double SparseLdlt::smallest_to_largest_pivot() const {
 }
 
 double SparseLdlt::element_growth() const {
-  if (factors_->supernodal) return factors_->supernodal->largest_entry();
   const auto& L = factors_->ldlt.matrixL().nestedExpression();
-  return L.nonZeros() > 0 ? L.coeffs().abs().maxCoeff() : 0;
+  double largest = 0;
+  for (Index j = 0; j < L.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
+      largest = std::max(largest, std::abs(it.value()));
+    }
+  }
+  return largest;
 }
 
 void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {
   const Eigen::VectorXi& place = factors_->P.indices();
-  VectorXd& y = factors_->ordered;
-  for (Index i = 0; i < b.size(); ++i) y[place[i]] = b[i];
-  factors_->solve_lower(y);
-  y = factors_->D.cwiseInverse().cwiseProduct(y);
-  factors_->solve_lower_transposed(y);
+  for (Index i = 0; i < b.size(); ++i) factors_->ordered[place[i]] = b[i];
+  factors_->solved = factors_->ldlt.solve(factors_->ordered);
   x.resize(b.size());
-  for (Index i = 0; i < b.size(); ++i) x[i] = y[place[i]];
+  for (Index i = 0; i < b.size(); ++i) x[i] = factors_->solved[place[i]];
 }
 
 VectorXd SparseLdlt::solve_half(const VectorXd& b) const {
   VectorXd y = factors_->P * b;
-  factors_->solve_lower(y);
-  return y.cwiseQuotient(factors_->D.cwiseSqrt());
+  factors_->ldlt.matrixL().solveInPlace(y);
+  return y.cwiseQuotient(factors_->ldlt.vectorD().cwiseSqrt());
 }
 
 VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
-  VectorXd x = y.cwiseQuotient(factors_->D.cwiseSqrt());
-  factors_->solve_lower_transposed(x);
+  VectorXd x = y.cwiseQuotient(factors_->ldlt.vectorD().cwiseSqrt());
+  factors_->ldlt.matrixU().solveInPlace(x);
   return factors_->P.transpose() * x;
 }
 
 SparseMatrix SparseLdlt::square_root() const {
-  const VectorXd root = factors_->D.cwiseMax(0).cwiseSqrt();
-  const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->L().transpose());
+  const VectorXd root = factors_->ldlt.vectorD().cwiseMax(0).cwiseSqrt();
+  const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->ldlt.matrixU());
   return U * factors_->P;
 }
 

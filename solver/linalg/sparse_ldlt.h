@@ -18,9 +18,7 @@ using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int
 [[nodiscard]] Permutation fill_reducing_order(const SparseMatrix& A);
 
 /// P A P^T = L D L^T of symmetric matrices. The order P and the symbolic work are kept as long as
-/// the pattern stays the same; then, of matrices that are not large, neither `factorize` nor
-/// `solve` allocates. Large ones have their columns eliminated in dense fronts (`SupernodalLdlt`),
-/// which cuts the factorization of that lattice to a sixth once more.
+/// the pattern stays the same; then neither `factorize` nor `solve` allocates.
 class SparseLdlt {
  public:
   enum class Ordering { fill_reducing, natural };
@@ -38,7 +36,7 @@ class SparseLdlt {
   /// @param A  compressed, with the pattern of both triangles
   [[nodiscard]] bool factorize(const SparseMatrix& A);
 
-  [[nodiscard]] const Eigen::VectorXd& pivots() const;
+  [[nodiscard]] Eigen::VectorXd pivots() const;
   /// Sylvester: the number of negative eigenvalues.
   [[nodiscard]] Index negative_pivots() const;
   /// Smallest |pivot| over its diagonal entry: near zero where A is singular.
