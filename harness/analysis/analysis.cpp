@@ -61,6 +61,16 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
+/// What effects were estimated to be worth, so that checks can judge it.
+void record_estimates(const AnalysisKind& kind, const EffectChoice& choice, Recorder& record) {
+  if (kind.effects == nullptr || kind.effects->estimate == nullptr) return;
+  for (const EffectReason& one : choice.reasons) {
+    const std::string effect(solver::name_of(one.effect));
+    if (one.number) record.add("effect_number", effect, *one.number);
+    if (one.change) record.add("effect_change", effect, *one.change);
+  }
+}
+
 }  // namespace
 
 void set_solver_rounding(int mode) {
@@ -89,6 +99,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
+    record_estimates(kind, choice, record);
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);

@@ -169,6 +169,8 @@ damping_ratio  damping ratio of the first mode
 nominal_inertia_number  (rate of the nominal motion over the first frequency)^2
 elastic_inertia_number  (rate of the path over the first frequency)^2
 transformation_rate_number  twice the fastest turning over the first frequency
+effect_number:EFFECT  dimensionless number that an effect's worth is estimated by
+effect_change:EFFECT  at most what the results change without an effect and those before it
 [inverse-dynamics]
 active_velocity_rad_per_s:JOINT  angular velocity of an active joint
 active_acceleration_rad_per_s2:JOINT  angular acceleration of an active joint

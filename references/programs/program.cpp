@@ -20,6 +20,7 @@
 #include "references/manipulator/assembly_modes.h"
 #include "references/manipulator/manipulator_motion.h"
 #include "references/manipulator/manipulator_torques.h"
+#include "references/manipulator/moving_links.h"
 #include "references/manipulator/moving_platform.h"
 #include "references/manipulator/nadaraya_watson.h"
 #include "references/numerics/expression.h"
@@ -163,6 +164,12 @@ const std::map<std::string, Program>& programs() {
         "manipulator, trajectory (circle | line | rest_to_rest | spline), times_s, force_N, "
         "moment_N_m, gravity_m_s2; torques at A1 at all times, then A2, then A3",
         manipulator_torques_program}},
+      {"moving-links",
+       {"motion of a 3-RRR whose links have mass and next to no stiffness, beside that along a "
+        "path",
+        "manipulator, trajectory, force_N, moment_N_m, mass_damping_per_s, times_s, outputs "
+        "(displacement_x_m:P, platform_rotation_rad, torque_N_m:A1, ...)",
+        moving_links_program}},
       {"moving-platform",
        {"vibration of a 3-RRR's platform on massless links, hinged at both ends of the distal "
         "ones, "

@@ -299,7 +299,7 @@ class MotionEstimates {
     damping_ = damping_ratio(options_.damping, frequency_);
     const VectorXd load = moving.K() * response;
     const ResponseSize total = size_of(moving, response);
-    double energy_left = 1;
+    double energy_left = total.energy > 0 ? 1 : 0;
     for (Index k = first; k < modes.frequency.size(); ++k) {
       const double omega = 2 * std::numbers::pi * modes.frequency[k];
       const VectorXd& shape = modes.shape.col(k);

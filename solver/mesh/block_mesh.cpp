@@ -234,22 +234,4 @@ std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh) {
   return nodes;
 }
 
-std::vector<EdgeLoad> side_loads(const BlockMesh& mesh, const std::vector<Index>& nodes,
-                                 Index plate, std::size_t block, std::size_t side,
-                                 const Vector2d& traction, double normal) {
-  const std::vector<Index>& along = mesh.sides[block][side];
-  const auto node = [&](std::size_t i) { return nodes[static_cast<std::size_t>(along[i])]; };
-  const std::size_t step = mesh.six_nodes ? 2 : 1;
-  std::vector<EdgeLoad> loads;
-  for (std::size_t i = 0; i + step < along.size(); i += step) {
-    EdgeLoad load;
-    load.plate = plate;
-    load.nodes = {node(i), node(i + step), mesh.six_nodes ? node(i + 1) : -1};
-    load.traction = traction;
-    load.normal = normal;
-    loads.push_back(load);
-  }
-  return loads;
-}
-
 }  // namespace trammel::solver

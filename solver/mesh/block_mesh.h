@@ -43,11 +43,4 @@ struct BlockMesh {
 /// @returns the model's node of each of the mesh's
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh);
 
-/// The loads of one side, as a traction in world axes and one along the outward normal [Pa].
-/// @param nodes  what `append` returned
-[[nodiscard]] std::vector<EdgeLoad> side_loads(const BlockMesh& mesh,
-                                               const std::vector<Index>& nodes, Index plate,
-                                               std::size_t block, std::size_t side,
-                                               const Vector2d& traction, double normal);
-
 }  // namespace trammel::solver

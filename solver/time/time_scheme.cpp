@@ -48,11 +48,6 @@ TimeScheme generalized_alpha(double radius) {
           .gamma = 0.5 - alpha_m + alpha_f};
 }
 
-int order(const TimeScheme& scheme) {
-  const double defect = scheme.gamma - (0.5 - scheme.alpha_m + scheme.alpha_f);
-  return std::abs(defect) < 1e-12 ? 2 : 1;
-}
-
 double spectral_radius(const TimeScheme& s, double phase_step, double damping_ratio) {
   // State (q, h v, h^2 a) of the oscillator h^2 A = -2 zeta W (h v) - W^2 q with W = w h.
   const double k = phase_step * phase_step;

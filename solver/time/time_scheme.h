@@ -35,9 +35,6 @@ struct TimeScheme {
 /// @throws ModelError  outside that range.
 [[nodiscard]] TimeScheme generalized_alpha(double radius);
 
-/// gamma = 1/2 - alpha_m + alpha_f is what order 2 asks for.
-[[nodiscard]] int order(const TimeScheme& scheme);
-
 /// Largest factor by which a step of w h = `phase_step` lets a free motion of damping ratio
 /// `damping_ratio` grow; above 1 the scheme is unstable there.
 [[nodiscard]] double spectral_radius(const TimeScheme& scheme, double phase_step,

@@ -48,6 +48,7 @@ const std::vector<std::pair<const char*, const char*>> kCases = {
     {"hard-12-grnn", "one-sample"},
     {"hard-03-repeated-frequencies", "perturbed"},
     {"claims-audit", "base"},
+    {"estimated-effects", "base"},
     {"manufactured-timoshenko", "base"},
     {"manufactured-triangles", "base"},
     {"ansys-vm136", "path"},

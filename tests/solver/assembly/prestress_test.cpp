@@ -9,6 +9,7 @@
 #include "solver/statics/buckling.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
+#include "tests/support/solver/side_loads.h"
 
 BOOST_AUTO_TEST_SUITE(prestress)
 

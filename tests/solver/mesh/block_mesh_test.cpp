@@ -8,11 +8,13 @@
 #include "solver/elements/triangle_interpolation.h"
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
+#include "tests/support/solver/side_loads.h"
 
 BOOST_AUTO_TEST_SUITE(block_mesh)
 
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
+using trammel::testing::side_loads;
 
 namespace {
 
