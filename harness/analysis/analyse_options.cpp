@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "harness/analysis/analyse_study.h"
 #include "harness/analysis/analysis.h"
@@ -107,9 +108,17 @@ void count(const AnalysisResult& result, const std::vector<std::string>& require
   }
 }
 
+/// What a computation is of: variants that differ in what a combination sets anyway are the same.
+std::string computation_key(const Document& document) {
+  Json whole = document.value();
+  for (const char* text : {"title", "description"}) whole.erase(text);
+  return whole.dump();
+}
+
 /// Every combination of options on one computation.
+/// @param seen  computations of the case, each done once
 void run_combinations(const Document& document, const JsonView& place, const References& references,
-                      OptionCounts& counts) {
+                      std::set<std::string>& seen, OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
   const Options options = options_of(place, kind);
   const Origin written = place.document().origin(place["analyses"].pointer());
@@ -117,6 +126,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
   for (const Json& combination : options.combinations) {
     Document patched = document;
     patched.apply_patch(written.file, written.pointer, {{"analysis", {{kind, combination}}}});
+    if (!seen.insert(computation_key(patched)).second) continue;
     ++counts.tried;
     try {
       patched.validate("case");
@@ -186,11 +196,12 @@ StepResult analyse_options(const Document& document, const References& reference
   for (const auto& [name, choice] : place["cases"].entries()) {
     const Case tried = load_case(catalogue.find_base_case(name, here), catalogue);
     OptionCounts own;
+    std::set<std::string> seen;
     for (const std::string& variant : tried.variants()) {
       const Document whole = patched(tried, variant);
       if (analysis_kind(whole) == "options") throw choice.error("expected a case of another kind");
       for (const Document& added : computations_of(whole, choice)) {
-        run_combinations(added, place, references, own);
+        run_combinations(added, place, references, seen, own);
       }
     }
     record_counts(name, own, record);

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include "harness/base/processes.h"
@@ -14,6 +15,8 @@ int main(int argc, char** argv) {
   int null = 0;
   while (null >= 0 && null <= STDERR_FILENO) null = open("/dev/null", O_RDONLY);
   close(null);
+  // Large matrices come and go: the pages of one serve the next.
+  for (const int threshold : {M_MMAP_THRESHOLD, M_TRIM_THRESHOLD}) mallopt(threshold, 1 << 30);
   trammel::harness::end_without_memory(2, "trammel: expected a machine with more free memory\n");
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return trammel::harness::run_command_line(

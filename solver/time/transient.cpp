@@ -311,7 +311,11 @@ class TransientIntegrator {
   /// the sum of the terms.
   double form_residual(double& share, double& allowed) {
     next_.MA.noalias() = matrices_.M() * next_.acceleration;
-    next_.Cv.noalias() = matrices_.C() * next_.v;
+    if (matrices_.norm_C() > 0) {
+      next_.Cv.noalias() = matrices_.C() * next_.v;
+    } else {
+      next_.Cv.setZero();
+    }
     next_.Kq.noalias() = matrices_.K() * next_.q;
     residual_ = next_.f - next_.MA - next_.Cv - next_.Kq;
     const double left = infinity_norm(residual_);
