@@ -185,8 +185,8 @@ template <class Entry>
 Json list_to_json(const std::vector<Entry>& values) {
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
   for (const auto& entry : values) {
-    if constexpr (is_named<Entry>) {
-      json[entry.first] = to_json(entry.second);
+    if constexpr (is_named<Entry>) {  // at the end, for json[name] would look through all before it
+      json.template get_ref<Json::object_t&>().emplace_back(entry.first, to_json(entry.second));
     } else if constexpr (has_key<Entry>) {
       json[entry.*kKeyMember<Entry>] = to_json(entry);
     } else {

@@ -11,7 +11,8 @@
 namespace trammel::solver {
 
 double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
-                              const Eigen::VectorXd& found, Factorization&& spent) {
+                              const Eigen::VectorXd& found, Factorization&& spent,
+                              double shift_above) {
   constexpr double kClearGap = 1e-6;  // of repeated values rounding leaves much less
   Factorization factorization = std::move(spent);
   if (A.rows() == 0) return static_cast<double>(found.size());
@@ -20,6 +21,10 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
     factorization.compute(shifted(A, B, size > 0 ? A.norm() / size : 0));
     return factorization.is_reliable() ? static_cast<double>(factorization.negative_pivots())
                                        : std::numeric_limits<double>::infinity();
+  }
+  if (shift_above > found[found.size() - 1]) {
+    factorization.compute(shifted(A, B, shift_above));
+    if (factorization.is_reliable() && factorization.negative_pivots() == found.size()) return 0;
   }
   for (Index below = found.size() - 1; below >= 0; --below) {
     const double low = below > 0 ? found[below - 1] : 0;

@@ -103,13 +103,16 @@ SparseLdlt& SparseLdlt::operator=(SparseLdlt&&) noexcept = default;
 
 bool SparseLdlt::factorize(const SparseMatrix& A) {
   Factors& f = *factors_;
-  if (!f.has_pattern_of(A)) f.analyze(A);
+  bool same = f.has_pattern_of(A);
+  if (!same) f.analyze(A);
   double* const values = f.upper.valuePtr();
-  for (std::size_t k = 0; k < f.from.size(); ++k) values[k] = A.valuePtr()[f.from[k]];
-  for (std::size_t k = 0; k < f.mirror.size(); ++k) {
-    values[k] = (values[k] + A.valuePtr()[f.mirror[k]]) / 2;
+  for (std::size_t k = 0; k < f.from.size(); ++k) {
+    double value = A.valuePtr()[f.from[k]];
+    if (!f.mirror.empty()) value = (value + A.valuePtr()[f.mirror[k]]) / 2;
+    same = same && values[k] == value;
+    values[k] = value;
   }
-  f.ldlt.factorize(f.upper);
+  if (!same) f.ldlt.factorize(f.upper);
   return f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite();
 }
 

@@ -32,7 +32,8 @@ class SparseLdlt {
   SparseLdlt(const SparseLdlt&) = delete;
   SparseLdlt& operator=(const SparseLdlt&) = delete;
 
-  /// False where a pivot was zero or not finite; then nothing else may be asked.
+  /// Of the matrix factored last the factors stay. False where a pivot was zero or not finite; then
+  /// nothing else may be asked.
   /// @param A  compressed, with the pattern of both triangles
   [[nodiscard]] bool factorize(const SparseMatrix& A);
 

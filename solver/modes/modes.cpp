@@ -133,19 +133,20 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   solution.outcome = pairs.outcome;
   solution.inertia_count = pairs.inertia_count;
   fill(system, pairs, free.basis, options.count, solution);
-  judge_modes(system, nullptr, solution, std::move(factorization));
+  judge_modes(system, nullptr, solution, std::move(factorization), pairs.check_shift);
   return solution;
 }
 
 void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
-                 Factorization&& spent) {
+                 Factorization&& spent, double shift_above) {
   if (!solution.outcome.solved()) return;
   const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
   if (w2.size() > 0)
     solution.evidence.add(Residual::eigenvalue_equation,
                           mode_backward_error(system, K_G, solution.shape, w2));
-  const double missed = K_G ? miscounted_eigenvalues(system.K + *K_G, system.M, w2)
-                            : miscounted_eigenvalues(system.K, system.M, w2, std::move(spent));
+  const SparseMatrix loaded = K_G ? SparseMatrix(system.K + *K_G) : SparseMatrix();
+  const double missed =
+      miscounted_eigenvalues(K_G ? loaded : system.K, system.M, w2, std::move(spent), shift_above);
   const auto twice = static_cast<double>(dependent_vectors(system.M, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);

@@ -46,9 +46,9 @@ struct ModalSolution {
 /// Takes the residuals of what is claimed, (K + K_G) x = w^2 M x for every mode and their number,
 /// and lets them decide.
 /// @param K_G  null: none
-/// @param spent  a factorization that is needed no more, for its ordering
+/// @param spent, shift_above  as of miscounted_eigenvalues
 void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
-                 Factorization&& spent = {});
+                 Factorization&& spent = {}, double shift_above = 0);
 
 /// Natural frequencies below `frequency` [Hz], copies of repeated ones and rigid motions included,
 /// by the negative pivots of K - (2 pi f)^2 M (Sylvester); nothing where the factorization loses

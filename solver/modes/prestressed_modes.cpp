@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "solver/assembly/strain.h"
 #include "solver/statics/postprocessing.h"
@@ -53,7 +54,7 @@ ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
     solution.roundoff[j] = 0.5 * (rounding / pairs.value[j] + pairs.error[j]) +
                            4 * std::numeric_limits<double>::epsilon();
   }
-  judge_modes(system, &K_G, solution);
+  judge_modes(system, &K_G, solution, std::move(factorization), pairs.check_shift);
   return solution;
 }
 

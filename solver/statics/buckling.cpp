@@ -1,6 +1,7 @@
 #include "solver/statics/buckling.h"
 
 #include <limits>
+#include <utility>
 
 #include "solver/assembly/equation_rows.h"
 #include "solver/assembly/strain.h"
@@ -58,7 +59,8 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
   if (!solution.outcome.solved()) return solution;
-  const double missed = miscounted_eigenvalues(system.K, softening, solution.load_factor);
+  const double missed = miscounted_eigenvalues(system.K, softening, solution.load_factor,
+                                               std::move(factorization), pairs.check_shift);
   const auto twice = static_cast<double>(dependent_vectors(system.K, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);

@@ -22,6 +22,11 @@ BOOST_AUTO_TEST_CASE(a_missed_mode_is_counted_and_one_found_twice_does_not_hide_
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}) == 0);
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 5}}) == 1);
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 1, 2, 2, 5}}) == 1);
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}, {}, 7) == 0);
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 5}}, {}, 7) == 1);
+  // Below the last one found, and beyond one that was not asked for: the gaps decide.
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}, {}, 3) == 0);
+  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2}}, {}, 7) == 0);
   BOOST_TEST(dependent_vectors(B, shapes) == 0);
   // The lowest is missed, another stands in its place: the number is right.
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 2, 5}}) == 0);

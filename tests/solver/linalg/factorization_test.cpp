@@ -56,6 +56,18 @@ BOOST_AUTO_TEST_CASE(one_coordinate_of_negative_stiffness_has_a_negative_pivot) 
   BOOST_TEST(factorization.smallest_pivot() < 0);
 }
 
+BOOST_AUTO_TEST_CASE(factors_stay_for_the_same_matrix_alone) {
+  SparseMatrix A = square(3);
+  SparseLdlt ldlt;
+  for (const double last : {4.0, 4.0, -4.0, 4.0}) {
+    A.coeffRef(8, 8) = last;
+    BOOST_TEST(ldlt.factorize(A));
+    BOOST_TEST(ldlt.negative_pivots() == (last > 0 ? 0 : 1));
+  }
+  A.coeffs().setZero();
+  for (int again = 0; again < 2; ++again) BOOST_TEST(!ldlt.factorize(A));
+}
+
 BOOST_AUTO_TEST_CASE(the_last_correction_is_told_relative_to_the_solution) {
   // 4 x = 8 by a factor of 5: what is wrong of x falls by 1 - 4/5 at each of the eight steps
   SparseMatrix A(1, 1);
