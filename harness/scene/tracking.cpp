@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <variant>
@@ -48,31 +49,47 @@ solver::large_motion::TimeFunction extended(const solver::large_motion::TimeFunc
   };
 }
 
+using RigidMotion = std::function<const solver::InverseDynamics&(double)>;
+
+/// Three actuators and every correction of a step ask for one time: it is reckoned once.
+RigidMotion once_per_time(std::function<solver::InverseDynamics(double)> reckon) {
+  struct Last {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    solver::InverseDynamics motion;
+  };
+  return [reckon = std::move(reckon),
+          last = std::make_shared<Last>()](double t) -> const solver::InverseDynamics& {
+    if (last->time != t) {
+      last->motion = reckon(t);
+      last->time = t;
+    }
+    return last->motion;
+  };
+}
+
 /// Angle, rate and acceleration of one actuator along the path, from where it starts.
-solver::large_motion::TimeFunction actuator(const solver::RigidManipulator& rigid,
-                                            const solver::Path& path, std::size_t limb) {
+solver::large_motion::TimeFunction actuator(const RigidMotion& along_path, const solver::Path& path,
+                                            std::size_t limb) {
   const auto i = static_cast<solver::Index>(limb);
-  const double start = solver::inverse_dynamics(rigid, solver::at(path, 0)).q[i];
-  const auto law = [rigid, path, i, start](double t) {
-    const solver::InverseDynamics motion = solver::inverse_dynamics(rigid, solver::at(path, t));
+  const double start = along_path(0).q[i];
+  const auto law = [along_path, i, start](double t) {
+    const solver::InverseDynamics& motion = along_path(t);
     return std::array<double, 3>{std::remainder(motion.q[i] - start, 2 * std::numbers::pi),
                                  motion.q_dot[i], motion.q_ddot[i]};
   };
   return extended(law, path);
 }
 
-/// Torque on one actuator [N m]; beyond the ends of the path, that of the end.
-std::function<double(double)> actuator_torque(const solver::RigidManipulator& rigid,
-                                              const CaseModel& case_model,
-                                              const std::function<double(double)>& load_history,
-                                              std::size_t limb) {
-  return [rigid, case_model, load_history, limb](double t) {
+/// With the load that the torques of the actuators balance; beyond the ends of the path, as there.
+RigidMotion loaded_motion(const solver::RigidManipulator& rigid, const CaseModel& case_model,
+                          const std::function<double(double)>& load_history) {
+  return once_per_time([rigid, case_model, load_history](double t) {
     const auto [first, last] = ends(*case_model.path);
     const solver::TrajectoryPoint point = solver::at(*case_model.path, std::clamp(t, first, last));
     const Eigen::Vector3d wrench =
         (load_history ? load_history(t) : 1.0) * wrench_on_platform(case_model, point.pose);
-    return solver::inverse_dynamics(rigid, point, wrench).torque[static_cast<solver::Index>(limb)];
-  };
+    return solver::inverse_dynamics(rigid, point, wrench);
+  });
 }
 
 solver::Index member_between(const solver::Model& model, solver::Index first,
@@ -128,14 +145,21 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
   const solver::RigidManipulator rigid = torques
                                              ? read_rigid_manipulator(place, case_model)
                                              : solver::rigid_manipulator(*case_model.manipulator);
+  const RigidMotion motion = torques
+                                 ? loaded_motion(rigid, case_model, large_motion.load_history)
+                                 : once_per_time([rigid, path = *case_model.path](double t) {
+                                     return solver::inverse_dynamics(rigid, solver::at(path, t));
+                                   });
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = "A" + std::to_string(i + 1);
     const solver::Index node = model.find_node(name);
     if (torques) {
-      large_motion.torques.push_back(
-          {name, node, actuator_torque(rigid, case_model, large_motion.load_history, i)});
+      const auto torque = [motion, k = static_cast<solver::Index>(i)](double t) {
+        return motion(t).torque[k];
+      };
+      large_motion.torques.push_back({name, node, torque});
     } else {
-      large_motion.drives.push_back({name, node, 2, actuator(rigid, *case_model.path, i)});
+      large_motion.drives.push_back({name, node, 2, actuator(motion, *case_model.path, i)});
     }
   }
 }
