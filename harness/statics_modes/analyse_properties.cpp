@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "solver/elements/frame_element.h"
+#include "solver/elements/triangle_interpolation.h"
 #include "solver/model/plane.h"
+#include "solver/model/quadrature.h"
 
 namespace trammel::harness {
 namespace {
@@ -46,7 +48,20 @@ Body body_of(const solver::Model& model, const solver::Member& member) {
   return whole;
 }
 
+/// Sides may be curved.
+Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& triangle) {
+  const solver::Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
+  Body whole;
+  for (const solver::TriangleQuadraturePoint& point : solver::triangle_quadrature()) {
+    const auto here = solver::interpolate(model, triangle, point.area_coordinates);
+    const double mass = plate.material.rho * plate.thickness * here.area * point.weight;
+    whole = join(whole, {mass, here.position, 0});
+  }
+  return whole;
+}
+
 Body body_of(const solver::Model& model, const solver::Triangle& triangle) {
+  if (triangle.quadratic()) return body_of_six_nodes(model, triangle);
   const auto corner = [&](std::size_t i) {
     return model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
   };

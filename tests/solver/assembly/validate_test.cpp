@@ -69,6 +69,16 @@ BOOST_AUTO_TEST_CASE(the_middle_of_a_side_may_lie_off_it_but_fold_the_triangle_a
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_triangle_that_folds_at_a_middle_alone_is_refused) {
+  const auto folded = [](Model& m) {  // det >= 0.2 at the corners, -0.2 at one middle
+    m.nodes[2].position = {0, 1};
+    m.triangles[0].nodes = {0, 1, 2, 3, 4, 5};
+    for (const Vector2d& p : {Vector2d(0.9, -0.05), Vector2d(0.5, 0.25), Vector2d(0, 0.5)})
+      m.nodes.push_back({"", p});
+  };
+  BOOST_TEST(complaint(folded) == "triangle 0 is folded by the middle nodes of its sides");
+}
+
 BOOST_AUTO_TEST_CASE(each_meaningless_thing_is_told_in_one_sentence) {
   const auto says = [](const std::string& expected, const std::function<void(Model&)>& spoil) {
     BOOST_TEST(complaint(spoil) == expected);

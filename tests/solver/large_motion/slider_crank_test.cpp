@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/integrate.h"
 #include "tests/support/solver/callable_system.h"
 
@@ -194,6 +195,28 @@ BOOST_AUTO_TEST_CASE(its_joints_hold_in_place_and_in_speed) {
   static_cast<void>(at_the_end(1e-5, summary));
   BOOST_TEST(summary.max_constraint_residual < 1e-14);
   BOOST_TEST(summary.max_constraint_rate < 1e-11);  // round-off of 150 rad/s and 0.15 m
+}
+
+BOOST_AUTO_TEST_CASE(a_mass_starts_with_the_acceleration_that_its_drive_has_at_that_time) {
+  const CallableSystem driven(
+      {.coordinates = 1,
+       .constraints = 1,
+       .mass = [](const VectorXd&) -> MatrixXd { return MatrixXd::Constant(1, 1, 2); },
+       .force = [](double, const VectorXd&, const VectorXd&) { return VectorXd::Zero(1).eval(); },
+       .constraint_residual = [](double t, const VectorXd& q) -> VectorXd {
+         return q - VectorXd::Constant(1, 1.5 * t * t);
+       },
+       .jacobian = [](double, const VectorXd&) -> MatrixXd { return MatrixXd::Ones(1, 1); },
+       .constraint_time_derivative = [](double t, const VectorXd&) -> VectorXd {
+         return VectorXd::Constant(1, -3 * t);
+       },
+       .scale = VectorXd::Ones(1)});
+  State state;
+  state.t = 0.2;
+  state.q = VectorXd::Zero(1);
+  BOOST_TEST_REQUIRE(make_consistent(driven, state, {}, 1e-3).solved());
+  BOOST_TEST(std::abs(state.v[0] - 0.6) < 1e-12);
+  BOOST_TEST(std::abs(state.a[0] - 3) < 1e-6);  // by differences
 }
 
 BOOST_AUTO_TEST_SUITE_END()
