@@ -66,6 +66,7 @@ class MotionIntegrator {
         t_(start.time) {
     y_ << start.pose.x, start.pose.y, start.pose.phi, start.velocity, 0;
     result.outcome = evaluate(t_, y_, rate_);
+    side_ = side();
     if (result.outcome.solved()) add_evidence();
   }
 
@@ -148,6 +149,7 @@ class MotionIntegrator {
     };
     if (stepper_.try_step(system, y_, rate_, t_, h) == odeint::success) {
       ++result.steps;
+      if (side() * side_ < 0) stop(Status::singular, "a parallel singularity is passed");
       if (last) t_ = end;
       h_ = tried < h_ ? std::max(h_, h) : h;  // a step shortened to meet a time says little
       return;
@@ -160,6 +162,14 @@ class MotionIntegrator {
     } else {
       stop(Status::singular, stages.reason);
     }
+  }
+
+  /// Of a parallel singularity, by the sign: there the equations in the actuators' angles have no
+  /// solution, but a step may jump over it, and whether one does is up to rounding.
+  [[nodiscard]] double side() const {
+    const Posture posture = inverse_kinematics(manipulator_.geometry, pose_of(y_));
+    if (!posture.outcome.solved()) return 0;
+    return jacobians(manipulator_.geometry, pose_of(y_), posture).parallel.determinant();
   }
 
   void stop(Status status, const std::string& reason) {
@@ -176,6 +186,7 @@ class MotionIntegrator {
   double t_, h_ = 1e-3;
   double start_energy_ = kNaN, energy_size_ = 0, largest_imbalance_ = 0;
   double last_work_ = 0, turnover_ = 0;
+  double side_ = 0;  // at the start
   State y_, rate_;
 };
 

@@ -30,8 +30,8 @@ struct ForwardOptions {
 };
 
 struct ForwardDynamics {
-  /// singular: as RigidTerms, at the time that the reason names; not_converged: too many
-  /// steps, or the evidence does not bear out the motion
+  /// singular: as RigidTerms, or where a step passes a parallel singularity, at the time that the
+  /// reason names; not_converged: too many steps, or the evidence does not bear out the motion
   Outcome outcome;
   std::vector<TrajectoryPoint> motion;  ///< at the times asked for, as far as reached
   Index steps = 0;

@@ -90,6 +90,19 @@ BOOST_AUTO_TEST_CASE(torques_that_the_integration_saw_too_late_are_not_solved) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_step_over_a_parallel_singularity_ends_the_motion) {
+  const RigidManipulator m = rigid_manipulator(table_1_design());
+  const Circle circle{.center = {0.25, 0.144}, .radius = 0.01, .angular_speed = 1, .phi = 0};
+  const Vector3d load(10, 0, 0);  // under which the posture is unstable: it falls over in a second
+  const auto torque = [&](double t) { return inverse_dynamics(m, at(circle, t), load).torque; };
+  const ForwardDynamics f =
+      trammel::solver::forward_dynamics(m, at(circle, 0), torque, times_to(2, 20), load);
+  BOOST_TEST((f.outcome.status == Status::singular));
+  BOOST_TEST(f.outcome.reason.find("a parallel singularity") != std::string::npos,
+             f.outcome.reason);
+  BOOST_TEST(f.motion.size() == 12U);
+}
+
 BOOST_AUTO_TEST_CASE(a_fall_into_a_singular_posture_ends_with_its_time_and_reason) {
   const RigidManipulator m = rigid_manipulator(table_1_design());
   TrajectoryPoint start{0, centred_pose()};
