@@ -104,9 +104,9 @@ AnalysisResult analyse(const Document& document, const References& references,
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
     if (choice.beyond_tier && *choice.beyond_tier > *choice.tolerance) {
-      result.warnings.push_back({"the change by large displacement, in statics along the path,",
-                                 *choice.beyond_tier, "",
-                                 "more than the tolerance; 'large-motion' has it"});
+      result.warnings.push_back(
+          {"the change by large displacement, at most,", *choice.beyond_tier, "",
+           "more than the tolerance; fixed steps and driven actuators would have it"});
     }
     return result;
   });

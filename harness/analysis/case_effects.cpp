@@ -1,6 +1,7 @@
 #include "harness/analysis/case_effects.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/effect_elimination.h"
@@ -111,9 +112,12 @@ Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const Eff
     reasons[static_cast<std::size_t>(one.effect)].number = one.number;
   }
   const ChangeWith at_most = [&](solver::Effects active) {
+    const bool large = active.has(solver::Effect::large_displacement);
     double change = 0;
-    for (const solver::EffectEstimate& one : estimates.effects)
-      if (!active.has(one.effect)) change += one.change;
+    for (const solver::EffectEstimate& one : estimates.effects) {
+      const bool kept = large && one.effect == solver::Effect::gyroscopic;  // a part of that theory
+      if (!active.has(one.effect) && !kept) change += one.change;
+    }
     return kBeyondFirstOrder * change;
   };
   Elimination found;
@@ -123,26 +127,34 @@ Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const Eff
   return found;
 }
 
-/// What the analysis does not have: by a bound, and where that does not settle it, by what it is
-/// worth at rest where the motion has its extremes.
-void add_beyond_tier(const JsonView& analysis, const CaseModel& case_model,
-                     const solver::EffectEstimates& estimates, EffectChoice& choice) {
-  const double bound = estimates.large_displacement_bound;
-  std::string text = "; geometric stiffening and large displacement would change at most " +
-                     percent(bound) + ", by rotation and buckling load";
-  if (bound <= *choice.tolerance) {
-    choice.beyond_tier = bound;
-  } else if ((choice.beyond_tier =
-                  large_displacement_at_rest(analysis, case_model, estimates.extreme_times))) {
-    text = "; at rest, statics without geometric stiffening and large displacement is off by " +
-           percent(*choice.beyond_tier);
+/// Large displacement, and geometric stiffening with it: by a bound, and where that does not settle
+/// it, by what they are worth without vibration where the motion has its extremes.
+void estimate_large_displacement(const JsonView& analysis, const CaseModel& case_model,
+                                 double tolerance, solver::EffectEstimates& estimates) {
+  double& change = estimates.large_displacement_bound;
+  const auto of_motion = [&] {
+    return estimates.large_displacement_growth * change + estimates.large_displacement_beside;
+  };
+  if (of_motion() > tolerance) {
+    change =
+        large_displacement_at_rest(analysis, case_model, estimates.extreme_times).value_or(change);
   }
-  for (const solver::Effect effect :
-       {solver::Effect::geometric_stiffening, solver::Effect::large_displacement}) {
-    EffectReason& one = choice.reasons[static_cast<std::size_t>(effect)];
-    one.change = choice.beyond_tier;
-    one.why += text;
+  // Where linear theory is lost, it says nothing of the other effects.
+  constexpr double kLost = 0.5;
+  if (change > kLost) {
+    for (solver::EffectEstimate& one : estimates.effects)
+      one.change = std::numeric_limits<double>::infinity();
   }
+  estimates.effects.push_back({solver::Effect::large_displacement, change, of_motion()});
+}
+
+/// What no analysis of this scene has.
+void add_beyond_tier(const EffectScope& scope, double bound, EffectChoice& choice) {
+  if (scope.applicable.has(solver::Effect::large_displacement)) return;
+  choice.beyond_tier = bound;
+  EffectReason& one = choice.reasons[static_cast<std::size_t>(solver::Effect::large_displacement)];
+  one.change = bound;
+  one.why += "; it would change at most " + percent(bound) + ", by rotation and buckling load";
 }
 
 EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,
@@ -154,7 +166,11 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
   choice.reasons = reasons_without_estimates(scope, scope.applicable, rules, "decided");
   const JsonView analysis = analysis_place(document);
   solver::EffectEstimates estimates;
-  if (rules.estimate != nullptr) estimates = rules.estimate(analysis, case_model, scope);
+  if (rules.estimate != nullptr) {
+    estimates = rules.estimate(analysis, case_model, scope);
+    if (estimates.outcome.solved() && scope.applicable.has(solver::Effect::large_displacement))
+      estimate_large_displacement(analysis, case_model, tolerance, estimates);
+  }
   const Elimination found =
       rules.estimate != nullptr
           ? eliminate_by_estimates(estimates, scope, tolerance, choice.reasons)
@@ -173,7 +189,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
       one.number = slenderness_number(one.effect, first_model(case_model));
   }
   if (rules.estimate != nullptr && estimates.outcome.solved())
-    add_beyond_tier(analysis, case_model, estimates, choice);
+    add_beyond_tier(scope, estimates.large_displacement_bound, choice);
   return choice;
 }
 

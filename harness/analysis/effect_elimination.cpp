@@ -9,6 +9,9 @@
 
 #include "harness/analysis/effect_changes.h"
 #include "harness/base/errors.h"
+#include "harness/motion/analyse_elastodynamics.h"
+#include "harness/statics_modes/analyse_statics.h"
+#include "solver/large_motion/manipulator/large_elastodynamics.h"
 #include "solver/model/plane.h"
 
 namespace trammel::harness {
@@ -275,13 +278,6 @@ class Measurement {
     return found;
   }
 
-  /// Of linear theory, from the whole scene.
-  std::optional<double> change_by_large_displacement() {
-    choose_steps();
-    const double change = coarsest_->change(scope_.applicable, linear(scope_.applicable), steps_);
-    return std::isfinite(change) ? std::optional(change) : std::nullopt;
-  }
-
  private:
   /// What costs most first.
   inline static const std::vector<Effect> kOrder = {Effect::large_displacement,
@@ -433,17 +429,22 @@ Elimination eliminate_by_measurement(const AnalysisKind& kind, const JsonView& a
   return Measurement(kind, analysis, scene, scope, tolerance).run();
 }
 
-std::optional<double> large_displacement_at_rest(const JsonView& analysis, CaseModel scene,
+std::optional<double> large_displacement_at_rest(const JsonView& analysis, const CaseModel& scene,
                                                  const std::vector<double>& times) {
-  std::vector<solver::TrajectoryPoint> points;
-  for (const solver::TrajectoryPoint& point : scene.motion) {
-    if (std::find(times.begin(), times.end(), point.time) != times.end()) points.push_back(point);
+  solver::ElastodynamicsOptions options = read_elastodynamics(analysis, scene);
+  options.elastic_inertia = options.gyroscopic = false;
+  options.time.sample_times = times;
+  std::vector<Quantities> found;
+  const solver::Model model = build_model(scene, 0);
+  for (const auto& solve : {solver::solve_large_elastodynamics, solver::solve_elastodynamics}) {
+    const solver::ElastodynamicsSolution solution = solve(options);
+    if (!solution.outcome.solved()) return std::nullopt;
+    Recorder record;
+    for (const solver::StaticSolution& state : solution.state)
+      record_solution(model, state, -1, record);
+    found.push_back(record.take_quantities());
   }
-  if (!points.empty()) scene.motion = std::move(points);
-  const AnalysisKind& statics = find_analysis("statics");
-  const EffectScope scope = statics.effects->scope(analysis, build_model(scene, 0));
-  if (scene.structure.loads.empty() && !scope.applicable.has(Effect::gravity)) return std::nullopt;
-  return Measurement(statics, analysis, scene, scope, 1).change_by_large_displacement();
+  return max_change(changes_between(found[0], found[1], solver::box_diagonal(model))).value;
 }
 
 }  // namespace trammel::harness

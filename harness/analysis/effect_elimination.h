@@ -40,10 +40,10 @@ struct Elimination {
                                                    const JsonView& analysis, const CaseModel& scene,
                                                    const EffectScope& scope, double tolerance);
 
-/// What geometric stiffening and large displacement change in statics under the loads at rest, at
-/// these times of the path; nothing without loads, or without a solution.
+/// What geometric stiffening and large displacement change of the motion without vibration, under
+/// loads, weight and nominal inertia at these times of the path; nothing without a solution.
 [[nodiscard]] std::optional<double> large_displacement_at_rest(const JsonView& analysis,
-                                                               CaseModel scene,
+                                                               const CaseModel& scene,
                                                                const std::vector<double>& times);
 
 }  // namespace trammel::harness

@@ -27,8 +27,12 @@ constexpr const char* kAtRest = "nothing moves in statics";
 constexpr const char* kNoRotary = "the sections have no rotary inertia ('beam')";
 constexpr const char* kNoMass = "no member has a mass";
 constexpr const char* kNotTurning = "the frame does not turn";
+constexpr const char* kAtMost = "change of the motion without vibration, at most";
 constexpr const char* kNoDamping = "there is no 'damping'";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
+constexpr const char* kOnPath =
+    "it takes driven actuators, fixed steps and nominal inertia, without superposed modes and Eq. "
+    "25";
 
 constexpr Texts all(const char* text) {
   return {text, text, text, text};
@@ -66,9 +70,9 @@ const EffectWords& words_of(solver::Effect effect) {
       {in_motion("twice the fastest turning over the first frequency"),
        {kAtRest, kNotTurning, kNotTurning, "what 'rotating_frame' says is kept"}},
       /* geometric stiffening */
-      {all(""), {kLarge, "there are no loads", kLarge, kLarge}},
+      {all(""), {kLarge, "there are no loads", "it comes with large displacement", kLarge}},
       /* large displacement */
-      {all(""), {kLarge, "modes are small motions", kLarge, kLarge}},
+      {in_motion(kAtMost), {kLarge, "modes are small motions", kOnPath, kLarge}},
   }};
   return table[static_cast<std::size_t>(effect)];
 }
@@ -127,6 +131,20 @@ EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model)
   return scope;
 }
 
+/// Whether `solve_large_elastodynamics` knows all that a motion is made of.
+bool has_large_displacement(const JsonView& analysis, const solver::Model& model) {
+  const auto approximations = analysis.find("effects");
+  const bool inertia = !approximations || approximations->get("nominal_inertia", true);
+  const bool driven = std::all_of(model.supports.begin(), model.supports.end(),
+                                  [](const solver::Support& support) { return support.fixed[2]; });
+  const bool tied = std::any_of(
+      model.constraints.begin(), model.constraints.end(), [](const solver::LinearConstraint& one) {
+        return one.terms[0].first.kind == solver::Coordinate::Kind::rotation;
+      });
+  return inertia && driven && !tied && !analysis.get("modal_superposition", false) &&
+         !analysis.has("error_control");
+}
+
 EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model)
@@ -142,6 +160,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   if (scope.applicable.has(solver::Effect::axial_flexibility)) {
     scope.required = solver::Effects().with(solver::Effect::axial_flexibility);
   }
+  if (has_large_displacement(analysis, model))
+    scope.applicable = scope.applicable.with(solver::Effect::large_displacement);
   dependents_of(scope, solver::Effect::inertia) = with_velocity;
   dependents_of(scope, solver::Effect::link_mass) =
       solver::Effects().with(solver::Effect::rotary_inertia);

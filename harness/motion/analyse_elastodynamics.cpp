@@ -9,6 +9,7 @@
 #include "harness/statics_modes/analyse_statics.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/elastodynamics/elastodynamics.h"
+#include "solver/large_motion/manipulator/large_elastodynamics.h"
 #include "solver/manipulator/restrict_design_effects.h"
 #include "solver/modes/modes.h"
 
@@ -84,18 +85,24 @@ void record_distance(const char* name, const solver::ElastodynamicsSolution& a,
   }
 }
 
+solver::ElastodynamicsSolution solve(const solver::ElastodynamicsOptions& options,
+                                     bool large_displacement) {
+  return large_displacement ? solver::solve_large_elastodynamics(options)
+                            : solver::solve_elastodynamics(options);
+}
+
 /// What half the step changes, and where the platform stands still the error itself, by modal
 /// superposition.
-void record_step_errors(solver::ElastodynamicsOptions options,
+void record_step_errors(solver::ElastodynamicsOptions options, bool large_displacement,
                         const solver::ElastodynamicsSolution& solution, Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
-  if (solver::stands_still(options.path) && !options.gyroscopic) {
+  if (solver::stands_still(options.path) && !options.gyroscopic && !large_displacement) {
     options.modal_superposition = true;
     record_distance("integration_error", solver::solve_elastodynamics(options), solution, record);
     options.modal_superposition = false;
   }
   options.time.step /= 2;
-  record_distance("step_change", solver::solve_elastodynamics(options), solution, record);
+  record_distance("step_change", solve(options, large_displacement), solution, record);
 }
 
 /// What the damping means: modes from some frequency on do not vibrate at all.
@@ -193,7 +200,8 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
 StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                   Recorder& record) {
   const solver::ElastodynamicsOptions options = read_elastodynamics(analysis, case_model);
-  const solver::ElastodynamicsSolution solution = solver::solve_elastodynamics(options);
+  const bool large = case_model.effects.has(solver::Effect::large_displacement);
+  const solver::ElastodynamicsSolution solution = solve(options, large);
   StepResult result{
       solution.outcome, solution.summary.counters, std::nullopt, {}, solution.evidence};
   const solver::System start = solver::assemble(build_model(case_model, 0));
@@ -202,8 +210,9 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
   for (std::size_t i = 0; i < solution.state.size(); ++i) {
     record_path(case_model, i, record);
     record_solution(start.model, solution.state[i], -1, record);
-    warn_of_rotation(largest_rotation(solution.state[i]), result.warnings);
+    if (!large) warn_of_rotation(largest_rotation(solution.state[i]), result.warnings);
     warn_of_strain(start.model, solution.state[i], result.warnings);
+    if (large) continue;
     record.add("equilibrium_residual_N", "", solution.state[i].equilibrium_residual);
     record.add("moment_residual_N_m", "", solution.state[i].moment_residual);
   }
@@ -211,10 +220,10 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
   record_torques(solution, record);
   record_energy(solution, !options.elastic_inertia, record);
   if (options.elastic_inertia) record_excess(solution, record);
-  if (analysis.get("step_errors", false)) record_step_errors(options, solution, record);
+  if (analysis.get("step_errors", false)) record_step_errors(options, large, solution, record);
   if (options.elastic_inertia) record_damping(options.damping, start, record);
   record_summary(solution, record);
-  if (result.drawing) draw_motion(case_model, solution, *result.drawing);
+  if (result.drawing && !large) draw_motion(case_model, solution, *result.drawing);
   return result;
 }
 

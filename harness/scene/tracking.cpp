@@ -1,14 +1,10 @@
 #include "harness/scene/tracking.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numbers>
 #include <utility>
-#include <variant>
 
 #include "harness/scene/rigid_case_model.h"
+#include "solver/large_motion/manipulator/joint_law.h"
 #include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/inverse_dynamics.h"
@@ -29,62 +25,12 @@ void require_joints(const JsonView& place, const solver::ManipulatorDesign& desi
   }
 }
 
-std::pair<double, double> ends(const solver::Path& path) {
-  const auto* spline = std::get_if<solver::Spline>(&path);
-  if (spline != nullptr) return {spline->times.front(), spline->times.back()};
-  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-}
-
-/// The law goes on beyond the ends of its table, with the acceleration and its rate there: the
-/// solver takes differences about the first instant and the last.
-solver::large_motion::TimeFunction extended(const solver::large_motion::TimeFunction& law,
-                                            const solver::Path& path) {
-  return [law, limits = ends(path)](double t) {
-    const double end = std::clamp(t, limits.first, limits.second), d = t - end;
-    std::array<double, 3> motion = law(end);
-    if (d == 0) return motion;
-    const double a = motion[2], beyond = 2 * a - law(end - d)[2];
-    return std::array<double, 3>{motion[0] + d * motion[1] + d * d * (2 * a + beyond) / 6,
-                                 motion[1] + d * (a + beyond) / 2, beyond};
-  };
-}
-
-using RigidMotion = std::function<const solver::InverseDynamics&(double)>;
-
-/// Three actuators and every correction of a step ask for one time: it is reckoned once.
-RigidMotion once_per_time(std::function<solver::InverseDynamics(double)> reckon) {
-  struct Last {
-    double time = std::numeric_limits<double>::quiet_NaN();
-    solver::InverseDynamics motion;
-  };
-  return [reckon = std::move(reckon),
-          last = std::make_shared<Last>()](double t) -> const solver::InverseDynamics& {
-    if (last->time != t) {
-      last->motion = reckon(t);
-      last->time = t;
-    }
-    return last->motion;
-  };
-}
-
-/// Angle, rate and acceleration of one actuator along the path, from where it starts.
-solver::large_motion::TimeFunction actuator(const RigidMotion& along_path, const solver::Path& path,
-                                            std::size_t limb) {
-  const auto i = static_cast<solver::Index>(limb);
-  const double start = along_path(0).q[i];
-  const auto law = [along_path, i, start](double t) {
-    const solver::InverseDynamics& motion = along_path(t);
-    return std::array<double, 3>{std::remainder(motion.q[i] - start, 2 * std::numbers::pi),
-                                 motion.q_dot[i], motion.q_ddot[i]};
-  };
-  return extended(law, path);
-}
-
 /// With the load that the torques of the actuators balance; beyond the ends of the path, as there.
-RigidMotion loaded_motion(const solver::RigidManipulator& rigid, const CaseModel& case_model,
-                          const std::function<double(double)>& load_history) {
-  return once_per_time([rigid, case_model, load_history](double t) {
-    const auto [first, last] = ends(*case_model.path);
+solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& rigid,
+                                                const CaseModel& case_model,
+                                                const std::function<double(double)>& load_history) {
+  return solver::large_motion::once_per_time([rigid, case_model, load_history](double t) {
+    const auto [first, last] = solver::large_motion::time_limits(*case_model.path);
     const solver::TrajectoryPoint point = solver::at(*case_model.path, std::clamp(t, first, last));
     const Eigen::Vector3d wrench =
         (load_history ? load_history(t) : 1.0) * wrench_on_platform(case_model, point.pose);
@@ -145,11 +91,11 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
   const solver::RigidManipulator rigid = torques
                                              ? read_rigid_manipulator(place, case_model)
                                              : solver::rigid_manipulator(*case_model.manipulator);
-  const RigidMotion motion = torques
-                                 ? loaded_motion(rigid, case_model, large_motion.load_history)
-                                 : once_per_time([rigid, path = *case_model.path](double t) {
-                                     return solver::inverse_dynamics(rigid, solver::at(path, t));
-                                   });
+  const solver::large_motion::RigidMotion motion =
+      torques ? loaded_motion(rigid, case_model, large_motion.load_history)
+              : solver::large_motion::once_per_time([rigid, path = *case_model.path](double t) {
+                  return solver::inverse_dynamics(rigid, solver::at(path, t));
+                });
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = "A" + std::to_string(i + 1);
     const solver::Index node = model.find_node(name);
@@ -159,7 +105,8 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
       };
       large_motion.torques.push_back({name, node, torque});
     } else {
-      large_motion.drives.push_back({name, node, 2, actuator(motion, *case_model.path, i)});
+      large_motion.drives.push_back(
+          {name, node, 2, joint_law(motion, *case_model.path, 0, static_cast<solver::Index>(i))});
     }
   }
 }

@@ -414,6 +414,17 @@ class MotionEstimates {
     return std::max({translation, std::sqrt(energy), resonant});
   }
 
+  /// What vibrations lose by step where the stiffness changes as much as the response does.
+  [[nodiscard]] double stiffening_phase() const {
+    double translation = 0, resonant = 0;
+    for (const Vibration& one : vibrations_) {
+      const double phase = vibration_duration(one.frequency, one.damping_ratio) * one.frequency / 2;
+      translation += one.translation * phase;
+      resonant = std::max(resonant, one.resonant_share * phase);
+    }
+    return std::max(translation, resonant);
+  }
+
   /// What vibrations lose by their change of frequency, and stiff parts by their own.
   [[nodiscard]] double frequency_change(Effect effect, double vibration_share) const {
     double change = vibration_change([effect](const Vibration& one) {
@@ -440,7 +451,12 @@ class MotionEstimates {
       vibration_share = std::min(1.0, translation_share(Effect::inertia) * amplified);
       vibrations_.front().translation = vibrations_.front().energy = vibration_share;
     }
+    const double amplitude = amplified * (1 + vibration_share);
+    estimates_.large_displacement_growth = amplitude * (1 + amplitude * stiffening_phase());
+    // Damping resists in world axes what only turns with its link.
+    estimates_.large_displacement_beside = 2 * options_.damping.stiffness * max_angular_velocity_;
     for (const Effect effect : applicable_.list()) {
+      if (effect == Effect::large_displacement) continue;  // the caller can tell more of it
       double change = of_response(effect) * amplified;
       double number = sizes_.share[effect];
       switch (effect) {

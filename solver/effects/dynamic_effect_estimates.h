@@ -30,7 +30,8 @@ namespace trammel::solver {
 /// they stay flexible, from q_s such a mode takes up at most the speed W, 2 W / w of the force.
 /// Where a harmonic of the path may resonate with a mode, (W / w)^2 > 0.1, the response consists of
 /// vibrations of the mean age min(T / 2, 1 / (z w)), which lose step in that time; loads that are
-/// left out grow at most min(1 / (2 z), w1 T / 2) times.
+/// left out grow at most min(1 / (2 z), w1 T / 2) times. A change c by large displacement is that
+/// many times larger where the response is, and changes frequencies by c / 2.
 ///   Source: quasi-static expansion, e.g. L. Meirovitch, Analytical Methods in Vibrations (1967).
 /// @param options  the whole motion, gyroscopic terms included; what `applicable` lacks is not
 /// there

@@ -18,8 +18,10 @@ struct EffectEstimate {
 struct EffectEstimates {
   Outcome outcome;  ///< without a linear solution there are no estimates
   std::vector<EffectEstimate> effects;
-  /// At most what large displacement, which the analysis does not have, would change; relative.
+  /// At most what large displacement changes of the motion without vibration; relative.
   double large_displacement_bound = 0;
+  /// What that means for the motion: the factor of such a change, and what is beside it.
+  double large_displacement_growth = 1, large_displacement_beside = 0;
   std::vector<double> extreme_times;  ///< of the response [s]
   Counters counters;
 };

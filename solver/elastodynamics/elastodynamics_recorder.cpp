@@ -22,6 +22,19 @@ void stack(const std::vector<Vector>& samples, Matrix& rows) {
 
 }  // namespace
 
+void set_path_errors(ElastodynamicsSolution& solution) {
+  const Index n = solution.deflection.rows();
+  solution.tangential_error.resize(n);
+  solution.normal_error.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const Vector2d velocity = solution.nominal[to_size(i)].velocity.head<2>();
+    const Vector2d along = velocity / velocity.norm();  // NaN at a standstill
+    const Vector2d deflection = solution.deflection.row(i);
+    solution.tangential_error[i] = along.dot(deflection);
+    solution.normal_error[i] = cross(along, deflection);
+  }
+}
+
 void ElastodynamicsRecorder::record(double time, const VectorXd& q, const VectorXd& v,
                                     const VectorXd& a, const MotionEnergy& energy) {
   if (!follower_.update_to(time)) return;
@@ -38,7 +51,8 @@ void ElastodynamicsRecorder::record(double time, const VectorXd& q, const Vector
   WholeBalance unbalanced;
   solution_.state.push_back(postprocess_motion(moving, q, forces, begins ? unbalanced : balance_));
   const StaticSolution& state = solution_.state.back();
-  rotation_.push_back(mean_platform_rotation(moving, state.displacement));
+  rotation_.push_back(
+      mean_platform_rotation(moving.start().model, moving.motion().position, state.displacement));
   const Index P = moving.start().model.find_node("P");
   deflection_.emplace_back(state.displacement.row(P).head<2>());
   quasi_static_.push_back(options_.elastic_inertia ? quasi_static_displacement(P)
@@ -55,14 +69,7 @@ void ElastodynamicsRecorder::finish() {
   stack(rigid_torque_, solution_.rigid_torque);
   const auto n = static_cast<Index>(solution_.time.size());
   solution_.platform_rotation = Eigen::Map<const VectorXd>(rotation_.data(), n);
-  solution_.tangential_error.resize(n);
-  solution_.normal_error.resize(n);
-  for (Index i = 0; i < n; ++i) {
-    const Vector2d velocity = solution_.nominal[to_size(i)].velocity.head<2>();
-    const Vector2d along = velocity / velocity.norm();  // NaN at a standstill
-    solution_.tangential_error[i] = along.dot(deflection_[to_size(i)]);
-    solution_.normal_error[i] = cross(along, deflection_[to_size(i)]);
-  }
+  set_path_errors(solution_);
   ElastodynamicsEffects& effects = solution_.effects;
   const double first = 2 * std::numbers::pi * effects.first_frequency;
   const double path = max_velocity_ > 0 ? max_acceleration_ / max_velocity_ : 0;

@@ -9,6 +9,9 @@
 
 namespace trammel::solver {
 
+/// Sets what the deflection is along the path and to its left.
+void set_path_errors(ElastodynamicsSolution& solution);
+
 /// Fills an ElastodynamicsSolution sample by sample.
 class ElastodynamicsRecorder {
  public:

@@ -123,13 +123,13 @@ StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
   return MotionPostprocessor(moving, q, forces, balance).run();
 }
 
-double mean_platform_rotation(const MovingSystem& moving, const Eigen::MatrixX3d& displacement) {
-  const Model& model = moving.start().model;
+double mean_platform_rotation(const Model& model, const Eigen::MatrixX2d& position,
+                              const Eigen::MatrixX3d& displacement) {
   std::array<Vector2d, 3> r;
   std::array<Vector2d, 3> u;
   for (std::size_t i = 0; i < 3; ++i) {
     const Index node = model.find_node("C" + std::to_string(i + 1));
-    r[i] = moving.position(node);
+    r[i] = position.row(node);
     u[i] = displacement.row(node).head<2>();
   }
   const Vector2d center = (r[0] + r[1] + r[2]) / 3;

@@ -28,8 +28,9 @@ struct WholeBalance {
                                                 WholeBalance& balance);
 
 /// Rotation that best fits the displacements of C1 C2 C3 [rad].
+/// @param position  where they are without it, model node x (x, y) [m]
 /// @param displacement  model node x (ux, uy [m], rotation [rad])
-[[nodiscard]] double mean_platform_rotation(const MovingSystem& moving,
+[[nodiscard]] double mean_platform_rotation(const Model& model, const Eigen::MatrixX2d& position,
                                             const Eigen::MatrixX3d& displacement);
 
 }  // namespace trammel::solver

@@ -20,6 +20,7 @@ NominalMotion nominal_motion(const ManipulatorDesign& design, const Model& model
   motion.rigid_body.assign(model.rigid_bodies.size(), platform);
   const auto nodes = static_cast<Index>(model.nodes.size());
   motion.position.resize(nodes, 2);
+  motion.velocity.setZero(nodes, 2);
   motion.acceleration.setZero(nodes, 2);
   for (Index i = 0; i < 3; ++i) {
     motion.member.push_back(part(i));
@@ -30,6 +31,7 @@ NominalMotion nominal_motion(const ManipulatorDesign& design, const Model& model
     const double rate = dynamics.q_dot[i];
     motion.position.row(i) = A;
     motion.position.row(3 + i) = A + arm;
+    motion.velocity.row(3 + i) = rate * perpendicular(arm);
     motion.acceleration.row(3 + i) = dynamics.q_ddot[i] * perpendicular(arm) - rate * rate * arm;
   }
   // C1 C2 C3, P and the nodes of a plate turn with the platform.
@@ -39,6 +41,7 @@ NominalMotion nominal_motion(const ManipulatorDesign& design, const Model& model
     const Vector2d arm =
         rotated(model.nodes[static_cast<std::size_t>(i)].position - P, platform.angle);
     motion.position.row(i) = now + arm;
+    motion.velocity.row(i) = point.velocity.head<2>() + platform.rate * perpendicular(arm);
     motion.acceleration.row(i) = point.acceleration.head<2>() +
                                  platform.acceleration * perpendicular(arm) -
                                  platform.rate * platform.rate * arm;

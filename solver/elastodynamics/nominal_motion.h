@@ -18,6 +18,7 @@ struct PartMotion {
 /// The nominal motion: every member, plate and rigid body of a model moves as a rigid part.
 struct NominalMotion {
   Eigen::MatrixX2d position;      ///< model node x (x, y) [m]
+  Eigen::MatrixX2d velocity;      ///< model node x (x, y) [m/s]
   Eigen::MatrixX2d acceleration;  ///< model node x (x, y) [m/s^2]
   std::vector<PartMotion> member, plate, rigid_body;
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]

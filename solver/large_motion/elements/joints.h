@@ -93,13 +93,14 @@ struct SlidingJoint : Joint<5, 1> {
   [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
 };
 
-/// A coordinate that follows a law of time, u - law(t) = 0. Coordinate: u.
-struct DrivenCoordinate : Joint<1, 1> {
+/// A coordinate that follows a law of time as seen from another (or the ground), u - u0 - law(t) =
+/// 0. Coordinates: u, u0.
+struct DrivenCoordinate : Joint<2, 1> {
   TimeFunction law;
 
   void constraint_residual(const Coordinates& q, double t, Rows& residual, Gradient& G) const {
-    residual[0] = q[0] - law(t)[0];
-    G[0] = 1;
+    residual[0] = q[0] - q[1] - law(t)[0];
+    G << 1, -1;
   }
   /// Partial derivative of g with respect to time.
   [[nodiscard]] Rows time_rate(double t) const { return Rows(-law(t)[1]); }
@@ -107,7 +108,7 @@ struct DrivenCoordinate : Joint<1, 1> {
     return Square::Zero();
   }
   [[nodiscard]] static Gradient discrete_gradient(const Coordinates&, const Coordinates&) {
-    return Gradient::Ones();
+    return Gradient(1, -1);
   }
   [[nodiscard]] static Rows compliance() { return Rows::Zero(); }
 };

@@ -24,6 +24,7 @@ void validate_drives(const LargeMotionModel& large_motion, const Model& model) {
     const Drive& drive = large_motion.drives[i];
     const std::string part = part_label("drive", drive.name, i);
     require_node(drive.node, model, part);
+    if (drive.from != -1) require_node(drive.from, model, part);
     require(drive.direction >= 0 && drive.direction <= 2, part, "has no direction 0, 1 or 2");
     require(static_cast<bool>(drive.law), part, "has no law of motion");
   }

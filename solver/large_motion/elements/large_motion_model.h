@@ -16,13 +16,15 @@ namespace trammel::solver::large_motion {
 /// Value, rate and second derivative at a time or, in statics, at a load factor.
 using TimeFunction = std::function<std::array<double, 3>(double)>;
 
-/// A node's displacement or rotation prescribed as a function of time; its multiplier is the force
-/// or torque that the drive takes from the structure.
+/// A node's displacement or rotation, seen from another node's or the ground's (-1), prescribed as
+/// a function of time; its multiplier is the force or torque that the drive takes from the
+/// structure.
 struct Drive {
   std::string name;
   Index node = 0;
   int direction = 2;  ///< 0: x [m], 1: y [m], 2: rotation [rad]
   TimeFunction law;
+  Index from = -1;
 };
 
 /// A torque on a node as a function of time, whatever the load factor.

@@ -49,12 +49,19 @@ bool Equilibrium::factor_if_moved(const State& state) {
   return same || factor(state);
 }
 
+void Equilibrium::constrain(const State& state, Eigen::Ref<VectorXd> residual) {
+  system_.constraint_residual(state, constraint_residual_, constraint_rate_);
+  residual = constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+  const double tau = system_.strain_rate_damping();
+  for (Index row = 0; tau != 0 && row < residual.size(); ++row)
+    if (system_.compliance()[row] > 0) residual[row] += tau * constraint_rate_[row];
+}
+
 void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& history) {
   const Index n = system_.coordinates(), m = system_.constraints();
   step.resize(n + m);
   system_.force_residual(state, step.head(n));
-  system_.constraint_residual(state, constraint_residual_, constraint_rate_);
-  step.tail(m) = constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+  constrain(state, step.tail(m));
   history.force_residual.push_back(n > 0 ? step.head(n).cwiseProduct(system_.scale()).norm() : 0.0);
   history.constraint_residual.push_back(step.tail(m).norm());
   step = -step;
@@ -89,8 +96,7 @@ double Equilibrium::backward_error(const State& state) {
   system_.load_derivative(state, load);
   terms.head(n) += std::abs(state.load) * load.cwiseAbs();
   system_.force_residual(state, residual.head(n));
-  system_.constraint_residual(state, constraint_residual_, constraint_rate_);
-  residual.tail(m) = constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+  constrain(state, residual.tail(m));
   return largest_ratio(residual, terms);
 }
 
@@ -121,7 +127,7 @@ NewtonResult Equilibrium::solve(State& state, double load) {
   NewtonResult result;
   const State before = state;
   const Index n = system_.coordinates();
-  state.t = state.load = state.gravity = load;
+  system_.set_load(state, load);
   const auto fail = [&](Status status, std::string message) {
     state = before;
     result.outcome = {status, std::move(message)};

@@ -52,6 +52,9 @@ class Equilibrium {
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
 
  private:
+  /// g + tau dg/dt - C lambda, with the rates of elastic rows.
+  void constrain(const State& state, Eigen::Ref<VectorXd> residual);
+
   const GeometricallyExactSystem& system_;
   NewtonOptions options_;
   KktMatrix matrix_;

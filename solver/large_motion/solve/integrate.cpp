@@ -65,6 +65,9 @@ class TimeIntegration {
   /// Where the next observation is: on the grid of outputs, or after one step.
   double next_target(std::int64_t output, double h) const {
     const double end = options_.end_time;
+    const std::vector<double>& times = options_.output_times;
+    if (static_cast<std::size_t>(output) <= times.size())
+      return std::min(times[static_cast<std::size_t>(output) - 1], end);
     const double span = options_.output_step > 0 ? options_.output_step
                         : options_.adaptive      ? 0.0
                                                  : options_.step;

@@ -76,7 +76,7 @@ StaticSolution estimate_large_statics(const Model& model,
   large_motion::State state = system.reference_state();
   bool shrinks = equilibrium.factor(state);
   const Index unstable = equilibrium.matrix().negative_pivots();
-  state.t = state.load = state.gravity = 1;
+  system.set_load(state, 1);
   large_motion::NewtonResult result;
   const std::vector<double>& correction = result.correction;
   Eigen::VectorXd step;

@@ -31,8 +31,9 @@ struct PlacedBeam {
     constexpr int N = Beam<P>::N;
     Coordinates field = Coordinates::Zero();
     if (state.a.size() > 0) {
-      field = -gather<N>(state.a, where) -
-              system.large_motion().mass_damping * gather<N>(state.v, where);
+      field = -gather<N>(state.a, where);
+      if (const double damping = system.large_motion().mass_damping; damping != 0)
+        field -= damping * gather<N>(system.damped_velocities(state), where);
     }
     const Vector2d g = state.gravity * system.model().gravity;
     for (int a = 0; a < N; a += 3) field.template segment<2>(a) += g;

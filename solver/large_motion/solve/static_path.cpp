@@ -144,7 +144,7 @@ class PathFollower {
   bool corrector(const State& from, const Direction& d, double arc, PathPoint& point) {
     State& state = point.state;
     state = from;
-    set_load(state, from.load + arc * d.load);
+    system_.set_load(state, from.load + arc * d.load);
     apply_correction(state, d.step, arc);
     point.newton = {};
     double distance = 0;
@@ -157,7 +157,7 @@ class PathFollower {
       const double change = along == 0 ? 0.0 : -dot(d, residual_step_, 0) / along;
       residual_step_ += change * load_step_;
       apply_correction(state, residual_step_);
-      set_load(state, state.load + change);
+      system_.set_load(state, state.load + change);
       const double correction_norm =
           weighted_rms_norm(system_, residual_step_.head(system_.coordinates()));
       point.newton.correction.back() = correction_norm;
@@ -168,8 +168,6 @@ class PathFollower {
     }
     return false;
   }
-
-  static void set_load(State& state, double load) { state.t = state.load = state.gravity = load; }
 
   bool next() {
     const State from = path_.points.back().state;

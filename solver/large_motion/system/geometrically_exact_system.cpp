@@ -86,7 +86,9 @@ void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<Vec
   const Index n = layout_.free, size = r.size();
   r = -state.gravity * gravity_.head(size) - state.load * parts_.loads.head(size);
   if (state.a.size() == n) {
-    padded_.head(n) = state.a + large_motion_.mass_damping * state.v;
+    padded_.head(n) = state.a;
+    if (large_motion_.mass_damping != 0)
+      padded_.head(n) += large_motion_.mass_damping * damped_velocities(state);
     product_.noalias() = mass_ * padded_;
     r += product_.head(size);
   }
@@ -94,6 +96,17 @@ void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<Vec
   for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
     group->forces(state, large_motion_.strain_rate_damping, r);
   }
+}
+
+VectorXd GeometricallyExactSystem::damped_velocities(const State& state) const {
+  if (!undamped_velocities_) return state.v;
+  return state.v - undamped_velocities_(state.t);
+}
+
+void GeometricallyExactSystem::set_load(State& state, double load) const {
+  state.t = state.load = state.gravity = load;
+  if (accelerations_.size() > 0) state.a = load * accelerations_;
+  if (velocities_.size() > 0) state.v = load * velocities_;
 }
 
 void GeometricallyExactSystem::add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const {
@@ -230,6 +243,11 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
 
 void GeometricallyExactSystem::load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
   r = -gravity_.head(r.size()) - parts_.loads.head(r.size());
+  if (accelerations_.size() > 0) {
+    padded_.head(layout_.free) = accelerations_;
+    product_.noalias() = mass_ * padded_;
+    r += product_.head(r.size());
+  }
   if (parts_.follower_loads != nullptr) parts_.follower_loads->add_load_derivative(state, r);
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "solver/large_motion/elements/constrained_system.h"
@@ -47,7 +49,22 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] double nonconservative_work(const State& from, const State& to,
                                             const VectorXd& lambda) const override;
 
-  /// d(force residual)/d(load factor), gravity included.
+  /// In statics the inertia of these accelerations of the free coordinates acts beside the loads,
+  /// and the damping of these velocities (empty: none).
+  void set_motion(VectorXd accelerations, VectorXd velocities = {}) {
+    accelerations_ = std::move(accelerations);
+    velocities_ = std::move(velocities);
+  }
+  /// Damping by mass resists velocities less these of the free coordinates at a time.
+  void set_undamped_velocities(std::function<VectorXd(double)> velocities) {
+    undamped_velocities_ = std::move(velocities);
+  }
+  /// What damping by mass resists.
+  [[nodiscard]] VectorXd damped_velocities(const State& state) const;
+
+  /// Loads, gravity, inertia and drives of statics at a load factor.
+  void set_load(State& state, double load) const;
+  /// d(force residual)/d(load factor), gravity and inertia included.
   void load_derivative(const State& state, Eigen::Ref<VectorXd> r) const;
 
   /// The model's pose at rest without forces, at time 0.
@@ -80,8 +97,10 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   SystemParts parts_;
   std::vector<std::vector<Index>> blocks_;
   VectorXd compliance_, scale_;
-  Eigen::SparseMatrix<double> mass_;  ///< total x total
-  VectorXd gravity_;                  ///< M times the gravity field, total
+  Eigen::SparseMatrix<double> mass_;     ///< total x total
+  VectorXd gravity_;                     ///< M times the gravity field, total
+  VectorXd accelerations_, velocities_;  ///< of statics; empty: none
+  std::function<VectorXd(double)> undamped_velocities_;
   mutable VectorXd padded_, product_;
   mutable std::int64_t element_evaluations_ = 0;
 };

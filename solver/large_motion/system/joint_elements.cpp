@@ -82,7 +82,10 @@ void add_drives(const LargeMotionModel& large_motion, const Layout& layout, Syst
   for (const Drive& drive : large_motion.drives) {
     DrivenCoordinate driven;
     driven.law = drive.law;
-    group->add(driven, {layout.node[to_size(drive.node)][to_size(drive.direction)]});
+    const auto coordinate = [&](Index node) {
+      return node < 0 ? node : layout.node[to_size(node)][to_size(drive.direction)];
+    };
+    group->add(driven, {coordinate(drive.node), coordinate(drive.from)});
   }
   parts.add(std::move(group));
 }

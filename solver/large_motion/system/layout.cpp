@@ -71,7 +71,9 @@ class Numbering {
       }
     }
     for (const Drive& drive : large_motion_.drives) {
-      if (drive.direction == 2) require_rotation(drive.node);
+      if (drive.direction != 2) continue;
+      require_rotation(drive.node);
+      require_rotation(drive.from);
     }
     for (const Torque& torque : large_motion_.torques) require_rotation(torque.node);
     for (const FollowerLoad& load : large_motion_.follower_loads) require_rotation(load.node);

@@ -1,0 +1,404 @@
+#include "solver/large_motion/manipulator/large_elastodynamics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "solver/elastodynamics/elastodynamics_recorder.h"
+#include "solver/elastodynamics/nominal_motion.h"
+#include "solver/large_motion/elements/linear_joints.h"
+#include "solver/large_motion/manipulator/joint_law.h"
+#include "solver/large_motion/solve/integrate.h"
+#include "solver/large_motion/solve/large_statics.h"
+#include "solver/large_motion/solve/rigid_member_velocities.h"
+#include "solver/large_motion/solve/state_results.h"
+#include "solver/large_motion/solve/static_path.h"
+#include "solver/model/plane.h"
+
+namespace trammel::solver::large_motion {
+namespace {
+
+constexpr Index kPlatform = 8;  ///< of the parts in `InverseDynamics::q`
+
+/// The rigid motion at one time.
+struct NominalState {
+  TrajectoryPoint point;
+  InverseDynamics dynamics;
+  Model model;  ///< built there, with the loads and the weight
+};
+
+/// A node beside that of a joint, on which the end of a distal link is; its turn is driven.
+struct DrivenEnd {
+  Index node = 0, beside = 0;
+  Index part = 0, from = 0;  ///< of `InverseDynamics::q`
+  std::size_t member = 0;
+};
+
+/// Splits the joints that resist turning.
+std::vector<DrivenEnd> add_driven_ends(Model& model) {
+  std::vector<DrivenEnd> ends;
+  for (std::size_t m = 1; m < model.members.size(); m += 2) {
+    const auto limb = static_cast<Index>(m / 2);
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (model.members[m].ends[end].fixity == EndFixity::hinged) continue;
+      const Index beside = model.members[m].nodes[end], node = std::ssize(model.nodes);
+      model.nodes.push_back({"", model.nodes[to_size(beside)].position});
+      add_pin(model, "joint", {node, beside});
+      model.members[m].nodes[end] = node;
+      ends.push_back({node, beside, 3 + limb, end == 0 ? limb : kPlatform, m});
+    }
+  }
+  return ends;
+}
+
+/// Rates of the parts that the nominal motion gives the coordinates.
+enum class Rate { velocity, acceleration };
+
+VectorXd nominal_rates(const GeometricallyExactSystem& system, const NominalMotion& motion,
+                       const std::vector<DrivenEnd>& ends, Rate rate) {
+  const bool first = rate == Rate::velocity;
+  const auto turn = [first](const PartMotion& part) {
+    return first ? part.rate : part.acceleration;
+  };
+  const PartMotion& platform = motion.plate.empty() ? motion.rigid_body[0] : motion.plate[0];
+  const Eigen::MatrixX2d& translation = first ? motion.velocity : motion.acceleration;
+  const Index built = std::ssize(system.model().nodes) - std::ssize(ends);
+  Eigen::MatrixX3d node(std::ssize(system.model().nodes), 3);
+  node.topLeftCorner(built, 2) = translation.topRows(built);
+  node.col(2).setConstant(turn(platform));
+  for (Index i = 0; i < 6; ++i) node(i, 2) = turn(motion.member[to_size(2 * (i % 3))]);
+  for (const DrivenEnd& end : ends)
+    node.row(end.node) << node.row(end.beside).head<2>(), turn(motion.member[end.member]);
+  VectorXd member(std::ssize(motion.member));
+  for (Index m = 0; m < member.size(); ++m) member[m] = turn(motion.member[to_size(m)]);
+  VectorXd rates = VectorXd::Zero(system.coordinates());
+  for (const auto& [k, value] : rigid_member_velocities(system, node, member)) rates[k] = value;
+  for (std::size_t i = 0; i < system.model().masses.size(); ++i) {
+    const PointMass& mass = system.model().masses[i];
+    if (mass.offset.isZero(0)) continue;
+    const Vector2d arm = rotated(mass.offset, platform.angle);
+    const Vector2d own = node.row(mass.node).head<2>().transpose() +
+                         turn(platform) * perpendicular(arm) -
+                         (first ? 0 : platform.rate * platform.rate) * arm;
+    for (std::size_t k = 0; k < 2; ++k)
+      rates[system.layout().mass_centre[i][k]] = own[static_cast<Index>(k)];
+  }
+  return rates;
+}
+
+class LargeElastodynamics {
+ public:
+  explicit LargeElastodynamics(const ElastodynamicsOptions& options)
+      : options_(options),
+        rigid_(rigid_manipulator(options.design)),
+        rigid_motion_(once_per_time([rigid = rigid_, path = options.path](double t) {
+          return inverse_dynamics(rigid, at(path, t));
+        })) {
+    rigid_.gravity = options.gravity;
+    start_ = at_time(options.time.start);
+    require_driven();
+  }
+
+  ElastodynamicsSolution run() {
+    if (!start_.dynamics.outcome.solved()) {
+      solution_.outcome = start_.dynamics.outcome;
+    } else if (options_.elastic_inertia) {
+      integrate_motion();
+    } else {
+      for (const double time : options_.time.sample_times) {
+        if (!add_equilibrium(time)) break;
+      }
+    }
+    solution_.evidence.add(Residual::equation_of_motion, balance_.residual());
+    solution_.outcome =
+        outcome_by_evidence(solution_.outcome, solution_.evidence, {Residual::equation_of_motion});
+    finish();
+    // It comes with large displacement and cannot be left out by itself.
+    solution_.summary.counters.effects[static_cast<std::size_t>(Effect::geometric_stiffening)] = 0;
+    return std::move(solution_);
+  }
+
+ private:
+  void require_driven() const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!start_.model.supports[i].fixed[2])
+        throw ModelError("large displacement along a path needs actuators that are driven");
+    }
+    for (const LinearConstraint& constraint : start_.model.constraints) {
+      if (constraint.terms[0].first.kind == Coordinate::Kind::rotation)
+        throw ModelError("large displacement does not know how Eq. 25 ties rotations");
+    }
+    if (!options_.elastic_inertia && options_.time.sample_times.empty())
+      throw ModelError("equilibria along a path need times");
+    if (options_.modal_superposition || options_.time.adaptive || !options_.nominal_inertia) {
+      throw ModelError(
+          "large displacement goes with fixed steps and nominal inertia, without superposed modes");
+    }
+  }
+
+  [[nodiscard]] NominalState at_time(double time) const {
+    NominalState state;
+    const Vector3d wrench = options_.load_history.at(time) * options_.wrench;
+    state.point = at(options_.path, time);
+    state.dynamics = inverse_dynamics(rigid_, state.point, wrench);
+    if (!state.dynamics.outcome.solved()) return state;
+    state.model = build_manipulator(options_.design, state.point.pose);
+    state.model.gravity = options_.gravity;
+    if (!wrench.isZero(0)) state.model.loads.push_back({state.model.find_node("P"), wrench});
+    return state;
+  }
+
+  /// What the rigid parts do from one pose on.
+  [[nodiscard]] NominalMotion motion_between(const NominalState& from,
+                                             const NominalState& to) const {
+    return nominal_motion(options_.design, from.model, to.dynamics, from.dynamics.q, to.point,
+                          options_.gravity);
+  }
+
+  /// @param moves  else the drives stand where the model was built
+  [[nodiscard]] LargeMotionModel drives(Model& model, const std::vector<DrivenEnd>& ends,
+                                        bool moves) const {
+    LargeMotionModel large_motion;
+    const auto add = [&](const std::string& name, Index node, Index part, Index from_node,
+                         Index from_part) {
+      TimeFunction law = [](double) { return std::array<double, 3>{}; };
+      if (moves)
+        law = joint_law(rigid_motion_, options_.path, options_.time.start, part, from_part);
+      large_motion.drives.push_back({name, node, 2, std::move(law), from_node});
+    };
+    for (Index i = 0; i < 3; ++i) {
+      model.supports[to_size(i)].fixed[2] = false;
+      add("A" + std::to_string(i + 1), i, i, -1, -1);
+    }
+    for (const DrivenEnd& end : ends) add("joint", end.node, end.part, end.beside, end.from);
+    return large_motion;
+  }
+
+  /// Adds what an equilibrium has taken; its last state, or nothing where it was not reached.
+  [[nodiscard]] bool solve_statically(const NominalState& nominal, GeometricallyExactSystem& system,
+                                      const std::vector<DrivenEnd>& ends, State& state) {
+    system.set_motion(
+        nominal_rates(system, motion_between(nominal, nominal), ends, Rate::acceleration));
+    StaticPathOptions options;
+    options.first_step = 0.5;
+    options.small_response = 0.01;
+    options.keep_points = false;
+    StaticPath path = follow_static_path(system, options);
+    Counters& counters = solution_.summary.counters;
+    counters += path.counters;
+    count_tangents(system, path.counters.factorizations, false, counters);
+    solution_.outcome = path.outcome;
+    if (!path.outcome.solved()) {
+      solution_.outcome.reason =
+          "at t = " + std::to_string(nominal.point.time) + " s: " + path.outcome.reason;
+      return false;
+    }
+    solution_.evidence.add(Residual::equation_of_motion,
+                           path.evidence.largest(Residual::equilibrium));
+    state = std::move(path.points.back().state);
+    return true;
+  }
+
+  /// Equilibrium at a time, a sample; or, where asked for, its deflections alone, with what damping
+  /// takes up at these velocities.
+  bool add_equilibrium(double time, VectorXd* deflection = nullptr,
+                       const VectorXd& velocities = VectorXd()) {
+    const NominalState now = at_time(time);
+    if (!now.dynamics.outcome.solved()) {
+      solution_.outcome = now.dynamics.outcome;
+      return false;
+    }
+    Model model = now.model;
+    const std::vector<DrivenEnd> ends = add_driven_ends(model);
+    LargeMotionModel still = drives(model, ends, false);
+    still.mass_damping = options_.damping.mass;
+    still.strain_rate_damping = options_.damping.stiffness;
+    GeometricallyExactSystem system(std::move(model), std::move(still));
+    State state;
+    if (!solve_statically(now, system, ends, state)) return false;
+    if (deflection == nullptr) {
+      add_sample(system, state, now, now);
+      return true;
+    }
+    if (velocities.size() > 0) {
+      system.set_motion(state.a, velocities);
+      system.set_undamped_velocities([&](double) {
+        return nominal_rates(system, motion_between(now, now), ends, Rate::velocity);
+      });
+      solution_.outcome = Equilibrium(system).solve(state, 1).outcome;
+      start_sample_ = sample_of(system, state, now, now);
+    }
+    *deflection = state.q;
+    return solution_.outcome.solved();
+  }
+
+  /// Deflections of the quasi-static start and their rates, by differences of second order; K q = f
+  /// - C v with what damping in proportion to the stiffness takes up.
+  [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
+    const TransientOptions& time = options_.time;
+    const double step = std::min(time.step, (time.end - time.start) / 2);
+    VectorXd next, second;
+    if (!add_equilibrium(time.start, &state.q) || !add_equilibrium(time.start + step, &next) ||
+        !add_equilibrium(time.start + 2 * step, &second)) {
+      return false;
+    }
+    rates += (4 * next - 3 * state.q - second) / (2 * step);
+    return add_equilibrium(time.start, &state.q, rates);
+  }
+
+  void integrate_motion() {
+    Model model = start_.model;
+    model.loads.clear();
+    if (!options_.wrench.isZero(0)) model.loads.push_back({model.find_node("P"), options_.wrench});
+    const std::vector<DrivenEnd> ends = add_driven_ends(model);
+    LargeMotionModel large_motion = drives(model, ends, true);
+    large_motion.load_history = [history = options_.load_history](double t) {
+      return history.at(t);
+    };
+    large_motion.mass_damping = options_.damping.mass;
+    large_motion.strain_rate_damping = options_.damping.stiffness;
+    GeometricallyExactSystem system(std::move(model), std::move(large_motion));
+    const auto velocities = [&](double t) {
+      const NominalState now{at(options_.path, t), rigid_motion_(t), {}};
+      return nominal_rates(system, motion_between(start_, now), ends, Rate::velocity);
+    };
+    system.set_undamped_velocities(velocities);
+    State state = system.reference_state();
+    state.t = options_.time.start;
+    VectorXd rates = velocities(state.t);
+    if (options_.time.quasi_static_start && !start_quasi_statically(state, rates)) return;
+    PrescribedVelocities given;
+    for (Index k = 0; k < rates.size(); ++k) given.emplace_back(k, rates[k]);
+    solution_.outcome = make_consistent(system, state, given, options_.time.step);
+    if (solution_.outcome.solved()) integrate_from(system, state);
+    if (solution_.state.empty()) return;
+    // The integrator starts with the accelerations of an implicit step: not those of the motion.
+    if (!options_.time.quasi_static_start) {
+      start_suddenly();
+    } else if (solution_.time.front() == options_.time.start) {
+      solution_.state.front() = std::move(start_sample_);
+    }
+  }
+
+  /// Before anything has moved linear theory is exact; the forces of that moment are inertia alone.
+  void start_suddenly() {
+    ElastodynamicsOptions first = options_;
+    first.gyroscopic = true;
+    first.time.sample_times = {first.time.start};
+    first.time.end = first.time.start + first.time.step;
+    ElastodynamicsSolution linear = solve_elastodynamics(first);
+    if (!linear.outcome.solved()) return;
+    StaticSolution& start = solution_.state.front() = std::move(linear.state.front());
+    start.member_stress.resize(0);  // no sample has stresses
+    start.triangle_stress.resize(0, 3);
+    start.node_stress.resize(0, 3);
+  }
+
+  void integrate_from(const GeometricallyExactSystem& system, State& state) {
+    constexpr double kInfinity = 1e8;
+    IntegrationOptions integration;
+    integration.end_time = options_.time.end;
+    integration.step = options_.time.step;
+    integration.spectral_radius =
+        std::clamp(spectral_radius(options_.time.scheme, kInfinity), 0.0, 1.0);
+    std::vector<double>& times = integration.output_times = options_.time.sample_times;
+    if (!times.empty() && times.front() == options_.time.start) times.erase(times.begin());
+    const ConstrainedSystem& equations = system;
+    const IntegrationSummary summary =
+        integrate(equations, state, integration, [&](const State& now) {
+          if (now.t > options_.time.start) balance_.add(system, now);
+          add_sample(system, now, start_, at_time(now.t));
+        });
+    solution_.outcome = summary.outcome;
+    solution_.evidence.add(summary.evidence);
+    TransientSummary& result = solution_.summary;
+    result.accepted = summary.steps;
+    result.rejected = summary.rejected;
+    result.smallest_step = summary.min_step;
+    result.largest_step = options_.time.step;
+    result.counters += summary.counters;
+    count_tangents(system, summary.iterations, true, result.counters);
+    result.counters.steps += summary.steps + summary.rejected;
+    if (options_.damping.mass != 0 || options_.damping.stiffness != 0)
+      result.counters.count(Effect::damping, summary.iterations);
+  }
+
+  /// Adds what a state is at a time.
+  void add_sample(const GeometricallyExactSystem& system, const State& state,
+                  const NominalState& built, const NominalState& now) {
+    StaticSolution sample = sample_of(system, state, built, now);
+    solution_.time.push_back(now.point.time);
+    solution_.nominal.push_back(now.point);
+    rigid_torque_.push_back(now.dynamics.torque);
+    rotation_.push_back(mean_platform_rotation(built.model, motion_between(built, now).position,
+                                               sample.displacement));
+    solution_.state.push_back(std::move(sample));
+  }
+
+  /// A state as seen from the nominal position.
+  /// @param built  the pose of the system's model
+  [[nodiscard]] StaticSolution sample_of(const GeometricallyExactSystem& system, const State& state,
+                                         const NominalState& built, const NominalState& now) const {
+    const NominalMotion moved = motion_between(built, now);
+    StaticSolution sample = static_solution(system, state);
+    const Index nodes = std::ssize(built.model.nodes);
+    const auto turn = [](double rotation, double nominal) {
+      return std::remainder(rotation - nominal, 2 * std::numbers::pi);
+    };
+    Eigen::MatrixX3d displacement = sample.displacement.topRows(nodes);
+    const PartMotion& platform = moved.plate.empty() ? moved.rigid_body[0] : moved.plate[0];
+    for (Index i = 0; i < nodes; ++i) {
+      const Vector2d from = built.model.nodes[to_size(i)].position;
+      displacement.row(i).head<2>() += from.transpose() - moved.position.row(i);
+      const PartMotion& part = i < 6 ? moved.member[to_size(2 * (i % 3))] : platform;
+      displacement(i, 2) = turn(displacement(i, 2), part.angle);
+    }
+    sample.displacement = std::move(displacement);
+    for (Index m = 0; m < sample.end_rotation.rows(); ++m) {
+      for (Index end = 0; end < 2; ++end)
+        sample.end_rotation(m, end) =
+            turn(sample.end_rotation(m, end), moved.member[to_size(m)].angle);
+    }
+    for (Index i = 0; i < 3; ++i) sample.reaction(i, 2) = drive_force(system, state, i);
+    return sample;
+  }
+
+  void finish() {
+    const Index n = std::ssize(solution_.state);
+    solution_.deflection.resize(n, 2);
+    solution_.torque.resize(n, 3);
+    solution_.rigid_torque.resize(n, 3);
+    solution_.platform_rotation = Eigen::Map<const VectorXd>(rotation_.data(), n);
+    const Index P = n > 0 ? start_.model.find_node("P") : 0;
+    for (Index i = 0; i < n; ++i) {
+      const StaticSolution& sample = solution_.state[to_size(i)];
+      solution_.deflection.row(i) = sample.displacement.row(P).head<2>();
+      solution_.torque.row(i) = sample.reaction.col(2).head<3>();
+      solution_.rigid_torque.row(i) = rigid_torque_[to_size(i)];
+    }
+    solution_.quasi_static_deflection = Eigen::MatrixX2d::Constant(n, 2, kNaN);
+    set_path_errors(solution_);
+  }
+
+  const ElastodynamicsOptions& options_;
+  RigidManipulator rigid_;
+  RigidMotion rigid_motion_;
+  NominalState start_;
+  ElastodynamicsSolution solution_;
+  StaticSolution start_sample_;  ///< of a quasi-static start
+  MemberBalance balance_;
+  std::vector<double> rotation_;
+  std::vector<Vector3d> rigid_torque_;
+};
+
+}  // namespace
+}  // namespace trammel::solver::large_motion
+
+namespace trammel::solver {
+
+ElastodynamicsSolution solve_large_elastodynamics(const ElastodynamicsOptions& options) {
+  return large_motion::LargeElastodynamics(options).run();
+}
+
+}  // namespace trammel::solver
