@@ -106,7 +106,9 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
       large_motion.torques.push_back({name, node, torque});
     } else {
       large_motion.drives.push_back(
-          {name, node, 2, joint_law(motion, *case_model.path, 0, static_cast<solver::Index>(i))});
+          {name, node, 2,
+           solver::large_motion::joint_law(motion, *case_model.path, 0,
+                                           static_cast<solver::Index>(i))});
     }
   }
 }

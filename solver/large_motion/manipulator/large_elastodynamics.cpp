@@ -97,7 +97,7 @@ class LargeElastodynamics {
         })) {
     rigid_.gravity = options.gravity;
     start_ = at_time(options.time.start);
-    require_driven();
+    if (start_.dynamics.outcome.solved()) require_driven();
   }
 
   ElastodynamicsSolution run() {
@@ -272,11 +272,11 @@ class LargeElastodynamics {
     for (Index k = 0; k < rates.size(); ++k) given.emplace_back(k, rates[k]);
     solution_.outcome = make_consistent(system, state, given, options_.time.step);
     if (solution_.outcome.solved()) integrate_from(system, state);
-    if (solution_.state.empty()) return;
+    if (solution_.state.empty() || solution_.time.front() != options_.time.start) return;
     // The integrator starts with the accelerations of an implicit step: not those of the motion.
     if (!options_.time.quasi_static_start) {
       start_suddenly();
-    } else if (solution_.time.front() == options_.time.start) {
+    } else {
       solution_.state.front() = std::move(start_sample_);
     }
   }

@@ -21,8 +21,9 @@ struct IntegrationOptions {
   bool adaptive = false;
   double tolerance = 1e-6;  ///< local position error a step over the model's size; adaptive only
   double output_step = 0;   ///< observed at multiples of this, hit exactly; 0: every step [s]
-  std::vector<double> output_times;  ///< or after the start at these, ascending, hit exactly [s]
-  double spectral_radius = 0.9;      ///< of generalized-alpha at infinite frequency
+  std::vector<double> output_times =
+      {};                        ///< or after the start at these, ascending, hit exactly [s]
+  double spectral_radius = 0.9;  ///< of generalized-alpha at infinite frequency
   std::int64_t max_steps = 100'000'000;  ///< at most, rejected ones included
 };
 
