@@ -1,6 +1,7 @@
 #include "harness/analysis/analysis.h"
 
 #include <cfenv>
+#include <cmath>
 
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
@@ -67,7 +68,8 @@ void record_estimates(const AnalysisKind& kind, const EffectChoice& choice, Reco
   for (const EffectReason& one : choice.reasons) {
     const std::string effect(solver::name_of(one.effect));
     if (one.number) record.add("effect_number", effect, *one.number);
-    if (one.change) record.add("effect_change", effect, *one.change);
+    // Of an effect that nothing estimates there is no number.
+    if (one.change && std::isfinite(*one.change)) record.add("effect_change", effect, *one.change);
   }
 }
 

@@ -26,8 +26,8 @@ struct EffectChoice {
   std::optional<double> tolerance;    ///< of "auto"
   std::vector<EffectReason> reasons;  ///< of every effect; empty where the analysis knows none
   solver::Counters counters;          ///< what the choice has cost
-  /// What geometric stiffening and large displacement, which the analysis does not have, change in
-  /// statics along the path; relative.
+  /// At most what geometric stiffening and large displacement change, where no tier can compute
+  /// them for the scene; relative.
   std::optional<double> beyond_tier;
 };
 

@@ -108,8 +108,7 @@ void print_verdict(const EffectStudy& study) {
             << " % are allowed\n";
   if (study.choice.beyond_tier) {
     std::cout << "Beyond    " << in_percent(*study.choice.beyond_tier)
-              << " % by large displacement, which this analysis does not have, in statics along "
-                 "the path\n";
+              << " % at most by large displacement, which this motion cannot have\n";
   }
   std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no");
   for (const Ablation& ablation : study.from_chosen) {
