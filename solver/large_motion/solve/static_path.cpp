@@ -52,6 +52,15 @@ class IllinoisBracket {
   int last_side_ = 0;
 };
 
+/// What the next step is longer by: five corrections each. Where the second is a tenth of the
+/// first, quadratic convergence takes no more, and others are of round-off, which no shorter step
+/// cures.
+double step_factor(const std::vector<double>& correction) {
+  const double factor = std::sqrt(5 / static_cast<double>(correction.size()));
+  const bool fast = correction.size() > 1 && correction[1] < 0.1 * correction[0];
+  return std::clamp(factor, fast ? 1.0 : 0.5, 2.0);
+}
+
 class PathFollower {
  public:
   PathFollower(const GeometricallyExactSystem& system, const StaticPathOptions& options)
@@ -195,8 +204,7 @@ class PathFollower {
     const bool done = point.state.load == options_.target;
     const bool switched = record_event(from, previous_unstable, point, ahead, done);
     if (!switched) {
-      const double iterations = static_cast<double>(point.newton.correction.size());
-      arc_step_ *= std::clamp(std::sqrt(5 / iterations), 0.5, 2.0);
+      arc_step_ *= step_factor(point.newton.correction);
       direction_ = std::move(ahead);
       append(std::move(point));
     }

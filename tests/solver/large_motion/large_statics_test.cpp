@@ -1,6 +1,7 @@
 #include "solver/large_motion/solve/large_statics.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cfenv>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -117,6 +118,17 @@ BOOST_AUTO_TEST_CASE(tip_errors_fall_with_twice_the_degree_of_the_elements) {
     BOOST_TEST(observed > 2 * order - 0.2);
     BOOST_TEST(observed < 2 * order + 0.5);
   }
+}
+
+BOOST_AUTO_TEST_CASE(rounding_of_a_fine_mesh_shortens_no_step) {  // 10 points; hundreds, if it did
+  Model model = elastica(1024);
+  model.loads = {{1, {0, kElastica[2].load, 0}}};
+  const GeometricallyExactSystem system(model, {}, {3});
+  std::fesetround(FE_UPWARD);  // spoils the tangent: corrections shrink by 60 each, however short
+  const StaticPath path = follow_static_path(system, {.max_points = 20});
+  std::fesetround(FE_TONEAREST);
+  BOOST_REQUIRE(path.outcome.solved());
+  BOOST_TEST(std::abs(tip(system, path)[1] - kElastica[2].transverse) < 4e-9);  // (3 N)^2 2 eps
 }
 
 BOOST_AUTO_TEST_CASE(newton_doubles_the_digits_of_a_beam_rolled_into_a_circle_in_one_step) {
