@@ -72,6 +72,20 @@ BOOST_AUTO_TEST_CASE(without_torque_the_energy_stays_and_a_platform_at_rest_rest
   BOOST_TEST(distance(f.motion.back().pose, start.pose) > 0.01);
 }
 
+BOOST_AUTO_TEST_CASE(energy_from_nowhere_counts_the_same_however_many_times_are_asked_for) {
+  const auto residual = [](int count) {
+    RigidManipulator m = rigid_manipulator(table_1_design());
+    const auto torque = [&m](double t) {
+      if (t > 0.05) m.gravity = {0, -0.1};  // lifts the whole in no time
+      return Vector3d(0.1, 0.1, 0.1);
+    };
+    return trammel::solver::forward_dynamics(m, {0, centred_pose()}, torque, times_to(0.1, count))
+        .evidence.largest(Residual::energy);
+  };
+  BOOST_TEST(residual(2) > 1e-3);
+  BOOST_TEST(residual(40) == residual(2), boost::test_tools::tolerance(0.1));
+}
+
 BOOST_AUTO_TEST_CASE(torques_that_the_integration_saw_too_late_are_not_solved) {
   RigidManipulator m = rigid_manipulator(table_1_design());
   m.gravity = {0, -9.81};

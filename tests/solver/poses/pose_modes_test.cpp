@@ -141,6 +141,25 @@ BOOST_AUTO_TEST_CASE(poses_far_apart_and_near_singular_are_certified_one_by_one)
   BOOST_TEST(worst_difference(hinged, near, solve_pose_modes(hinged, near, {.count = 4})) < 2);
 }
 
+BOOST_AUTO_TEST_CASE(a_mode_orthogonal_to_all_of_the_pose_before_is_not_missed) {
+  // Arm 3 holds the platform like the ground, so arms 1 and 2 move without each other. Arm 1 has
+  // the six lowest modes; then arm 2 is stretched, and its heavy distal link swings below them.
+  ManipulatorDesign design = with_elements(4);
+  for (const std::size_t arm : {0, 1}) design.elbow[arm] = {ElbowKind::hinged};
+  design.platform_joint[2] = {PlatformJointKind::welded};
+  for (auto* links : {&design.proximal, &design.distal}) (*links)[2].material.E *= 1e16;
+  design.proximal[1].material.E *= 480;
+  design.distal[1].material.E *= 48000;
+  design.distal[1].material.rho *= 100;
+  const auto with_reach = [](double reach) {  // of arm 2, towards its upper left
+    const double c = std::numbers::sqrt2 / 2;
+    return Pose{0.4 - c * reach, c * reach + 0.1 / std::numbers::sqrt3, 0};
+  };
+  std::vector<Pose> poses(63, with_reach(0.37));  // until no vector knows of arm 2
+  poses.push_back(with_reach(0.4 - 5e-7));
+  check("one arm alone", design, poses, 1);
+}
+
 BOOST_AUTO_TEST_CASE(actuators_that_move_freely_are_solved_by_themselves) {
   ManipulatorDesign design = with_elements(2);
   design.active.fill({ActiveKind::free});
