@@ -13,13 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOtherRooms[] = {"/schema/", "/cost/", "/claims/"};
+constexpr std::string_view kOtherRooms[] = {"/schema/", "/cost/", "/claims/"};
 
 /// Whether a file below the catalogue's folder lies in a room that holds something else than cases.
 bool is_no_case(std::string_view path_below) {
-  return std::any_of(std::begin(kOtherRooms), std::end(kOtherRooms), [&](std::string_view room) {
-    return path_below.find(room) != std::string_view::npos;
-  });
+  return std::any_of(std::begin(kOtherRooms), std::end(kOtherRooms),
+                     [&](std::string_view room) { return path_below.starts_with(room); });
 }
 
 /// Nothing a user types as a name may leave the catalogue's folder.

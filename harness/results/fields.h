@@ -162,8 +162,10 @@ void give_absent(const UsualField<Struct>& field, const Place&,
 template <class T>
 Json object_to_json(const T& value) {
   Json json = Json::object();
+  auto& members = json.template get_ref<Json::object_t&>();
+  members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);  // growing copies all
   const auto write = [&](const auto& field) {
-    if (!is_left_out(field, value)) json[field.key] = to_json(value.*field.member);
+    if (!is_left_out(field, value)) members.emplace_back(field.key, to_json(value.*field.member));
   };
   std::apply([&](const auto&... fields) { (write(fields), ...); }, kFields<T>);
   return json;
@@ -184,6 +186,7 @@ void object_from_json(const Json& json, const Place& place, T& value) {
 template <class Entry>
 Json list_to_json(const std::vector<Entry>& values) {
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
+  if constexpr (is_named<Entry>) json.template get_ref<Json::object_t&>().reserve(values.size());
   for (const auto& entry : values) {
     if constexpr (is_named<Entry>) {  // at the end, for json[name] would look through all before it
       json.template get_ref<Json::object_t&>().emplace_back(entry.first, to_json(entry.second));

@@ -37,7 +37,7 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
 
 class Assembler {
  public:
-  Assembler(Model model, Effects active) : active_(active) {
+  Assembler(Model model, Effects active, System& system) : active_(active), system_(system) {
     validate(model);
     Discretisation discretisation = discretise(model);
     system_.constraints = build_constraints(model, discretisation);
@@ -48,11 +48,10 @@ class Assembler {
     system_.T = system_.constraints.T;
   }
 
-  System run() {
+  void run() {
     stiffness();
     if (active_.has(Effect::inertia)) mass();
     loads();
-    return std::move(system_);
   }
 
  private:
@@ -78,7 +77,7 @@ class Assembler {
       projection.add(coordinates, (B.transpose() * c.asDiagonal() * B).eval());
       ++system_.counters.element_evaluations;
     });
-    system_.K = builder.build();
+    builder.build().swap(system_.K);
     count_stiffness();
   }
 
@@ -107,7 +106,7 @@ class Assembler {
       if (coordinates.size() >= 6) ++system_.counters.element_evaluations;
     });
     count_link_inertia();
-    system_.M = builder.build();
+    builder.build().swap(system_.M);
     system_.counters.count(Effect::inertia, 1);
   }
 
@@ -178,7 +177,7 @@ class Assembler {
   }
 
   Effects active_;
-  System system_;
+  System& system_;  // no move: Eigen 3.4 copies the sparse matrices in it
 };
 
 }  // namespace
@@ -194,7 +193,9 @@ Vector6d element_load(const FrameElement& element, const Vector2d& load) {
 }
 
 System assemble(const Model& model, Effects active) {
-  return Assembler(restrict_effects(model, active), active).run();
+  System system;
+  Assembler(restrict_effects(model, active), active, system).run();
+  return system;
 }
 
 Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {

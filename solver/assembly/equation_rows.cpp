@@ -96,34 +96,34 @@ double EquationRows::residual_over(const VectorXd& load) const {
 
 double mode_backward_error(const System& system, const SparseMatrix* K_G, const MatrixXd& shapes,
                            const VectorXd& w2) {
-  // Modes along the rows, so that an element takes all of them at once.
-  const MatrixXd u = (system.T * shapes).transpose();
+  const MatrixXd u = system.T * shapes;
   const double model = box_diagonal(system.mesh.positions);
   MatrixXd size = u.cwiseAbs();
-  for (Index mode = 0; mode < size.rows(); ++mode)
-    size.row(mode) = sizes_of(system, model, size.row(mode).transpose()).transpose();
+  for (auto column : size.colwise()) column = sizes_of(system, model, column);
   MatrixXd sum = MatrixXd::Zero(u.rows(), u.cols()), terms = sum;
+  const auto add_product = [](const auto& coordinates, const auto& k, const MatrixXd& motion,
+                              MatrixXd& to) {
+    for (Index mode = 0; mode < motion.cols(); ++mode) {
+      const auto local = (k * detail::gather(coordinates, motion.col(mode))).eval();
+      for (std::size_t i = 0; i < coordinates.size(); ++i)
+        if (coordinates[i] >= 0) to(coordinates[i], mode) += local[static_cast<Index>(i)];
+    }
+  };
   const auto add = [&](const auto& coordinates, const auto& k, const MatrixXd& motion,
                        const MatrixXd& motion_size) {
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      for (std::size_t j = 0; j < coordinates.size(); ++j) {
-        if (coordinates[i] < 0 || coordinates[j] < 0) continue;
-        const double entry = k(static_cast<Index>(i), static_cast<Index>(j));
-        sum.col(coordinates[i]) += entry * motion.col(coordinates[j]);
-        terms.col(coordinates[i]) += std::abs(entry) * motion_size.col(coordinates[j]);
-      }
-    }
+    add_product(coordinates, k, motion, sum);
+    add_product(coordinates, k.cwiseAbs().eval(), motion_size, terms);
   };
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     add(coordinates, (B.transpose() * c.asDiagonal() * B).eval(), u, size);
   });
-  const MatrixXd acceleration = (-w2).asDiagonal() * u;
-  const MatrixXd acceleration_size = w2.cwiseAbs().asDiagonal() * size;
+  const MatrixXd acceleration = u * (-w2).asDiagonal();
+  const MatrixXd acceleration_size = size * w2.cwiseAbs().asDiagonal();
   for_each_inertia(system, [&](const auto& coordinates, const auto& m) {
     add(coordinates, m, acceleration, acceleration_size);
   });
-  MatrixXd rows = system.T.transpose() * sum.transpose();
-  MatrixXd magnitudes = system.T.cwiseAbs().transpose() * terms.transpose();
+  MatrixXd rows = system.T.transpose() * sum;
+  MatrixXd magnitudes = system.T.cwiseAbs().transpose() * terms;
   if (K_G) {
     rows += *K_G * shapes;
     magnitudes += K_G->cwiseAbs() * shapes.cwiseAbs();

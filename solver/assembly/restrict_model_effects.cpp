@@ -77,7 +77,8 @@ Model restrict_effects(Model model, Effects active) {
 }
 
 bool is_axially_overconstrained(const Model& model) {
-  const Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
+  Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
+  for (Member& member : stiff.members) member.elements = 1;  // what is inside is free to follow
   const Constraints constraints = build_constraints(stiff, discretise(stiff));
   for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
     const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;

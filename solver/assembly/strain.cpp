@@ -18,14 +18,13 @@ Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) 
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(k, k);
   Eigen::MatrixXd d(18, k);  // the most that an element has
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
-    const Index m = c.size();
+    constexpr int m = std::decay_t<decltype(c)>::SizeAtCompileTime;
     for (Index j = 0; j < k; ++j) {
-      d.col(j).head(m) = B * detail::gather(coordinates, U.col(j));
+      d.col(j).head<m>() = B * detail::gather(coordinates, U.col(j));
     }
     for (Index i = 0; i < k; ++i) {
-      for (Index j = 0; j <= i; ++j) {
-        products(i, j) += d.col(i).head(m).cwiseProduct(c).dot(d.col(j).head(m));
-      }
+      const Eigen::Matrix<double, m, 1> stress = d.col(i).head<m>().cwiseProduct(c);
+      for (Index j = 0; j <= i; ++j) products(i, j) += stress.dot(d.col(j).head<m>());
     }
   });
   return products.selfadjointView<Eigen::Lower>();

@@ -143,7 +143,12 @@ Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix
   for (const QuadraturePoint& point : kGauss) {
     const Matrix36<T> N = frame_interpolation(phi, length, point.at);
     const T w(point.weight);
-    M += N.transpose() * Eigen::Vector3<T>(w * m, w * m, w * J).asDiagonal() * N;
+    for (const Index i : {0, 3})
+      for (const Index j : {0, 3}) M(i, j) += N(0, i) * (w * m) * N(0, j);
+    for (const Index i : {1, 2, 4, 5}) {
+      for (const Index j : {1, 2, 4, 5})
+        M(i, j) += N(1, i) * (w * m) * N(1, j) + N(2, i) * (w * J) * N(2, j);
+    }
   }
   return (M + M.transpose().eval()) * T(0.5);
 }

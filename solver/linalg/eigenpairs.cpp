@@ -20,6 +20,8 @@ constexpr double kConvergenceTolerance =
     1e-11;                            // relative change of an eigenvalue in one inverse iteration
 constexpr double kClusterGap = 1e-3;  // between neighbours that are certainly not copies
 
+// K and B are symmetric: times a vector they stand as transposed, for rows add up in registers.
+
 /// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
 class LanczosOperator {
  public:
@@ -27,14 +29,14 @@ class LanczosOperator {
                   Counters& counters)
       : B_(B), factorization_(factorization), known_(known), counters_(counters) {}
 
-  [[nodiscard]] VectorXd apply(const VectorXd& x) const {
+  [[nodiscard]] VectorXd apply(const Eigen::Ref<const VectorXd>& x) const {
     const VectorXd p = factorization_.solve_half_transposed(complement(x));
     ++counters_.solves;
-    return complement(factorization_.solve_half(B_ * p));
+    return complement(factorization_.solve_half(B_.transpose() * p));
   }
-  [[nodiscard]] VectorXd complement(const VectorXd& x) const {
-    if (known_.cols() == 0) return x;
-    return x - known_ * (known_.transpose() * x);
+  [[nodiscard]] VectorXd complement(VectorXd x) const {
+    if (known_.cols() > 0) x.noalias() -= known_ * (known_.transpose() * x);
+    return x;
   }
 
  private:
@@ -107,7 +109,7 @@ class EigenpairProvider {
     }
     const LanczosOperator op(*pencil_.B, factorization, known, counters_);
     const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
-    const auto [mu, Y] = largest_eigenpairs([&op](const VectorXd& x) { return op.apply(x); },
+    const auto [mu, Y] = largest_eigenpairs([&op](const auto& x) { return op.apply(x); },
                                             op.complement(start_vectors(size(), 1, X.cols())),
                                             {.wanted = wanted, .subspace = subspace});
     const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
@@ -171,7 +173,7 @@ class Solver {
 
   [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     VectorXd y = pencil_.K_times(x);
-    if (pencil_.shift != 0) y -= pencil_.shift * (*pencil_.B * x);
+    if (pencil_.shift != 0) y -= pencil_.shift * (pencil_.B->transpose() * x);
     return y;
   }
 
@@ -218,16 +220,17 @@ class Solver {
     const Index p = X_.cols();
     MatrixXd Y(X_.rows(), p);
     for (Index j = 0; j < p; ++j) {
-      const RefinedSolution y = refined_solve(
-          [this](const VectorXd& x) { return apply(x); }, factorization_, *pencil_.B * X_.col(j),
-          X_.col(j) / (pairs_.value[j] - pencil_.shift), counters_);
+      const RefinedSolution y =
+          refined_solve([this](const VectorXd& x) { return apply(x); }, factorization_,
+                        pencil_.B->transpose() * X_.col(j),
+                        X_.col(j) / (pairs_.value[j] - pencil_.shift), counters_);
       inverse_iteration_failed_ = inverse_iteration_failed_ || !(y.correction < 0.1);
       Y.col(j) = y.x;
       remove_null(Y.col(j));
       orthogonalise(Y, j);
     }
     MatrixXd A = pencil_.K_products(Y);
-    const MatrixXd B = Y.transpose() * (*pencil_.B * Y);
+    const MatrixXd B = Y.transpose() * (pencil_.B->transpose() * Y);
     if (pencil_.shift != 0) A -= pencil_.shift * B;
     const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
     const SymmetricEigenpairs<MatrixXd> ritz = symmetric_eigenpairs(
@@ -241,8 +244,8 @@ class Solver {
   /// second pass would only find rounding (Daniel, Gragg, Kaufman and Stewart 1976).
   void orthogonalise(MatrixXd& Y, Index j) const {
     for (const bool first : {true, false}) {
-      VectorXd image = *pencil_.K * Y.col(j);
-      if (pencil_.shift != 0) image -= pencil_.shift * (*pencil_.B * Y.col(j));
+      VectorXd image = pencil_.K->transpose() * Y.col(j);
+      if (pencil_.shift != 0) image -= pencil_.shift * (pencil_.B->transpose() * Y.col(j));
       const VectorXd part = Y.leftCols(j).transpose() * image;
       const double whole = Y.col(j).dot(image), left = whole - part.squaredNorm();
       Y.col(j) -= Y.leftCols(j) * part;
@@ -256,7 +259,7 @@ class Solver {
   void values() {
     const Index p = X_.cols();
     const VectorXd energy = pencil_.K_products(X_).diagonal();
-    const MatrixXd BX = *pencil_.B * X_;
+    const MatrixXd BX = pencil_.B->transpose() * X_;
     const VectorXd norm = X_.cwiseProduct(BX).colwise().sum();
     const VectorXd value = energy.cwiseQuotient(norm);
     X_ *= norm.cwiseAbs().cwiseSqrt().cwiseInverse().asDiagonal();
@@ -352,7 +355,14 @@ Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null, 
 }
 
 SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
-  return K - t * B;
+  const bool same_pattern =
+      K.isCompressed() && B.isCompressed() && K.nonZeros() == B.nonZeros() &&
+      std::equal(K.outerIndexPtr(), K.outerIndexPtr() + K.outerSize() + 1, B.outerIndexPtr()) &&
+      std::equal(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros(), B.innerIndexPtr());
+  if (!same_pattern) return K - t * B;
+  SparseMatrix A = K;
+  A.coeffs() -= t * B.coeffs();
+  return A;
 }
 
 }  // namespace trammel::solver

@@ -33,7 +33,9 @@ VectorXd Factorization::solve_half(const VectorXd& b) const {
 }
 
 VectorXd Factorization::solve_half_transposed(const VectorXd& y) const {
-  return scaling_.cwiseProduct(ldlt_.solve_half_transposed(y));
+  VectorXd x = ldlt_.solve_half_transposed(y);
+  x.array() *= scaling_.array();
+  return x;
 }
 
 }  // namespace trammel::solver

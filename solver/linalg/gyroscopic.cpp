@@ -81,7 +81,7 @@ class SkewOperator {
   }
 
   /// W^T W z in the complement.
-  [[nodiscard]] VectorXd apply_squared(const VectorXd& z) const {
+  [[nodiscard]] VectorXd apply_squared(const Eigen::Ref<const VectorXd>& z) const {
     return complement(-apply(apply(complement(z))));
   }
 
@@ -130,7 +130,7 @@ MatrixXd lanczos_space(const SkewOperator& op, Index pairs) {
   const Index dimension = op.rows() - op.known.cols();
   const Index wanted = std::min(2 * pairs, dimension - 1);
   if (wanted < 1) return MatrixXd(op.rows(), 0);
-  return largest_eigenpairs([&op](const VectorXd& z) { return op.apply_squared(z); },
+  return largest_eigenpairs([&op](const auto& z) { return op.apply_squared(z); },
                             op.complement(start_vectors(op.rows(), 1, op.known.cols())),
                             {wanted, std::min(dimension, 2 * wanted + 20), 1e-11})
       .vector;

@@ -11,7 +11,7 @@ namespace {
 /// What Spectra asks of an operator.
 struct SpectraOperator {
   using Scalar = double;
-  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply;
+  const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply;
   Index size;
 
   [[nodiscard]] Index rows() const { return size; }
@@ -23,8 +23,9 @@ struct SpectraOperator {
 
 }  // namespace
 
-LanczosPairs largest_eigenpairs(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
-                                const Eigen::VectorXd& start, const LanczosOptions& options) {
+LanczosPairs largest_eigenpairs(
+    const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
+    const Eigen::VectorXd& start, const LanczosOptions& options) {
   constexpr Index kMaxRestarts = 300;
   SpectraOperator op{apply, start.size()};
   const LanczosPairs none{Eigen::VectorXd(0), Eigen::MatrixXd(start.size(), 0)};

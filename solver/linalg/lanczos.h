@@ -22,7 +22,7 @@ struct LanczosPairs {
 /// Largest eigenvalues of a symmetric operator, by Lanczos' method with implicit restarts
 /// (Spectra).
 [[nodiscard]] LanczosPairs largest_eigenpairs(
-    const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
+    const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
     const Eigen::VectorXd& start, const LanczosOptions& options);
 
 /// Columns for an eigenvalue iteration to start from: numbers in [-1, 1), the same everywhere.

@@ -62,12 +62,18 @@ struct SparseLdlt::Factors {
   SparseMatrix upper;               // upper triangle in that order
   std::vector<Index> from, mirror;  // entry of upper -> that of A, and the one across its diagonal
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
-  mutable VectorXd ordered, solved;
+  mutable VectorXd ordered, solved, root;
 
   [[nodiscard]] bool has_pattern_of(const SparseMatrix& A) const {
     return columns.size() == to_size(A.cols()) + 1 &&
            std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
            std::equal(rows.begin(), rows.end(), A.innerIndexPtr());
+  }
+
+  /// D^(1/2), once for all half solves.
+  [[nodiscard]] const VectorXd& pivot_roots() const {
+    if (root.size() == 0) root = ldlt.vectorD().cwiseSqrt();
+    return root;
   }
 
   void analyze(const SparseMatrix& A) {
@@ -112,7 +118,10 @@ bool SparseLdlt::factorize(const SparseMatrix& A) {
     same = same && values[k] == value;
     values[k] = value;
   }
-  if (!same) f.ldlt.factorize(f.upper);
+  if (!same) {
+    f.ldlt.factorize(f.upper);
+    f.root.resize(0);
+  }
   return f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite();
 }
 
@@ -158,11 +167,12 @@ void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {
 VectorXd SparseLdlt::solve_half(const VectorXd& b) const {
   VectorXd y = factors_->P * b;
   factors_->ldlt.matrixL().solveInPlace(y);
-  return y.cwiseQuotient(factors_->ldlt.vectorD().cwiseSqrt());
+  y.array() /= factors_->pivot_roots().array();
+  return y;
 }
 
 VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
-  VectorXd x = y.cwiseQuotient(factors_->ldlt.vectorD().cwiseSqrt());
+  VectorXd x = y.cwiseQuotient(factors_->pivot_roots());
   factors_->ldlt.matrixU().solveInPlace(x);
   return factors_->P.transpose() * x;
 }
