@@ -154,6 +154,8 @@ BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
   json["sweeps"]["nowhere"] = {{"pointers", {"/model/elemnts"}}, {"values", {1, 2}}};
   json["sweeps"]["patches"] = {{"patches", {{{"model", {{"elements", 0}}}}, Json::object()}},
                                {"values", {1, 2}}};
+  json["sweeps"]["both"] = json["sweeps"]["patches"];
+  json["sweeps"]["both"]["pointers"] = {"/model/elements"};
   const Document base = patched(testing::read(folder, json), "base");
   const auto fault = [&](const char* sweep) {
     return complaint([&] { (void)levels(base, sweep); });
@@ -165,6 +167,7 @@ BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
       contains(fault("nowhere"), "/sweeps/nowhere/pointers/0: expected a pointer to a value"));
   BOOST_TEST(contains(fault("nowhere"), "did you mean 'elements'?"));
   BOOST_TEST(contains(fault("patches"), "/sweeps/patches/patches/0/model/elements: expected"));
+  BOOST_TEST(contains(fault("both"), "/sweeps/both: expected either 'pointers' or 'patches'"));
 }
 
 BOOST_AUTO_TEST_CASE(variants_do_not_each_keep_the_whole_file) {

@@ -217,4 +217,10 @@ BOOST_AUTO_TEST_CASE(every_integer_of_the_schemas_has_a_bound_that_its_reader_ca
   BOOST_TEST(contains(fault(testing::cantilever(), "/stress_suite", suite), "/stress_suite/item"));
 }
 
+BOOST_AUTO_TEST_CASE(what_must_be_positive_is_not_zero) {
+  BOOST_TEST(robot_fault("/model/manipulator/material/E_Pa", 1e-300).empty());
+  BOOST_TEST(
+      contains(robot_fault("/model/manipulator/material/E_Pa", 0), "material/E_Pa: expected"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
