@@ -41,7 +41,7 @@ constexpr const char *kMark = "<!--drawing ", *kBody = "<!--body-->", *kLeftOut 
 struct IndexSection {
   const char *key, *anchor, *title, *summary;
 };
-constexpr std::array<IndexSection, 9> kIndexSections = {{
+constexpr std::array<IndexSection, 10> kIndexSections = {{
     {"claims", "claims", "The paper's claims", "overview"},
     {"cost", "cost", "Accuracy and computing time", "words"},
     {"stress_suite", "stress-suite", "Stress suite", "words"},
@@ -50,17 +50,19 @@ constexpr std::array<IndexSection, 9> kIndexSections = {{
     {"validation_uncertainty", "validation-uncertainty", "Validation uncertainty", "words"},
     {"coverage", "coverage", "What is verified, and by what", "words"},
     {"detection", "detection", "Faults that are noticed", "words"},
+    {"certification", "certification", "Digits under other rounding", "words"},
     {"history", "history", "Over time", "words"},
 }};
 
 /// What every template finds; headings below a page's title start with h`level`.
 Data page_data(bool single, int level) {
   Data data = object();
-  for (const char* name :
-       {"summary", "claims",       "variants", "figure",     "checks",   "matrix",
-        "cost",    "stress_suite", "targets",  "orders",     "coverage", "validation_uncertainty",
-        "counts",  "rows",         "head",     "matrix_row", "cell",     "find",
-        "history", "detection"})
+  for (const char* name : {"summary",      "claims", "variants", "figure",
+                           "checks",       "matrix", "cost",     "stress_suite",
+                           "targets",      "orders", "coverage", "validation_uncertainty",
+                           "counts",       "rows",   "head",     "matrix_row",
+                           "cell",         "find",   "history",  "detection",
+                           "certification"})
     data.set(std::string(name) + "_partial",
              kainjow::mustache::partial(
                  [file = std::string(name) + ".mustache"] { return template_text(file); }));
@@ -89,9 +91,13 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   index.set("orders", orders_section(results, families));
   index.set("validation_uncertainty", validation_uncertainty_section(results, families));
   index.set("coverage", coverage_section(results, false));
-  Data detection = object();
-  detection.set("words", "Faults seeded into the program, by the family that notices them.");
-  index.set("detection", detection);
+  for (const auto& [key, words] :
+       {std::pair{"detection", "Faults seeded into the program, by the family that notices them."},
+        std::pair{"certification", "Verdicts and digits when the solver rounds one way."}}) {
+    Data section = object();
+    section.set("words", words);
+    index.set(key, section);
+  }
   index.set("history", history_section(results, over_time));
   set_text(index, "missing", results.missing);
   set_flag(index, "has_claims", results.claims.has_value());
