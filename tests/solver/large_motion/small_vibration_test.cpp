@@ -49,6 +49,20 @@ BOOST_AUTO_TEST_CASE(about_the_unloaded_state_it_has_the_frequencies_of_linear_m
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_hanging_pendulum_swings_by_its_weight_alone) {
+  Model model = simple_pendulum();
+  model.nodes[1].position = {0, -1};
+  const GeometricallyExactSystem system(model);
+  State state = system.reference_state();
+  system.set_load(state, 1);
+  state.lambda << 0, -9.81;  // 1 kg hangs from the rod of 1 m
+  const SmallVibration found = large_motion::small_vibration(system, state, 1);
+  BOOST_REQUIRE(found.outcome.solved());
+  // 1e-11 on the diagonal of the rod's rows, times 9.81 N/m, halved by the root.
+  BOOST_TEST(found.frequency[0] == std::sqrt(9.81) / (2 * std::numbers::pi),
+             boost::test_tools::tolerance(1e-10));
+}
+
 BOOST_AUTO_TEST_CASE(a_force_that_keeps_its_direction_buckles_and_one_that_follows_flutters) {
   const double euler = std::pow(std::numbers::pi / 2, 2);
   const SmallVibration dead = loaded_column(1.1 * euler, false);
