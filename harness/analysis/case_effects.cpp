@@ -99,11 +99,23 @@ std::string describe_decision(const EffectReason& one, const EffectScope& scope,
   return "decided";
 }
 
-/// By estimates, which add up; the smallest goes first. Nothing is measured: that takes a run of
-/// the whole scene, and no choice could save what it had cost.
-Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const EffectScope& scope,
+/// Without the effects that cost most, as far as they are not chosen.
+solver::Effects without_costly(const EffectScope& scope, solver::Effects chosen) {
+  solver::Effects whole = scope.applicable;
+  for (const solver::Effect effect : {solver::Effect::large_displacement, solver::Effect::inertia})
+    if (!chosen.has(effect)) whole = scope.without(whole, effect);
+  return whole;
+}
+
+/// By estimates, which add up; the smallest goes first. Where they come near the tolerance the
+/// effect is measured if that costs little: a run of the whole scene would cost what no choice
+/// could save.
+Elimination eliminate_by_estimates(const Document& document, const CaseModel& case_model,
+                                   solver::EffectEstimates& estimates, const EffectScope& scope,
                                    double tolerance, std::vector<EffectReason>& reasons) {
   constexpr double kBeyondFirstOrder = 1.25;
+  /// Estimates are bounds: what is worth more than the tolerance is seldom put higher than this.
+  constexpr double kNear = 3;
   std::stable_sort(estimates.effects.begin(), estimates.effects.end(),
                    [](const auto& a, const auto& b) { return a.change < b.change; });
   std::vector<solver::Effect> order;
@@ -124,6 +136,18 @@ Elimination eliminate_by_estimates(solver::EffectEstimates& estimates, const Eff
   if (estimates.outcome.solved()) found = eliminate(scope, order, {}, tolerance, at_most);
   found.outcome = estimates.outcome;
   found.counters = estimates.counters;
+  // What is saved pays for runs without it.
+  const solver::Effects cheap = without_costly(scope, found.chosen);
+  const bool has_tier = scope.applicable.has(solver::Effect::large_displacement);
+  if (!found.outcome.solved() || !has_tier || cheap == scope.applicable) return found;
+  std::vector<solver::Effect> near;
+  for (const solver::EffectEstimate& one : estimates.effects) {
+    const bool removable = found.chosen.has(one.effect) && !scope.required.has(one.effect);
+    if (removable && one.change <= kNear * tolerance) near.push_back(one.effect);
+  }
+  if (!near.empty())
+    eliminate_near_tolerance(find_analysis(analysis_kind(document)), analysis_place(document),
+                             case_model, scope, tolerance, near, {cheap, at_most(cheap)}, found);
   return found;
 }
 
@@ -173,7 +197,8 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
   }
   const Elimination found =
       rules.estimate != nullptr
-          ? eliminate_by_estimates(estimates, scope, tolerance, choice.reasons)
+          ? eliminate_by_estimates(document, case_model, estimates, scope, tolerance,
+                                   choice.reasons)
           : eliminate_by_measurement(kind, analysis, case_model, scope, tolerance);
   choice.counters = found.counters;
   choice.chosen = found.outcome.solved() ? found.chosen : scope.applicable;
@@ -183,7 +208,8 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
     one.change = found.change[static_cast<std::size_t>(one.effect)];
     one.why =
         found.outcome.solved()
-            ? describe_decision(one, scope, found, tolerance, rules.estimate != nullptr)
+            ? describe_decision(one, scope, found, tolerance,
+                                rules.estimate != nullptr && !found.measured.has(one.effect))
             : "on: the whole scene has no solution to compare with (" + found.outcome.reason + ")";
     if (rules.estimate == nullptr)
       one.number = slenderness_number(one.effect, first_model(case_model));

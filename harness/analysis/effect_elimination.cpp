@@ -429,6 +429,28 @@ Elimination eliminate_by_measurement(const AnalysisKind& kind, const JsonView& a
   return Measurement(kind, analysis, scene, scope, tolerance).run();
 }
 
+void eliminate_near_tolerance(const AnalysisKind& kind, const JsonView& analysis,
+                              const CaseModel& scene, const EffectScope& scope, double tolerance,
+                              const std::vector<Effect>& near,
+                              const std::pair<Effects, double>& beside, Elimination& found) {
+  EffectScope left = scope;
+  left.applicable = left.required = found.chosen;
+  for (const Effect effect : near) left.required = left.required.without(effect);
+  MeshedScene mesh(kind, analysis, scene, beside.first, solver::box_diagonal(first_model(scene)));
+  const ChangeWith change_with = [&](Effects active) {
+    return beside.second + mesh.change(beside.first, active, {0});
+  };
+  const Elimination measured = eliminate(left, near, {}, tolerance, change_with);
+  found.counters += mesh.counters;
+  found.chosen = measured.chosen;
+  for (const Effect effect : near) {
+    const auto change = measured.change[static_cast<std::size_t>(effect)];
+    if (!change || !std::isfinite(*change)) continue;
+    found.change[static_cast<std::size_t>(effect)] = change;
+    found.measured = found.measured.with(effect);
+  }
+}
+
 std::optional<double> large_displacement_at_rest(const JsonView& analysis, const CaseModel& scene,
                                                  const std::vector<double>& times) {
   solver::ElastodynamicsOptions options = read_elastodynamics(analysis, scene);

@@ -20,6 +20,7 @@ struct Elimination {
   solver::Effects chosen;
   /// By effect: how far the results were off when it was left out beside all that was off then.
   std::array<std::optional<double>, solver::kEffectCount> change;
+  solver::Effects measured;  ///< whose change is no estimate
   solver::Counters counters;
 };
 
@@ -39,6 +40,15 @@ struct Elimination {
 [[nodiscard]] Elimination eliminate_by_measurement(const AnalysisKind& kind,
                                                    const JsonView& analysis, const CaseModel& scene,
                                                    const EffectScope& scope, double tolerance);
+
+/// What estimates kept, of some effects that they put near the tolerance: by running the analysis
+/// without each of them.
+/// @param beside  what the runs are compared with, and what that is off the whole scene at most
+/// @param found  by estimates; left as it is where one of the two has no solution
+void eliminate_near_tolerance(const AnalysisKind& kind, const JsonView& analysis,
+                              const CaseModel& scene, const EffectScope& scope, double tolerance,
+                              const std::vector<solver::Effect>& near,
+                              const std::pair<solver::Effects, double>& beside, Elimination& found);
 
 /// What geometric stiffening and large displacement change of the motion without vibration, under
 /// loads, weight and nominal inertia at these times of the path; nothing without a solution.

@@ -193,6 +193,23 @@ BOOST_AUTO_TEST_CASE(all_effects_stay_where_linear_theory_is_lost) {
   }
 }
 
+/// An estimate is a bound: large displacement is worth .44 % there and put at .8 % for itself.
+BOOST_AUTO_TEST_CASE(what_estimates_put_near_the_tolerance_is_measured) {
+  const auto of_large_displacement = [](double tolerance) {
+    Document document = patched(load_named_case("scene-slow-circle"), "base");
+    document.apply_patch("test", "", {{"effects", {{"auto", {{"tolerance", tolerance}}}}}});
+    return analyse(document, References(), {false})
+        .effects.at(static_cast<std::size_t>(Effect::large_displacement));
+  };
+  const EffectReason left_out = of_large_displacement(0.008), kept = of_large_displacement(0.004);
+  BOOST_TEST(!left_out.active, left_out.why);
+  BOOST_TEST(kept.active, kept.why);
+  for (const EffectReason& one : {left_out, kept}) {
+    BOOST_TEST(!contains(one.why, "at most"), one.why);
+    BOOST_TEST((*one.change > 0.0044 && *one.change < 0.0075), one.why);
+  }
+}
+
 /// Fixed steps and driven actuators are what the exact tier takes along a path.
 BOOST_AUTO_TEST_CASE(a_motion_beyond_every_tier_says_so) {
   Document document = patched(load_named_case("scene-slow-circle"), "ten-newton");

@@ -57,12 +57,15 @@ BOOST_AUTO_TEST_CASE(estimates_of_a_sudden_start_know_its_modes) {
   }
 }
 
-/// It took twice the whole scene, which it ran, to save a fifth of it.
-BOOST_AUTO_TEST_CASE(deciding_for_a_motion_takes_no_step_of_it) {
+/// It took twice the whole scene, which it ran, to save a fifth of it. What costs there is to
+/// evaluate and factor in the geometrically exact tier; in the third scene nothing can be saved.
+BOOST_AUTO_TEST_CASE(deciding_for_a_motion_takes_no_step_of_the_whole) {
   for (const int number : {29, 89, 169}) {
     const EffectStudy study = study_effects(random_scene(2, number), {0.01, false, 0});
     BOOST_TEST(study.within_tolerance(), "scene " << number);
-    BOOST_TEST(study.choice.counters.factorizations < 0.2 * study.full.counters.factorizations);
+    const Counters &deciding = study.choice.counters, &whole = study.full.counters;
+    BOOST_TEST(deciding.element_evaluations < 0.2 * whole.element_evaluations, "scene " << number);
+    if (number == 169) BOOST_TEST(deciding.factorizations < 0.2 * whole.factorizations);
   }
 }
 
