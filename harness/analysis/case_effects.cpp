@@ -41,6 +41,13 @@ solver::Effects stated_effects(const Document& document, const EffectScope& scop
   return stated;
 }
 
+const char* describe_missing(solver::Effect effect, const EffectScope& scope,
+                             const EffectRules& rules) {
+  const bool known =
+      effect == solver::Effect::large_displacement && scope.no_large_displacement != nullptr;
+  return known ? scope.no_large_displacement : rules.describe_missing(effect);
+}
+
 std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope,
                                                     solver::Effects chosen,
                                                     const EffectRules& rules,
@@ -51,7 +58,7 @@ std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope,
     one.effect = effect;
     one.applicable = scope.applicable.has(effect);
     one.active = one.applicable && chosen.has(effect);
-    one.why = !one.applicable              ? rules.describe_missing(effect)
+    one.why = !one.applicable              ? describe_missing(effect, scope, rules)
               : scope.required.has(effect) ? rules.describe_required(effect)
               : one.active                 ? effect_key
                                            : "not " + effect_key;
@@ -69,7 +76,7 @@ solver::Effects read_names(const JsonView& names, const EffectScope& scope,
     if (!scope.applicable.has(*effect)) {
       throw place.error("expected an effect that the scene admits (got '" +
                         std::string(solver::name_of(*effect)) +
-                        "': " + rules.describe_missing(*effect) + ")");
+                        "': " + describe_missing(*effect, scope, rules) + ")");
     }
     chosen = chosen.with(*effect);
   }
@@ -82,11 +89,16 @@ solver::Effects read_names(const JsonView& names, const EffectScope& scope,
       }
     }
   }
+  if (!(scope.completed(chosen) == chosen)) {
+    throw names.error(
+        "expected 'gyroscopic' beside 'large-displacement' and 'inertia', which contain it");
+  }
   return chosen;
 }
 
 std::string describe_decision(const EffectReason& one, const EffectScope& scope,
                               const Elimination& found, double tolerance, bool estimated) {
+  if (one.active && !found.chosen.has(one.effect)) return "large displacement contains it";
   if (one.change) {
     return "without it and what was left out before it the results change by " +
            std::string(estimated ? "at most " : "") + percent(*one.change) +
@@ -172,6 +184,24 @@ void estimate_large_displacement(const JsonView& analysis, const CaseModel& case
   estimates.effects.push_back({solver::Effect::large_displacement, change, of_motion()});
 }
 
+/// Estimates of loads that set in at once know what vibrates, not how it begins.
+void add_changes_at_start(const JsonView& analysis, const CaseModel& case_model,
+                          const EffectScope& scope, solver::EffectEstimates& estimates) {
+  if (analysis.text("initial_state") == "quasi-static") return;
+  std::vector<solver::Effect> effects;
+  for (const solver::Effect effect :
+       {solver::Effect::shear, solver::Effect::rotary_inertia, solver::Effect::platform_flexibility,
+        solver::Effect::joint_compliance, solver::Effect::link_mass}) {
+    if (scope.applicable.has(effect)) effects.push_back(effect);
+  }
+  const std::vector<double> changes = changes_at_start(analysis, case_model, scope, effects);
+  for (solver::EffectEstimate& one : estimates.effects) {
+    const auto found = std::find(effects.begin(), effects.end(), one.effect);
+    if (found != effects.end())
+      one.change = std::max(one.change, changes[static_cast<std::size_t>(found - effects.begin())]);
+  }
+}
+
 /// What no analysis of this scene has.
 void add_beyond_tier(const EffectScope& scope, double bound, EffectChoice& choice) {
   if (scope.applicable.has(solver::Effect::large_displacement)) return;
@@ -192,6 +222,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
   solver::EffectEstimates estimates;
   if (rules.estimate != nullptr) {
     estimates = rules.estimate(analysis, case_model, scope);
+    if (estimates.outcome.solved()) add_changes_at_start(analysis, case_model, scope, estimates);
     if (estimates.outcome.solved() && scope.applicable.has(solver::Effect::large_displacement))
       estimate_large_displacement(analysis, case_model, tolerance, estimates);
   }
@@ -201,7 +232,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
                                    choice.reasons)
           : eliminate_by_measurement(kind, analysis, case_model, scope, tolerance);
   choice.counters = found.counters;
-  choice.chosen = found.outcome.solved() ? found.chosen : scope.applicable;
+  choice.chosen = found.outcome.solved() ? scope.completed(found.chosen) : scope.applicable;
   for (EffectReason& one : choice.reasons) {
     if (!one.applicable || scope.required.has(one.effect)) continue;
     one.active = choice.chosen.has(one.effect);

@@ -451,6 +451,37 @@ void eliminate_near_tolerance(const AnalysisKind& kind, const JsonView& analysis
   }
 }
 
+std::vector<double> changes_at_start(const JsonView& analysis, CaseModel scene,
+                                     const EffectScope& scope, const std::vector<Effect>& effects) {
+  const Effects whole = scope.without(scope.applicable, Effect::large_displacement);
+  const auto add_sample = [&](Effects active, bool vibrates, Recorder& record) {
+    scene.effects = active;
+    solver::ElastodynamicsOptions options = read_elastodynamics(analysis, scene);
+    options.elastic_inertia = options.elastic_inertia && vibrates;
+    options.gyroscopic = options.gyroscopic && vibrates;
+    options.time.end = std::min(options.time.end, options.time.start + options.time.step);
+    options.time.sample_times = {options.time.start};
+    const solver::ElastodynamicsSolution solution = solver::solve_elastodynamics(options);
+    if (!solution.outcome.solved()) return false;
+    record_solution(build_model(scene, 0), solution.state.front(), -1, record);
+    return true;
+  };
+  const auto samples = [&](Effects active) {
+    Recorder record;
+    const bool solved = add_sample(active, true, record) && add_sample(whole, false, record);
+    return solved ? record.take_quantities() : Quantities();
+  };
+  const Quantities full = samples(whole);
+  const double size = solver::box_diagonal(build_model(scene, 0));
+  std::vector<double> changes;
+  for (const Effect effect : effects) {
+    const Quantities other = samples(scope.without(whole, effect));
+    const bool compared = !full.empty() && !other.empty();
+    changes.push_back(compared ? max_change(changes_between(full, other, size)).value : kInfinite);
+  }
+  return changes;
+}
+
 std::optional<double> large_displacement_at_rest(const JsonView& analysis, const CaseModel& scene,
                                                  const std::vector<double>& times) {
   solver::ElastodynamicsOptions options = read_elastodynamics(analysis, scene);

@@ -50,6 +50,13 @@ void eliminate_near_tolerance(const AnalysisKind& kind, const JsonView& analysis
                               const std::vector<solver::Effect>& near,
                               const std::pair<solver::Effects, double>& beside, Elimination& found);
 
+/// What effects are worth where load and inertia set in at once: by the first sample, in which
+/// inertia alone resists, beside what the loads do statically; infinite without a solution.
+/// @returns of each of `effects`
+[[nodiscard]] std::vector<double> changes_at_start(const JsonView& analysis, CaseModel scene,
+                                                   const EffectScope& scope,
+                                                   const std::vector<solver::Effect>& effects);
+
 /// What geometric stiffening and large displacement change of the motion without vibration, under
 /// loads, weight and nominal inertia at these times of the path; nothing without a solution.
 [[nodiscard]] std::optional<double> large_displacement_at_rest(const JsonView& analysis,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "harness/motion/analyse_elastodynamics.h"
 #include "harness/readers/time_reader.h"
@@ -30,9 +31,7 @@ constexpr const char* kNotTurning = "the frame does not turn";
 constexpr const char* kAtMost = "change of the motion without vibration, at most";
 constexpr const char* kNoDamping = "there is no 'damping'";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
-constexpr const char* kOnPath =
-    "it takes driven actuators, fixed steps and nominal inertia, without superposed modes and Eq. "
-    "25";
+constexpr const char* kOnPath = "the motion has none";
 
 constexpr Texts all(const char* text) {
   return {text, text, text, text};
@@ -131,8 +130,8 @@ EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model)
   return scope;
 }
 
-/// Whether `solve_large_elastodynamics` knows all that a motion is made of.
-bool has_large_displacement(const JsonView& analysis, const solver::Model& model) {
+/// What of a motion `solve_large_elastodynamics` does not know; null where it knows all.
+const char* beyond_large_displacement(const JsonView& analysis, const solver::Model& model) {
   const auto approximations = analysis.find("effects");
   const bool inertia = !approximations || approximations->get("nominal_inertia", true);
   const bool driven = std::all_of(model.supports.begin(), model.supports.end(),
@@ -141,8 +140,22 @@ bool has_large_displacement(const JsonView& analysis, const solver::Model& model
       model.constraints.begin(), model.constraints.end(), [](const solver::LinearConstraint& one) {
         return one.terms[0].first.kind == solver::Coordinate::Kind::rotation;
       });
-  return inertia && driven && !tied && !analysis.get("modal_superposition", false) &&
-         !analysis.has("error_control");
+  const solver::LoadHistory history = read_load_history(analysis);
+  const bool jumps =
+      std::adjacent_find(history.time.begin(), history.time.end()) != history.time.end();
+  const solver::TimeScheme scheme = read_time_options(analysis).scheme;
+  const auto six_nodes = [](const auto& triangle) { return triangle.nodes[3] >= 0; };
+  if (!driven) return "it takes actuators that are driven, not free";
+  if (tied) return "it does not know how Eq. 25 ties rotations";
+  if (!inertia) return "it takes nominal inertia ('effects')";
+  if (analysis.get("modal_superposition", false)) return "it takes no superposed modes";
+  if (analysis.has("error_control")) return "it takes fixed steps, without 'error_control'";
+  if (jumps) return "it takes a 'load_history' without jumps: steps would see none";
+  if (std::isfinite(solver::stability_limit(scheme)))
+    return "it takes a 'scheme' that is stable whatever the step";
+  if (std::any_of(model.triangles.begin(), model.triangles.end(), six_nodes))
+    return "triangles of six nodes do not move yet";
+  return nullptr;
 }
 
 EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
@@ -160,7 +173,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   if (scope.applicable.has(solver::Effect::axial_flexibility)) {
     scope.required = solver::Effects().with(solver::Effect::axial_flexibility);
   }
-  if (has_large_displacement(analysis, model))
+  scope.no_large_displacement = beyond_large_displacement(analysis, model);
+  if (scope.no_large_displacement == nullptr)
     scope.applicable = scope.applicable.with(solver::Effect::large_displacement);
   dependents_of(scope, solver::Effect::inertia) = with_velocity;
   dependents_of(scope, solver::Effect::link_mass) =
@@ -224,6 +238,13 @@ double span(const solver::Model& model, const solver::Member& member) {
 }
 
 }  // namespace
+
+solver::Effects EffectScope::completed(solver::Effects set) const {
+  const bool contains = applicable.has(solver::Effect::gyroscopic) &&
+                        set.has(solver::Effect::large_displacement) &&
+                        set.has(solver::Effect::inertia);
+  return contains ? set.with(solver::Effect::gyroscopic) : set;
+}
 
 solver::Effects EffectScope::without(solver::Effects set, solver::Effect effect) const {
   set = set.without(effect);

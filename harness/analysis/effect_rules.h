@@ -24,7 +24,11 @@ struct EffectScope {
   solver::Effects applicable, required;
   /// By effect: those that are nothing without it, as the mass of links in statics without gravity.
   std::array<solver::Effects, solver::kEffectCount> dependents{};
+  /// Why large displacement is not applicable, where the analysis has it at all.
+  const char* no_large_displacement = nullptr;
 
+  /// With gyroscopic forces, where large displacement with inertia contains them.
+  [[nodiscard]] solver::Effects completed(solver::Effects set) const;
   /// The set less the effect and all that depends on it.
   [[nodiscard]] solver::Effects without(solver::Effects set, solver::Effect effect) const;
 };

@@ -23,13 +23,16 @@ void Progress::show(std::size_t done, std::size_t all) {
   last_shown_ = now;
   const std::chrono::duration<double> spent = now - start_;
   std::string bar = "trammel:";
-  if (terminal_) {
+  if (terminal_ && all > 0) {
     constexpr std::size_t width = 40;
-    const std::size_t filled = width * done / std::max<std::size_t>(all, 1);
+    const std::size_t filled = std::min(width, width * done / all);
     bar = "\r[" + std::string(filled, '#') + std::string(width - filled, '.') + "]";
-    bar_shown_ = true;
+  } else if (terminal_) {
+    bar = "\rtrammel:";
   }
-  std::fprintf(stderr, "%s %zu of %zu %s, %.0f s%s", bar.c_str(), done, all, items_.c_str(),
+  bar_shown_ = terminal_;
+  const std::string of_all = all > 0 ? " of " + std::to_string(all) : "";  // 0: not known
+  std::fprintf(stderr, "%s %zu%s %s, %.0f s%s", bar.c_str(), done, of_all.c_str(), items_.c_str(),
                spent.count(), terminal_ ? "\033[K" : "\n");
   std::fflush(stderr);
 }

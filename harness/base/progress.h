@@ -15,6 +15,7 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+  /// @param all  0 where nobody knows how many there will be
   void show(std::size_t done, std::size_t all);
 
  private:

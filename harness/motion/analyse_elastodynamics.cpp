@@ -118,7 +118,15 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
 /// What says beforehand whether an effect matters, and what the integration took.
 void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const solver::ElastodynamicsEffects& effects = solution.effects;
-  if (std::isnan(effects.first_frequency)) return;  // quasi-static
+  const solver::TransientSummary& summary = solution.summary;
+  if (summary.accepted > 0) {  // neither quasi-static nor of superposed modes
+    record.add("steps", "", static_cast<double>(summary.accepted));
+    record.add("rejected_steps", "", static_cast<double>(summary.rejected));
+    record.add("smallest_step_s", "", summary.smallest_step);
+    record.add("largest_step_s", "", summary.largest_step);
+  }
+  if (std::isnan(effects.first_frequency)) return;  // quasi-static, or of large displacement
+  if (summary.accepted > 0) record.add("step_residual", "", summary.largest_residual);
   record.add("first_frequency_Hz", "", effects.first_frequency);
   record.add("damping_ratio", "", effects.damping_ratio);
   if (std::isfinite(effects.nominal_inertia)) {
@@ -126,13 +134,6 @@ void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& re
   }
   record.add("elastic_inertia_number", "", effects.elastic_inertia);
   record.add("transformation_rate_number", "", effects.gyroscopic);
-  const solver::TransientSummary& summary = solution.summary;
-  if (summary.accepted == 0) return;  // quasi-static, or modes superposed
-  record.add("steps", "", static_cast<double>(summary.accepted));
-  record.add("rejected_steps", "", static_cast<double>(summary.rejected));
-  record.add("smallest_step_s", "", summary.smallest_step);
-  record.add("largest_step_s", "", summary.largest_step);
-  record.add("step_residual", "", summary.largest_residual);
 }
 
 /// Moments of the motion: the nominal pose, and what links and platform deflect from there.
@@ -193,7 +194,8 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   if (!(options.time.end > options.time.start)) {
     throw analysis.error("expected a trajectory of at least two points");
   }
-  require_step_count(analysis["step_s"], options.time.end - options.time.start);
+  if (options.elastic_inertia)
+    require_step_count(analysis["step_s"], options.time.end - options.time.start);
   return options;
 }
 

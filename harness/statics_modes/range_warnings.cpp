@@ -60,8 +60,8 @@ void warn_of_rotation(double rotation, std::vector<Warning>& warnings) {
   if (!(rotation > kMaxLinearRotation)) return;
   add_warning(warnings, {"the largest rotation", rotation, " rad",
                          "linear theory holds up to " + rounded(kMaxLinearRotation) +
-                             " rad, where it neglects theta^2 / 2 = 0.5 %; large-statics and "
-                             "large-motion hold beyond"});
+                             " rad, where it neglects theta^2 / 2 = 0.5 %; large-statics, "
+                             "large-motion and the effect large-displacement hold beyond"});
 }
 
 void warn_of_strain(const solver::Model& model, const solver::StaticSolution& solution,

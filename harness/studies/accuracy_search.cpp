@@ -171,7 +171,8 @@ class Search {
     return {Option{}};
   }
 
-  /// 2^level elements a member, as many divisions of plates, so many refinements of a platform.
+  /// 2^level elements a member, as many divisions of plates, so many refinements of a platform with
+  /// pins: without them its joints are points, and what they give grows with each refinement.
   std::optional<Json> mesh_patch(int level) const {
     if (!json_.contains("model")) return std::nullopt;
     const Json& model = json_["model"];
@@ -187,7 +188,8 @@ class Search {
     }
     if (model.contains("manipulator")) {
       patch["model"]["manipulator"]["links"]["elements"] = count;
-      if (model["manipulator"]["platform"]["kind"] == "triangles")
+      const Json& platform = model["manipulator"]["platform"];
+      if (platform["kind"] == "triangles" && platform.value("pin_radius_m", 0.0) > 0)
         patch["model"]["manipulator"]["platform"]["refinements"] = level;
     }
     if (patch.empty()) return std::nullopt;

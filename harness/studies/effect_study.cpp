@@ -43,7 +43,7 @@ class Study {
     study_.full = compute(all);
     if (!study_.full.outcome.solved()) return std::move(study_);
     study_.chosen = compute(study_.choice.chosen);
-    const std::vector<solver::Effect> able = all.without(study_.scope.required).list();
+    const std::vector<solver::Effect> able = removable(all);
     for (const solver::Effect effect : options_.pairs ? able : std::vector<solver::Effect>())
       study_.singles.push_back(leave_out(all, {effect}));
     for (std::size_t i = 0; options_.pairs && i < able.size(); ++i) {
@@ -52,7 +52,7 @@ class Study {
       }
     }
     const solver::Effects chosen = study_.choice.chosen;
-    for (const solver::Effect effect : chosen.without(study_.scope.required).list()) {
+    for (const solver::Effect effect : removable(chosen)) {
       study_.from_chosen.push_back(leave_out(chosen, {effect}));
     }
     if (options_.repeats > 0) measure_time();
@@ -85,10 +85,17 @@ class Study {
     return run;
   }
 
+  std::vector<solver::Effect> removable(solver::Effects from) const {
+    std::vector<solver::Effect> effects;
+    for (const solver::Effect effect : from.without(study_.scope.required).list())
+      if (!study_.scope.completed(from.without(effect)).has(effect)) effects.push_back(effect);
+    return effects;
+  }
+
   Ablation leave_out(solver::Effects from, const std::vector<solver::Effect>& out) const {
     solver::Effects left = from;
     for (const solver::Effect effect : out) left = study_.scope.without(left, effect);
-    return {out, compute(left)};
+    return {out, compute(study_.scope.completed(left))};
   }
 
   /// All sets in turns, in random order, so that what slows the machine slows all.

@@ -13,6 +13,11 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
+/// How far a part has turned by a time [rad], and how fast [rad/s].
+struct Turn {
+  double time = 0, angle = 0, rate = 0;
+};
+
 TimeFunction extended(const TimeFunction& law, const Path& path) {
   return [law, limits = time_limits(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;
@@ -52,11 +57,23 @@ TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start
   const auto seen = [part, from](const Vector9d& values) {
     return values[part] - (from < 0 ? 0.0 : values[from]);
   };
-  const double before = seen(motion(start).q);
-  const auto law = [motion, seen, before](double t) {
-    const InverseDynamics& now = motion(t);
-    return std::array<double, 3>{std::remainder(seen(now.q) - before, 2 * std::numbers::pi),
-                                 seen(now.q_dot), seen(now.q_ddot)};
+  const auto last = std::make_shared<Turn>(Turn{start, 0, seen(motion(start).q_dot)});
+  const auto law = [motion, seen, before = seen(motion(start).q), last](double t) {
+    constexpr double kSmall = 0.5;  // [rad]
+    while (true) {
+      const double left = t - last->time, limit = kSmall / std::abs(last->rate);
+      double step = std::abs(left) > limit ? std::copysign(limit, left) : left;
+      while (std::abs(seen(motion(last->time + step).q_dot) * step) > 2 * kSmall) step /= 2;
+      const Turn next{step == left ? t : last->time + step, 0, 0};
+      const InverseDynamics& now = motion(next.time);
+      const double within = seen(now.q) - before, turns = 2 * std::numbers::pi;
+      const double angle = within + turns * std::round((last->angle - within) / turns);
+      const std::array<double, 3> found = {angle, seen(now.q_dot), seen(now.q_ddot)};
+      const bool lost = !std::isfinite(angle + found[1]);  // out of reach, or singular
+      if (lost || (next.time == last->time && next.time != t)) return found;
+      *last = {next.time, angle, found[1]};
+      if (next.time == t) return found;
+    }
   };
   return extended(law, path);
 }

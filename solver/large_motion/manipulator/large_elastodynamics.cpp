@@ -92,8 +92,13 @@ class LargeElastodynamics {
   explicit LargeElastodynamics(const ElastodynamicsOptions& options)
       : options_(options),
         rigid_(rigid_manipulator(options.design)),
-        rigid_motion_(once_per_time([rigid = rigid_, path = options.path](double t) {
-          return inverse_dynamics(rigid, at(path, t));
+        rigid_motion_(once_per_time([this, rigid = rigid_](double t) {
+          InverseDynamics found = inverse_dynamics(rigid, at(options_.path, t));
+          if (!found.outcome.solved() && reached_.solved()) {
+            reached_ = found.outcome;
+            reached_.reason = "at t = " + std::to_string(t) + " s: " + reached_.reason;
+          }
+          return found;
         })) {
     rigid_.gravity = options.gravity;
     start_ = at_time(options.time.start);
@@ -131,6 +136,13 @@ class LargeElastodynamics {
     }
     if (!options_.elastic_inertia && options_.time.sample_times.empty())
       throw ModelError("equilibria along a path need times");
+    const std::vector<double>& times = options_.load_history.time;
+    if (std::adjacent_find(times.begin(), times.end()) != times.end())
+      throw ModelError("large displacement goes with a load history without jumps");
+    if (options_.design.platform.six_nodes)
+      throw ModelError("triangles of six nodes do not move yet");
+    if (std::isfinite(stability_limit(options_.time.scheme)))
+      throw ModelError("large displacement takes a scheme that is stable whatever the step");
     if (options_.modal_superposition || options_.time.adaptive || !options_.nominal_inertia) {
       throw ModelError(
           "large displacement goes with fixed steps and nominal inertia, without superposed modes");
@@ -178,7 +190,7 @@ class LargeElastodynamics {
   /// Adds what an equilibrium has taken; its last state, or nothing where it was not reached.
   [[nodiscard]] bool solve_statically(const NominalState& nominal, GeometricallyExactSystem& system,
                                       const std::vector<DrivenEnd>& ends, State& state) {
-    system.set_motion(
+    system.set_accelerations(
         nominal_rates(system, motion_between(nominal, nominal), ends, Rate::acceleration));
     StaticPathOptions options;
     options.first_step = 0.5;
@@ -200,10 +212,17 @@ class LargeElastodynamics {
     return true;
   }
 
-  /// Equilibrium at a time, a sample; or, where asked for, its deflections alone, with what damping
-  /// takes up at these velocities.
-  bool add_equilibrium(double time, VectorXd* deflection = nullptr,
-                       const VectorXd& velocities = VectorXd()) {
+  /// Equilibrium at a time, a sample.
+  bool add_equilibrium(double time) {
+    return solve_at(time, [this](auto& system, State& state, const auto&, const auto& now) {
+      add_sample(system, state, now, now);
+      return true;
+    });
+  }
+
+  /// @param use  of the system, its equilibrium without damping, the driven ends and the time
+  template <class Use>
+  bool solve_at(double time, const Use& use) {
     const NominalState now = at_time(time);
     if (!now.dynamics.outcome.solved()) {
       solution_.outcome = now.dynamics.outcome;
@@ -216,35 +235,54 @@ class LargeElastodynamics {
     still.strain_rate_damping = options_.damping.stiffness;
     GeometricallyExactSystem system(std::move(model), std::move(still));
     State state;
-    if (!solve_statically(now, system, ends, state)) return false;
-    if (deflection == nullptr) {
-      add_sample(system, state, now, now);
+    return solve_statically(now, system, ends, state) && use(system, state, ends, now);
+  }
+
+  /// Deflections with what damping takes up at these rates of them without it.
+  [[nodiscard]] bool solve_with_damping(double time, const VectorXd& rates, VectorXd& deflection) {
+    return solve_at(time, [&](auto& system, State& state, const auto& ends, const auto& now) {
+      const VectorXd nominal =
+          nominal_rates(system, motion_between(now, now), ends, Rate::velocity);
+      system.set_undamped_velocities([&](double) { return nominal; });
+      const VectorXd velocities = state.v = nominal + rates;
+      Equilibrium equilibrium(system);
+      equilibrium.hold_damping(state);
+      state.v.setZero();
+      solution_.outcome = equilibrium.solve(state, 1).outcome;
+      if (!solution_.outcome.solved()) {
+        solution_.outcome.reason = "quasi-static start with damping: " + solution_.outcome.reason;
+        return false;
+      }
+      solution_.evidence.add(Residual::equation_of_motion, equilibrium.backward_error(state));
+      deflection = state.q;
+      state.v = velocities;
+      if (time == options_.time.start) start_sample_ = sample_of(system, state, now, now);
       return true;
-    }
-    if (velocities.size() > 0) {
-      system.set_motion(state.a, velocities);
-      system.set_undamped_velocities([&](double) {
-        return nominal_rates(system, motion_between(now, now), ends, Rate::velocity);
-      });
-      solution_.outcome = Equilibrium(system).solve(state, 1).outcome;
-      start_sample_ = sample_of(system, state, now, now);
-    }
-    *deflection = state.q;
-    return solution_.outcome.solved();
+    });
   }
 
   /// Deflections of the quasi-static start and their rates, by differences of second order; K q = f
-  /// - C v with what damping in proportion to the stiffness takes up.
+  /// - C v with what damping takes up.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
     const TransientOptions& time = options_.time;
-    const double step = std::min(time.step, (time.end - time.start) / 2);
-    VectorXd next, second;
-    if (!add_equilibrium(time.start, &state.q) || !add_equilibrium(time.start + step, &next) ||
-        !add_equilibrium(time.start + 2 * step, &second)) {
-      return false;
+    const double h = std::min(time.step, (time.end - time.start) / 2);
+    std::array<VectorXd, 3> q, damped, v;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto keep = [&](auto&, const State& found, const auto&, const auto&) {
+        q[i] = found.q;
+        return true;
+      };
+      if (!solve_at(time.start + static_cast<double>(i) * h, keep)) return false;
     }
-    rates += (4 * next - 3 * state.q - second) / (2 * step);
-    return add_equilibrium(time.start, &state.q, rates);
+    v = {(4 * q[1] - 3 * q[0] - q[2]) / (2 * h), (q[2] - q[0]) / (2 * h),
+         (3 * q[2] - 4 * q[1] + q[0]) / (2 * h)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!solve_with_damping(time.start + static_cast<double>(i) * h, v[i], damped[i]))
+        return false;
+    }
+    rates += (4 * damped[1] - 3 * damped[0] - damped[2]) / (2 * h);
+    state.q = damped[0];
+    return true;
   }
 
   void integrate_motion() {
@@ -288,11 +326,34 @@ class LargeElastodynamics {
     first.time.sample_times = {first.time.start};
     first.time.end = first.time.start + first.time.step;
     ElastodynamicsSolution linear = solve_elastodynamics(first);
-    if (!linear.outcome.solved()) return;
+    if (!linear.outcome.solved()) {
+      solution_.outcome = linear.outcome;
+      return;
+    }
     StaticSolution& start = solution_.state.front() = std::move(linear.state.front());
     start.member_stress.resize(0);  // no sample has stresses
     start.triangle_stress.resize(0, 3);
     start.node_stress.resize(0, 3);
+  }
+
+  /// After the start: the samples, and where the load history bends, for no step sees a pulse
+  /// within it.
+  [[nodiscard]] std::vector<double> step_ends(std::vector<bool>& is_sample) const {
+    std::vector<double> ends;
+    std::vector<std::pair<double, bool>> all;
+    for (const double time : options_.time.sample_times)
+      if (time != options_.time.start) all.emplace_back(time, true);
+    if (all.empty()) return ends;  // every step is one
+    for (const double time : options_.load_history.time) {
+      const bool near = std::any_of(all.begin(), all.end(), [&](const auto& one) {
+        return std::abs(one.first - time) < 1e-6 * options_.time.step;
+      });
+      if (time > options_.time.start && time < options_.time.end && !near)
+        all.emplace_back(time, false);
+    }
+    std::sort(all.begin(), all.end());
+    for (const auto& [time, sample] : all) ends.push_back(time), is_sample.push_back(sample);
+    return ends;
   }
 
   void integrate_from(const GeometricallyExactSystem& system, State& state) {
@@ -302,15 +363,18 @@ class LargeElastodynamics {
     integration.step = options_.time.step;
     integration.spectral_radius =
         std::clamp(spectral_radius(options_.time.scheme, kInfinity), 0.0, 1.0);
-    std::vector<double>& times = integration.output_times = options_.time.sample_times;
-    if (!times.empty() && times.front() == options_.time.start) times.erase(times.begin());
+    std::vector<bool> is_sample;
+    integration.output_times = step_ends(is_sample);
+    std::size_t observed = 0;
     const ConstrainedSystem& equations = system;
     const IntegrationSummary summary =
         integrate(equations, state, integration, [&](const State& now) {
+          const std::size_t place = observed++;
           if (now.t > options_.time.start) balance_.add(system, now);
-          add_sample(system, now, start_, at_time(now.t));
+          if (place == 0 || place > is_sample.size() || is_sample[place - 1])
+            add_sample(system, now, start_, at_time(now.t));
         });
-    solution_.outcome = summary.outcome;
+    solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;
     solution_.evidence.add(summary.evidence);
     TransientSummary& result = solution_.summary;
     result.accepted = summary.steps;
@@ -384,6 +448,7 @@ class LargeElastodynamics {
   const ElastodynamicsOptions& options_;
   RigidManipulator rigid_;
   RigidMotion rigid_motion_;
+  Outcome reached_;  ///< not solved from where the path leaves what the rigid links reach
   NominalState start_;
   ElastodynamicsSolution solution_;
   StaticSolution start_sample_;  ///< of a quasi-static start

@@ -11,11 +11,13 @@ namespace trammel::solver {
 /// under loads, weight and nominal inertia. Displacements are from the nominal position, section
 /// forces along the axes of the rotated sections; there are no stresses, energies and numbers of
 /// effects, and no quasi-static motion beside a dynamic one. Gyroscopic terms cannot be left out.
-/// Schemes become generalized-alpha with their spectral radius at infinite frequency.
+/// Schemes become generalized-alpha with their spectral radius at infinite frequency. Steps end
+/// where samples are asked for and the load history bends. A quasi-static start: three equilibria
+/// give velocities, what damping takes up at them acts on three more, whose velocities start it.
 /// not_converged: a path of equilibria or a step that does not reach its end.
 /// @throws ModelError  as `solve_elastodynamics`; where an actuator is free or Eq. 25 ties
-///                     rotations; for modal superposition, error control and missing nominal
-///                     inertia.
+///                     rotations; for modal superposition, error control, schemes that are stable
+///                     for small steps only, jumps of the load, and missing nominal inertia.
 [[nodiscard]] ElastodynamicsSolution solve_large_elastodynamics(
     const ElastodynamicsOptions& options);
 

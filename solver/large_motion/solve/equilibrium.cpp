@@ -49,19 +49,32 @@ bool Equilibrium::factor_if_moved(const State& state) {
   return same || factor(state);
 }
 
-void Equilibrium::constrain(const State& state, Eigen::Ref<VectorXd> residual) {
+void Equilibrium::residual_of(const State& state, Eigen::Ref<VectorXd> residual) {
+  const Index n = system_.coordinates();
+  system_.force_residual(state, residual.head(n));
   system_.constraint_residual(state, constraint_residual_, constraint_rate_);
-  residual = constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
+  residual.tail(system_.constraints()) =
+      constraint_residual_ - system_.compliance().cwiseProduct(state.lambda);
   const double tau = system_.strain_rate_damping();
-  for (Index row = 0; tau != 0 && row < residual.size(); ++row)
-    if (system_.compliance()[row] > 0) residual[row] += tau * constraint_rate_[row];
+  for (Index row = 0; tau != 0 && row < system_.constraints(); ++row)
+    if (system_.compliance()[row] > 0) residual[n + row] += tau * constraint_rate_[row];
+  if (held_damping_.size() > 0) residual += held_damping_;
+}
+
+void Equilibrium::hold_damping(const State& moving) {
+  State still = moving;
+  still.v.setZero(system_.coordinates());
+  VectorXd damped(step_.size()), undamped(step_.size());
+  held_damping_.resize(0);
+  residual_of(moving, damped);
+  residual_of(still, undamped);
+  held_damping_ = damped - undamped;
 }
 
 void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& history) {
   const Index n = system_.coordinates(), m = system_.constraints();
   step.resize(n + m);
-  system_.force_residual(state, step.head(n));
-  constrain(state, step.tail(m));
+  residual_of(state, step);
   history.force_residual.push_back(n > 0 ? step.head(n).cwiseProduct(system_.scale()).norm() : 0.0);
   history.constraint_residual.push_back(step.tail(m).norm());
   step = -step;
@@ -95,8 +108,7 @@ double Equilibrium::backward_error(const State& state) {
   matrix_.term_magnitudes(x, terms);
   system_.load_derivative(state, load);
   terms.head(n) += std::abs(state.load) * load.cwiseAbs();
-  system_.force_residual(state, residual.head(n));
-  constrain(state, residual.tail(m));
+  residual_of(state, residual);
   return largest_ratio(residual, terms);
 }
 

@@ -27,6 +27,9 @@ class Equilibrium {
  public:
   explicit Equilibrium(const GeometricallyExactSystem& system, const NewtonOptions& options = {});
 
+  /// What damping takes up at the velocities of a state acts on every state from here on.
+  void hold_damping(const State& moving);
+
   /// Solves at `load` (also the time of drives) from the state given; on failure the state is what
   /// it was.
   [[nodiscard]] NewtonResult solve(State& state, double load);
@@ -52,14 +55,15 @@ class Equilibrium {
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
 
  private:
-  /// g + tau dg/dt - C lambda, with the rates of elastic rows.
-  void constrain(const State& state, Eigen::Ref<VectorXd> residual);
+  /// Forces, and g + tau dg/dt - C lambda with the rates of elastic rows.
+  void residual_of(const State& state, Eigen::Ref<VectorXd> residual);
 
   const GeometricallyExactSystem& system_;
   NewtonOptions options_;
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, step_;
-  State factored_;  ///< of which the tangent was factored last
+  State factored_;         ///< of which the tangent was factored last
+  VectorXd held_damping_;  ///< empty: none
 };
 
 /// Adds a correction (dq, dlambda) times a factor.

@@ -106,7 +106,6 @@ VectorXd GeometricallyExactSystem::damped_velocities(const State& state) const {
 void GeometricallyExactSystem::set_load(State& state, double load) const {
   state.t = state.load = state.gravity = load;
   if (accelerations_.size() > 0) state.a = load * accelerations_;
-  if (velocities_.size() > 0) state.v = load * velocities_;
 }
 
 void GeometricallyExactSystem::add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const {

@@ -49,12 +49,8 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] double nonconservative_work(const State& from, const State& to,
                                             const VectorXd& lambda) const override;
 
-  /// In statics the inertia of these accelerations of the free coordinates acts beside the loads,
-  /// and the damping of these velocities (empty: none).
-  void set_motion(VectorXd accelerations, VectorXd velocities = {}) {
-    accelerations_ = std::move(accelerations);
-    velocities_ = std::move(velocities);
-  }
+  /// In statics the inertia of these accelerations of the free coordinates acts beside the loads.
+  void set_accelerations(VectorXd accelerations) { accelerations_ = std::move(accelerations); }
   /// Damping by mass resists velocities less these of the free coordinates at a time.
   void set_undamped_velocities(std::function<VectorXd(double)> velocities) {
     undamped_velocities_ = std::move(velocities);
@@ -97,9 +93,9 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   SystemParts parts_;
   std::vector<std::vector<Index>> blocks_;
   VectorXd compliance_, scale_;
-  Eigen::SparseMatrix<double> mass_;     ///< total x total
-  VectorXd gravity_;                     ///< M times the gravity field, total
-  VectorXd accelerations_, velocities_;  ///< of statics; empty: none
+  Eigen::SparseMatrix<double> mass_;  ///< total x total
+  VectorXd gravity_;                  ///< M times the gravity field, total
+  VectorXd accelerations_;            ///< of statics; empty: none
   std::function<VectorXd(double)> undamped_velocities_;
   mutable VectorXd padded_, product_;
   mutable std::int64_t element_evaluations_ = 0;

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <string>
 
 #include "solver/large_motion/solve/large_statics.h"
 #include "tests/support/solver/table_1.h"
@@ -117,6 +118,44 @@ BOOST_AUTO_TEST_CASE(damping_by_mass_and_stiffness_does_not_hold_back_the_nomina
   BOOST_TEST(largest(solve_elastodynamics(options).deflection - still.deflection) > 0.03 * size);
 }
 
+/// Rates of an equilibrium without damping are none of the configuration with it: strains that
+/// turned with the links by the difference, times damping, were forces of their own.
+BOOST_AUTO_TEST_CASE(strong_damping_starts_quasi_statically_as_in_linear_theory) {
+  ElastodynamicsOptions options = options_of(ElbowKind::hinged, 5, 0.2, 2e-3);
+  options.wrench = {1e-3, 5e-4, 0};
+  options.gyroscopic = true;
+  options.damping = {.mass = 0.02, .stiffness = 0.2};
+  options.time.quasi_static_start = true;
+  const StaticSolution linear = solve_elastodynamics(options).state.front();
+  const ElastodynamicsSolution large = solve_large_elastodynamics(options);
+  BOOST_TEST_REQUIRE(large.outcome.solved(), large.outcome.reason);
+  BOOST_TEST((large.state.front().resultant_end - linear.resultant_end).norm() <
+             5e-3 * linear.resultant_end.norm());
+  options.wrench = {10, 0, 0};  // Newton's method knew no damping
+  BOOST_TEST(solve_large_elastodynamics(options).outcome.solved());
+}
+
+/// Steps end where the history bends: a pulse of a fifth of a step went unseen.
+BOOST_AUTO_TEST_CASE(a_pulse_within_a_step_is_seen) {
+  ElastodynamicsOptions options = options_of(ElbowKind::welded, 0.01, 0.04, 5e-3);
+  options.wrench = {1, 0, 0};
+  options.load_history = {{0.011, 0.0115, 0.012}, {0, 1, 0}};
+  options.gyroscopic = true;
+  const double linear = largest(solve_elastodynamics(options).deflection);
+  const ElastodynamicsSolution large = solve_large_elastodynamics(options);
+  BOOST_TEST_REQUIRE(large.outcome.solved(), large.outcome.reason);
+  BOOST_TEST(large.time.size() == 9U);
+  BOOST_TEST(largest(large.deflection) == linear, boost::test_tools::tolerance(0.05));
+}
+
+BOOST_AUTO_TEST_CASE(a_path_out_of_reach_is_named) {
+  ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 1e-2);
+  options.path = Line{{0.25, 0.144, 0}, {0.25, 0.9, 0}, 1};
+  options.time.sample_times = {0, 1};
+  const Outcome found = solve_large_elastodynamics(options).outcome;
+  BOOST_TEST(found.reason.find("cannot reach") != std::string::npos, found.reason);
+}
+
 BOOST_AUTO_TEST_CASE(what_it_does_not_know_is_refused) {
   const ElastodynamicsOptions good = options_of(ElbowKind::hinged, 1, 1, 1e-2);
   const auto refuses = [&](const auto& change) {
@@ -131,6 +170,12 @@ BOOST_AUTO_TEST_CASE(what_it_does_not_know_is_refused) {
   refuses([](auto& o) { o.time.adaptive = ErrorControl{}; });
   refuses([](auto& o) { o.modal_superposition = true; });
   refuses([](auto& o) { o.nominal_inertia = false; });
+  refuses([](auto& o) { o.load_history = {{0, 0.5, 0.5, 1}, {0, 0, 1, 1}}; });
+  refuses([](auto& o) { o.time.scheme = newmark(0, 0.5); });
+  refuses([](auto& o) {
+    o.design.platform.kind = PlatformKind::triangles;
+    o.design.platform.six_nodes = true;
+  });
   refuses([](auto& o) { o.elastic_inertia = false, o.time.sample_times.clear(); });
 }
 

@@ -125,7 +125,9 @@ BOOST_AUTO_TEST_CASE(rounding_of_a_fine_mesh_shortens_no_step) {  // 10 points; 
   model.loads = {{1, {0, kElastica[2].load, 0}}};
   const GeometricallyExactSystem system(model, {}, {3});
   std::fesetround(FE_UPWARD);  // spoils the tangent: corrections shrink by 60 each, however short
-  const StaticPath path = follow_static_path(system, {.max_points = 20});
+  StaticPathOptions options;
+  options.max_points = 20;
+  const StaticPath path = follow_static_path(system, options);
   std::fesetround(FE_TONEAREST);
   BOOST_REQUIRE(path.outcome.solved());
   BOOST_TEST(std::abs(tip(system, path)[1] - kElastica[2].transverse) < 4e-9);  // (3 N)^2 2 eps
