@@ -138,7 +138,7 @@ std::string percent_text(const Number& percent) {
   return percent ? rounded(*percent, 3) : "";
 }
 
-std::string error_text(const Number& share) {
+std::string share_text(const Number& share) {
   return share ? percent_text(100 * *share) : "";
 }
 
@@ -159,7 +159,7 @@ void print_sides(const SideComparison& comparison) {
                                    ? ""
                                    : fmt::format("{:.3g} ({:.3g} to {:.3g})", *ratio[0],
                                                  ratio[1].value_or(NAN), ratio[2].value_or(NAN));
-      for (const std::string& cell : {error_text(side.median_error), error_text(side.largest_error),
+      for (const std::string& cell : {share_text(side.median_error), share_text(side.largest_error),
                                       std::to_string(side.rank), over})
         row.push_back(cell);
     }

@@ -266,6 +266,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
     BOOST_TEST_REQUIRE(outcome.status < 2, words << ": " << outcome.err);
     BOOST_TEST(parse_json(outcome.out, words).contains(Json::json_pointer(pointer)), words);
   }
+  BOOST_TEST(contains(run(folder, "cost cantilever.json --accuracy 0.01").out, "Within 1 %:"));
   BOOST_TEST(contains(run(folder, "claims --help").out, "--json"));  // it runs a whole catalogue
   std::istringstream help(run(folder, "--help").out);
   std::string line, name;
