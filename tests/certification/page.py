@@ -9,7 +9,8 @@ import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-PAGE = HERE.parent.parent / "reports/templates/certification.mustache"
+sys.path.insert(0, str(HERE.parent / "support"))
+import page_section  # noqa: E402
 HEADS = ("Rounded", "Checks", "Verdicts that differ", "Digits, median")
 
 
@@ -23,20 +24,16 @@ def main():
     result = json.loads((HERE / "result.json").read_text())
     flips = result["flips"]
     heads = "".join(f'<th scope="col">{head}</th>' for head in HEADS)
-    text = "\n".join([
-        '{{#certification}}<section id="certification">', "  <h2>Digits under other rounding</h2>",
-        f"  <p>{result['of']}, with the solver rounding one way throughout: verdicts that differ, and digits of judged"
-        " numbers that agree, from those rounded to the nearest.</p>", "  <details>",
-        "  <summary>Verdicts and digits by way of rounding</summary>",
-        '  <div class="scroll" role="region" aria-label="Verdicts and digits by way of rounding" tabindex="0">',
-        '  <table class="results-table">', f"    <thead><tr>{heads}</tr></thead>", "    <tbody>",
-        *(row(entry, flips) for entry in result["configurations"]), "    </tbody>", "  </table>", "  </div>", "  <ul>",
-        *(f'    <li>{f["check"]}, rounded {f["configuration"]}: {f["to"]} instead of {f["from"]}</li>' for f in flips),
-        "  </ul>", "  </details>", "</section>{{/certification}}", ""])
-    if "--check" in sys.argv[1:]:
-        return PAGE.read_text() != text
-    PAGE.write_text(text)
-    return 0
+    return page_section.write(
+        "certification", "Digits under other rounding",
+        f"{result['of']}, with the solver rounding one way throughout: verdicts that differ, and digits of judged"
+        " numbers that agree, from those rounded to the nearest.",
+        "Verdicts and digits by way of rounding",
+        [f"    <thead><tr>{heads}</tr></thead>", "    <tbody>",
+         *(row(entry, flips) for entry in result["configurations"]), "    </tbody>"],
+        ["  <ul>",
+         *(f'    <li>{f["check"]}, rounded {f["configuration"]}: {f["to"]} instead of {f["from"]}</li>' for f in flips),
+         "  </ul>"])
 
 
 if __name__ == "__main__":

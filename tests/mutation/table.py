@@ -9,7 +9,9 @@ import sys
 import seeding
 from seeding import KINDS, ROOT
 
-PAGE = ROOT / "reports/templates/detection.mustache"
+sys.path.insert(0, str(ROOT / "tests/support"))
+import page_section  # noqa: E402
+
 HEADS = {"physical": "Physics", "coefficient": "Coefficients", "generic": "Generic", "judging": "Judging"}
 
 
@@ -40,19 +42,12 @@ def table(faults):
 def main():
     faults = seeding.load(sorted((ROOT / "tests/mutation/faults").glob("*.json")))
     noticed = sum(isinstance(f["expected"], list) for f in faults)
-    text = "\n".join([
-        '{{#detection}}<section id="detection">', "  <h2>Faults that are noticed</h2>",
-        f"  <p>Of {len(faults)} faults that were seeded into the program one at a time, {noticed} are noticed."
+    return page_section.write(
+        "detection", "Faults that are noticed",
+        f"Of {len(faults)} faults that were seeded into the program one at a time, {noticed} are noticed."
         " Each counts for the family of cases that notices it first. Coefficients are 1 % off; generic faults are"
-        " drawn from all constants, operators, indices, conditions and terms of the solver.</p>",
-        "  <details>", "  <summary>Faults by family</summary>",
-        '  <div class="scroll" role="region" aria-label="Faults by family" tabindex="0">',
-        '  <table class="results-table">', *table(faults), "  </table>", "  </div>", "  </details>",
-        "</section>{{/detection}}", ""])
-    if "--check" in sys.argv[1:]:
-        return PAGE.read_text() != text
-    PAGE.write_text(text)
-    return 0
+        " drawn from all constants, operators, indices, conditions and terms of the solver.",
+        "Faults by family", table(faults))
 
 
 if __name__ == "__main__":
