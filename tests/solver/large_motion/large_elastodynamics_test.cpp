@@ -5,6 +5,7 @@
 #include <string>
 
 #include "solver/large_motion/solve/large_statics.h"
+#include "tests/support/solver/equal_statics.h"
 #include "tests/support/solver/table_1.h"
 
 BOOST_AUTO_TEST_SUITE(large_elastodynamics)
@@ -48,18 +49,8 @@ BOOST_AUTO_TEST_CASE(without_inertia_every_pose_is_statics_with_large_displaceme
     BOOST_TEST_REQUIRE(motion.outcome.solved(), motion.outcome.reason);
     BOOST_TEST(motion.time.size() == 9U);
     for (std::size_t i = 0; i < motion.time.size(); ++i) {
-      Model model = build_manipulator(options.design, motion.nominal[i].pose);
-      model.loads.push_back({model.find_node("P"), options.wrench});
-      model.gravity = options.gravity;
-      const StaticSolution statics = solve_large_statics(model);
-      const StaticSolution& state = motion.state[i];
-      BOOST_TEST((state.displacement - statics.displacement).norm() <
-                 1e-8 * statics.displacement.norm());
-      BOOST_TEST((state.end_rotation - statics.end_rotation).norm() <
-                 1e-8 * statics.end_rotation.norm());
-      BOOST_TEST((state.reaction - statics.reaction).norm() < 1e-8 * statics.reaction.norm());
-      BOOST_TEST((state.resultant_end - statics.resultant_end).norm() <
-                 1e-8 * statics.resultant_end.norm());
+      const Model model = static_model(options, motion.nominal[i]);
+      check_equal_statics(motion.state[i], solve_large_statics(model), 1e-8, 1e-8);
     }
   }
 }

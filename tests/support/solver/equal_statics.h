@@ -1,0 +1,34 @@
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+
+#include "solver/elastodynamics/elastodynamics.h"
+#include "solver/manipulator/manipulator.h"
+
+namespace trammel::solver {
+
+/// The manipulator of a motion where it is at one pose of its path, with its load at P and weight.
+inline Model static_model(const ElastodynamicsOptions& options, const TrajectoryPoint& point) {
+  Model model = build_manipulator(options.design, point.pose);
+  model.loads.push_back({model.find_node("P"), options.wrench});
+  model.gravity = options.gravity;
+  return model;
+}
+
+/// Displacements, with rotations where every node has one, and rotations of the members' ends
+/// within a share `motion` of their norm, reactions and resultants at these ends within `force`.
+inline void check_equal_statics(const StaticSolution& found, const StaticSolution& expected,
+                                double motion, double force) {
+  const auto check = [](const char* what, const auto& value, const auto& truth, double share) {
+    BOOST_TEST((value - truth).norm() < share * truth.norm(), what);
+  };
+  const Index columns = expected.displacement.allFinite() ? 3 : 2;
+  check("displacement", found.displacement.leftCols(columns),
+        expected.displacement.leftCols(columns), motion);
+  check("rotation of members' ends", found.end_rotation, expected.end_rotation, motion);
+  check("reaction", found.reaction, expected.reaction, force);
+  check("resultant at the start", found.resultant_start, expected.resultant_start, force);
+  check("resultant at the end", found.resultant_end, expected.resultant_end, force);
+}
+
+}  // namespace trammel::solver
