@@ -10,6 +10,7 @@
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/effects/dynamic_effect_estimates.h"
 #include "solver/elements/frame_element.h"
+#include "solver/large_motion/manipulator/large_elastodynamics.h"
 
 namespace trammel::harness {
 namespace {
@@ -31,7 +32,6 @@ constexpr const char* kNotTurning = "the frame does not turn";
 constexpr const char* kAtMost = "change of the motion without vibration, at most";
 constexpr const char* kNoDamping = "there is no 'damping'";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
-constexpr const char* kOnPath = "the motion has none";
 
 constexpr Texts all(const char* text) {
   return {text, text, text, text};
@@ -71,7 +71,7 @@ const EffectWords& words_of(solver::Effect effect) {
       /* geometric stiffening */
       {all(""), {kLarge, "there are no loads", "it comes with large displacement", kLarge}},
       /* large displacement */
-      {in_motion(kAtMost), {kLarge, "modes are small motions", kOnPath, kLarge}},
+      {in_motion(kAtMost), {kLarge, "modes are small motions", "", kLarge}},
   }};
   return table[static_cast<std::size_t>(effect)];
 }
@@ -130,34 +130,6 @@ EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model)
   return scope;
 }
 
-/// What of a motion `solve_large_elastodynamics` does not know; null where it knows all.
-const char* beyond_large_displacement(const JsonView& analysis, const solver::Model& model) {
-  const auto approximations = analysis.find("effects");
-  const bool inertia = !approximations || approximations->get("nominal_inertia", true);
-  const bool driven = std::all_of(model.supports.begin(), model.supports.end(),
-                                  [](const solver::Support& support) { return support.fixed[2]; });
-  const bool tied = std::any_of(
-      model.constraints.begin(), model.constraints.end(), [](const solver::LinearConstraint& one) {
-        return one.terms[0].first.kind == solver::Coordinate::Kind::rotation;
-      });
-  const solver::LoadHistory history = read_load_history(analysis);
-  const bool jumps =
-      std::adjacent_find(history.time.begin(), history.time.end()) != history.time.end();
-  const solver::TimeScheme scheme = read_time_options(analysis).scheme;
-  const auto six_nodes = [](const auto& triangle) { return triangle.nodes[3] >= 0; };
-  if (!driven) return "it takes actuators that are driven, not free";
-  if (tied) return "it does not know how Eq. 25 ties rotations";
-  if (!inertia) return "it takes nominal inertia ('effects')";
-  if (analysis.get("modal_superposition", false)) return "it takes no superposed modes";
-  if (analysis.has("error_control")) return "it takes fixed steps, without 'error_control'";
-  if (jumps) return "it takes a 'load_history' without jumps: steps would see none";
-  if (std::isfinite(solver::stability_limit(scheme)))
-    return "it takes a 'scheme' that is stable whatever the step";
-  if (std::any_of(model.triangles.begin(), model.triangles.end(), six_nodes))
-    return "triangles of six nodes do not move yet";
-  return nullptr;
-}
-
 EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model)
@@ -173,7 +145,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   if (scope.applicable.has(solver::Effect::axial_flexibility)) {
     scope.required = solver::Effects().with(solver::Effect::axial_flexibility);
   }
-  scope.no_large_displacement = beyond_large_displacement(analysis, model);
+  scope.no_large_displacement =
+      solver::beyond_large_displacement(read_motion_options(analysis), model);
   if (scope.no_large_displacement == nullptr)
     scope.applicable = scope.applicable.with(solver::Effect::large_displacement);
   dependents_of(scope, solver::Effect::inertia) = with_velocity;

@@ -151,6 +151,17 @@ void draw_motion(const CaseModel& case_model, const solver::ElastodynamicsSoluti
 
 }  // namespace
 
+solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis) {
+  solver::ElastodynamicsOptions options;
+  options.load_history = read_load_history(analysis);
+  if (const auto approximations = analysis.find("effects"))
+    options.nominal_inertia = approximations->get("nominal_inertia", true);
+  options.time = read_time_options(analysis);
+  options.time.quasi_static_start = analysis.text("initial_state") == "quasi-static";
+  options.modal_superposition = analysis.get("modal_superposition", false);
+  return options;
+}
+
 solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
                                                   const CaseModel& case_model) {
   // The same things have no place here as in the dynamics of rigid links.
@@ -159,12 +170,11 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   if (!loads_at_P_only(case_model)) {
     throw analysis.error("expected loads at P only: those elsewhere would turn with the platform");
   }
-  solver::ElastodynamicsOptions options;
+  solver::ElastodynamicsOptions options = read_motion_options(analysis);
   const solver::Effects effects = case_model.effects;
   options.design = solver::restrict_effects(*case_model.manipulator, effects);
   options.path = *case_model.path;
   for (const solver::NodalLoad& load : case_model.structure.loads) options.wrench += load.force;
-  options.load_history = read_load_history(analysis);
   if (effects.has(solver::Effect::gravity)) options.gravity = case_model.structure.gravity;
   options.damping = {.mass = 0, .stiffness = 0};
   if (effects.has(solver::Effect::damping))
@@ -172,16 +182,12 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   options.elastic_inertia = effects.has(solver::Effect::inertia);
   options.gyroscopic = effects.has(solver::Effect::gyroscopic);
   if (const auto approximations = analysis.find("effects")) {
-    options.nominal_inertia = approximations->get("nominal_inertia", true);
     const bool rates = approximations->get("transformation_rate_terms", false);
     if (rates && !approximations->get("elastic_inertia", true)) {
       throw(*approximations)["transformation_rate_terms"].error(
           "expected elastic inertia with it: these terms are a part of it");
     }
   }
-  options.time = read_time_options(analysis);
-  options.time.quasi_static_start = analysis.text("initial_state") == "quasi-static";
-  options.modal_superposition = analysis.get("modal_superposition", false);
   if (options.modal_superposition && !solver::stands_still(options.path)) {
     throw analysis["modal_superposition"].error(
         "expected a platform that stands still: modes are superposed where M and K are constant");

@@ -11,6 +11,9 @@ namespace trammel::harness {
                                                 const CaseModel& case_model, bool draw,
                                                 Recorder& record);
 
+/// What the analysis's own words say of a motion, whatever the scene and its effects.
+[[nodiscard]] solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis);
+
 /// The motion that a case of elastodynamics describes, with the scene's effects.
 /// @throws InputError  where something stands beside the manipulator or the trajectory has no time.
 [[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,

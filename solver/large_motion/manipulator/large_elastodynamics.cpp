@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "solver/elastodynamics/elastodynamics_recorder.h"
@@ -33,6 +36,14 @@ struct DrivenEnd {
   Index node = 0, beside = 0;
   Index part = 0, from = 0;  ///< of `InverseDynamics::q`
   std::size_t member = 0;
+};
+
+/// An equilibrium at one time.
+struct StaticInstant {
+  NominalState nominal;
+  std::vector<DrivenEnd> ends;
+  std::unique_ptr<GeometricallyExactSystem> system;
+  State state;
 };
 
 /// Splits the joints that resist turning.
@@ -102,7 +113,11 @@ class LargeElastodynamics {
         })) {
     rigid_.gravity = options.gravity;
     start_ = at_time(options.time.start);
-    if (start_.dynamics.outcome.solved()) require_driven();
+    if (!start_.dynamics.outcome.solved()) return;
+    if (const char* reason = beyond_large_displacement(options_, start_.model))
+      throw ModelError(std::string("large displacement: ") + reason);
+    if (!options_.elastic_inertia && options_.time.sample_times.empty())
+      throw ModelError("equilibria along a path need times");
   }
 
   ElastodynamicsSolution run() {
@@ -112,7 +127,9 @@ class LargeElastodynamics {
       integrate_motion();
     } else {
       for (const double time : options_.time.sample_times) {
-        if (!add_equilibrium(time)) break;
+        const std::optional<StaticInstant> found = equilibrium_at(time);
+        if (!found) break;
+        add_sample(*found->system, found->state, found->nominal, found->nominal);
       }
     }
     solution_.evidence.add(Residual::equation_of_motion, balance_.residual());
@@ -125,30 +142,6 @@ class LargeElastodynamics {
   }
 
  private:
-  void require_driven() const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!start_.model.supports[i].fixed[2])
-        throw ModelError("large displacement along a path needs actuators that are driven");
-    }
-    for (const LinearConstraint& constraint : start_.model.constraints) {
-      if (constraint.terms[0].first.kind == Coordinate::Kind::rotation)
-        throw ModelError("large displacement does not know how Eq. 25 ties rotations");
-    }
-    if (!options_.elastic_inertia && options_.time.sample_times.empty())
-      throw ModelError("equilibria along a path need times");
-    const std::vector<double>& times = options_.load_history.time;
-    if (std::adjacent_find(times.begin(), times.end()) != times.end())
-      throw ModelError("large displacement goes with a load history without jumps");
-    if (options_.design.platform.six_nodes)
-      throw ModelError("triangles of six nodes do not move yet");
-    if (std::isfinite(stability_limit(options_.time.scheme)))
-      throw ModelError("large displacement takes a scheme that is stable whatever the step");
-    if (options_.modal_superposition || options_.time.adaptive || !options_.nominal_inertia) {
-      throw ModelError(
-          "large displacement goes with fixed steps and nominal inertia, without superposed modes");
-    }
-  }
-
   [[nodiscard]] NominalState at_time(double time) const {
     NominalState state;
     const Vector3d wrench = options_.load_history.at(time) * options_.wrench;
@@ -187,78 +180,62 @@ class LargeElastodynamics {
     return large_motion;
   }
 
-  /// Adds what an equilibrium has taken; its last state, or nothing where it was not reached.
-  [[nodiscard]] bool solve_statically(const NominalState& nominal, GeometricallyExactSystem& system,
-                                      const std::vector<DrivenEnd>& ends, State& state) {
-    system.set_accelerations(
-        nominal_rates(system, motion_between(nominal, nominal), ends, Rate::acceleration));
+  /// Equilibrium at a time under loads, weight and nominal inertia, without damping; nothing where
+  /// it was not reached.
+  [[nodiscard]] std::optional<StaticInstant> equilibrium_at(double time) {
+    StaticInstant now{at_time(time), {}, {}, {}};
+    if (!now.nominal.dynamics.outcome.solved()) {
+      solution_.outcome = now.nominal.dynamics.outcome;
+      return std::nullopt;
+    }
+    Model model = now.nominal.model;
+    now.ends = add_driven_ends(model);
+    LargeMotionModel still = drives(model, now.ends, false);
+    still.mass_damping = options_.damping.mass;
+    still.strain_rate_damping = options_.damping.stiffness;
+    now.system = std::make_unique<GeometricallyExactSystem>(std::move(model), std::move(still));
+    now.system->set_accelerations(rates_of(now, Rate::acceleration));
     StaticPathOptions options;
     options.first_step = 0.5;
     options.small_response = 0.01;
     options.keep_points = false;
-    StaticPath path = follow_static_path(system, options);
+    StaticPath path = follow_static_path(*now.system, options);
     Counters& counters = solution_.summary.counters;
     counters += path.counters;
-    count_tangents(system, path.counters.factorizations, false, counters);
+    count_tangents(*now.system, path.counters.factorizations, false, counters);
     solution_.outcome = path.outcome;
     if (!path.outcome.solved()) {
-      solution_.outcome.reason =
-          "at t = " + std::to_string(nominal.point.time) + " s: " + path.outcome.reason;
-      return false;
+      solution_.outcome.reason = "at t = " + std::to_string(time) + " s: " + path.outcome.reason;
+      return std::nullopt;
     }
     solution_.evidence.add(Residual::equation_of_motion,
                            path.evidence.largest(Residual::equilibrium));
-    state = std::move(path.points.back().state);
-    return true;
+    now.state = std::move(path.points.back().state);
+    return now;
   }
 
-  /// Equilibrium at a time, a sample.
-  bool add_equilibrium(double time) {
-    return solve_at(time, [this](auto& system, State& state, const auto&, const auto& now) {
-      add_sample(system, state, now, now);
-      return true;
-    });
+  [[nodiscard]] VectorXd rates_of(const StaticInstant& now, Rate rate) const {
+    return nominal_rates(*now.system, motion_between(now.nominal, now.nominal), now.ends, rate);
   }
 
-  /// @param use  of the system, its equilibrium without damping, the driven ends and the time
-  template <class Use>
-  bool solve_at(double time, const Use& use) {
-    const NominalState now = at_time(time);
-    if (!now.dynamics.outcome.solved()) {
-      solution_.outcome = now.dynamics.outcome;
+  /// Moves an equilibrium to where it holds with what damping takes up at these rates of its
+  /// deflections.
+  [[nodiscard]] bool add_damping(StaticInstant& now, const VectorXd& rates) {
+    State& state = now.state;
+    const VectorXd nominal = rates_of(now, Rate::velocity);
+    now.system->set_undamped_velocities([nominal](double) { return nominal; });
+    const VectorXd velocities = state.v = nominal + rates;
+    Equilibrium equilibrium(*now.system);
+    equilibrium.hold_damping(state);
+    state.v.setZero();
+    solution_.outcome = equilibrium.solve(state, 1).outcome;
+    if (!solution_.outcome.solved()) {
+      solution_.outcome.reason = "quasi-static start with damping: " + solution_.outcome.reason;
       return false;
     }
-    Model model = now.model;
-    const std::vector<DrivenEnd> ends = add_driven_ends(model);
-    LargeMotionModel still = drives(model, ends, false);
-    still.mass_damping = options_.damping.mass;
-    still.strain_rate_damping = options_.damping.stiffness;
-    GeometricallyExactSystem system(std::move(model), std::move(still));
-    State state;
-    return solve_statically(now, system, ends, state) && use(system, state, ends, now);
-  }
-
-  /// Deflections with what damping takes up at these rates of them without it.
-  [[nodiscard]] bool solve_with_damping(double time, const VectorXd& rates, VectorXd& deflection) {
-    return solve_at(time, [&](auto& system, State& state, const auto& ends, const auto& now) {
-      const VectorXd nominal =
-          nominal_rates(system, motion_between(now, now), ends, Rate::velocity);
-      system.set_undamped_velocities([&](double) { return nominal; });
-      const VectorXd velocities = state.v = nominal + rates;
-      Equilibrium equilibrium(system);
-      equilibrium.hold_damping(state);
-      state.v.setZero();
-      solution_.outcome = equilibrium.solve(state, 1).outcome;
-      if (!solution_.outcome.solved()) {
-        solution_.outcome.reason = "quasi-static start with damping: " + solution_.outcome.reason;
-        return false;
-      }
-      solution_.evidence.add(Residual::equation_of_motion, equilibrium.backward_error(state));
-      deflection = state.q;
-      state.v = velocities;
-      if (time == options_.time.start) start_sample_ = sample_of(system, state, now, now);
-      return true;
-    });
+    solution_.evidence.add(Residual::equation_of_motion, equilibrium.backward_error(state));
+    state.v = velocities;
+    return true;
   }
 
   /// Deflections of the quasi-static start and their rates, by differences of second order; K q = f
@@ -266,22 +243,24 @@ class LargeElastodynamics {
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
     const TransientOptions& time = options_.time;
     const double h = std::min(time.step, (time.end - time.start) / 2);
-    std::array<VectorXd, 3> q, damped, v;
+    std::array<std::optional<StaticInstant>, 3> found;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto keep = [&](auto&, const State& found, const auto&, const auto&) {
-        q[i] = found.q;
-        return true;
-      };
-      if (!solve_at(time.start + static_cast<double>(i) * h, keep)) return false;
+      found[i] = equilibrium_at(time.start + static_cast<double>(i) * h);
+      if (!found[i]) return false;
     }
-    v = {(4 * q[1] - 3 * q[0] - q[2]) / (2 * h), (q[2] - q[0]) / (2 * h),
-         (3 * q[2] - 4 * q[1] + q[0]) / (2 * h)};
+    const auto differences = [&found, h] {
+      const VectorXd &a = found[0]->state.q, &b = found[1]->state.q, &c = found[2]->state.q;
+      return std::array<VectorXd, 3>{(4 * b - 3 * a - c) / (2 * h), (c - a) / (2 * h),
+                                     (3 * c - 4 * b + a) / (2 * h)};
+    };
+    const std::array<VectorXd, 3> undamped = differences();
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!solve_with_damping(time.start + static_cast<double>(i) * h, v[i], damped[i]))
-        return false;
+      if (!add_damping(*found[i], undamped[i])) return false;
     }
-    rates += (4 * damped[1] - 3 * damped[0] - damped[2]) / (2 * h);
-    state.q = damped[0];
+    rates += differences()[0];
+    state.q = found[0]->state.q;
+    start_sample_ =
+        sample_of(*found[0]->system, found[0]->state, found[0]->nominal, found[0]->nominal);
     return true;
   }
 
@@ -313,14 +292,14 @@ class LargeElastodynamics {
     if (solution_.state.empty() || solution_.time.front() != options_.time.start) return;
     // The integrator starts with the accelerations of an implicit step: not those of the motion.
     if (!options_.time.quasi_static_start) {
-      start_suddenly();
+      replace_start_by_linear_theory();
     } else {
       solution_.state.front() = std::move(start_sample_);
     }
   }
 
   /// Before anything has moved linear theory is exact; the forces of that moment are inertia alone.
-  void start_suddenly() {
+  void replace_start_by_linear_theory() {
     ElastodynamicsOptions first = options_;
     first.gyroscopic = true;
     first.time.sample_times = {first.time.start};
@@ -336,23 +315,28 @@ class LargeElastodynamics {
     start.node_stress.resize(0, 3);
   }
 
-  /// After the start: the samples, and where the load history bends, for no step sees a pulse
-  /// within it.
-  [[nodiscard]] std::vector<double> step_ends(std::vector<bool>& is_sample) const {
-    std::vector<double> ends;
-    std::vector<std::pair<double, bool>> all;
+  /// A time after the start at which a step ends.
+  struct StepEnd {
+    double time;
+    bool is_sample;
+  };
+
+  /// Samples, and where the load history bends, for no step sees a pulse within it; none: every
+  /// step is a sample.
+  [[nodiscard]] std::vector<StepEnd> step_ends() const {
+    std::vector<StepEnd> ends;
     for (const double time : options_.time.sample_times)
-      if (time != options_.time.start) all.emplace_back(time, true);
-    if (all.empty()) return ends;  // every step is one
+      if (time != options_.time.start) ends.push_back({time, true});
+    if (ends.empty()) return ends;
     for (const double time : options_.load_history.time) {
-      const bool near = std::any_of(all.begin(), all.end(), [&](const auto& one) {
-        return std::abs(one.first - time) < 1e-6 * options_.time.step;
+      const bool is_near_sample = std::any_of(ends.begin(), ends.end(), [&](const StepEnd& end) {
+        return std::abs(end.time - time) < 1e-6 * options_.time.step;
       });
-      if (time > options_.time.start && time < options_.time.end && !near)
-        all.emplace_back(time, false);
+      if (time > options_.time.start && time < options_.time.end && !is_near_sample)
+        ends.push_back({time, false});
     }
-    std::sort(all.begin(), all.end());
-    for (const auto& [time, sample] : all) ends.push_back(time), is_sample.push_back(sample);
+    std::sort(ends.begin(), ends.end(),
+              [](const StepEnd& a, const StepEnd& b) { return a.time < b.time; });
     return ends;
   }
 
@@ -363,15 +347,15 @@ class LargeElastodynamics {
     integration.step = options_.time.step;
     integration.spectral_radius =
         std::clamp(spectral_radius(options_.time.scheme, kInfinity), 0.0, 1.0);
-    std::vector<bool> is_sample;
-    integration.output_times = step_ends(is_sample);
+    const std::vector<StepEnd> ends = step_ends();
+    for (const StepEnd& end : ends) integration.output_times.push_back(end.time);
     std::size_t observed = 0;
     const ConstrainedSystem& equations = system;
     const IntegrationSummary summary =
         integrate(equations, state, integration, [&](const State& now) {
           const std::size_t place = observed++;
           if (now.t > options_.time.start) balance_.add(system, now);
-          if (place == 0 || place > is_sample.size() || is_sample[place - 1])
+          if (place == 0 || place > ends.size() || ends[place - 1].is_sample)
             add_sample(system, now, start_, at_time(now.t));
         });
     solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;
@@ -461,6 +445,29 @@ class LargeElastodynamics {
 }  // namespace trammel::solver::large_motion
 
 namespace trammel::solver {
+
+const char* beyond_large_displacement(const ElastodynamicsOptions& options, const Model& model) {
+  const bool driven = std::all_of(model.supports.begin(), model.supports.end(),
+                                  [](const Support& support) { return support.fixed[2]; });
+  const bool tied = std::any_of(
+      model.constraints.begin(), model.constraints.end(), [](const LinearConstraint& constraint) {
+        return constraint.terms[0].first.kind == Coordinate::Kind::rotation;
+      });
+  const bool six_nodes = std::any_of(model.triangles.begin(), model.triangles.end(),
+                                     [](const Triangle& triangle) { return triangle.quadratic(); });
+  const std::vector<double>& times = options.load_history.time;
+  if (!driven) return "it takes actuators that are driven, not free";
+  if (tied) return "it does not know how Eq. 25 ties rotations";
+  if (!options.nominal_inertia) return "it takes nominal inertia";
+  if (options.modal_superposition) return "it takes no superposed modes";
+  if (options.time.adaptive) return "it takes fixed steps, without control of their error";
+  if (std::adjacent_find(times.begin(), times.end()) != times.end())
+    return "it takes a load history without jumps: steps would see none";
+  if (std::isfinite(stability_limit(options.time.scheme)))
+    return "it takes a scheme that is stable whatever the step";
+  if (six_nodes) return "triangles of six nodes do not move yet";
+  return nullptr;
+}
 
 ElastodynamicsSolution solve_large_elastodynamics(const ElastodynamicsOptions& options) {
   return large_motion::LargeElastodynamics(options).run();

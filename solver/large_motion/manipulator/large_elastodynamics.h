@@ -15,10 +15,14 @@ namespace trammel::solver {
 /// where samples are asked for and the load history bends. A quasi-static start: three equilibria
 /// give velocities, what damping takes up at them acts on three more, whose velocities start it.
 /// not_converged: a path of equilibria or a step that does not reach its end.
-/// @throws ModelError  as `solve_elastodynamics`; where an actuator is free or Eq. 25 ties
-///                     rotations; for modal superposition, error control, schemes that are stable
-///                     for small steps only, jumps of the load, and missing nominal inertia.
+/// @throws ModelError  as `solve_elastodynamics`; where it is `beyond_large_displacement`; without
+///                     elastic inertia and times of samples.
 [[nodiscard]] ElastodynamicsSolution solve_large_elastodynamics(
     const ElastodynamicsOptions& options);
+
+/// What of a motion `solve_large_elastodynamics` does not know; null where it knows all.
+/// @param model  of the manipulator where the motion starts
+[[nodiscard]] const char* beyond_large_displacement(const ElastodynamicsOptions& options,
+                                                    const Model& model);
 
 }  // namespace trammel::solver
