@@ -21,6 +21,7 @@
 #include "harness/run/stored_results.h"
 #include "harness/studies/accuracy_search.h"
 #include "harness/studies/cost_study_of_sweeps.h"
+#include "harness/studies/roofline.h"
 
 namespace trammel::harness {
 namespace {
@@ -283,6 +284,7 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   }
   results::Results results = results_of({}, {}, references);
   results.cost = cost_results(measured, extent, options.timing);
+  if (command.what.empty()) results.cost->roofline = measure_roofline();
   const fs::path unfinished = fs::path(command.out) / results::kUnfinishedFolder;
   fs::create_directories(unfinished);
   write_results(results, unfinished);
@@ -315,7 +317,9 @@ results::CostStudies quick_cost(const References& references, const fs::path& st
     }
     show();
   }
-  return cost_results(measured, SweepExtent::quick, options.timing);
+  results::CostStudies found = cost_results(measured, SweepExtent::quick, options.timing);
+  found.roofline = measure_roofline();
+  return found;
 }
 
 }  // namespace trammel::harness

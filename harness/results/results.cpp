@@ -179,8 +179,15 @@ inline constexpr auto kFields<CostStudy> =
                                 baseline, wall_s, settings, cheapest, repeatability, conclusion),
                TRAMMEL_OPTIONAL(CostStudy, description, outputs)};
 template <>
+inline constexpr auto kFields<LoopRate> =
+    std::tuple{TRAMMEL_REQUIRED(LoopRate, title, operations, bytes, cpu_s)};
+template <>
+inline constexpr auto kFields<Roofline> =
+    std::tuple{TRAMMEL_REQUIRED(Roofline, peak_flop_per_s, bandwidth_B_per_s, loops)};
+template <>
 inline constexpr auto kFields<CostStudies> = std::tuple{
-    TRAMMEL_REQUIRED(CostStudies, sweep, seed, repeats, equal_within, diverged_above, studies)};
+    TRAMMEL_REQUIRED(CostStudies, sweep, seed, repeats, equal_within, diverged_above, studies),
+    TRAMMEL_OPTIONAL(CostStudies, roofline)};
 template <>
 inline constexpr auto kFields<Environment> =
     std::tuple{TRAMMEL_REQUIRED(Environment, trammel, commit, date, compiler, flags, build_type,

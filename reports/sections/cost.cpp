@@ -197,6 +197,27 @@ Data study_data(const CostPanel& panel) {
   return data;
 }
 
+/// Loops beside the machine: rates, and shares of the lower of what its core and memory allow.
+void set_roofline(Data& section, const Roofline& roofline) {
+  Data rows = list();
+  for (const LoopRate& loop : roofline.loops) {
+    const double flops = loop.operations / loop.cpu_s, bytes = loop.bytes / loop.cpu_s;
+    const double allowed = std::min(roofline.peak_flop_per_s,
+                                    loop.operations / loop.bytes * roofline.bandwidth_B_per_s);
+    Data row = object();
+    row.set("loop", loop.title);
+    row.set("flops", trimmed(flops / 1e9, 3));
+    row.set("peak_share", trimmed(100 * flops / roofline.peak_flop_per_s, 2));
+    row.set("bytes", trimmed(bytes / 1e9, 3));
+    row.set("bandwidth_share", trimmed(100 * bytes / roofline.bandwidth_B_per_s, 2));
+    row.set("allowed_share", trimmed(100 * flops / allowed, 2));
+    rows.push_back(row);
+  }
+  section.set("peak", trimmed(roofline.peak_flop_per_s / 1e9, 3));
+  section.set("bandwidth", trimmed(roofline.bandwidth_B_per_s / 1e9, 3));
+  section.set("loops", rows);
+}
+
 /// All studies in one table: the cheapest setting for each accuracy.
 void set_overview(Data& section, const std::vector<CostPanel>& panels) {
   Data rows = list();
@@ -253,6 +274,8 @@ Data cost_section(const Results& results, const std::vector<Family>& families,
   section.set("words", studies_count + ". " + first.title + ": " + first.conclusion);
   set_overview(section, panels);
   section.set("studies", studies);
+  set_flag(section, "has_roofline", cost.roofline.has_value());
+  if (cost.roofline) set_roofline(section, *cost.roofline);
   return section;
 }
 
