@@ -301,21 +301,28 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   return any_lost ? 1 : 0;
 }
 
+std::vector<std::function<void()>> quick_cost_work(const References& references,
+                                                   const fs::path& store, bool resume) {
+  std::vector<std::function<void()>> work;
+  for (const fs::path& file : cost_study_files())
+    work.emplace_back([file, &references, store, resume] {
+      (void)measure_or_find(load_cost_study(file, SweepExtent::quick, references), {}, references,
+                            store, resume);
+    });
+  return work;
+}
+
 results::CostStudies quick_cost(const References& references, const fs::path& store, bool resume,
                                 std::vector<std::string>& error_messages) {
-  Progress progress("cost studies");
-  const std::vector<fs::path> files = cost_study_files();
   std::vector<MeasuredStudy> measured;
-  const auto show = [&] { progress.show(measured.size() + error_messages.size(), files.size()); };
-  const CostOptions options{{}, [&](std::size_t, std::size_t) { show(); }};
-  for (const fs::path& file : files) {
+  const CostOptions options;
+  for (const fs::path& file : cost_study_files()) {
     try {
       measured.push_back(measure_or_find(load_cost_study(file, SweepExtent::quick, references),
                                          options, references, store, resume));
     } catch (const InputError& error) {
       error_messages.emplace_back(error.what());
     }
-    show();
   }
   results::CostStudies found = cost_results(measured, SweepExtent::quick, options.timing);
   found.roofline = measure_roofline();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ struct CostCommand {
 
 /// What accuracy costs in time. @returns the exit status
 int cost_command(const CostCommand& command, const Renderers& renderers);
+
+/// To measure the quick sweep of each study of the catalogue into the store.
+/// @throws InputError  from the work: what `quick_cost` says of that study
+[[nodiscard]] std::vector<std::function<void()>> quick_cost_work(const References& references,
+                                                                 const std::filesystem::path& store,
+                                                                 bool resume);
 
 /// The quick sweep of every study of the catalogue, as results.json has it.
 /// @param store, resume   as `measure_or_find`

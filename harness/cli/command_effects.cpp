@@ -280,6 +280,33 @@ void write_page(const EffectsCommand& command, std::vector<results::EffectScene>
                    ")");
 }
 
+/// A case that knows effects.
+struct EffectCase {
+  std::string id;
+  Document document;
+};
+
+std::vector<EffectCase> catalogue_effect_cases() {
+  std::vector<EffectCase> found;
+  for (const Case& given : Catalogue().load({"effects"})) {
+    Document document = patched(given, kBaseVariant);
+    if (knows_effects(document)) found.push_back({given.id(), std::move(document)});
+  }
+  return found;
+}
+
+/// What the choice of effects comes to in one case; nothing where the whole has no solution.
+EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& store, bool resume) {
+  const auto measure = [&] {
+    const EffectStudy study = study_effects(given.document, {.pairs = false, .repeats = 3});
+    EffectScenes own;
+    if (study.full.outcome.solved())
+      own.push_back(scene_of(given.id, analysis_kind(given.document), study));
+    return own;
+  };
+  return scenes_or_find(given.document, measure, store, resume);
+}
+
 }  // namespace
 
 int effects_command(const EffectsCommand& command) {
@@ -312,21 +339,20 @@ int effects_command(const EffectsCommand& command) {
   return status;
 }
 
+std::vector<std::function<void()>> effect_scene_work(const std::filesystem::path& store,
+                                                     bool resume) {
+  std::vector<std::function<void()>> work;
+  for (const EffectCase& scene : catalogue_effect_cases())
+    work.emplace_back([scene, store, resume] { (void)scenes_of(scene, store, resume); });
+  return work;
+}
+
 std::vector<results::EffectScene> catalogue_effect_scenes(const std::filesystem::path& store,
                                                           bool resume) {
   std::vector<results::EffectScene> scenes;
-  for (const Case& given : Catalogue().load({"effects"})) {
-    const Document document = patched(given, kBaseVariant);
-    if (!knows_effects(document)) continue;
-    const auto measure = [&] {
-      const EffectStudy study = study_effects(document, {.pairs = false, .repeats = 3});
-      EffectScenes own;
-      if (study.full.outcome.solved())
-        own.push_back(scene_of(given.id(), analysis_kind(document), study));
-      return own;
-    };
-    for (results::EffectScene& scene : scenes_or_find(document, measure, store, resume))
-      scenes.push_back(std::move(scene));
+  for (const EffectCase& scene : catalogue_effect_cases()) {
+    EffectScenes found = scenes_of(scene, store, resume);
+    std::move(found.begin(), found.end(), std::back_inserter(scenes));
   }
   return scenes;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct EffectsCommand {
   bool json = false;                ///< instead of tables
   std::string out;                  ///< folder of a page of many scenes; empty: none
 };
+
+/// To find what choosing effects comes to in each scene of the catalogue, into the store.
+[[nodiscard]] std::vector<std::function<void()>> effect_scene_work(
+    const std::filesystem::path& store, bool resume);
 
 /// What choosing effects comes to in every scene of the catalogue.
 /// @param resume  takes what the store has

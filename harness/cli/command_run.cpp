@@ -1,6 +1,8 @@
 #include "harness/cli/command_run.h"
 
 #include <algorithm>
+#include <csignal>
+#include <functional>
 #include <iostream>
 #include <map>
 
@@ -308,6 +310,38 @@ void print_failed_runs(const std::vector<Run>& runs) {
 constexpr const char* kReportInterrupted =
     "trammel: interrupted; the same command does what is missing\n";
 
+/// Does work that leaves what it finds in the store, each in a process of its own.
+/// @returns whether all of it came to its end
+bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
+                     const std::string& items) {
+  constexpr unsigned kLimit = 3600;  // [s]; each computation in it has a limit of its own
+  std::vector<ProcessTask> tasks;
+  for (const auto& one : work) {
+    const auto done = [&one] {
+      try {
+        one();
+      } catch (const InputError&) {  // told by who reads the store
+        return std::string("not done");
+      }
+      return std::string();
+    };
+    tasks.push_back({done, kLimit});
+  }
+  Progress progress(items);
+  std::size_t ended = 0;
+  bool all = true;
+  const auto show = [&] { progress.show(ended, tasks.size()); };
+  const int signal =
+      run_in_processes(tasks, {jobs, 0, show}, [&](std::size_t, const ProcessOutcome& outcome) {
+        all = all && outcome.termination == ProcessOutcome::Termination::answered &&
+              outcome.text.empty();
+        ++ended;
+        show();
+      });
+  if (signal != 0) std::raise(signal);
+  return all;
+}
+
 /// The page of these results, and where it is.
 void write_page(results::Results found, const std::vector<Run>& runs, const RunCommand& command,
                 const Renderers& renderers) {
@@ -454,9 +488,14 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   const std::vector<Run> runs = compute(selection, references, command);
   require_complete(runs);
   print_failed_runs(runs);
+  const std::filesystem::path store = store_folder(command.out, command.store);
+  std::vector<std::function<void()>> studies = quick_cost_work(references, store, command.resume);
+  for (auto& work : effect_scene_work(store, command.resume)) studies.push_back(std::move(work));
+  // What has come to its end is in the store; the rest is done, and said to be impossible, here.
+  const bool measured = do_in_processes(studies, command.jobs, "studies of cost and effects");
   std::vector<std::string> error_messages;
-  results::CostStudies cost = quick_cost(references, store_folder(command.out, command.store),
-                                         command.resume, error_messages);
+  results::CostStudies cost =
+      quick_cost(references, store, command.resume || measured, error_messages);
   results::Results results = results_of(runs, selection.cases, references);
   results.cost = std::move(cost);
   const Document claims = load_claims();
@@ -467,8 +506,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   results.coverage = evidence_coverage(selection.cases, references);
   add_reasons(results.coverage);
   count_series(results, results.coverage);
-  results.effect_scenes =
-      catalogue_effect_scenes(store_folder(command.out, command.store), command.resume);
+  results.effect_scenes = catalogue_effect_scenes(store, command.resume || measured);
   write_page(std::move(results), runs, command, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {

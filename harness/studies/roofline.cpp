@@ -74,9 +74,14 @@ void add_factorization(std::vector<results::LoopRate>& loops) {
   for (Index j = 0; j < U.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(U, j); it; ++it) ++below[it.row()];
   const double entries = static_cast<double>(U.nonZeros());
+  const SparseMatrix twice = 2 * A;  // what it has factorized already costs it nothing
+  bool is_doubled = false;
+  const double time = least_time([&] {
+    is_doubled = !is_doubled;
+    (void)ldlt.factorize(is_doubled ? twice : A);
+  });
   loops.push_back({"Sparse L D L^T of 25,600 coordinates",
-                   (below.array() * (below.array() + 2)).sum(), 12 * entries,
-                   least_time([&] { (void)ldlt.factorize(A); })});
+                   (below.array() * (below.array() + 2)).sum(), 12 * entries, time});
   Eigen::VectorXd x = Eigen::VectorXd::Ones(A.rows()), solution;
   loops.push_back({"Its triangular solves", 4 * entries, 24 * entries,
                    least_time([&] { ldlt.solve(x, solution); })});
