@@ -301,7 +301,6 @@ class LargeElastodynamics {
   /// Before anything has moved linear theory is exact; the forces of that moment are inertia alone.
   void replace_start_by_linear_theory() {
     ElastodynamicsOptions first = options_;
-    first.gyroscopic = true;
     first.time.sample_times = {first.time.start};
     first.time.end = first.time.start + first.time.step;
     ElastodynamicsSolution linear = solve_elastodynamics(first);
