@@ -128,7 +128,7 @@ StepReport EnergyMomentum::newton(double h, bool exact) {
     // What Newton's method leaves is lost or gained energy: it iterates nearly to round-off.
     if (convergence.converged(1e-4 * h * h * weighted_rms_norm(system_, to_.a),
                               h * weighted_rms_norm(system_, to_.v),
-                              weighted_rms_norm(system_, to_.q))) {
+                              weighted_rms_norm(system_, to_.q), 1e-11)) {
       change_ = to_.a - from_.a;
       report.error = first_ ? 0.0 : h * h / 12 * weighted_rms_norm(system_, change_);
       set_end_multipliers(h);

@@ -168,7 +168,7 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
     report.correction = convergence.last();
     if (convergence.converged(beta_ * h * h * weighted_rms_norm(system_, A1_),
                               h * weighted_rms_norm(system_, to_.v),
-                              weighted_rms_norm(system_, to_.q))) {
+                              weighted_rms_norm(system_, to_.q), 1e-13)) {
       report.converged = true;
       // Many iterations: the factorization is out of date, the next step makes a new one.
       if (i > 3) factored_step_ = 0;

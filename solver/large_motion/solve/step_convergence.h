@@ -13,16 +13,21 @@ class StepConvergence {
     projection_ = projection;
     ++count_;
   }
-  /// True where both corrections are small enough, or have stopped to shrink at round-off.
+  /// True where the next corrections would be small enough, by how fast they shrink, or where they
+  /// have stopped to shrink at round-off.
   /// @param acceleration  h^2 beta a, what the accelerations contribute to the step; velocity: h v;
   ///                     position: q; all over the scale.
-  [[nodiscard]] bool converged(double acceleration, double velocity, double position) const {
+  /// @param tolerance  of the next correction over `acceleration`
+  [[nodiscard]] bool converged(double acceleration, double velocity, double position,
+                               double tolerance) const {
     const bool stalled = count_ > 2 && step_correction_ > 0.3 * previous_step_correction_;
+    const double next = next_of(step_correction_, previous_step_correction_);
     const bool motion_met =
-        step_correction_ <= 1e-11 * acceleration || step_correction_ <= 1e-16 * velocity ||
+        next <= tolerance * acceleration || step_correction_ <= 1e-16 * velocity ||
         (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + 1e-15 * position);
+    const double next_projection = next_of(projection_, previous_projection_);
     const bool constraints_met =
-        projection_ <= 1e-15 * position || projection_ <= 1e-13 * velocity ||
+        next_projection <= 1e-15 * position || next_projection <= 1e-13 * velocity ||
         (count_ > 2 && projection_ > 0.3 * previous_projection_ && projection_ < 1e-12);
     return motion_met && constraints_met;
   }
@@ -31,6 +36,10 @@ class StepConvergence {
   [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
+  /// What the same ratio makes of a correction; the correction itself where there was none before.
+  [[nodiscard]] double next_of(double correction, double previous) const {
+    return count_ > 1 && correction < previous ? correction * (correction / previous) : correction;
+  }
   [[nodiscard]] double previous() const { return previous_step_correction_ + previous_projection_; }
 
   double step_correction_ = 0, projection_ = 0, previous_step_correction_ = 0,
