@@ -1,5 +1,6 @@
 #include "solver/large_motion/solve/energy_momentum.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/large_motion/solve/step_convergence.h"
@@ -125,10 +126,12 @@ StepReport EnergyMomentum::newton(double h, bool exact) {
     convergence.record(correction, 0);
     report.correction = correction;
     to_.a = (to_.v - from_.v) / h;
-    // What Newton's method leaves is lost or gained energy: it iterates nearly to round-off.
-    if (convergence.converged(1e-4 * h * h * weighted_rms_norm(system_, to_.a),
-                              h * weighted_rms_norm(system_, to_.v),
-                              weighted_rms_norm(system_, to_.q), 1e-11)) {
+    // What Newton's method leaves is lost or gained energy: it iterates to a tenth of what is lost
+    // in storing the positions.
+    const double acceleration = 1e-4 * h * h * weighted_rms_norm(system_, to_.a);
+    const double position = weighted_rms_norm(system_, to_.q);
+    if (convergence.converged(acceleration, h * weighted_rms_norm(system_, to_.v), position,
+                              std::max(1e-11 * acceleration, 1e-17 * position))) {
       change_ = to_.a - from_.a;
       report.error = first_ ? 0.0 : h * h / 12 * weighted_rms_norm(system_, change_);
       set_end_multipliers(h);

@@ -166,9 +166,9 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
         weighted_rms_norm(system_, velocity_correction_.head(n)),
         weighted_rms_norm(system_, position_correction_.head(n) - velocity_correction_.head(n)));
     report.correction = convergence.last();
-    if (convergence.converged(beta_ * h * h * weighted_rms_norm(system_, A1_),
-                              h * weighted_rms_norm(system_, to_.v),
-                              weighted_rms_norm(system_, to_.q), 1e-13)) {
+    const double acceleration = beta_ * h * h * weighted_rms_norm(system_, A1_);
+    if (convergence.converged(acceleration, h * weighted_rms_norm(system_, to_.v),
+                              weighted_rms_norm(system_, to_.q), 1e-13 * acceleration)) {
       report.converged = true;
       // Many iterations: the factorization is out of date, the next step makes a new one.
       if (i > 3) factored_step_ = 0;

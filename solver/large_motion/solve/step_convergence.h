@@ -17,13 +17,13 @@ class StepConvergence {
   /// have stopped to shrink at round-off.
   /// @param acceleration  h^2 beta a, what the accelerations contribute to the step; velocity: h v;
   ///                     position: q; all over the scale.
-  /// @param tolerance  of the next correction over `acceleration`
+  /// @param limit  of the next correction of the motion
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
-                               double tolerance) const {
+                               double limit) const {
     const bool stalled = count_ > 2 && step_correction_ > 0.3 * previous_step_correction_;
     const double next = next_of(step_correction_, previous_step_correction_);
     const bool motion_met =
-        next <= tolerance * acceleration || step_correction_ <= 1e-16 * velocity ||
+        next <= limit || step_correction_ <= 1e-16 * velocity ||
         (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + 1e-15 * position);
     const double next_projection = next_of(projection_, previous_projection_);
     const bool constraints_met =
