@@ -95,10 +95,13 @@ class FreeMotions {
   [[nodiscard]] Motions of_whole_model(std::vector<Vector3d> found) const {
     const std::string whole = "the whole model";
     if (found.size() == 3) return {{Kind::in_plane, whole, {}}};
-    if (found.size() == 2) {  // one of them without rotation, the other about a centre
+    if (found.size() == 2) {  // one of them without rotation, the other about a centre: any on a
+                              // line, of which that nearest to the first node is taken
       if (std::abs(found[0][2]) < std::abs(found[1][2])) std::swap(found[0], found[1]);
       if (std::abs(found[0][2]) < 1e-6) return {{Kind::in_translation, whole, {}}};
       found[1] -= found[0] * (found[1][2] / found[0][2]);
+      const Vector2d free = found[1].head<2>().normalized();
+      found[0].head<2>() -= free * free.dot(found[0].head<2>());
     }
     Motions motions;
     for (const Vector3d& motion : found)
