@@ -33,6 +33,18 @@ SparseMatrix sorted(const SparseMatrix& A) {
   return rows.transpose();
 }
 
+/// x becomes L^-T x, L with a diagonal of ones that is not stored. From its last entry to the
+/// first: memory is fetched ahead in one direction only.
+void solve_transposed(const SparseMatrix& L, VectorXd& x) {
+  const int *start = L.outerIndexPtr(), *row = L.innerIndexPtr();
+  const double* value = L.valuePtr();
+  for (Index j = L.cols() - 1; j >= 0; --j) {
+    double sum = 0;
+    for (int k = start[j + 1] - 1; k >= start[j]; --k) sum += value[k] * x[row[k]];
+    x[j] -= sum;
+  }
+}
+
 std::vector<Index> values_of(const SparseMatrix& places) {
   return {places.valuePtr(), places.valuePtr() + places.nonZeros()};
 }
@@ -62,6 +74,7 @@ struct SparseLdlt::Factors {
   SparseMatrix upper;               // upper triangle in that order
   std::vector<Index> from, mirror;  // entry of upper -> that of A, and the one across its diagonal
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
+  VectorXd pivots;
   mutable VectorXd ordered, solved, root;
 
   [[nodiscard]] bool has_pattern_of(const SparseMatrix& A) const {
@@ -72,7 +85,7 @@ struct SparseLdlt::Factors {
 
   /// D^(1/2), once for all half solves.
   [[nodiscard]] const VectorXd& pivot_roots() const {
-    if (root.size() == 0) root = ldlt.vectorD().cwiseSqrt();
+    if (root.size() == 0) root = pivots.cwiseSqrt();
     return root;
   }
 
@@ -120,17 +133,18 @@ bool SparseLdlt::factorize(const SparseMatrix& A) {
   }
   if (!same) {
     f.ldlt.factorize(f.upper);
+    f.pivots = f.ldlt.vectorD();
     f.root.resize(0);
   }
-  return f.ldlt.info() == Eigen::Success && f.ldlt.vectorD().allFinite();
+  return f.ldlt.info() == Eigen::Success && f.pivots.allFinite();
 }
 
 VectorXd SparseLdlt::pivots() const {
-  return factors_->ldlt.vectorD();
+  return factors_->pivots;
 }
 
 Index SparseLdlt::negative_pivots() const {
-  return (factors_->ldlt.vectorD().array() < 0).count();
+  return (factors_->pivots.array() < 0).count();
 }
 
 double SparseLdlt::smallest_to_largest_pivot() const {
@@ -159,7 +173,10 @@ double SparseLdlt::element_growth() const {
 void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {
   const Eigen::VectorXi& place = factors_->P.indices();
   for (Index i = 0; i < b.size(); ++i) factors_->ordered[place[i]] = b[i];
-  factors_->solved = factors_->ldlt.solve(factors_->ordered);
+  factors_->solved = factors_->ordered;
+  factors_->ldlt.matrixL().solveInPlace(factors_->solved);
+  factors_->solved.array() /= factors_->pivots.array();
+  solve_transposed(factors_->ldlt.matrixL().nestedExpression(), factors_->solved);
   x.resize(b.size());
   for (Index i = 0; i < b.size(); ++i) x[i] = factors_->solved[place[i]];
 }
@@ -173,12 +190,12 @@ VectorXd SparseLdlt::solve_half(const VectorXd& b) const {
 
 VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
   VectorXd x = y.cwiseQuotient(factors_->pivot_roots());
-  factors_->ldlt.matrixU().solveInPlace(x);
+  solve_transposed(factors_->ldlt.matrixL().nestedExpression(), x);
   return factors_->P.transpose() * x;
 }
 
 SparseMatrix SparseLdlt::square_root() const {
-  const VectorXd root = factors_->ldlt.vectorD().cwiseMax(0).cwiseSqrt();
+  const VectorXd root = factors_->pivots.cwiseMax(0).cwiseSqrt();
   const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->ldlt.matrixU());
   return U * factors_->P;
 }
