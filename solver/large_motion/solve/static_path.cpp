@@ -233,7 +233,7 @@ class PathFollower {
     const bool load_reversed = reverses_load(ahead);
     if (!stability_changed(previous_unstable, to)) return !load_reversed || previous_unstable < 0;
     PathPoint critical = to;
-    locate(from, previous_unstable, load_reversed, to, critical);
+    if (!locate(from, previous_unstable, load_reversed, to, critical)) return false;
     const auto [low, high] = std::minmax(from.load, to.state.load);
     const double load = critical.state.load, slack = 1e-9 * std::abs(load);
     if (!load_reversed) return load > low - slack && load < high + slack;
@@ -305,8 +305,8 @@ class PathFollower {
   }
 
   /// Finds along the arc where dload/darc vanishes (a limit point) or the smallest eigenvalue does
-  /// (a bifurcation).
-  void locate(const State& from, Index previous_unstable, bool load_reversed, const PathPoint& to,
+  /// (a bifurcation). @returns whether it was found; where not, `critical` is left near it.
+  bool locate(const State& from, Index previous_unstable, bool load_reversed, const PathPoint& to,
               PathPoint& critical) {
     const Direction d = direction_;
     const auto indicator = [&](const State& state) {
@@ -318,21 +318,22 @@ class PathFollower {
     };
     const Direction chord = chord_between(from, to.state);
     const double interval = dot(d, chord.step, chord.load);
-    if (!equilibrium_.factor(from)) return;
+    if (!equilibrium_.factor(from)) return false;
     const double f_from = indicator(from);
-    if (!equilibrium_.factor(to.state)) return;
+    if (!equilibrium_.factor(to.state)) return false;
     IllinoisBracket bracket(interval, f_from, indicator(to.state));
     for (int i = 0; i < 60 && bracket.width() > 1e-12 * std::abs(interval); ++i) {
-      if (bracket.has_no_root()) return;
+      if (bracket.has_no_root()) return false;
       const double arc = bracket.next();
       PathPoint trial;
-      if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return;
+      if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
       const double f = indicator(trial.state);
       const double before = critical.state.load;
       critical = trial;
-      if (f == 0 || std::abs(critical.state.load - before) < 1e-13 * std::abs(before)) return;
+      if (f == 0 || std::abs(critical.state.load - before) < 1e-13 * std::abs(before)) return true;
       bracket.update(arc, f);
     }
+    return true;
   }
 
   void switch_to_branch(const PathPoint& critical, const VectorXd& shape) {

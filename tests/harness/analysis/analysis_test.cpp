@@ -1,6 +1,7 @@
 #include "harness/analysis/analysis.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cfenv>
 #include <cmath>
 
 #include "harness/analysis/size_estimate.h"
@@ -403,6 +404,20 @@ BOOST_AUTO_TEST_CASE(no_case_of_the_catalogue_comes_near_what_is_refused) {
     const Case given = load_case(file, catalogue);
     for (const std::string& variant : given.variants())
       BOOST_TEST(estimate_size(patched(given, variant)).bytes < 2e9, file << ": " << variant);
+  }
+}
+
+/// Rounded upwards, a step came to another branch, on which one direction is unstable: its change
+/// of stability counted as an event though nothing was found between the two points.
+BOOST_AUTO_TEST_CASE(a_path_of_equilibria_stays_on_its_branch_whatever_the_rounding) {
+  const Document arch = patched(load_named_case("shallow-arch"), "nearly-perfect");
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+    set_solver_rounding(mode);
+    const AnalysisResult result = analyse(arch, References(), {});
+    set_solver_rounding(FE_TONEAREST);
+    BOOST_TEST_REQUIRE(result.outcome.solved(), result.outcome.reason);
+    BOOST_TEST(testing::values(result, "displacement_y_m:N4").back() < -10);
+    BOOST_TEST(testing::values(result, "unstable_directions").back() == 0);
   }
 }
 
