@@ -26,7 +26,7 @@ class Response {
     Eigen::VectorXcd q = response_.at(frequency);
     record.add("frequency_Hz", "", frequency);
     solver::HarmonicAmplitudes amplitudes;
-    if (q.size() > 0) amplitudes = solver::harmonic_amplitudes(system_, q, frequency);
+    if (q.size() > 0) amplitudes = response_.amplitudes(q, frequency);
     for (const Output& output : outputs) {
       if (q.size() == 0) {
         record.add_gap(output.name, "");
@@ -48,8 +48,7 @@ class Response {
   double record_peak(double low, double high, const Output& output, Recorder& record) const {
     const solver::HarmonicPeak found = solver::harmonic_peak(
         response_, low, high, [&](const Eigen::VectorXcd& q, double frequency) {
-          return amplitude_of(output, system_.model,
-                              solver::harmonic_amplitudes(system_, q, frequency), frequency);
+          return amplitude_of(output, system_.model, response_.amplitudes(q, frequency), frequency);
         });
     record.add(output.prefixed("peak_"), "", found.amplitude);
     record.add("peak_frequency_Hz", output.name, found.frequency);

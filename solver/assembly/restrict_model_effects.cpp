@@ -12,9 +12,17 @@ bool bends(const Member& member) {
   return section_at(member, 0.5).EI > 0;
 }
 
-bool has_mass(const Member& member) {
-  return member.section.mass_per_length > 0 || member.end_section.mass_per_length > 0 ||
-         member.ends[0].inertia > 0 || member.ends[1].inertia > 0;
+bool weighs(const Member& member) {
+  return member.section.mass_per_length > 0 || member.end_section.mass_per_length > 0;
+}
+
+bool has_rotary_inertia_per_length(const Member& member) {
+  return member.section.inertia_per_length > 0 || member.end_section.inertia_per_length > 0;
+}
+
+bool has_inertia(const Member& member) {
+  return weighs(member) || has_rotary_inertia_per_length(member) || member.ends[0].inertia > 0 ||
+         member.ends[1].inertia > 0;
 }
 
 bool is_sprung(const Member& member) {
@@ -24,7 +32,7 @@ bool is_sprung(const Member& member) {
 
 bool has_weight(const Model& model) {
   if (model.gravity.isZero(0)) return false;
-  return std::any_of(model.members.begin(), model.members.end(), has_mass) ||
+  return std::any_of(model.members.begin(), model.members.end(), weighs) ||
          std::any_of(model.masses.begin(), model.masses.end(),
                      [](const PointMass& point_mass) { return point_mass.mass > 0; }) ||
          std::any_of(model.plates.begin(), model.plates.end(),
@@ -61,10 +69,10 @@ Effects applicable_effects(const Model& model) {
     }
     if (has_shear_deformation(member.theory) && bends(member))
       effects = effects.with(Effect::shear);
-    const bool turns = has_rotary_inertia(member.theory) && member.section.inertia_per_length > 0;
-    if (turns) effects = effects.with(Effect::rotary_inertia);
+    if (has_rotary_inertia(member.theory) && has_rotary_inertia_per_length(member))
+      effects = effects.with(Effect::rotary_inertia);
     if (is_sprung(member)) effects = effects.with(Effect::joint_compliance);
-    if (has_mass(member)) effects = effects.with(Effect::link_mass);
+    if (has_inertia(member)) effects = effects.with(Effect::link_mass);
   }
   if (has_weight(model)) effects = effects.with(Effect::gravity);
   return effects;

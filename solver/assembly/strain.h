@@ -36,16 +36,9 @@ void scatter(const std::array<Index, n>& coordinates, const Vector& local, Eigen
 
 }  // namespace detail
 
-/// Calls visit(coordinates, B, c) for every element: coordinates (array of n indices into u, -1
-/// for none), B (m x n) and the diagonal c (m) of its stiffness B^T diag(c) B.
+/// Calls visit(coordinates, B, c) for every triangle, as `for_each_deformation` does.
 template <class Visit>
-void for_each_deformation(const System& system, Visit&& visit) {
-  for (const FrameElement& e : system.mesh.frame) {
-    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
-    Vector3d c = frame_rigidity(e.section, member.theory, e.length);
-    if (!member.axially_flexible) c[0] = 0;
-    visit(e.coordinates, frame_deformation_matrix(e.direction, e.length), c);
-  }
+void for_each_plate_deformation(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
     if (triangle.quadratic()) {
       const Triangle6Stiffness k = triangle6_stiffness(system.model, triangle);
@@ -58,6 +51,19 @@ void for_each_deformation(const System& system, Visit&& visit) {
     visit(system.coordinates.of_triangle<6>(triangle), triangle_deformation(points),
           membrane_rigidity(plate.material, volume));
   }
+}
+
+/// Calls visit(coordinates, B, c) for every element: coordinates (array of n indices into u, -1
+/// for none), B (m x n) and the diagonal c (m) of its stiffness B^T diag(c) B.
+template <class Visit>
+void for_each_deformation(const System& system, Visit&& visit) {
+  for (const FrameElement& e : system.mesh.frame) {
+    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+    Vector3d c = frame_rigidity(e.section, member.theory, e.length);
+    if (!member.axially_flexible) c[0] = 0;
+    visit(e.coordinates, frame_deformation_matrix(e.direction, e.length), c);
+  }
+  for_each_plate_deformation(system, visit);
   for (const SpringElement& spring : system.springs) {
     visit(spring.coordinates, Eigen::RowVector2d(-1, 1),
           Eigen::Matrix<double, 1, 1>(spring.stiffness));

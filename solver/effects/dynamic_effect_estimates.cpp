@@ -10,7 +10,7 @@
 #include <optional>
 #include <set>
 
-#include "solver/assembly/strain.h"
+#include "solver/assembly/prestress.h"
 #include "solver/effects/energy_shares.h"
 #include "solver/elastodynamics/nominal_motion.h"
 #include "solver/elastodynamics/path_follower.h"
@@ -141,7 +141,7 @@ class MotionEstimates {
   std::set<double> estimate_along_path() {
     PathFollower pose(options_, options_.time.start);
     ResponseSize largest;
-    double farthest = 0, hardest = 0;
+    double farthest = options_.time.start, hardest = farthest;
     const std::vector<double>& samples = options_.time.sample_times;
     const std::size_t stride = (samples.size() + kPathSamples - 1) / kPathSamples;
     for (std::size_t i = 0; i < samples.size(); i += stride) {
@@ -157,9 +157,13 @@ class MotionEstimates {
     return {farthest, hardest};
   }
 
-  /// Inertia, damping and gyroscopic forces. @returns the size of the response
-  ResponseSize estimate_rates_at(PathFollower& pose, double time) {
-    const double step = rate_ > 0 ? 1e-3 / rate_ : 1e-4 * (options_.time.end - options_.time.start);
+  /// Inertia, damping and gyroscopic forces; at an end of the path, within it.
+  /// @returns the size of the response
+  ResponseSize estimate_rates_at(PathFollower& pose, double sample) {
+    const double duration = options_.time.end - options_.time.start;
+    const double step = rate_ > 0 ? std::min(1e-3 / rate_, duration / 4) : 1e-4 * duration;
+    const auto [first, last] = time_span(options_.path);
+    const double time = std::clamp(sample, first + step, last - step);
     std::array<VectorXd, 3> q;  // before, after, now
     for (const double offset : {-1, 1, 0}) {
       VectorXd& at = q[offset < 0 ? 0 : offset > 0 ? 1 : 2];
@@ -268,13 +272,15 @@ class MotionEstimates {
       if (system.coordinates.is_rotation[static_cast<std::size_t>(i)])
         rotation = std::max(rotation, std::abs(u[i]));
     }
-    for (const FrameElement& e : system.mesh.frame) {
+    const VectorXd still = VectorXd::Zero(q.size());
+    const MovingSystem::Forces forces = moving.forces(q, still, still, 0, 0, true);
+    const VectorXd axial = axial_forces(system, u, moving.constraints().multipliers(forces.total));
+    for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
+      const FrameElement& e = system.mesh.frame[i];
       if (e.is_bar()) continue;
       const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
       const double length = e.length * static_cast<double>(member.elements);
-      const Vector6d ends = detail::gather(e.coordinates, u);
-      const double force =
-          e.section.EA / e.length * e.direction.dot(ends.segment<2>(3) - ends.head<2>());
+      const double force = axial[static_cast<Index>(i)];
       load = std::max(load, std::abs(force) * length * length /
                                 (std::numbers::pi * std::numbers::pi * e.section.EI));
     }

@@ -174,6 +174,13 @@ TrajectoryPoint at(const Path& path, double time) {
   return point;
 }
 
+std::pair<double, double> time_span(const Path& path) {
+  constexpr double kEver = std::numeric_limits<double>::infinity();
+  const auto* spline = std::get_if<Spline>(&path);
+  if (spline == nullptr) return {-kEver, kEver};
+  return {spline->times.front(), spline->times.back()};
+}
+
 bool stands_still(const Path& path) {
   return std::visit([](const auto& p) { return is_still(p); }, path);
 }

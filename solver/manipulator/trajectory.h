@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -56,6 +57,9 @@ using Path = std::variant<Circle, Line, RestToRest, Spline>;
 
 /// @throws ModelError  where the path has no meaning, or the time is outside a spline's.
 [[nodiscard]] TrajectoryPoint at(const Path& path, double time);
+
+/// The first and the last time at which there is a path; infinite but for a spline [s].
+[[nodiscard]] std::pair<double, double> time_span(const Path& path);
 
 /// Whether the platform never moves: not at any time, whatever the times that are looked at.
 [[nodiscard]] bool stands_still(const Path& path);

@@ -9,7 +9,6 @@
 #include "solver/assembly/inertia.h"
 #include "solver/assembly/projection.h"
 #include "solver/assembly/strain.h"
-#include "solver/elements/triangle_element.h"
 #include "solver/linalg/sparse_lu.h"
 #include "solver/model/numbers.h"
 #include "solver/sensitivity/seeded_design.h"
@@ -57,15 +56,13 @@ SteppedSystem stepped(const System& system, const SeededDesign<Complex>& design,
         point_inertia(design.platform_mass().mass, design.platform_mass().inertia, lump.offset);
     into_M.add(system.coordinates.node[static_cast<std::size_t>(lump.node)], derivatives(m));
   }
-  for (const Triangle& triangle : system.model.triangles) {
-    const TrianglePoints points = corners(system.model, triangle);
-    const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
-    const auto coordinates = system.coordinates.of_triangle<6>(triangle);
-    const Matrix6d k = design.log_stiffness_derivative() * triangle_stiffness(points, plate);
-    const Matrix6d m = design.log_mass_derivative() * triangle_mass(points, plate);
-    into_K.add(coordinates, k);
-    into_M.add(coordinates, m);
-  }
+  for_each_plate_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    const auto k = (B.transpose() * c.asDiagonal() * B).eval();
+    into_K.add(coordinates, (design.log_stiffness_derivative() * k).eval());
+  });
+  for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
+    into_M.add(coordinates, (design.log_mass_derivative() * m).eval());
+  });
   const Complex step(0, kComplexStep);
   return {system.K.cast<Complex>() + step * K.build().cast<Complex>(),
           system.M.cast<Complex>() + step * M.build().cast<Complex>()};

@@ -101,17 +101,15 @@ void SetDerivative::add_platform(const SeededDesign<Dual>& design, MatrixXd& sum
     const auto u = gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);
     sum -= omega_squared_ * (u.transpose() * dm * u);
   }
-  for (const Triangle& triangle : system_.model.triangles) {
-    const TrianglePoints points = corners(system_.model, triangle);
-    const Plate& plate = system_.model.plates[static_cast<std::size_t>(triangle.plate)];
-    const auto u = gather_modes(system_.coordinates.of_triangle<6>(triangle), U_);
-    // From the strains, which stay small beside the rigid motion of a stiff plate.
-    const double volume = plate.thickness * std::abs(signed_area(points));
-    const Eigen::Vector3d c = membrane_rigidity(plate.material, volume);
-    const Eigen::Matrix<double, 3, Eigen::Dynamic> strain = triangle_deformation(points) * u;
-    sum += stiffness * (strain.transpose() * c.asDiagonal() * strain) -
-           mass * omega_squared_ * (u.transpose() * triangle_mass(points, plate) * u);
-  }
+  // From the strains, which stay small beside the rigid motion of a stiff plate.
+  for_each_plate_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
+    const Eigen::MatrixXd strain = B * gather_modes(coordinates, U_);
+    sum += stiffness * (strain.transpose() * c.asDiagonal() * strain);
+  });
+  for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
+    const auto u = gather_modes(coordinates, U_);
+    sum -= mass * omega_squared_ * (u.transpose() * m * u);
+  });
 }
 
 }  // namespace trammel::solver

@@ -32,6 +32,7 @@ class EquationMatrices {
 
   void update(double time);
   [[nodiscard]] bool constant() const { return !equation_.update; }
+  [[nodiscard]] const std::vector<double>& breakpoints() const { return equation_.breakpoints; }
   void load(double time, Eigen::VectorXd& f) const;
 
   [[nodiscard]] const SparseMatrix& M() const { return M_; }

@@ -10,6 +10,8 @@
 #include <numbers>
 
 #include "solver/assembly/equation_rows.h"
+#include "solver/assembly/inertia.h"
+#include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/sparse_lu.h"
 #include "solver/statics/postprocessing.h"
@@ -109,31 +111,52 @@ double HarmonicSolver::backward_error(const VectorXcd& q, double frequency) cons
   return rows.backward_error();
 }
 
-HarmonicAmplitudes harmonic_amplitudes(const System& system, const VectorXcd& q, double frequency) {
+VectorXcd HarmonicSolver::elastic_unbalance(const VectorXcd& u, double omega) const {
+  const Complex i(0, 1);
+  const auto inertia = [this](const VectorXd& a) { return inertia_forces(system_, a); };
+  const VectorXcd stiffness =
+      internal_forces(system_, u.real()) + i * internal_forces(system_, u.imag());
+  const VectorXcd mass = inertia(u.real()) + i * inertia(u.imag());
+  const Complex k(1, omega * damping_.rayleigh.stiffness);
+  const Complex m(-omega * omega, omega * damping_.rayleigh.mass);
+  VectorXcd force = k * stiffness + m * mass - system_.load.cast<Complex>();
+  for (Index j = 0; j < participation_.size(); ++j) {  // modal damping, as in `backward_error`
+    const VectorXd image = inertia(system_.T * modes_.shape.col(j));
+    const double wj = kTwoPi * modes_.frequency[j];
+    const double ratio = damping_.modal_ratio[static_cast<std::size_t>(j)];
+    force += 2 * ratio * wj * i * omega * image.cast<Complex>().dot(u) * image;
+  }
+  return force / k;
+}
+
+HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequency) const {
   const double omega = kTwoPi * frequency;
-  ElasticState cosine;
-  cosine.u = system.T * q.real();
-  cosine.acceleration = -omega * omega * cosine.u;
-  ElasticState sine;
-  sine.u = system.T * q.imag();
-  sine.acceleration = -omega * omega * sine.u;
-  sine.load_factor = 0;
+  const VectorXcd u = system_.T * q;
+  const VectorXcd unbalance = elastic_unbalance(u, omega);
+  const auto part = [&](const VectorXd& displacement, const VectorXd& force, double load_factor) {
+    ElasticState state;
+    state.u = displacement;
+    state.load_factor = load_factor;
+    state.acceleration = -omega * omega * state.u;
+    state.constraint_forces = system_.constraints.multipliers(force);
+    return element_resultants(system_, state);
+  };
   const auto amplitude = [](const auto& a, const auto& b) {
     return (a.array().square() + b.array().square()).sqrt().matrix().eval();
   };
   HarmonicAmplitudes result;
-  result.displacement = amplitude(node_motion(system, q.real()), node_motion(system, q.imag()));
-  const Eigen::Matrix<double, Eigen::Dynamic, 6> in_phase = element_resultants(system, cosine);
-  const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature = element_resultants(system, sine);
+  result.displacement = amplitude(node_motion(system_, q.real()), node_motion(system_, q.imag()));
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> in_phase = part(u.real(), unbalance.real(), 1);
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature = part(u.imag(), unbalance.imag(), 0);
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
-  const auto members = static_cast<Index>(system.model.members.size());
+  const auto members = static_cast<Index>(system_.model.members.size());
   result.resultant_start.resize(members, 3);
   result.resultant_end.resize(members, 3);
   result.member_stress.setZero(members);
   for (Index i = size.rows(); i-- > 0;) {  // the first element of a member comes last
-    const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
+    const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(i)];
     const bool last = i + 1 == size.rows() ||
-                      system.mesh.frame[static_cast<std::size_t>(i + 1)].member != e.member;
+                      system_.mesh.frame[static_cast<std::size_t>(i + 1)].member != e.member;
     result.resultant_start.row(e.member) = size.row(i).head<3>();
     if (last) result.resultant_end.row(e.member) = size.row(i).tail<3>();
     double& stress = result.member_stress[e.member];

@@ -16,6 +16,14 @@ struct HarmonicDamping {
   std::vector<double> modal_ratio;  ///< and these on the first modes, one by one [-]
 };
 
+/// Amplitudes over a cycle.
+struct HarmonicAmplitudes {
+  Eigen::MatrixX3d displacement;     ///< model node x (ux, uy [m], rotation [rad])
+  Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m])
+  Eigen::MatrixX3d resultant_end;
+  Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of its elements [Pa]
+};
+
 /// Steady response q(t) = Re(q e^{i w t}) to the model's loads varying as cos(w t):
 ///   (K + i w C - w^2 M) q = f.
 /// Modes with a damping ratio are superposed; what they leave of the load is solved for directly,
@@ -38,9 +46,17 @@ class HarmonicSolver {
   /// damping.
   [[nodiscard]] double backward_error(const Eigen::VectorXcd& q, double frequency) const;
 
+  /// Section forces hold the stiffness, the inertia and the load of their element. Inextensible
+  /// members bear what extensible ones bear in the limit.
+  /// @param q  the response at `frequency` [Hz]
+  [[nodiscard]] HarmonicAmplitudes amplitudes(const Eigen::VectorXcd& q, double frequency) const;
+
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
+  /// (K + i w C - w^2 M) u - f on the unconstrained coordinates, over 1 + i w stiffness.
+  [[nodiscard]] Eigen::VectorXcd elastic_unbalance(const Eigen::VectorXcd& u, double omega) const;
+
   const System& system_;
   HarmonicDamping damping_;
   ModalSolution modes_;
@@ -49,18 +65,6 @@ class HarmonicSolver {
   Outcome outcome_;
   mutable Counters counters_;
 };
-
-/// Amplitudes over a cycle.
-struct HarmonicAmplitudes {
-  Eigen::MatrixX3d displacement;     ///< model node x (ux, uy [m], rotation [rad])
-  Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m])
-  Eigen::MatrixX3d resultant_end;
-  Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of its elements [Pa]
-};
-
-/// @param q  the response at `frequency` [Hz]; section forces hold the inertia of their element
-[[nodiscard]] HarmonicAmplitudes harmonic_amplitudes(const System& system,
-                                                     const Eigen::VectorXcd& q, double frequency);
 
 struct HarmonicPeak {
   double frequency = 0;  ///< [Hz]

@@ -27,12 +27,21 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
   }
 }
 
+/// At most a step, within which the load has no jump or kink [s].
+double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
+  constexpr double kBefore = 0.999;  // at a jump the load has the value after it
+  double span = std::min(options.step, options.end - options.start);
+  for (const double time : breakpoints)
+    if (time > options.start) span = std::min(span, kBefore * (time - options.start));
+  return span;
+}
+
 }  // namespace
 
 Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOptions& options,
                                VectorXd& q, VectorXd& v, Counters& counters) {
   constexpr std::array<double, 5> kSlope = {-25.0 / 12, 4, -3, 4.0 / 3, -0.25};
-  const double gap = std::min(options.step, options.end - options.start) / 4;
+  const double gap = smooth_span(matrices.breakpoints(), options) / 4;
   SparseLdlt factor(SparseLdlt::Triangle::mean);
   VectorXd f(q.size()), q_then(q.size());
   v.setZero();

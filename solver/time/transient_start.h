@@ -9,7 +9,8 @@ namespace trammel::solver {
 /// Below this ratio of pivot to diagonal a mass or stiffness matrix counts as singular.
 inline constexpr double kSingularMass = 1e-13;
 
-/// K q = f now and at four times after it: the velocity by the one-sided difference of order 4.
+/// K q = f now and at four times after it, within a step and before a jump or kink of the load: the
+/// velocity by the one-sided difference of order 4.
 /// Then K q = f - C v: otherwise the drag of that velocity would set in at once, and shake what
 /// is stiff.
 /// @param q, v  at options.start

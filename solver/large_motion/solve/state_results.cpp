@@ -13,6 +13,21 @@ double value_or(const VectorXd& values, Index k, double absent) {
   return k < values.size() ? values[k] : 0.0;
 }
 
+/// g - a - alpha v at the nodes of an element, whose coordinates are `stride` a node.
+template <std::size_t N>
+Eigen::Matrix<double, N, 1> mass_field(const GeometricallyExactSystem& system, const State& state,
+                                       const std::array<Index, N>& where, int stride) {
+  Eigen::Matrix<double, N, 1> field = Eigen::Matrix<double, N, 1>::Zero();
+  if (state.a.size() > 0) {
+    field = -gather<N>(state.a, where);
+    if (const double damping = system.large_motion().mass_damping; damping != 0)
+      field -= damping * gather<N>(system.damped_velocities(state), where);
+  }
+  const Vector2d g = state.gravity * system.model().gravity;
+  for (int a = 0; a < static_cast<int>(N); a += stride) field.template segment<2>(a) += g;
+  return field;
+}
+
 /// A beam element where it is.
 template <int P>
 struct PlacedBeam {
@@ -28,16 +43,7 @@ struct PlacedBeam {
 
   /// Loads + M (g - a - alpha v) at each node [N, N, N m].
   [[nodiscard]] Coordinates applied_forces() const {
-    constexpr int N = Beam<P>::N;
-    Coordinates field = Coordinates::Zero();
-    if (state.a.size() > 0) {
-      field = -gather<N>(state.a, where);
-      if (const double damping = system.large_motion().mass_damping; damping != 0)
-        field -= damping * gather<N>(system.damped_velocities(state), where);
-    }
-    const Vector2d g = state.gravity * system.model().gravity;
-    for (int a = 0; a < N; a += 3) field.template segment<2>(a) += g;
-    Coordinates f = beam.mass() * field;
+    Coordinates f = beam.mass() * mass_field<Beam<P>::N>(system, state, where, 3);
     for (int a = 0; a <= P; ++a) {
       f.template segment<2>(3 * a) +=
           beam.length * shape_functions<P>().integral[a] * state.load * member.load;
@@ -117,12 +123,28 @@ FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, In
   return body;
 }
 
+/// The force of the spring along the bar, and what each end bears of its loads and its mass.
+Eigen::RowVector3d bar_resultants(const GeometricallyExactSystem& system, const State& state,
+                                  Index index, bool first) {
+  const MemberElement& element = system.layout().elements[to_size(index)];
+  const Member& member = system.model().members[to_size(element.member)];
+  const Bar bar = make_bar(member, element);
+  const std::array<Index, 4> where = coordinates_of<4>(element);
+  const Bar::Coordinates q = gather<4>(state.q, where);
+  const Bar::Coordinates carried = bar.mass() * mass_field<4>(system, state, where, 2);
+  const Vector2d axis = (bar.offset + q.tail<2>() - q.head<2>()).normalized();
+  const Vector2d applied =
+      carried.segment<2>(first ? 0 : 2) + element.length() / 2 * state.load * member.load;
+  const double sign = first ? 1 : -1;
+  return {state.lambda[system.element_row(index)] + sign * axis.dot(applied),
+          sign * perpendicular(axis).dot(applied), 0};
+}
+
 /// (N, V, M) at the first or the second end of an element.
 Eigen::RowVector3d element_resultants(const GeometricallyExactSystem& system, const State& state,
                                       Index index, bool first) {
-  if (system.layout().elements[to_size(index)].is_bar()) {
-    return {state.lambda[system.element_row(index)], 0, 0};
-  }
+  if (system.layout().elements[to_size(index)].is_bar())
+    return bar_resultants(system, state, index, first);
   if (system.order() == 1) return beam_resultants<1>(system, state, index, first);
   if (system.order() == 2) return beam_resultants<2>(system, state, index, first);
   return beam_resultants<3>(system, state, index, first);

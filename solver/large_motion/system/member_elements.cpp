@@ -1,7 +1,5 @@
 #include "solver/large_motion/system/member_elements.h"
 
-#include "solver/large_motion/elements/bar.h"
-
 namespace trammel::solver::large_motion {
 
 namespace {
@@ -34,11 +32,7 @@ void add_bars(const Model& model, const Layout& layout, SystemParts& parts) {
     const MemberElement& element = layout.elements[e];
     if (!element.is_bar()) continue;
     const Member& member = model.members[to_size(element.member)];
-    Bar bar;
-    bar.offset = element.end - element.start;
-    bar.flexibility = member.axially_flexible ? element.length() / element.section.EA : 0.0;
-    bar.total_mass = element.length() * element.section.mass_per_length;
-    bar.lumped = member.mass == MassMatrix::lumped;
+    const Bar bar = make_bar(member, element);
     const std::array<Index, 4> where = coordinates_of<4>(element);
     parts.add_mass<4>(bar.mass(), where);
     for (std::size_t i = 0; i < 4; ++i) {

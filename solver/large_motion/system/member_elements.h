@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/large_motion/elements/bar.h"
 #include "solver/large_motion/elements/beam.h"
 #include "solver/large_motion/system/layout.h"
 #include "solver/large_motion/system/system_parts.h"
@@ -22,6 +23,16 @@ template <int P>
   if (has_shear_deformation(member.theory)) beam.shear_compliance = 1 / section.kappa_GA;
   if (has_rotary_inertia(member.theory)) beam.inertia_per_length = section.inertia_per_length;
   return beam;
+}
+
+/// The bar of a member without bending stiffness.
+[[nodiscard]] inline Bar make_bar(const Member& member, const MemberElement& element) {
+  Bar bar;
+  bar.offset = element.end - element.start;
+  bar.flexibility = member.axially_flexible ? element.length() / element.section.EA : 0.0;
+  bar.total_mass = element.length() * element.section.mass_per_length;
+  bar.lumped = member.mass == MassMatrix::lumped;
+  return bar;
 }
 
 /// The coordinates of an element as an array of fixed size.

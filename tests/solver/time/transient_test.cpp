@@ -359,6 +359,20 @@ BOOST_AUTO_TEST_CASE(a_slow_load_from_the_quasi_static_state_stays_quasi_static)
 }
 
 /// Stiff and strongly damped masses on the way of a slow load: nothing is shaken at the start.
+BOOST_AUTO_TEST_CASE(a_quasi_static_start_does_not_look_past_a_jump_of_the_load) {
+  EquationOfMotion equation = chain(1, 1, 100);
+  const double jump = 0.003;
+  equation.load = [=](double t, VectorXd& f) { f.setConstant(t < jump ? 2 * t : 50.0); };
+  equation.breakpoints = {jump};
+  TransientOptions options;
+  options.quasi_static_start = true;
+  options.step = 0.01;
+  options.end = 0.02;
+  const TransientHistory h = solve_transient(equation, options);
+  BOOST_TEST_REQUIRE(h.summary.outcome.solved());
+  BOOST_TEST(h.v(0, 0) == 2 / equation.K.coeff(0, 0), boost::test_tools::tolerance(1e-10));
+}
+
 BOOST_AUTO_TEST_CASE(a_quasi_static_start_carries_the_drag_of_its_own_velocity) {
   EquationOfMotion equation = chain(3, 1, 1e6);
   equation.C = 0.003 * equation.K;
