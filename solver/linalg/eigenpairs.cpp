@@ -237,20 +237,7 @@ class Solver {
         scale.asDiagonal() * B * scale.asDiagonal(), scale.asDiagonal() * A * scale.asDiagonal());
     inverse_iteration_failed_ = inverse_iteration_failed_ || !ritz.converged;
     X_ = Y * (scale.asDiagonal() * ritz.vector.rowwise().reverse());
-    take_lower_out_of_higher(ritz.value);
     values();
-  }
-
-  /// Rounding mixes vectors of one size in K - s B: of a lower one into a higher one by
-  /// eps w_high / w_low in B. Where that is much, it is taken out again.
-  /// @param mu  ascending, so that the vectors are in the order of the values
-  void take_lower_out_of_higher(const VectorXd& mu) {
-    constexpr double kMuch = 1e6;  // (w_high / w_low)^2: three digits
-    if (mu.size() == 0 || !(mu[mu.size() - 1] > kMuch * mu[0])) return;
-    MatrixXd share = X_.transpose() * (pencil_.B->transpose() * X_);
-    const VectorXd norm = share.diagonal();
-    share = norm.unaryExpr([](double n) { return n > 0 ? 1 / n : 0.0; }).asDiagonal() * share;
-    X_ -= (X_ * share.triangularView<Eigen::StrictlyUpper>()).eval();
   }
 
   /// In K - s B, against the columns before it; normalised. Again where most of it went: else a
