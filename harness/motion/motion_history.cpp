@@ -122,7 +122,10 @@ class Motion {
     history_.time = sample_times(transient_);
     initial_ = read_initial(transient_, system_, history_.outcome);
     if (!history_.outcome.solved()) return history_;
-    for (const double t : history_.time) history_.load_factor.push_back(factor_.at(t));
+    for (const double t : history_.time) {
+      const bool integrated = !superposes(transient_) && t > history_.time.front();
+      history_.load_factor.push_back(factor_.at(integrated ? factor_.end_of_step(t) : t));
+    }
     if (superposes(transient_)) {
       superpose_modes();
     } else {

@@ -50,7 +50,7 @@ constexpr std::array<IndexSection, 10> kIndexSections = {{
     {"validation_uncertainty", "validation-uncertainty", "Validation uncertainty", "words"},
     {"coverage", "coverage", "What is verified, and by what", "words"},
     {"detection", "detection", "Faults that are noticed", "words"},
-    {"certification", "certification", "Digits under other rounding", "words"},
+    {"certification", "certification", "Digits under other rounding and in other builds", "words"},
     {"history", "history", "Over time", "words"},
 }};
 
@@ -93,7 +93,8 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   index.set("coverage", coverage_section(results, false));
   for (const auto& [key, words] :
        {std::pair{"detection", "Faults seeded into the program, by the family that notices them."},
-        std::pair{"certification", "Verdicts and digits when the solver rounds one way."}}) {
+        std::pair{"certification",
+                  "Verdicts and digits when the solver rounds one way or is built another way."}}) {
     Data section = object();
     section.set("words", words);
     index.set(key, section);

@@ -153,7 +153,9 @@ void integrate(const ElastodynamicsOptions& options, PathFollower& follower,
                ElastodynamicsRecorder& recorder, ElastodynamicsSolution& solution) {
   const EquationOfMotion equation = equation_of(options, follower);
   solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
-    recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy);
+    const bool begins = sample.time == options.time.start;
+    recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy,
+                    begins ? sample.time : options.load_history.end_of_step(sample.time));
   });
   solution.outcome = solution.summary.outcome;
   solution.evidence = solution.summary.evidence;

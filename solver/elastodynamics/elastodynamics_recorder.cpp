@@ -36,18 +36,21 @@ void set_path_errors(ElastodynamicsSolution& solution) {
 }
 
 void ElastodynamicsRecorder::record(double time, const VectorXd& q, const VectorXd& v,
-                                    const VectorXd& a, const MotionEnergy& energy) {
-  if (!follower_.update_to(time)) return;
+                                    const VectorXd& a, const MotionEnergy& energy,
+                                    std::optional<double> load_time) {
+  if (!follower_.update_to(load_time.value_or(time))) return;
   const MovingSystem& moving = follower_.system();
   const MovingSystem::Forces forces = moving.forces(
       q, v, a, options_.damping.mass, options_.damping.stiffness, options_.nominal_inertia);
   solution_.time.push_back(time);
   solution_.nominal.push_back(follower_.point());
+  solution_.nominal.back().time = time;
   solution_.energy.push_back(energy);
   // Where the load sets in or jumps, coordinates without mass are not yet where it puts them.
   const std::vector<double>& jumps = options_.load_history.time;
+  const bool jumps_here = std::find(jumps.begin(), jumps.end(), time) != jumps.end();
   const bool begins =
-      time == options_.time.start || std::find(jumps.begin(), jumps.end(), time) != jumps.end();
+      time == options_.time.start || (jumps_here && load_time.value_or(time) == time);
   WholeBalance unbalanced;
   solution_.state.push_back(postprocess_motion(moving, q, forces, begins ? unbalanced : balance_));
   const StaticSolution& state = solution_.state.back();

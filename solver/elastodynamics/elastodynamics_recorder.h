@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "solver/elastodynamics/elastodynamics.h"
@@ -21,8 +22,10 @@ class ElastodynamicsRecorder {
 
   /// Moves the follower to `time`; records nothing where there is no pose.
   /// @param q, v, a  free coordinates of the elastic displacements and their rates
+  /// @param load_time  whose loads act on them, where that is not `time`
   void record(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-              const Eigen::VectorXd& a, const MotionEnergy& energy);
+              const Eigen::VectorXd& a, const MotionEnergy& energy,
+              std::optional<double> load_time = std::nullopt);
   /// Stacks what the samples have given.
   void finish();
   /// What is left of all forces on the whole, over them.

@@ -252,7 +252,6 @@ HoldingTorques holding_torques(const Jacobians& j, const Vector3d& wrench) {
   for (Index i = 0; i < 3; ++i) {
     result.torque(i) = -result.tension(i) * j.serial(i) / j.parallel.row(i).head<2>().norm();
   }
-  result.digits = std::log10(j.parallel_distance / kEps);
   return result;
 }
 

@@ -97,10 +97,9 @@ struct Jacobians {
 
 /// What the actuators give to hold a platform that carries a wrench (paper Fig. 5).
 struct HoldingTorques {
-  Outcome outcome;    ///< singular: at a parallel singularity no finite torques hold the wrench
-  Vector3d torque;    ///< of the actuators on the proximal links, counterclockwise [N m]
-  Vector3d tension;   ///< axial force of the distal links, tension positive [N]
-  double digits = 0;  ///< about the decimal digits that the solution keeps
+  Outcome outcome;   ///< singular: at a parallel singularity no finite torques hold the wrench
+  Vector3d torque;   ///< of the actuators on the proximal links, counterclockwise [N m]
+  Vector3d tension;  ///< axial force of the distal links, tension positive [N]
 };
 
 /// Virtual work: torque . dtheta_a + wrench . dx = 0. With unit vectors e_i = d_i / |d_i| the

@@ -1,6 +1,8 @@
 #include "solver/time/load_history.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace trammel::solver {
 
@@ -11,6 +13,11 @@ double LoadHistory::at(double t) const {
   if (next == time.end()) return factor.back();
   const double share = (t - time[k - 1]) / (time[k] - time[k - 1]);
   return factor[k - 1] * (1 - share) + factor[k] * share;
+}
+
+double LoadHistory::end_of_step(double t) const {
+  const auto [first, last] = std::equal_range(time.begin(), time.end(), t);
+  return last - first > 1 ? std::nextafter(t, -std::numeric_limits<double>::infinity()) : t;
 }
 
 }  // namespace trammel::solver

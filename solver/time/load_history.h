@@ -13,6 +13,9 @@ struct LoadHistory {
   [[nodiscard]] bool constant() const { return time.size() == 1; }
   /// At a jump, the value after it.
   [[nodiscard]] double at(double t) const;
+  /// The time whose loads act on the state in which a step of integration ends at `t`: at a jump,
+  /// just before it.
+  [[nodiscard]] double end_of_step(double t) const;
 };
 
 }  // namespace trammel::solver

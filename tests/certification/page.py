@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the page's section about rounding from result.json: what `trammel certify --json` said of the
-cases that it names.
+"""Writes the page's section about rounding and builds from result.json: what `trammel certify --json` said
+of the cases that it names.
 
 With --check it writes nothing, and exit status 1 says that the page has another section.
 """
@@ -11,13 +11,14 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "support"))
 import page_section  # noqa: E402
-HEADS = ("Rounded", "Checks", "Verdicts that differ", "Digits, median")
+HEADS = ("Configuration", "Cases", "Checks", "Verdicts that differ", "Digits, median", "Fewest digits", "Of")
 
 
 def row(entry, flips):
     differ = sum(flip["configuration"] == entry["configuration"] for flip in flips)
-    cells = (entry["checks"], differ, f'{entry["median_digits"]:.1f}')
-    return f'    <tr><th scope="row">{entry["configuration"].capitalize()}</th>{"".join(f"<td>{c}</td>" for c in cells)}</tr>'
+    cells = (entry["cases"], entry["checks"], differ, f'{entry["median_digits"]:.1f}', f'{entry["fewest_digits"]:.1f}',
+             entry["fewest_of"])
+    return f'    <tr><th scope="row">{entry["configuration"]}</th>{"".join(f"<td>{c}</td>" for c in cells)}</tr>'
 
 
 def main():
@@ -25,14 +26,15 @@ def main():
     flips = result["flips"]
     heads = "".join(f'<th scope="col">{head}</th>' for head in HEADS)
     return page_section.write(
-        "certification", "Digits under other rounding",
-        f"{result['of']}, with the solver rounding one way throughout: verdicts that differ, and digits of judged"
-        " numbers that agree, from those rounded to the nearest.",
-        "Verdicts and digits by way of rounding",
+        "certification", "Digits under other rounding and in other builds",
+        f"{result['of']}: the solver rounding one way throughout, or built another way. Verdicts that differ, and digits of"
+        " judged numbers that agree, from those of gcc -O3 rounded to the nearest. Of"
+        f" {result['tight_tolerances']} checks the tolerance is less than ten times the largest difference seen.",
+        "Verdicts and digits by configuration",
         [f"    <thead><tr>{heads}</tr></thead>", "    <tbody>",
          *(row(entry, flips) for entry in result["configurations"]), "    </tbody>"],
         ["  <ul>",
-         *(f'    <li>{f["check"]}, rounded {f["configuration"]}: {f["to"]} instead of {f["from"]}</li>' for f in flips),
+         *(f'    <li>{f["check"]}, {f["configuration"].lower()}: {f["to"]} instead of {f["from"]}</li>' for f in flips),
          "  </ul>"])
 
 

@@ -121,11 +121,11 @@ def cases_of(program, chosen):
 
 
 def suites_of(program, folder, chosen):
-    """The suites of a test program that are not labelled slow."""
+    """The suites of a test program that are not labelled slow; switches allocate, so that what counts is left out."""
     files = [f for f in (ROOT / "tests" / folder).rglob("*_test.cpp")
              if "slow" not in f.read_text().splitlines()[0]]
     suites = [(f"{folder}.{f.stem[:-5]}", f"--run_test={f.stem[:-5]}") for f in files]
-    return [Probe(name, name, [program, word]) for name, word in suites
+    return [Probe(name, name, [program, word, "--run_test=!@allocations"]) for name, word in suites
             if not chosen or re.fullmatch(chosen, name)]
 
 

@@ -92,6 +92,16 @@ bool is_alive(const fs::path& pid_file) {
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(a_run_of_which_a_check_could_not_be_judged_does_not_agree) {
+  results::Run run;
+  run.status = results::Status::solved;
+  for (const results::Verdict verdict : {results::Verdict::pass, results::Verdict::error})
+    run.checks.emplace_back().verdict = verdict;
+  BOOST_TEST(to_string(results::grade_of(run)) == "broken");
+  run.checks.pop_back();
+  BOOST_TEST(to_string(results::grade_of(run)) == "agrees");
+}
+
 BOOST_AUTO_TEST_CASE(whatever_an_adapter_does_costs_its_own_row_and_leaves_nothing_behind) {
   const Folder folder;
   std::string names;

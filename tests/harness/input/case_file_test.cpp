@@ -57,7 +57,8 @@ BOOST_AUTO_TEST_CASE(a_case_extends_another_and_keeps_its_own_judgement) {
   base["checks"]["c"] = {{"quantity", "estimated_correct_digits"},
                          {"role", "verification"},
                          {"bound", {{"at_least", 1}, {"why", "w"}}}};
-  base["variants"]["v"] = {{"model", {{"elements", 2}}}, {"checks", {{"c", nullptr}}}};
+  base["variants"]["v"] = {
+      {"model", {{"elements", 2}}}, {"checks", {{"c", nullptr}}}, {"expect_status", "singular"}};
   (void)folder.write(base);
   const Case given = testing::read(folder, {{"id", "longer"},
                                             {"title", "Longer"},
@@ -67,7 +68,8 @@ BOOST_AUTO_TEST_CASE(a_case_extends_another_and_keeps_its_own_judgement) {
   BOOST_TEST(given.title() == "Longer");
   BOOST_TEST(given.labels().empty());
   BOOST_TEST(!given.document.value().contains("checks"));
-  BOOST_TEST(!given.document.value()["variants"]["v"].contains("checks"));
+  for (const char* key : {"checks", "expect_status"})
+    BOOST_TEST(!given.document.value()["variants"]["v"].contains(key), key);
   BOOST_TEST((given.variants() == std::vector<std::string>{"base", "v"}));
   BOOST_TEST(patched(given, "v").value()["model"]["elements"] == 2);
 }

@@ -55,6 +55,22 @@ BOOST_AUTO_TEST_CASE(another_law_is_not_met_and_says_by_how_much) {
   BOOST_TEST(fit->worst > 0.05);
 }
 
+BOOST_AUTO_TEST_CASE(the_worst_miss_may_lie_on_either_side) {
+  for (const double factor : {0.5, 2.0}) {  // one level off the law, the error too small, too large
+    std::vector<double> off = errors(0.3, 2e-3);
+    off[2] *= factor;
+    const auto fit = fit_two_terms(kSizes, off, kAll, {4, 2}, 10);
+    BOOST_REQUIRE(fit.has_value());
+    double worst = 0;
+    for (std::size_t k = 0; k < kSizes.size(); ++k) {
+      const double h = kSizes[k];
+      const double law = fit->coefficient[0] * std::pow(h, 4) + fit->coefficient[1] * h * h;
+      worst = std::max(worst, std::abs(law / off[k] - 1));
+    }
+    BOOST_TEST(fit->worst == worst, boost::test_tools::tolerance(1e-12));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(levels_at_round_off_are_not_used) {
   std::vector<double> noisy = errors(0.3, 2e-3);
   noisy[4] = 1e-3;

@@ -76,6 +76,15 @@ BOOST_AUTO_TEST_CASE(a_difference_within_the_round_off_that_a_check_states_is_no
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(the_round_off_of_a_relative_check_is_of_what_it_expects) {
+  Side a = side("a", {{"mass_kg", {10.0}}});
+  const Side b = side("b", {{"mass_kg", {10 + 5e-8}}});
+  a.results.runs[0].checks = {check_of("mass_kg", 10, 1e-8, "round-off of long sums")};
+  BOOST_TEST(compared(a, b).changed == 0U);  // half of the 1e-7 kg that it allows
+  a.results.runs[0].checks[0].measure = "absolute";
+  BOOST_TEST(compared(a, b).changed == 1U);
+}
+
 BOOST_AUTO_TEST_CASE(round_off_that_a_refinement_states_counts_and_what_is_no_number_does_not) {
   Side a = side("a", {{"mass_kg", {1.0, 2.0}}}), b = side("b", {{"mass_kg", {1.0, 2 + 1e-8}}});
   results::Convergence study;

@@ -291,7 +291,8 @@ BOOST_AUTO_TEST_CASE(a_load_that_is_not_a_number_ends_the_motion_and_says_where)
   BOOST_TEST(h.q.allFinite());
 }
 
-BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_no_more_than_ten) {
+BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_no_more_than_ten,
+                     *boost::unit_test::label("allocations")) {
   EquationOfMotion equation = chain(40, 1, 100);
   equation.C = damping_matrix({.mass = 0.1, .stiffness = 1e-3}, equation.M, equation.K);
   equation.load = [](double t, VectorXd& f) { f.setConstant(std::sin(t)); };

@@ -1,0 +1,32 @@
+#include "harness/judge/tracked_quantity.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "tests/support/harness/support.h"
+
+BOOST_AUTO_TEST_SUITE(tracked_quantity)
+
+using namespace trammel;
+using namespace trammel::harness;
+
+BOOST_AUTO_TEST_CASE(each_statistic_of_a_quantity_is_followed_by_itself) {
+  const testing::Folder folder;
+  Json json = testing::cantilever();
+  const Json bound = {{"at_least", 0}, {"why", "w"}};
+  const auto add_check = [&](const char* name, const char* statistic) {
+    json["checks"][name] = {
+        {"quantity", "displacement_y_m:B"}, {"role", "verification"}, {"bound", bound}};
+    if (*statistic != '\0') json["checks"][name]["statistic"] = statistic;
+  };
+  add_check("largest", "max");
+  add_check("smallest", "min");
+  add_check("again", "max");
+  add_check("whole", "");
+  const Document document = patched(testing::read(folder, json), "base");
+  const std::vector<TrackedQuantity> tracked =
+      named_by_checks(document, read_checks(document, "base", {"base"}), References());
+  BOOST_TEST(tracked.size() == 3U);
+  BOOST_TEST(named_by_checks(document, {}, References()).empty());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
