@@ -29,6 +29,7 @@ constexpr const char* kAtRest = "nothing moves in statics";
 constexpr const char* kNoRotary = "the sections have no rotary inertia ('beam')";
 constexpr const char* kNoMass = "no member has a mass";
 constexpr const char* kNotTurning = "the frame does not turn";
+constexpr const char* kNotTurningInPlane = "no frame turns about an axis normal to the plane";
 constexpr const char* kAtMost = "change of the motion without vibration, at most";
 constexpr const char* kNoDamping = "there is no 'damping'";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
@@ -67,7 +68,7 @@ const EffectWords& words_of(solver::Effect effect) {
        {kAtRest, "modes are those of the undamped model", kNoDamping, kNoDamping}},
       /* gyroscopic */
       {in_motion("twice the fastest turning over the first frequency"),
-       {kAtRest, kNotTurning, kNotTurning, "what 'rotating_frame' says is kept"}},
+       {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "what 'rotating_frame' says is kept"}},
       /* geometric stiffening */
       {all(""), {kLarge, "there are no loads", "it comes with large displacement", kLarge}},
       /* large displacement */
