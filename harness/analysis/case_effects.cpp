@@ -262,7 +262,7 @@ EffectScope effect_scope(const Document& document, const CaseModel& case_model) 
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(solver::Effect::platform_flexibility);
     // Plates that are no platform are what there is.
-    if (!case_model.manipulator)
+    if (!case_model.manipulator || !case_model.structure.triangles.empty())
       scope.required = scope.required.with(solver::Effect::platform_flexibility);
   }
   return scope;

@@ -110,6 +110,8 @@ BOOST_AUTO_TEST_CASE(a_study_measures_what_was_estimated) {
 BOOST_AUTO_TEST_CASE(each_scene_calls_for_the_effects_that_it_was_made_for) {
   const std::map<std::string, std::string> expected = {
       {"scene-10-newton", "geometric-stiffening and large-displacement"},
+      {"scene-buckling-on-the-way",
+       "joint-compliance, geometric-stiffening and large-displacement"},
       {"scene-clamped-strip", "axial-flexibility, geometric-stiffening and large-displacement"},
       {"scene-column", "axial-flexibility and geometric-stiffening"},
       {"scene-columns-near-buckling", "axial-flexibility and geometric-stiffening"},
