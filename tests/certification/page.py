@@ -11,13 +11,12 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "support"))
 import page_section  # noqa: E402
-HEADS = ("Configuration", "Cases", "Checks", "Verdicts that differ", "Digits, median", "Fewest digits", "Of")
+HEADS = ("Configuration", "Cases", "Checks", "Verdicts that differ", "Digits, median")
 
 
 def row(entry, flips):
     differ = sum(flip["configuration"] == entry["configuration"] for flip in flips)
-    cells = (entry["cases"], entry["checks"], differ, f'{entry["median_digits"]:.1f}', f'{entry["fewest_digits"]:.1f}',
-             entry["fewest_of"])
+    cells = (entry["cases"], entry["checks"], differ, f'{entry["median_digits"]:.1f}')
     return f'    <tr><th scope="row">{entry["configuration"]}</th>{"".join(f"<td>{c}</td>" for c in cells)}</tr>'
 
 
