@@ -72,6 +72,9 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
   }
   participation_ = modes_.shape.transpose() * system.f;
   unsuperposed_load_ -= system.M * (modes_.shape * participation_);
+  modal_inertia_.resize(system.T.rows(), count);
+  for (Index j = 0; j < count; ++j)
+    modal_inertia_.col(j) = inertia_forces(system, system.T * modes_.shape.col(j));
 }
 
 VectorXcd HarmonicSolver::at(double frequency) const {
@@ -121,7 +124,7 @@ VectorXcd HarmonicSolver::elastic_unbalance(const VectorXcd& u, double omega) co
   const Complex m(-omega * omega, omega * damping_.rayleigh.mass);
   VectorXcd force = k * stiffness + m * mass - system_.load.cast<Complex>();
   for (Index j = 0; j < participation_.size(); ++j) {  // modal damping, as in `backward_error`
-    const VectorXd image = inertia(system_.T * modes_.shape.col(j));
+    const VectorXd image = modal_inertia_.col(j);
     const double wj = kTwoPi * modes_.frequency[j];
     const double ratio = damping_.modal_ratio[static_cast<std::size_t>(j)];
     force += 2 * ratio * wj * i * omega * image.cast<Complex>().dot(u) * image;

@@ -62,6 +62,7 @@ class HarmonicSolver {
   ModalSolution modes_;
   Eigen::VectorXd participation_;      // Phi^T f
   Eigen::VectorXd unsuperposed_load_;  // f - M Phi Phi^T f
+  Eigen::MatrixXd modal_inertia_;      // M Phi on the unconstrained coordinates
   Outcome outcome_;
   mutable Counters counters_;
 };
