@@ -27,6 +27,8 @@ constexpr Index kModesFromRest = 16, kModesBesidePath = 4;
 constexpr Index kElements = 8;
 /// (W / w1)^2 of a path whose harmonics come near no resonance.
 constexpr double kSlow = 0.1;
+/// A part of an energy that is found as a difference and may be rounding.
+constexpr double kRounding = 1e-12;
 
 /// The whole motion, on a mesh that is good enough to decide by.
 ElastodynamicsOptions coarsened(ElastodynamicsOptions options) {
@@ -319,7 +321,7 @@ class MotionEstimates {
       }
       vibrations_.push_back(one);
     }
-    if (from_rest) beyond_modes_ = std::sqrt(std::max(0.0, energy_left));
+    if (from_rest && energy_left > kRounding) beyond_modes_ = std::sqrt(energy_left);
     const EnergyShares shares(system, modes.shape.col(first), frequency_ * frequency_);
     const double rotary = shares.kinetic(true);
     sizes_.share[Effect::link_mass] = shares.kinetic(false) - rotary;

@@ -10,7 +10,6 @@ struct Bar : LineSpringElement {
   double total_mass = 0;  ///< [kg]
   bool lumped = false;
 
-  [[nodiscard]] static Square stiffness() { return Square::Zero(); }
   [[nodiscard]] Square mass() const {
     const double diagonal = total_mass / (lumped ? 2 : 3),
                  off_diagonal = lumped ? 0 : total_mass / 6;

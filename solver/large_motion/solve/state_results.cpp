@@ -61,7 +61,7 @@ struct PlacedBeam {
     if (state.v.size() > 0)
       strained += system.strain_rate_damping() * gather<Beam<P>::N>(state.v, where);
     return G.transpose() * state.lambda.template segment<Beam<P>::R>(system.element_row(index)) +
-           beam.stiffness() * strained - applied_forces();
+           beam.bending(strained) - applied_forces();
   }
 
   /// Axes of the section at a node.

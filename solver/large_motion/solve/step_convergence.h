@@ -24,7 +24,7 @@ class StepConvergence {
     const double next = next_of(step_correction_, previous_step_correction_);
     const bool motion_met =
         next <= limit || step_correction_ <= 1e-16 * velocity ||
-        (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + 1e-15 * position);
+        (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + kSingular * position);
     const double next_projection = next_of(projection_, previous_projection_);
     const bool constraints_met =
         next_projection <= 1e-15 * position || next_projection <= 1e-13 * velocity ||
@@ -36,6 +36,10 @@ class StepConvergence {
   [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
+  /// Round-off of the positions that near a singular one, where rows of constraints depend on each
+  /// other, corrections multiply; far below what a step may err by.
+  static constexpr double kSingular = 1e-13;
+
   /// What the same ratio makes of a correction; the correction itself where there was none before.
   [[nodiscard]] double next_of(double correction, double previous) const {
     return count_ > 1 && correction < previous ? correction * (correction / previous) : correction;

@@ -122,7 +122,7 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
 
  public:
   static constexpr int N = Element::N, R = Element::R;
-  static constexpr bool kElastic = requires(const Element& e) { e.stiffness(); };
+  static constexpr bool kBends = requires(const Element& e) { e.stiffness(); };
   using List::List, List::size;
 
   void set_compliance(Eigen::Ref<VectorXd> compliance) const override {
@@ -148,9 +148,9 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
       element(e).constraint_residual(q, state.t, residual, G);
       typename Element::Coordinates f =
           G.transpose() * state.lambda.template segment<R>(first_row(e));
-      if constexpr (kElastic) {
-        f += element(e).stiffness() * q;
-        if (tau != 0) f += tau * (element(e).stiffness() * gather<N>(state.v, coordinates(e)));
+      if constexpr (kBends) {
+        f += element(e).bending(q);
+        if (tau != 0) f += tau * element(e).bending(gather<N>(state.v, coordinates(e)));
       }
       scatter<N>(f, coordinates(e), r);
     }
@@ -204,8 +204,8 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
       const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
       typename Element::Coordinates f = element(e).discrete_gradient(q0, q1).transpose() *
                                         lambda.template segment<R>(first_row(e));
-      if constexpr (kElastic) {
-        f += element(e).stiffness() * ((q0 + q1) / 2 + tau / (to.t - from.t) * (q1 - q0));
+      if constexpr (kBends) {
+        f += element(e).bending((q0 + q1) / 2 + tau / (to.t - from.t) * (q1 - q0));
       }
       scatter<N>(f, coordinates(e), r);
     }
@@ -213,11 +213,9 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
 
   [[nodiscard]] double energy(const State& state) const override {
     double sum = 0;
-    if constexpr (kElastic) {
-      for (Index e = 0; e < size(); ++e) {
-        const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
-        sum += q.dot(element(e).stiffness() * q) / 2;
-      }
+    if constexpr (kBends) {
+      for (Index e = 0; e < size(); ++e)
+        sum += element(e).bending_energy(gather<N>(state.q, coordinates(e)));
     }
     return sum;
   }
@@ -229,10 +227,9 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
     typename Element::Square S =
         coefficients.stiffness *
         element(e).geometric_stiffness(gather<N>(state.q, coordinates(e)), lambda);
-    if constexpr (kElastic) {
+    if constexpr (kBends)
       S += (coefficients.stiffness + tau * coefficients.damping) * element(e).stiffness();
-      S += coefficients.mass * element(e).mass();
-    }
+    if constexpr (requires { element(e).mass(); }) S += coefficients.mass * element(e).mass();
     return S;
   }
 
