@@ -59,7 +59,7 @@ int claims_command(unsigned jobs, bool json) {
     std::cout << claim_set.title << "\n\n";
     for (const Claim& claim : claim_set.claims) print_claim(claim);
   }
-  return claim_set.as_expected() ? 0 : 1;
+  return exit_status(claim_set);
 }
 
 int paper_command(const std::string& results, bool json) {

@@ -23,11 +23,13 @@ bool is_in_catalogue(const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
-/// Where a case of the user's own may have its references beside it, none for the catalogue's.
+/// Where a case of the user's own may have its references beside it, none for the catalogue's. One
+/// of the case's own name is not the case.
 std::vector<fs::path> places_beside(const std::string& id, const fs::path& case_file) {
   const std::string name = id + ".json";
   const fs::path folder = fs::absolute(case_file).parent_path();
   if (is_in_catalogue(folder)) return {};
+  if (case_file.filename() == name) return {folder / "references" / name};
   return {folder / name, folder / "references" / name};
 }
 

@@ -108,7 +108,7 @@ void record_step_errors(solver::ElastodynamicsOptions options, bool large_displa
 /// What the damping means: modes from some frequency on do not vibrate at all.
 void record_damping(const solver::RayleighDamping& damping, const solver::System& start,
                     Recorder& record) {
-  const double above = solver::overdamped_range(damping).above / (2 * std::numbers::pi);
+  const double above = solver::overdamped_above(damping) / (2 * std::numbers::pi);
   if (!std::isfinite(above)) return;
   record.add("overdamped_above_Hz", "", above);
   const std::optional<solver::Index> below = solver::sturm_count(start, above);

@@ -274,6 +274,10 @@ bool ClaimSet::as_expected() const {
                      [](const Claim& claim) { return claim.as_expected(); });
 }
 
+int exit_status(const ClaimSet& claim_set) {
+  return claim_set.as_expected() ? 0 : 1;
+}
+
 Document load_claims() {
   const auto file = data_root() / "cases" / "paper" / "claims" / kClaimsFile;
   Document document;

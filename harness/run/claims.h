@@ -44,6 +44,9 @@ struct ClaimSet {
   [[nodiscard]] bool as_expected() const;
 };
 
+/// 0 where every verdict is the one that is recorded, else 1.
+[[nodiscard]] int exit_status(const ClaimSet& claim_set);
+
 /// The claims of the catalogue, cases/paper/claims/varalakshmi-2017.json.
 /// @throws InputError  where it cannot be read or breaks its schema.
 [[nodiscard]] Document load_claims();

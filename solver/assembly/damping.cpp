@@ -1,5 +1,6 @@
 #include "solver/assembly/damping.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,12 +14,10 @@ Eigen::VectorXd decay_rates(const RayleighDamping& damping, const Eigen::VectorX
   return 0.5 * (damping.mass + damping.stiffness * omega.array().square());
 }
 
-OverdampedRange overdamped_range(const RayleighDamping& damping) {
-  const double product = damping.mass * damping.stiffness;
-  if (product >= 1) return {1 / damping.stiffness, 1 / damping.stiffness};
-  const double sum = 1 + std::sqrt(1 - product);
-  return {damping.mass / sum, damping.stiffness > 0 ? sum / damping.stiffness
-                                                    : std::numeric_limits<double>::infinity()};
+double overdamped_above(const RayleighDamping& damping) {
+  if (damping.stiffness == 0) return std::numeric_limits<double>::infinity();
+  const double product = std::min(1.0, damping.mass * damping.stiffness);
+  return (1 + std::sqrt(1 - product)) / damping.stiffness;
 }
 
 SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& M,

@@ -20,14 +20,10 @@ struct RayleighDamping {
 [[nodiscard]] Eigen::VectorXd decay_rates(const RayleighDamping& damping,
                                           const Eigen::VectorXd& omega);
 
-/// Modes do not vibrate, their ratio is 1 or more, up to `below` and from `above` [rad/s]:
-///   w = (1 -+ sqrt(1 - mass * stiffness)) / stiffness.
-/// Without mass factor `below` is 0; without stiffness factor `above` is infinite; with
-/// mass * stiffness >= 1 every mode is overdamped and both are 1 / stiffness.
-struct OverdampedRange {
-  double below = 0, above = 0;
-};
-[[nodiscard]] OverdampedRange overdamped_range(const RayleighDamping& damping);
+/// From where on modes do not vibrate, for their ratio is 1 or more [rad/s]:
+///   w = (1 + sqrt(1 - mass * stiffness)) / stiffness,
+/// infinite without stiffness factor; 1 / stiffness where with mass * stiffness >= 1 none vibrates.
+[[nodiscard]] double overdamped_above(const RayleighDamping& damping);
 
 /// mass * M + stiffness * K, on the union of the two patterns.
 [[nodiscard]] SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& M,

@@ -145,7 +145,7 @@ class Solver {
         factorization_(factorization) {}
 
   Eigenpairs run() {
-    constexpr int kRounds = 40;
+    constexpr int kRounds = 40, kUncertainRounds = 8;
     if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return no_eigenpairs();
     const Index guard = 3 + count_ / 4;
     add(provider_.first_block(factorization_, count_ + guard, null_));
@@ -154,12 +154,18 @@ class Solver {
       iterate_to_convergence();
       if (inverse_iteration_failed_) return no_eigenpairs();
       const Index expected = sturm_check();
-      if (expected == checked_) break;
-      if (expected < checked_ || round + 1 == kRounds) return report_missing_eigenpairs(expected);
+      if (clear_of_rounding_) {
+        if (expected == checked_) break;
+        if (expected < checked_ || round + 1 == kRounds) return report_missing_eigenpairs(expected);
+      } else if (round + 1 >= kUncertainRounds) {
+        return no_eigenpairs();
+      }
       factor();
-      const Index before = X_.cols();
-      add(provider_.next_block(factorization_, expected - checked_ + 2, with_null()));
-      if (X_.cols() == before) return report_missing_eigenpairs(expected);
+      const Index before = X_.cols(), missing = std::max<Index>(0, expected - checked_);
+      add(provider_.next_block(factorization_, missing + 2, with_null()));
+      if (X_.cols() > before) continue;
+      if (expected != checked_) return report_missing_eigenpairs(expected);
+      break;  // there are no more
     }
     finish();
     return pairs_;
@@ -276,11 +282,19 @@ class Solver {
     X_ = std::move(sorted);
   }
 
+  /// By how much the values are others in the matrix that is factored, whose entries are rounded:
+  /// a count by its inertia knows no smaller differences.
+  [[nodiscard]] VectorXd rounding_of_values() const {
+    const MatrixXd KX = pencil_.K->transpose() * X_;
+    return (VectorXd(X_.cwiseProduct(KX).colwise().sum()) - pairs_.value).cwiseAbs();
+  }
+
   /// How many eigenvalues there are below a shift that cuts no cluster; `checked_` were found.
   Index sturm_check() {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
-    const Index cut = cluster_boundary();
+    const VectorXd rounding = rounding_of_values();
+    const Index cut = cluster_boundary(rounding);
     checked_ = cut + null_.cols();
     for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
       if (p == 0) {
@@ -294,19 +308,23 @@ class Solver {
       ++counters_.factorizations;
       if (factorization_.is_reliable()) break;
     }
+    clear_of_rounding_ = true;
+    for (Index j = 0; j < std::min(cut + 1, p); ++j)
+      clear_of_rounding_ &= std::abs(pairs_.check_shift - v[j]) > rounding[j];
     pairs_.inertia_count = factorization_.exists() ? factorization_.negative_pivots() : -1;
     return pairs_.inertia_count;
   }
 
   /// Number of found values below a gap: the first clear one at or after the wanted, or the widest.
-  [[nodiscard]] Index cluster_boundary() const {
+  [[nodiscard]] Index cluster_boundary(const VectorXd& rounding) const {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
     const auto gap = [&v](Index k) { return (v[k] - v[k - 1]) / v[k]; };
     Index cut = p;
     for (Index k = std::max<Index>(std::min(count_, p), 1); k < p; ++k) {
       if (cut == p || gap(k) > gap(cut)) cut = k;
-      if (gap(k) > kClusterGap) break;
+      if (gap(k) > kClusterGap && v[k] - v[k - 1] > 4 * std::max(rounding[k - 1], rounding[k]))
+        break;
     }
     return cut < p && gap(cut) < 1e-7 ? p : cut;
   }
@@ -343,6 +361,7 @@ class Solver {
   Factorization& factorization_;
   MatrixXd X_;
   Index checked_ = 0;
+  bool clear_of_rounding_ = true;          // the shift of the last count, from what is found
   bool inverse_iteration_failed_ = false;  // an inverse iteration that does not converge
   Eigenpairs pairs_;
 };

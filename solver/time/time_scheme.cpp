@@ -48,18 +48,17 @@ TimeScheme generalized_alpha(double radius) {
           .gamma = 0.5 - alpha_m + alpha_f};
 }
 
-double spectral_radius(const TimeScheme& s, double phase_step, double damping_ratio) {
-  // State (q, h v, h^2 a) of the oscillator h^2 A = -2 zeta W (h v) - W^2 q with W = w h.
+double spectral_radius(const TimeScheme& s, double phase_step) {
+  // State (q, h v, h^2 a) of the oscillator h^2 A = -W^2 q with W = w h.
   const double k = phase_step * phase_step;
-  const double c = 2 * damping_ratio * phase_step;
   Eigen::Matrix3d left;
   Eigen::Matrix3d right;
   left << 1, 0, -s.beta,  //
       0, 1, -s.gamma,     //
-      (1 - s.alpha_f) * k, (1 - s.alpha_f) * c, 1 - s.alpha_m;
+      (1 - s.alpha_f) * k, 0, 1 - s.alpha_m;
   right << 1, 1, 0.5 - s.beta,  //
       0, 1, 1 - s.gamma,        //
-      -s.alpha_f * k, -s.alpha_f * c, -s.alpha_m;
+      -s.alpha_f * k, 0, -s.alpha_m;
   return spectral_radius(left.partialPivLu().solve(right));
 }
 

@@ -35,10 +35,9 @@ struct TimeScheme {
 /// @throws ModelError  outside that range.
 [[nodiscard]] TimeScheme generalized_alpha(double radius);
 
-/// Largest factor by which a step of w h = `phase_step` lets a free motion of damping ratio
-/// `damping_ratio` grow; above 1 the scheme is unstable there.
-[[nodiscard]] double spectral_radius(const TimeScheme& scheme, double phase_step,
-                                     double damping_ratio = 0);
+/// Largest factor by which a step of w h = `phase_step` lets a free undamped motion grow; above 1
+/// the scheme is unstable there.
+[[nodiscard]] double spectral_radius(const TimeScheme& scheme, double phase_step);
 
 /// Largest w h at which an undamped motion stays bounded; infinity where any step is stable.
 [[nodiscard]] double stability_limit(const TimeScheme& scheme);

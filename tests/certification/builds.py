@@ -2,9 +2,11 @@
 """Do verdicts and digits depend on compiler, optimization or rounding? Builds trammel in other ways, runs
 the catalogue with each, and lets `trammel certify` put them beside ways of rounding.
 
-Without optimization only the cases that take less than a second are run. What exists in OUT is not
-built or run again; builds take some ten minutes each on two cores, the rest an hour. Exit status 1
-where a verdict differs, is missing, or a run ends otherwise.
+Without optimization only the cases that take less than a tenth of a second are run. What OUT
+has of the same sources is not built or run again; builds take some ten minutes each on two cores, the
+rest half an hour.
+With --write the page's section and result.json, from which it is made, become what was found. Exit
+status 1 where a verdict differs, is missing, or a run ends otherwise.
 """
 import argparse
 import json
@@ -15,9 +17,11 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 RELEASE = ["-DCMAKE_BUILD_TYPE=Release", "-DTRAMMEL_TESTS=OFF"]
 BUILDS = {
-    "gcc-O2-fma": ["-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -march=haswell -ffp-contract=fast"],
-    "clang": ["-DCMAKE_CXX_COMPILER=clang++", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"],
-    "gcc-O0": ["-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"],
+    "clang": ("Built by clang 14, -O3",
+              ["-DCMAKE_CXX_COMPILER=clang++", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON"]),
+    "gcc-O2-fma": ("Built by gcc, -O2 with FMA",
+                   ["-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG -march=haswell -ffp-contract=fast"]),
+    "gcc-O0": ("Built by gcc, -O0: cases of less than 0.1 s", ["-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]),
 }
 
 
@@ -27,22 +31,47 @@ def call(*command, **options):
 
 def run(program, cases, out):
     """The results of a build, whose checks may fail: certify judges by the first."""
-    if not (out / "results.json").exists():
-        subprocess.run([program, "run", *cases, "--out", out], cwd=ROOT, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "run", *cases, "--out", out, "--resume"], cwd=ROOT, stdout=subprocess.DEVNULL)
     return out
 
 
 def build(name, out):
-    call("cmake", "-S", ROOT, "-B", out / name, "-G", "Ninja", *RELEASE, *BUILDS[name])
+    call("cmake", "-S", ROOT, "-B", out / name, "-G", "Ninja", *RELEASE, *BUILDS[name][1])
     call("cmake", "--build", out / name, "--target", "trammel")
     return out / name / "harness/trammel"
+
+
+def certify(program, cases, results):
+    """What certify says of the cases, rounded and by the builds whose results are given."""
+    command = [program, "certify", *cases, "--json", "--results", *results.values()]
+    found = json.loads(subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True).stdout)
+    titles = {str(path): BUILDS[name][0] for name, path in results.items()}
+    for entry in found["configurations"] + found["flips"] + found["tight_tolerances"]:
+        name = entry["configuration"]
+        entry["configuration"] = titles.get(name, "Rounded " + name)
+    for entry in found["configurations"]:
+        entry["cases"] = len(cases)
+    return found
+
+
+def write(found, cases):
+    commit = call("git", "rev-parse", "--short", "HEAD", capture_output=True, text=True).stdout.strip()
+    kept = ("configuration", "cases", "checks", "median_digits")
+    result = {"of": f"{len(cases)} cases of the catalogue, all that are not slow, by the program of commit {commit}",
+              "tight_tolerances": len({one["check"] for one in found["tight_tolerances"]}),
+              "configurations": [{**{key: entry[key] for key in kept}, "median_digits": round(entry["median_digits"], 2)}
+                                 for entry in found["configurations"]],
+              "flips": found["flips"]}
+    folder = pathlib.Path(__file__).parent
+    (folder / "result.json").write_text(json.dumps(result, indent=1) + "\n")
+    call(sys.executable, folder / "page.py")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("program", type=pathlib.Path, help="trammel, of which the others are to differ")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/certification")
-    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--write", action="store_true")
     given = parser.parse_args()
     program, out = given.program.resolve(), given.out.resolve()
     listed = json.loads(call(program, "list", "--json", capture_output=True).stdout)
@@ -51,14 +80,17 @@ def main():
     seconds = dict.fromkeys(cases, 0.0)
     for one in own["runs"]:
         seconds[one["case"]] += one.get("cost", {}).get("cpu_s", 0)
-    cheap = [case for case in cases if seconds[case] < 1]
+    cheap = [case for case in cases if seconds[case] < 0.1]
     results = {name: run(build(name, out), cheap if name == "gcc-O0" else cases, out / f"{name}-results")
                for name in BUILDS}
-    status = 0
-    for chosen, names in ((cases, ["gcc-O2-fma", "clang"]), (cheap, ["gcc-O0"])):
-        command = [program, "certify", *chosen, "--results", *(results[name] for name in names)]
-        status |= subprocess.run([*command, *(["--json"] if given.json else [])], cwd=ROOT).returncode
-    return status
+    found = certify(program, cases, {name: results[name] for name in ("clang", "gcc-O2-fma")})
+    unoptimized = certify(program, cheap, {"gcc-O0": results["gcc-O0"]})
+    for key, entries in found.items():
+        entries += [one for one in unoptimized[key] if one["configuration"] == BUILDS["gcc-O0"][0]]
+    if given.write:
+        write(found, cases)
+    print(json.dumps(found, indent=1))
+    return 1 if found["flips"] else 0
 
 
 if __name__ == "__main__":

@@ -191,6 +191,73 @@ BOOST_AUTO_TEST_CASE(a_network_on_the_path_tells_training_from_what_was_held_out
   BOOST_TEST(only(result_of(json), "held_out_rms_error") < only(first, "held_out_rms_error") / 10);
 }
 
+BOOST_AUTO_TEST_CASE(the_largest_error_of_a_network_counts_downwards_too) {
+  Json json = on_a_circle(testing::manipulator(), 100);
+  json["model"]["trajectory"]["circle"]["step_s"] = 0.0628;
+  json["analysis"] = {{"grnn", {{"train", 60}, {"split", "first"}}}};
+  const AnalysisResult result = result_of(json);
+  double upwards = 0, largest = 0;
+  for (const char* item : {"A1", "A2", "A3"}) {
+    for (const auto& [error, active] :
+         {std::pair{"held_out_angle_error_rad:", "active_angle_rad:"},
+          std::pair{"held_out_velocity_error_rad_per_s:", "active_velocity_rad_per_s:"}}) {
+      const std::vector<double>& all = result.quantities.at(std::string(active) + item).values;
+      const auto [least, most] = std::minmax_element(all.begin(), all.end());
+      for (const double one : result.quantities.at(std::string(error) + item).values) {
+        upwards = std::max(upwards, one / (*most - *least));
+        largest = std::max(largest, std::abs(one) / (*most - *least));
+      }
+    }
+  }
+  BOOST_TEST(largest > 1.01 * upwards);
+  BOOST_TEST(only(result, "held_out_largest_error_of_range") == largest,
+             boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_a_study_are_relative_to_the_run_that_is_named) {
+  Json json = testing::cantilever();
+  json["analysis"] = {
+      {"study",
+       {{"analysis", {{"modes", {{"count", 1}}}}},
+        {"parameter", "elements"},
+        {"values", {1, 2, 4}},
+        {"pointers", {"/model/elements"}},
+        {"quantities", {{"frequency_Hz", {{"index", 0}, {"relative_to", "first"}}}}}}}};
+  const auto errors = [&] {
+    return result_of(json).quantities.at("relative_error:frequency_Hz").values;
+  };
+  BOOST_TEST(errors().front() == 0);
+  BOOST_TEST(errors().back() > 0);
+  json["analysis"]["study"]["quantities"]["frequency_Hz"]["relative_to"] = "last";
+  BOOST_TEST(errors().front() > 0);
+  BOOST_TEST(errors().back() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_that_may_come_to_stand_beside_a_case_is_kept_in_mind) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["checks"]["c"] = {
+      {"quantity", "frequency_Hz"}, {"role", "validation"}, {"reference", "table-2-ansys"}};
+  const Document document = patched(testing::read(folder, json), "base");
+  const References references;
+  (void)references.get(JsonView(document)["checks"]["c"]["reference"]);
+  const auto hashes = references.hashes();
+  const auto beside = hashes.find((folder.path() / "table-2-ansys.json").string());
+  BOOST_REQUIRE((beside != hashes.end()));
+  BOOST_TEST(beside->second == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_case_is_no_reference_of_its_own_name) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["id"] = "table-2-ansys";
+  json["checks"]["c"] = {
+      {"quantity", "frequency_Hz"}, {"role", "validation"}, {"reference", "table-2-ansys"}};
+  const Document document = patched(testing::read(folder, json), "base");
+  const References references;
+  BOOST_TEST(references.get(JsonView(document)["checks"]["c"]["reference"]).unit == "Hz");
+}
+
 BOOST_AUTO_TEST_CASE(a_network_of_its_own_samples_needs_no_model_and_its_rows_must_fit) {
   Json json = {{"id", "net"},
                {"title", "Net"},

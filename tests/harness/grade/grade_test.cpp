@@ -205,6 +205,7 @@ BOOST_AUTO_TEST_CASE(an_order_is_judged_by_the_one_that_the_adapter_declares_and
   BOOST_TEST(verdict(" 2 2") == "0 pass");
   BOOST_TEST(verdict(" 2 4") == "1 fail");
   BOOST_TEST(verdict(" 2 null") == "0 not-given");
+  BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // numbers of no solution
 }
 
 BOOST_AUTO_TEST_CASE(the_adapter_in_the_documentation_works_as_it_stands) {

@@ -29,4 +29,25 @@ BOOST_AUTO_TEST_CASE(each_statistic_of_a_quantity_is_followed_by_itself) {
   BOOST_TEST(named_by_checks(document, {}, References()).empty());
 }
 
+BOOST_AUTO_TEST_CASE(what_another_code_gives_is_no_exact_value) {
+  const testing::Folder folder;
+  const Json reference = {{"id", "given"},  {"title", "Given"}, {"kind", "code"},
+                          {"unit", "m"},    {"values", {-1}},   {"uncertainty", {{"absolute", 1}}},
+                          {"source", "me"}, {"place", "here"}};
+  Json json = testing::cantilever();
+  json["checks"]["c"] = {
+      {"quantity", "displacement_y_m:B"}, {"role", "validation"}, {"reference", "given"}};
+  const auto tracked = [&] {
+    (void)folder.write(reference);
+    const Document document = patched(testing::read(folder, json), "base");
+    const References references;
+    const auto found =
+        named_by_checks(document, read_checks(document, "base", {"base"}), references);
+    return found.at(0).reference != nullptr;
+  };
+  BOOST_TEST(!tracked());
+  json["checks"]["c"]["reference"] = "hard-07-displacement";
+  BOOST_TEST(tracked());
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -113,6 +113,21 @@ BOOST_AUTO_TEST_CASE(an_interpretation_that_misses_a_number_has_no_verdict_of_it
       (found.claims.at(0).interpretations.at(0).verdict == InterpretationVerdict::not_measured));
 }
 
+BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
+  Json other = ratio;
+  other["check"] = "tip-y";
+  Run half = bend(1, 1);
+  half.check_results[1].computed.reset();
+  BOOST_TEST((verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) ==
+              ClaimVerdict::not_measured));
+}
+
+BOOST_AUTO_TEST_CASE(the_exit_status_says_whether_all_verdicts_are_the_recorded_ones) {
+  const Document document = claims_of({{"r", ratio}}, "confirmed");
+  BOOST_TEST(exit_status(evaluate_claims(document, {bend(1, 1)})) == 0);
+  BOOST_TEST(exit_status(evaluate_claims(document, {bend(2, 2)})) == 1);
+}
+
 BOOST_AUTO_TEST_CASE(a_relative_difference_is_one_of_what_is_expected) {
   Json relative = ratio;
   relative["metric"] = "relative";

@@ -109,6 +109,12 @@ BOOST_AUTO_TEST_CASE(a_zero_has_no_percent_and_its_round_off_is_no_change) {
   BOOST_TEST(contains(found.conclusion, "force_N:B by +1 % (100 to 101 N)"), found.conclusion);
 }
 
+BOOST_AUTO_TEST_CASE(numbers_without_a_unit_have_no_common_scale) {
+  const Side a = side("a", {{"skill_score", {1.0}}, {"relative_error:y", {1e-12}}});
+  const Side b = side("b", {{"skill_score", {1.0}}, {"relative_error:y", {2e-12}}});
+  BOOST_TEST(compared(a, b).changed == 1U);
+}
+
 BOOST_AUTO_TEST_CASE(drawn_modes_that_change_places_are_matched_by_their_shapes) {
   const Side a = drawn("a", {10, 20}, {{1, 1}, {1, -1}});
   const results::SideComparison found = compared(a, drawn("b", {12, 20}, {{1, -1}, {1, 1}}));

@@ -140,6 +140,25 @@ BOOST_AUTO_TEST_CASE(what_decides_a_run_decides_its_name) {
   BOOST_TEST(name() != first);
 }
 
+BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
+  const Folder folder;
+  Json tried = testing::cantilever();
+  tried["id"] = "tried";
+  const Json options = {
+      {"id", "options"},
+      {"title", "t"},
+      {"analysis",
+       {{"options",
+         {{"cases", {{"tried", Json::object()}}}, {"analyses", {{"statics", Json::object()}}}}}}}};
+  const auto name = [&] {
+    (void)folder.write(tried);
+    return computation_name(load_case(folder.write(options)).document, true);
+  };
+  const std::string first = name();
+  tried["model"]["elements"] = 5;
+  BOOST_TEST(name() != first);
+}
+
 BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
   const Folder folder;
   const auto file = folder.write("r.json", "1");

@@ -109,6 +109,18 @@ BOOST_AUTO_TEST_CASE(what_is_not_computed_and_bands_that_miss_do_not_pass) {
   BOOST_TEST(element_size("halvings", 3) == 0.125);
 }
 
+BOOST_AUTO_TEST_CASE(the_exit_status_is_that_of_the_worst) {
+  CheckResult failing;
+  failing.verdict = Verdict::fail;
+  Run run;
+  run.check_results = {failing};
+  BOOST_TEST(exit_status({run}) == 1);
+  run.error = Run::RunError::input;
+  BOOST_TEST(exit_status({run}) == 2);
+  run.error = Run::RunError::internal;
+  BOOST_TEST(exit_status({run}) == 3);
+}
+
 BOOST_AUTO_TEST_CASE(an_order_from_too_few_meshes_is_no_order) {
   const Folder folder;
   Json json = beam(folder);

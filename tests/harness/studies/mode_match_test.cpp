@@ -50,7 +50,10 @@ BOOST_AUTO_TEST_CASE(modes_that_part_look_like_the_set_they_were) {
   const SampledModes pair = modes({1, 1, 3}, I), parted = modes({1, 1.1, 3}, I);
   const auto apart = match_modes(parted, pair);
   BOOST_REQUIRE(apart.size() == 3);
-  for (std::size_t i = 0; i < 2; ++i) BOOST_TEST(apart[i].b.size() == 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    BOOST_TEST(apart[i].b.size() == 2U);
+    BOOST_TEST(apart[i].overlap == 1, boost::test_tools::tolerance(1e-12));
+  }
   const auto together = match_modes(pair, parted);
   BOOST_REQUIRE(together.size() == 2);
   BOOST_TEST((together[0].b == std::vector<std::size_t>{0, 1}));

@@ -107,6 +107,11 @@ BOOST_AUTO_TEST_CASE(u_num_holds_the_error_of_the_mesh_and_is_not_huge) {
   BOOST_REQUIRE(found.uncertainty.numerical.size() == 1U);  // once, for both checks
   BOOST_TEST(found.uncertainty.numerical[0].parameter[2] == 16);
   BOOST_TEST(found.uncertainty.numerical[0].factor == 1.25);
+  Json twice = beam(folder, 0);
+  twice["uncertainty"]["refinements"]["again"] = twice["uncertainty"]["refinements"]["beam"];
+  const Run both = run(testing::read(folder, twice));
+  BOOST_TEST(both.uncertainty.entries[0].comparison.u_num == std::sqrt(2.0) * u,
+             boost::test_tools::tolerance(1e-12));  // their squares add up
 }
 
 BOOST_AUTO_TEST_CASE(an_agreement_is_within_the_noise_and_a_difference_is_not) {
