@@ -282,18 +282,20 @@ class Solver {
     X_ = std::move(sorted);
   }
 
-  /// By how much the values are others in the matrix that is factored, whose entries are rounded:
-  /// a count by its inertia knows no smaller differences.
-  [[nodiscard]] VectorXd rounding_of_values() const {
+  /// Largest relative change of the values in the matrix that is factored, whose entries are
+  /// rounded: a count by its inertia knows no smaller differences.
+  [[nodiscard]] double rounding_of_values() const {
+    if (X_.cols() == 0) return 0;
     const MatrixXd KX = pencil_.K->transpose() * X_;
-    return (VectorXd(X_.cwiseProduct(KX).colwise().sum()) - pairs_.value).cwiseAbs();
+    const VectorXd value = X_.cwiseProduct(KX).colwise().sum();
+    return (value - pairs_.value).cwiseQuotient(pairs_.value).cwiseAbs().maxCoeff();
   }
 
   /// How many eigenvalues there are below a shift that cuts no cluster; `checked_` were found.
   Index sturm_check() {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
-    const VectorXd rounding = rounding_of_values();
+    const double rounding = rounding_of_values();
     const Index cut = cluster_boundary(rounding);
     checked_ = cut + null_.cols();
     for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
@@ -308,23 +310,22 @@ class Solver {
       ++counters_.factorizations;
       if (factorization_.is_reliable()) break;
     }
-    clear_of_rounding_ = true;
-    for (Index j = 0; j < std::min(cut + 1, p); ++j)
-      clear_of_rounding_ &= std::abs(pairs_.check_shift - v[j]) > rounding[j];
+    const auto distance = [&](Index j) { return std::abs(pairs_.check_shift / v[j] - 1); };
+    clear_of_rounding_ =
+        p == 0 || (distance(cut - 1) > rounding && (cut == p || distance(cut) > rounding));
     pairs_.inertia_count = factorization_.exists() ? factorization_.negative_pivots() : -1;
     return pairs_.inertia_count;
   }
 
   /// Number of found values below a gap: the first clear one at or after the wanted, or the widest.
-  [[nodiscard]] Index cluster_boundary(const VectorXd& rounding) const {
+  [[nodiscard]] Index cluster_boundary(double rounding) const {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
     const auto gap = [&v](Index k) { return (v[k] - v[k - 1]) / v[k]; };
     Index cut = p;
     for (Index k = std::max<Index>(std::min(count_, p), 1); k < p; ++k) {
       if (cut == p || gap(k) > gap(cut)) cut = k;
-      if (gap(k) > kClusterGap && v[k] - v[k - 1] > 4 * std::max(rounding[k - 1], rounding[k]))
-        break;
+      if (gap(k) > std::max(kClusterGap, 4 * rounding)) break;
     }
     return cut < p && gap(cut) < 1e-7 ? p : cut;
   }
