@@ -67,6 +67,8 @@ class EigenpairProvider {
     return dense_ ? take_dense(count) : lanczos(factorization, count, X);
   }
 
+  /// Whether there are no more than what is given; Lanczos may have given up.
+  [[nodiscard]] bool gives_all() const { return dense_; }
   /// Whether the dense eigenvalue iteration failed.
   [[nodiscard]] bool failed() const { return failed_; }
 
@@ -165,7 +167,8 @@ class Solver {
       add(provider_.next_block(factorization_, missing + 2, with_null()));
       if (X_.cols() > before) continue;
       if (expected != checked_) return report_missing_eigenpairs(expected);
-      break;  // there are no more
+      if (!provider_.gives_all()) return no_eigenpairs();
+      break;
     }
     finish();
     return pairs_;

@@ -2,10 +2,9 @@
 """Do verdicts and digits depend on compiler, optimization or rounding? Builds trammel in other ways, runs
 the catalogue with each, and lets `trammel certify` put them beside ways of rounding.
 
-Without optimization only the cases that take less than a tenth of a second are run. What OUT
-has of the same sources is not built or run again; builds take some ten minutes each on two cores, the
-rest half an hour.
-With --write the page's section and result.json, from which it is made, become what was found. Exit
+Without optimization only the cases that take less than a tenth of a second are run. What OUT has of the
+same sources is not built or run again; builds take some ten minutes each on two cores, the rest half
+an hour. With --write the page's section and result.json, from which it is made, become what was found. Exit
 status 1 where a verdict differs, is missing, or a run ends otherwise.
 """
 import argparse

@@ -128,7 +128,8 @@ struct Beam {
   /// row, n^2 eps EI/L in all of n elements.
   [[nodiscard]] Coordinates bending(const Coordinates& q) const { return stiffness() * bent(q); }
   [[nodiscard]] double bending_energy(const Coordinates& q) const {
-    return bent(q).dot(bending(q)) / 2;
+    const Coordinates relative = bent(q);
+    return relative.dot(stiffness() * relative) / 2;
   }
 
   [[nodiscard]] Square mass() const {

@@ -22,9 +22,9 @@ class StepConvergence {
                                double limit) const {
     const bool stalled = count_ > 2 && step_correction_ > 0.3 * previous_step_correction_;
     const double next = next_of(step_correction_, previous_step_correction_);
-    const bool motion_met =
-        next <= limit || step_correction_ <= 1e-16 * velocity ||
-        (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) + kSingular * position);
+    const bool motion_met = next <= limit || step_correction_ <= 1e-16 * velocity ||
+                            (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) +
+                                                                kRoundoffNearSingular * position);
     const double next_projection = next_of(projection_, previous_projection_);
     const bool constraints_met =
         next_projection <= 1e-15 * position || next_projection <= 1e-13 * velocity ||
@@ -38,7 +38,7 @@ class StepConvergence {
  private:
   /// Round-off of the positions that near a singular one, where rows of constraints depend on each
   /// other, corrections multiply; far below what a step may err by.
-  static constexpr double kSingular = 1e-13;
+  static constexpr double kRoundoffNearSingular = 1e-13;
 
   /// What the same ratio makes of a correction; the correction itself where there was none before.
   [[nodiscard]] double next_of(double correction, double previous) const {
