@@ -5,6 +5,7 @@
 
 #include "solver/assembly/projection.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 namespace {
@@ -131,6 +132,13 @@ Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
   return stress;
 }
 
+/// A stiff element's elongation is what remains of motions that cancel.
+double axial_roundoff(const FrameElement& e, const VectorXd& u) {
+  const Vector2d size(std::abs(u[e.coordinates[3]]) + std::abs(u[e.coordinates[0]]),
+                      std::abs(u[e.coordinates[4]]) + std::abs(u[e.coordinates[1]]));
+  return kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
+}
+
 }  // namespace
 
 FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction, double length) {
@@ -175,8 +183,11 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
   Prestress state;
   state.axial = axial_forces(system, u, multipliers);
   state.axial_variation.resize(state.axial.size());
+  state.axial_roundoff.setZero(state.axial.size());
   for (Index i = 0; i < state.axial_variation.size(); ++i) {
     const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
+    if (system.model.members[to_size(e.member)].axially_flexible)
+      state.axial_roundoff[i] = axial_roundoff(e, u);
     state.axial_variation[i] =
         -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
   }
@@ -209,6 +220,17 @@ VectorXd geometric_stiffness_forces(const System& system, const Prestress& state
         detail::scatter(coordinates, local, force);
       });
   return force;
+}
+
+VectorXd geometric_stiffness_roundoff(const System& system, const Prestress& state,
+                                      const VectorXd& u) {
+  Prestress change = state;
+  change.axial = state.axial_roundoff;
+  change.axial_variation.setZero();
+  change.stress.setZero();
+  change.arm_moment.setZero();
+  change.offset_moment.setZero();
+  return geometric_stiffness_forces(system, change, u);
 }
 
 Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory, double axial,

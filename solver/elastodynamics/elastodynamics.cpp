@@ -155,7 +155,8 @@ void integrate(const ElastodynamicsOptions& options, PathFollower& follower,
   solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
     const bool begins = sample.time == options.time.start;
     recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy,
-                    begins ? sample.time : options.load_history.end_of_step(sample.time));
+                    begins ? sample.time : options.load_history.end_of_step(sample.time),
+                    sample.interpolated);
   });
   solution.outcome = solution.summary.outcome;
   solution.evidence = solution.summary.evidence;

@@ -37,7 +37,7 @@ void set_path_errors(ElastodynamicsSolution& solution) {
 
 void ElastodynamicsRecorder::record(double time, const VectorXd& q, const VectorXd& v,
                                     const VectorXd& a, const MotionEnergy& energy,
-                                    std::optional<double> load_time) {
+                                    std::optional<double> load_time, bool interpolated) {
   if (!follower_.update_to(load_time.value_or(time))) return;
   const MovingSystem& moving = follower_.system();
   const MovingSystem::Forces forces = moving.forces(
@@ -52,7 +52,8 @@ void ElastodynamicsRecorder::record(double time, const VectorXd& q, const Vector
   const bool begins =
       time == options_.time.start || (jumps_here && load_time.value_or(time) == time);
   WholeBalance unbalanced;
-  solution_.state.push_back(postprocess_motion(moving, q, forces, begins ? unbalanced : balance_));
+  solution_.state.push_back(
+      postprocess_motion(moving, q, forces, begins || interpolated ? unbalanced : balance_));
   const StaticSolution& state = solution_.state.back();
   rotation_.push_back(
       mean_platform_rotation(moving.start().model, moving.motion().position, state.displacement));

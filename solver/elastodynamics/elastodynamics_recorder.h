@@ -23,9 +23,10 @@ class ElastodynamicsRecorder {
   /// Moves the follower to `time`; records nothing where there is no pose.
   /// @param q, v, a  free coordinates of the elastic displacements and their rates
   /// @param load_time  whose loads act on them, where that is not `time`
+  /// @param interpolated  as in MotionSample: out of balance by the error of interpolation
   void record(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
               const Eigen::VectorXd& a, const MotionEnergy& energy,
-              std::optional<double> load_time = std::nullopt);
+              std::optional<double> load_time = std::nullopt, bool interpolated = false);
   /// Stacks what the samples have given.
   void finish();
   /// What is left of all forces on the whole, over them.

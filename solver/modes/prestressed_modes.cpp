@@ -1,20 +1,24 @@
 #include "solver/modes/prestressed_modes.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "solver/assembly/prestress.h"
 #include "solver/assembly/strain.h"
+#include "solver/model/numbers.h"
 #include "solver/statics/postprocessing.h"
 
 namespace trammel::solver {
+namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
+/// The modes of (K + K_G) x = w^2 M x, K_G of the forces of a stable state.
+ModalSolution solve_modes_with(const System& system, const Prestress& state,
                                const ModesOptions& options) {
+  const SparseMatrix K_G = geometric_stiffness(system, state);
   ModalSolution solution;
   solution.counters = system.counters;
   if (system.K.rows() == 0) {
@@ -48,15 +52,17 @@ ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
   const SparseMatrix size = K_G.cwiseAbs();
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const VectorXd x = pairs.vector.col(j);
-    const double geometric =
-        std::numeric_limits<double>::epsilon() * x.cwiseAbs().dot(size * x.cwiseAbs());
-    const double rounding = strain_roundoff(system, system.T * x) + geometric;
-    solution.roundoff[j] = 0.5 * (rounding / pairs.value[j] + pairs.error[j]) +
-                           4 * std::numeric_limits<double>::epsilon();
+    const VectorXd u = system.T * x;
+    const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs()) +
+                             u.dot(geometric_stiffness_roundoff(system, state, u));
+    const double rounding = strain_roundoff(system, u) + geometric;
+    solution.roundoff[j] = 0.5 * (rounding / pairs.value[j] + pairs.error[j]) + 4 * kEps;
   }
   judge_modes(system, &K_G, solution, std::move(factorization), pairs.check_shift);
   return solution;
 }
+
+}  // namespace
 
 PrestressedModes solve_prestressed_modes(const System& system, const ModesOptions& options) {
   PrestressedModes result;
@@ -73,7 +79,7 @@ PrestressedModes solve_prestressed_modes(const System& system, const ModesOption
   state.prestress = &forces;  // the constraints' forces of second-order theory
   const VectorXd second = constraint_forces(system, state);
   const Prestress settled = prestress(system, state.u, second, body_forces(system));
-  result.modes = solve_modes_with(system, geometric_stiffness(system, settled), options);
+  result.modes = solve_modes_with(system, settled, options);
   const auto solved = result.modes.counters;
   result.modes.evidence.add(result.state.evidence);
   result.modes.counters = result.state.counters;

@@ -16,8 +16,4 @@ struct PrestressedModes {
 [[nodiscard]] PrestressedModes solve_prestressed_modes(const System& system,
                                                        const ModesOptions& options);
 
-/// The modes of (K + K_G) x = w^2 M x for a given K_G, which must leave the sum positive definite.
-[[nodiscard]] ModalSolution solve_modes_with(const System& system, const SparseMatrix& K_G,
-                                             const ModesOptions& options);
-
 }  // namespace trammel::solver

@@ -50,11 +50,13 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   const SparseMatrix size = softening.cwiseAbs();
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Eigen::VectorXd x = pairs.vector.col(j);
-    const double elastic = strain_roundoff(system, system.T * x) / pairs.value[j];
-    const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs());
+    const Eigen::VectorXd u = system.T * x;
+    const double elastic = strain_roundoff(system, u) / pairs.value[j];
+    const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs()) +
+                             u.dot(geometric_stiffness_roundoff(system, forces, u));
     solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
     EquationRows rows(system);
-    rows.add_stiffness(system.T * x);
+    rows.add_stiffness(u);
     rows.add(softening, x, -solution.load_factor[j]);
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }

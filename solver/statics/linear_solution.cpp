@@ -54,13 +54,15 @@ LinearSolution solve_linear_statics(const System& system, Counters& counters) {
            [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; });
     }
   }
-  if (!(solution.error < 0.1)) {
-    solution.outcome = {Status::not_converged,
-                        "the model is too ill-conditioned for double precision: less than one "
-                        "digit of the displacements would be right"};
-    return solution;
-  }
+  solution.outcome = outcome_by_error(solution.error);
   return solution;
+}
+
+Outcome outcome_by_error(double error) {
+  if (error < 0.1) return {};
+  return {Status::not_converged,
+          "the model is too ill-conditioned for double precision: less than one digit of the "
+          "displacements would be right"};
 }
 
 double force_roundoff(const System& system, const VectorXd& q) {

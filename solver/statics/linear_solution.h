@@ -17,6 +17,9 @@ struct LinearSolution {
 
 [[nodiscard]] LinearSolution solve_linear_statics(const System& system, Counters& counters);
 
+/// Not converged where a relative error of the displacements leaves less than one digit.
+[[nodiscard]] Outcome outcome_by_error(double error);
+
 /// What rounding leaves uncertain of the largest force of an element on a node, of that force: a
 /// stiff element's deformation is what remains of motions that cancel.
 [[nodiscard]] double force_roundoff(const System& system, const Eigen::VectorXd& q);

@@ -4,8 +4,13 @@
 #include <limits>
 #include <sstream>
 
+#include "solver/assembly/length_scales.h"
+#include "solver/assembly/stiffness_factors.h"
+#include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
+#include "solver/linalg/forward_error.h"
 #include "solver/linalg/refinement.h"
+#include "solver/statics/linear_solution.h"
 #include "solver/statics/postprocessing.h"
 
 namespace trammel::solver {
@@ -39,6 +44,8 @@ class SecondOrderTheory {
       step /= step >= 1 ? 8 : 2;
       if (step < kSmallestStep) return failed(load);
     }
+    reached.error = error(reached);
+    reached.outcome = outcome_by_error(reached.error);
     return reached;
   }
 
@@ -83,12 +90,33 @@ class SecondOrderTheory {
       state.forces = forces_of(state.q, load, &state.forces);
       const double size = state.q.norm();
       const double change = (state.q - before).norm();
-      const bool rounding = change <= 1e-8 * size && change >= 0.5 * last_change;
-      if (change <= 1e-14 * size || rounding) return;
+      const double ratio = change / last_change;
+      const bool slow = !(ratio < 0.5);
+      left_ = size > 0 ? change / size * (ratio < 1 ? ratio / (1 - ratio) : 1) : 0;
+      if (change <= 1e-14 * size || (slow && change <= axial_rounding(state) + 1e-8 * size)) return;
       growing = change < last_change ? 0 : growing + 1;
       last_change = change;
     }
     state.outcome = {Status::not_converged, "the forces of the state do not settle"};
+  }
+
+  /// What rounding of the axial forces does to q.
+  [[nodiscard]] double axial_rounding(const SecondOrderState& state) {
+    const VectorXd force = geometric_stiffness_roundoff(system_, state.forces, system_.T * state.q);
+    ++counters_.solves;
+    return factorization_.solve(system_.T.transpose() * force).norm();
+  }
+
+  /// SecondOrderState::error of the state that was solved last.
+  [[nodiscard]] double error(const SecondOrderState& state) {
+    const SparseMatrix R = length_scales(system_).asDiagonal() * system_.T;
+    const Operator inverse = [&](const VectorXd& b) -> VectorXd {
+      ++counters_.solves;
+      return factorization_.solve(b);
+    };
+    if (state.q.isZero(0)) return 0;
+    return forward_error(stiffness_factors(system_), R, state.q, system_.f, inverse) +
+           axial_rounding(state) / state.q.norm() + left_;
   }
 
   /// (K + K_G) q = f; false with the outcome where there is no stable solution.
@@ -115,7 +143,8 @@ class SecondOrderTheory {
   Counters& counters_;
   Operator elastic_;
   Factorization factorization_;
-  Outcome whole_;  // of the first attempt, under the whole load
+  Outcome whole_;    // of the first attempt, under the whole load
+  double left_ = 0;  // of q, what the latest iteration leaves
 };
 
 }  // namespace

@@ -55,6 +55,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
     second = solve_second_order(system, solution.q, solution.counters);
     solution.outcome = second.outcome;
     solution.q = second.q;
+    solution.estimated_correct_digits = digits(second.error);
     state.prestress = &second.forces;
   }
   if (!solution.outcome.solved()) {

@@ -22,7 +22,7 @@ struct StaticSolution {
   Outcome outcome;    ///< singular: the reason names the free motion in words
   Eigen::VectorXd q;  ///< free coordinates; draw them with mesh_motion
   double estimated_correct_digits =
-      0;                          ///< of the largest displacement, linear solution; forward_error.h
+      0;  ///< of the largest displacement: linear_solution.h, second_order.h
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation
                                   ///< where a node has none
   Eigen::MatrixX2d end_rotation;  ///< member x (first, second end) [rad]

@@ -26,10 +26,13 @@ void SampleOutput::start(const TransientState& state) {
 }
 
 void SampleOutput::emit(double time, const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                        const MotionEnergy& energy) {
-  observe_({static_cast<Index>(next_), time, q, v, a, energy});
+                        const MotionEnergy& energy, bool interpolated) {
+  observe_({static_cast<Index>(next_), time, q, v, a, energy, interpolated});
   ++next_;
 }
+
+/// Step ends are sums of steps: rounding apart, such a sample is one.
+constexpr double kEndOfStep = 1e-6;
 
 void SampleOutput::step(const TransientState& begin, const TransientState& end, double h) {
   if (times_.empty()) {
@@ -49,7 +52,8 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
          {.kinetic = mix(e0.kinetic, e1.kinetic),
           .strain = mix(e0.strain, e1.strain),
           .work = mix(e0.work, e1.work),
-          .dissipated = mix(e0.dissipated, e1.dissipated)});
+          .dissipated = mix(e0.dissipated, e1.dissipated)},
+         s < 1 - kEndOfStep);
   }
 }
 

@@ -46,7 +46,7 @@ class SampleOutput {
 
  private:
   void emit(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-            const Eigen::VectorXd& a, const MotionEnergy& energy);
+            const Eigen::VectorXd& a, const MotionEnergy& energy, bool interpolated = false);
 
   const std::vector<double>& times_;
   const MotionObserver& observe_;

@@ -58,6 +58,7 @@ struct MotionSample {
   const Eigen::VectorXd& v;    ///< q' [SI/s]
   const Eigen::VectorXd& a;    ///< q'' [SI/s^2]
   const MotionEnergy& energy;  ///< [J]
+  bool interpolated = false;   ///< inside a step, where the equation holds to the error of that
 };
 using MotionObserver = std::function<void(const MotionSample&)>;
 
