@@ -154,9 +154,13 @@ void integrate(const ElastodynamicsOptions& options, PathFollower& follower,
   const EquationOfMotion equation = equation_of(options, follower);
   solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
     const bool begins = sample.time == options.time.start;
-    recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy,
-                    begins ? sample.time : options.load_history.end_of_step(sample.time),
-                    sample.interpolated);
+    const double load_time = begins ? sample.time : options.load_history.end_of_step(sample.time);
+    if (sample.index < 0) {
+      recorder.add_balance(load_time, sample.q, sample.v, sample.a);
+    } else {
+      recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy, load_time,
+                      sample.interpolated);
+    }
   });
   solution.outcome = solution.summary.outcome;
   solution.evidence = solution.summary.evidence;

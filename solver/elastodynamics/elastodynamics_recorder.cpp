@@ -35,13 +35,24 @@ void set_path_errors(ElastodynamicsSolution& solution) {
   }
 }
 
+StaticSolution ElastodynamicsRecorder::state_of(const VectorXd& q, const VectorXd& v,
+                                                const VectorXd& a, WholeBalance& balance) const {
+  const MovingSystem& moving = follower_.system();
+  const MovingSystem::Forces forces = moving.forces(
+      q, v, a, options_.damping.mass, options_.damping.stiffness, options_.nominal_inertia);
+  return postprocess_motion(moving, q, forces, balance);
+}
+
+void ElastodynamicsRecorder::add_balance(double load_time, const VectorXd& q, const VectorXd& v,
+                                         const VectorXd& a) {
+  if (follower_.update_to(load_time)) (void)state_of(q, v, a, balance_);
+}
+
 void ElastodynamicsRecorder::record(double time, const VectorXd& q, const VectorXd& v,
                                     const VectorXd& a, const MotionEnergy& energy,
                                     std::optional<double> load_time, bool interpolated) {
   if (!follower_.update_to(load_time.value_or(time))) return;
   const MovingSystem& moving = follower_.system();
-  const MovingSystem::Forces forces = moving.forces(
-      q, v, a, options_.damping.mass, options_.damping.stiffness, options_.nominal_inertia);
   solution_.time.push_back(time);
   solution_.nominal.push_back(follower_.point());
   solution_.nominal.back().time = time;
@@ -52,8 +63,7 @@ void ElastodynamicsRecorder::record(double time, const VectorXd& q, const Vector
   const bool begins =
       time == options_.time.start || (jumps_here && load_time.value_or(time) == time);
   WholeBalance unbalanced;
-  solution_.state.push_back(
-      postprocess_motion(moving, q, forces, begins || interpolated ? unbalanced : balance_));
+  solution_.state.push_back(state_of(q, v, a, begins || interpolated ? unbalanced : balance_));
   const StaticSolution& state = solution_.state.back();
   rotation_.push_back(
       mean_platform_rotation(moving.start().model, moving.motion().position, state.displacement));

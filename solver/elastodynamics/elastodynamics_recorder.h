@@ -27,12 +27,18 @@ class ElastodynamicsRecorder {
   void record(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
               const Eigen::VectorXd& a, const MotionEnergy& energy,
               std::optional<double> load_time = std::nullopt, bool interpolated = false);
+  /// Balance of the end of a step inside which samples lie.
+  void add_balance(double load_time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                   const Eigen::VectorXd& a);
   /// Stacks what the samples have given.
   void finish();
   /// What is left of all forces on the whole, over them.
   [[nodiscard]] double balance() const { return balance_.share(); }
 
  private:
+  /// At the pose the follower is at.
+  [[nodiscard]] StaticSolution state_of(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                        const Eigen::VectorXd& a, WholeBalance& balance) const;
   [[nodiscard]] Vector2d quasi_static_displacement(Index node);
   void update_effect_numbers();
 

@@ -39,9 +39,11 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
     emit(end.time, end.q, end.v, end.acceleration, end.energy);
     return;
   }
+  bool inside = false;
   while (next_ < times_.size() && times_[next_] <= end.time) {
     const double time = times_[next_];
     const double s = (time - begin.time) / h;
+    inside = s < 1 - kEndOfStep;
     const auto mix = [s](double x, double y) { return (1 - s) * x + s * y; };
     hermite(s, h, begin.q, begin.v, end.q, end.v, q_);
     hermite(s, h, begin.v, begin.acceleration, end.v, end.acceleration, v_);
@@ -53,8 +55,9 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
           .strain = mix(e0.strain, e1.strain),
           .work = mix(e0.work, e1.work),
           .dissipated = mix(e0.dissipated, e1.dissipated)},
-         s < 1 - kEndOfStep);
+         inside);
   }
+  if (inside) observe_({-1, end.time, end.q, end.v, end.acceleration, end.energy});
 }
 
 }  // namespace trammel::solver

@@ -50,15 +50,15 @@ struct MotionEnergy {
 };
 
 /// The motion at a sample time: between the ends of a step cubic Hermite in q and in v, linear in a
-/// and in the energies.
+/// and in the energies. After those inside a step its end is shown, where the equation holds.
 struct MotionSample {
-  Index index = 0;
+  Index index = 0;             ///< -1: the end of a step, and no sample
   double time = 0;             ///< [s]
   const Eigen::VectorXd& q;    ///< [SI]
   const Eigen::VectorXd& v;    ///< q' [SI/s]
   const Eigen::VectorXd& a;    ///< q'' [SI/s^2]
   const MotionEnergy& energy;  ///< [J]
-  bool interpolated = false;   ///< inside a step, where the equation holds to the error of that
+  bool interpolated = false;   ///< inside a step: the equation holds to the error of the steps
 };
 using MotionObserver = std::function<void(const MotionSample&)>;
 

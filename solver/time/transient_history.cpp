@@ -16,6 +16,7 @@ TransientHistory solve_transient(const EquationOfMotion& equation,
   };
   resize(capacity);
   history.summary = solve_transient(equation, options, [&](const MotionSample& sample) {
+    if (sample.index < 0) return;
     if (sample.index >= capacity) {
       capacity = std::max<Index>(64, 2 * capacity);
       resize(capacity);

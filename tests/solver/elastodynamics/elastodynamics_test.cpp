@@ -202,6 +202,17 @@ BOOST_AUTO_TEST_CASE(links_that_the_rounding_of_a_stiff_platform_has_eaten_are_n
   BOOST_TEST(s.outcome.reason.find("equation of motion") != std::string::npos, s.outcome.reason);
 }
 
+BOOST_AUTO_TEST_CASE(steps_balance_at_their_ends_where_samples_lie_inside_them) {
+  const Pose pose{0.26, 0.15, 0.1};
+  ElastodynamicsOptions options = options_on(RestToRest{pose, pose, 1}, 0.1, 1e-2);
+  options.design = coarse_design(PlatformKind::triangles);
+  options.wrench = {10, 0, 0};
+  options.time.sample_times = {0.033, 0.067};
+  BOOST_TEST(solve_elastodynamics(options).outcome.solved());
+  options.design.platform.material.E = 6.9e19;
+  BOOST_TEST(!solve_elastodynamics(options).outcome.solved());
+}
+
 BOOST_AUTO_TEST_CASE(modes_are_not_superposed_along_a_path) {
   ElastodynamicsOptions options = options_on(circle(1), 1, 0.1);
   options.modal_superposition = true;
