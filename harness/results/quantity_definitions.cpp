@@ -48,7 +48,7 @@ reaction_moment_N_m:SUPPORT  reaction moment of the ground, counterclockwise
 [statics elastodynamics]
 stress_Pa:MEMBER  largest stress by axial force and bending along a member
 von_mises_stress_Pa:PLATE  largest von Mises stress of a plate
-equilibrium_residual_N  largest force that is missing for equilibrium
+equilibrium_residual_N  largest force that is missing for equilibrium, inside a step by the error of interpolation
 moment_residual_N_m  largest moment that is missing for equilibrium
 [statics]
 bending_stress_Pa:MEMBER.END  bending moment over section modulus
@@ -57,7 +57,7 @@ stress_yy_Pa:NODE  normal stress along y at a node of a plate
 stress_xy_Pa:NODE  shear stress at a node of a plate
 [statics]
 compliance_J  work of the loads on the displacements
-estimated_correct_digits  decimal digits of the displacements that round-off leaves
+estimated_correct_digits  decimal digits of the displacements that round-off and the last iteration leave
 [buckling]
 load_factor:MODE  factor on all loads at which the model buckles
 critical_force_N:LOAD  size of a force at the load factor

@@ -79,6 +79,10 @@ void EquationRows::add(const SparseMatrix& A, const VectorXcd& q, Complex factor
   free_terms_ += std::abs(factor) * (A.cwiseAbs() * q.cwiseAbs());
 }
 
+void EquationRows::add_terms(const VectorXd& magnitudes) {
+  terms_ += magnitudes;
+}
+
 double EquationRows::backward_error() const {
   const VectorXcd rows = system_.T.transpose() * sum_ + free_sum_;
   const VectorXd terms = system_.T.cwiseAbs().transpose() * terms_ + free_terms_;

@@ -23,6 +23,8 @@ class EquationRows {
   void add_load(const Eigen::VectorXcd& load, std::complex<double> factor = 1);
   /// @param A  on the free coordinates, as q is
   void add(const SparseMatrix& A, const Eigen::VectorXcd& q, std::complex<double> factor = 1);
+  /// @param magnitudes  of terms that an added one is itself the sum of, unconstrained coordinates
+  void add_terms(const Eigen::VectorXd& magnitudes);
 
   /// Largest |row| over its terms, in the free coordinates: the least relative change of matrices
   /// and loads for which the solution is exact. Source: Oettli and Prager (1964).

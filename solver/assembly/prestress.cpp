@@ -132,13 +132,6 @@ Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
   return stress;
 }
 
-/// A stiff element's elongation is what remains of motions that cancel.
-double axial_roundoff(const FrameElement& e, const VectorXd& u) {
-  const Vector2d size(std::abs(u[e.coordinates[3]]) + std::abs(u[e.coordinates[0]]),
-                      std::abs(u[e.coordinates[4]]) + std::abs(u[e.coordinates[1]]));
-  return kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
-}
-
 }  // namespace
 
 FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction, double length) {
@@ -183,11 +176,8 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
   Prestress state;
   state.axial = axial_forces(system, u, multipliers);
   state.axial_variation.resize(state.axial.size());
-  state.axial_roundoff.setZero(state.axial.size());
   for (Index i = 0; i < state.axial_variation.size(); ++i) {
     const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
-    if (system.model.members[to_size(e.member)].axially_flexible)
-      state.axial_roundoff[i] = axial_roundoff(e, u);
     state.axial_variation[i] =
         -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
   }
@@ -199,6 +189,30 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
         body.point_mass[i].dot(system.model.masses[i].offset);
   }
   return state;
+}
+
+Prestress prestress_roundoff(const System& system, const VectorXd& q) {
+  const VectorXd u = system.T.cwiseAbs() * q.cwiseAbs();
+  Prestress roundoff;
+  const std::vector<FrameElement>& frame = system.mesh.frame;
+  roundoff.axial.setZero(std::ssize(frame));
+  roundoff.axial_variation.setZero(std::ssize(frame));
+  for (Index i = 0; i < roundoff.axial.size(); ++i) {
+    const FrameElement& e = frame[to_size(i)];
+    if (!system.model.members[to_size(e.member)].axially_flexible) continue;
+    // A stiff element's elongation is what remains of motions that cancel.
+    const Vector2d size(u[e.coordinates[3]] + u[e.coordinates[0]],
+                        u[e.coordinates[4]] + u[e.coordinates[1]]);
+    roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
+  }
+  roundoff.stress.setZero(std::ssize(system.model.triangles), 3);
+  const VectorXd force = internal_force_roundoff(system, u);
+  const std::vector<ConstraintRow>& rows = system.constraints.rows;
+  VectorXd of_row(std::ssize(rows));
+  for (Index i = 0; i < of_row.size(); ++i) of_row[i] = force[rows[to_size(i)].terms.front().first];
+  roundoff.arm_moment = arm_moments(system, of_row).cwiseAbs();
+  roundoff.offset_moment.setZero(std::ssize(system.model.masses));
+  return roundoff;
 }
 
 SparseMatrix geometric_stiffness(const System& system, const Prestress& state) {
@@ -220,17 +234,6 @@ VectorXd geometric_stiffness_forces(const System& system, const Prestress& state
         detail::scatter(coordinates, local, force);
       });
   return force;
-}
-
-VectorXd geometric_stiffness_roundoff(const System& system, const Prestress& state,
-                                      const VectorXd& u) {
-  Prestress change = state;
-  change.axial = state.axial_roundoff;
-  change.axial_variation.setZero();
-  change.stress.setZero();
-  change.arm_moment.setZero();
-  change.offset_moment.setZero();
-  return geometric_stiffness_forces(system, change, u);
 }
 
 Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory, double axial,

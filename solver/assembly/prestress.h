@@ -15,10 +15,8 @@ namespace trammel::solver {
 struct Prestress {
   Eigen::VectorXd axial;  ///< frame element: mean axial force, tension positive [N]
   Eigen::VectorXd
-      axial_variation;  ///< frame element: axial force at its second end less the first's [N]
-  Eigen::VectorXd
-      axial_roundoff;          ///< frame element: what rounding of the state changes in `axial` [N]
-  Eigen::MatrixX3d stress;     ///< triangle: (sxx, syy, sxy) at its centroid [Pa]
+      axial_variation;      ///< frame element: axial force at its second end less the first's [N]
+  Eigen::MatrixX3d stress;  ///< triangle: (sxx, syy, sxy) at its centroid [Pa]
   Eigen::VectorXd arm_moment;  ///< constraint row: force on a rigid body's arm times the arm [N m]
   Eigen::VectorXd offset_moment;  ///< point mass: force on its centre times its offset [N m]
 };
@@ -38,6 +36,11 @@ struct BodyForces {
 [[nodiscard]] Prestress prestress(const System& system, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& multipliers, const BodyForces& body);
 
+/// What rounding changes in the forces of a state q, of one sign everywhere: those of members and
+/// on the arms of rigid bodies, zero for stresses of plates.
+/// @param q  free coordinates
+[[nodiscard]] Prestress prestress_roundoff(const System& system, const Eigen::VectorXd& q);
+
 /// Axial force of each element [N], of inextensible ones from their constraint.
 [[nodiscard]] Eigen::VectorXd axial_forces(const System& system, const Eigen::VectorXd& u,
                                            const Eigen::VectorXd& multipliers);
@@ -55,11 +58,6 @@ struct BodyForces {
 [[nodiscard]] Eigen::VectorXd geometric_stiffness_forces(const System& system,
                                                          const Prestress& state,
                                                          const Eigen::VectorXd& u);
-
-/// What the rounding of the axial forces, of one sign in all elements, changes in that.
-[[nodiscard]] Eigen::VectorXd geometric_stiffness_roundoff(const System& system,
-                                                           const Prestress& state,
-                                                           const Eigen::VectorXd& u);
 
 /// The same for one element, in its own axes; u in world axes.
 [[nodiscard]] Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory,

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "solver/model/numbers.h"
+
 namespace trammel::solver {
 
 Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) {
@@ -11,6 +13,16 @@ Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) 
     detail::scatter(coordinates, local, force);
   });
   return force;
+}
+
+Eigen::VectorXd internal_force_roundoff(const System& system, const Eigen::VectorXd& u) {
+  Eigen::VectorXd roundoff = Eigen::VectorXd::Zero(u.size());
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    const auto size = (B.cwiseAbs() * detail::gather(coordinates, u).cwiseAbs()).eval();
+    detail::scatter(coordinates, (kEps * B.cwiseAbs().transpose() * c.cwiseProduct(size)).eval(),
+                    roundoff);
+  });
+  return roundoff;
 }
 
 Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) {

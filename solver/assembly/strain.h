@@ -76,6 +76,10 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// K u on the unconstrained coordinates.
 [[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);
 
+/// What rounding of u changes in that: eps sum over elements of |B|^T C |B| |u|.
+[[nodiscard]] Eigen::VectorXd internal_force_roundoff(const System& system,
+                                                      const Eigen::VectorXd& u);
+
 /// U^T K U for the columns of U (u x k): twice the strain energies.
 [[nodiscard]] Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U);
 

@@ -16,8 +16,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// The modes of (K + K_G) x = w^2 M x, K_G of the forces of a stable state.
+/// @param roundoff  of these
 ModalSolution solve_modes_with(const System& system, const Prestress& state,
-                               const ModesOptions& options) {
+                               const Prestress& roundoff, const ModesOptions& options) {
   const SparseMatrix K_G = geometric_stiffness(system, state);
   ModalSolution solution;
   solution.counters = system.counters;
@@ -54,7 +55,7 @@ ModalSolution solve_modes_with(const System& system, const Prestress& state,
     const VectorXd x = pairs.vector.col(j);
     const VectorXd u = system.T * x;
     const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs()) +
-                             u.dot(geometric_stiffness_roundoff(system, state, u));
+                             u.dot(geometric_stiffness_forces(system, roundoff, u));
     const double rounding = strain_roundoff(system, u) + geometric;
     solution.roundoff[j] = 0.5 * (rounding / pairs.value[j] + pairs.error[j]) + 4 * kEps;
   }
@@ -79,7 +80,8 @@ PrestressedModes solve_prestressed_modes(const System& system, const ModesOption
   state.prestress = &forces;  // the constraints' forces of second-order theory
   const VectorXd second = constraint_forces(system, state);
   const Prestress settled = prestress(system, state.u, second, body_forces(system));
-  result.modes = solve_modes_with(system, settled, options);
+  result.modes =
+      solve_modes_with(system, settled, prestress_roundoff(system, result.state.q), options);
   const auto solved = result.modes.counters;
   result.modes.evidence.add(result.state.evidence);
   result.modes.counters = result.state.counters;

@@ -24,6 +24,7 @@ class SecondOrderTheory {
       : system_(system),
         linear_(linear),
         counters_(counters),
+        lengths_(length_scales(system).asDiagonal() * system.T),
         elastic_(stiffness_operator(system)) {}
 
   SecondOrderState run() {
@@ -88,35 +89,45 @@ class SecondOrderTheory {
       const VectorXd before = state.q;
       if (!solve(f, state)) return;
       state.forces = forces_of(state.q, load, &state.forces);
-      const double size = state.q.norm();
-      const double change = (state.q - before).norm();
+      const double size = measure(state.q);
+      const double change = measure(state.q - before);
       const double ratio = change / last_change;
       const bool slow = !(ratio < 0.5);
       left_ = size > 0 ? change / size * (ratio < 1 ? ratio / (1 - ratio) : 1) : 0;
-      if (change <= 1e-14 * size || (slow && change <= axial_rounding(state) + 1e-8 * size)) return;
+      // Forces can change where nothing moves: they are those that were factored from the second
+      // on.
+      const bool settled =
+          change <= 1e-14 * size || (slow && change <= force_rounding(state) + 1e-8 * size);
+      if (k > 0 && settled) return;
       growing = change < last_change ? 0 : growing + 1;
       last_change = change;
     }
     state.outcome = {Status::not_converged, "the forces of the state do not settle"};
   }
 
-  /// What rounding of the axial forces does to q.
-  [[nodiscard]] double axial_rounding(const SecondOrderState& state) {
-    const VectorXd force = geometric_stiffness_roundoff(system_, state.forces, system_.T * state.q);
+  /// max |u|, rotations times the size of the model.
+  [[nodiscard]] double measure(const VectorXd& q) const {
+    return (lengths_ * q).lpNorm<Eigen::Infinity>();
+  }
+
+  /// What rounding of the state's forces does to the displacements.
+  [[nodiscard]] double force_rounding(const SecondOrderState& state) {
+    const VectorXd u = system_.T * state.q;
+    const VectorXd change =
+        geometric_stiffness_forces(system_, prestress_roundoff(system_, state.q), u);
     ++counters_.solves;
-    return factorization_.solve(system_.T.transpose() * force).norm();
+    return measure(factorization_.solve(system_.T.transpose() * change));
   }
 
   /// SecondOrderState::error of the state that was solved last.
   [[nodiscard]] double error(const SecondOrderState& state) {
-    const SparseMatrix R = length_scales(system_).asDiagonal() * system_.T;
     const Operator inverse = [&](const VectorXd& b) -> VectorXd {
       ++counters_.solves;
       return factorization_.solve(b);
     };
     if (state.q.isZero(0)) return 0;
-    return forward_error(stiffness_factors(system_), R, state.q, system_.f, inverse) +
-           axial_rounding(state) / state.q.norm() + left_;
+    return forward_error(stiffness_factors(system_), lengths_, state.q, system_.f, inverse) +
+           force_rounding(state) / measure(state.q) + left_;
   }
 
   /// (K + K_G) q = f; false with the outcome where there is no stable solution.
@@ -141,6 +152,7 @@ class SecondOrderTheory {
   const System& system_;
   const VectorXd& linear_;
   Counters& counters_;
+  SparseMatrix lengths_;  // q to displacements, rotations times the size of the model
   Operator elastic_;
   Factorization factorization_;
   Outcome whole_;    // of the first attempt, under the whole load

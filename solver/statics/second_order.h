@@ -15,8 +15,8 @@ struct SecondOrderState {
                     ///< the share of the loads that the reason names
   Eigen::VectorXd q;  ///< free coordinates [m, rad]
   Prestress forces;   ///< of q
-  double error = 1;   ///< bound of max |du| / max |u| as in linear_solution.h, together with what
-                      ///< rounding of the axial forces and the last step leave
+  double error = 1;  ///< estimate of max |du| / max |u| as in linear_solution.h, with what rounding
+                     ///< of the state's forces and the last iteration leave
 };
 
 /// Follows the equilibria from the unloaded state: where K + K_G of the latest forces, solved again

@@ -34,7 +34,12 @@ void take_residuals(const System& system, const ElasticState& state, StaticSolut
   EquationRows rows(system);
   rows.add_stiffness(state.u);
   rows.add_load(system.load, -1);
-  if (state.prestress) rows.add(geometric_stiffness(system, *state.prestress), solution.q);
+  if (state.prestress) {
+    rows.add(geometric_stiffness(system, *state.prestress), solution.q);
+    // The forces of the state are differences of larger ones.
+    const Prestress roundoff = prestress_roundoff(system, solution.q);
+    rows.add_terms(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() / kEps);
+  }
   solution.evidence.add(Residual::equilibrium, rows.backward_error());
   solution.evidence.add(Residual::load, rows.residual_over(system.f));
   solution.evidence.add(Residual::recovered_forces,
