@@ -17,4 +17,9 @@ namespace trammel::solver {
   return scale;
 }
 
+/// From the free coordinates q to u, all in lengths.
+[[nodiscard]] inline SparseMatrix free_length_scales(const System& system) {
+  return length_scales(system).asDiagonal() * system.T;
+}
+
 }  // namespace trammel::solver

@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "solver/model/numbers.h"
-
 namespace trammel::solver {
 
 Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) {
@@ -18,8 +16,7 @@ Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) 
 Eigen::VectorXd internal_force_roundoff(const System& system, const Eigen::VectorXd& u) {
   Eigen::VectorXd roundoff = Eigen::VectorXd::Zero(u.size());
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
-    const auto size = (B.cwiseAbs() * detail::gather(coordinates, u).cwiseAbs()).eval();
-    detail::scatter(coordinates, (kEps * B.cwiseAbs().transpose() * c.cwiseProduct(size)).eval(),
+    detail::scatter(coordinates, detail::force_roundoff(B, c, detail::gather(coordinates, u)),
                     roundoff);
   });
   return roundoff;

@@ -8,6 +8,7 @@
 #include "solver/elements/triangle6_element.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/linalg/refinement.h"
+#include "solver/model/numbers.h"
 
 /// Strain energy, internal forces and their round-off straight from the elements' deformations
 /// d = B u, without an assembled stiffness: k = B^T C B with C diagonal and positive, so that what
@@ -24,6 +25,13 @@ auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
     local[static_cast<Index>(i)] = coordinates[i] < 0 ? 0.0 : u[coordinates[i]];
   }
   return local;
+}
+
+/// eps |B|^T C |B| |u|: what rounding of an element's u changes in B^T C B u.
+template <class Matrix, class Rigidity, class Vector>
+auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
+  const auto size = (B.cwiseAbs() * u.cwiseAbs()).eval();
+  return (kEps * (B.cwiseAbs().transpose() * c.cwiseProduct(size))).eval();
 }
 
 /// Adds an element's values to those of its coordinates.

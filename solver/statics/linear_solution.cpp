@@ -27,7 +27,7 @@ LinearSolution solve_linear_statics(const System& system, Counters& counters) {
     return solution;
   }
   const StiffnessFactors factors = stiffness_factors(system);
-  const SparseMatrix R = length_scales(system).asDiagonal() * system.T;
+  const SparseMatrix R = free_length_scales(system);
   const auto take = [&](const VectorXd& q, double left, const Operator& inverse) {
     solution.q = q;
     const double bound = forward_error(factors, R, q, system.f, inverse);
@@ -72,13 +72,12 @@ double force_roundoff(const System& system, const VectorXd& q) {
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto local = detail::gather(coordinates, u);
     const auto force = (B.transpose() * c.cwiseProduct(B * local)).eval();
-    const auto size = (B.cwiseAbs() * local.cwiseAbs()).eval();
-    const auto rounding = (B.cwiseAbs().transpose() * c.cwiseProduct(size)).eval();
+    const auto rounding = detail::force_roundoff(B, c, local);
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       if (coordinates[i] < 0) continue;
       const auto k = static_cast<Index>(i);
       largest = std::max(largest, std::abs(force[k]) / length[coordinates[i]]);
-      lost = std::max(lost, kEps * rounding[k] / length[coordinates[i]]);
+      lost = std::max(lost, rounding[k] / length[coordinates[i]]);
     }
   });
   return largest > 0 ? lost / largest : 0;

@@ -24,7 +24,7 @@ class SecondOrderTheory {
       : system_(system),
         linear_(linear),
         counters_(counters),
-        lengths_(length_scales(system).asDiagonal() * system.T),
+        lengths_(free_length_scales(system)),
         elastic_(stiffness_operator(system)) {}
 
   SecondOrderState run() {
@@ -152,7 +152,7 @@ class SecondOrderTheory {
   const System& system_;
   const VectorXd& linear_;
   Counters& counters_;
-  SparseMatrix lengths_;  // q to displacements, rotations times the size of the model
+  SparseMatrix lengths_;
   Operator elastic_;
   Factorization factorization_;
   Outcome whole_;    // of the first attempt, under the whole load

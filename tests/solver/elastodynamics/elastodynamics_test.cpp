@@ -211,6 +211,10 @@ BOOST_AUTO_TEST_CASE(steps_balance_at_their_ends_where_samples_lie_inside_them) 
   BOOST_TEST(solve_elastodynamics(options).outcome.solved());
   options.design.platform.material.E = 6.9e19;
   BOOST_TEST(!solve_elastodynamics(options).outcome.solved());
+  // rounding of a stiff part is no share of its rows' terms, 1e-16, but of the loads
+  options.design.platform.material.E = 6.9e15;
+  const ElastodynamicsSolution s = solve_elastodynamics(options);
+  BOOST_TEST(s.evidence.largest(Residual::equation_of_motion) > 1e-10);
 }
 
 BOOST_AUTO_TEST_CASE(modes_are_not_superposed_along_a_path) {
