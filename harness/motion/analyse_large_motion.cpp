@@ -32,7 +32,16 @@ struct OutputSelection {
   std::vector<Angle> angles;
 };
 
-OutputSelection read_kept(const JsonView& analysis, const solver::Model& model) {
+/// A node that turns: others are seen from it, or its angle is kept.
+solver::Index find_turning_node(const JsonView& name, const GeometricallyExactSystem& system) {
+  const solver::Index node = find_node(name, system.model());
+  if (system.layout().node[static_cast<std::size_t>(node)][2] < 0)
+    throw name.error("expected a node that has a rotation: only hinges meet there");
+  return node;
+}
+
+OutputSelection read_kept(const JsonView& analysis, const GeometricallyExactSystem& system) {
+  const solver::Model& model = system.model();
   OutputSelection selection;
   if (const auto names = analysis.find("nodes")) {
     for (const auto& entry : names->entries()) {
@@ -43,11 +52,13 @@ OutputSelection read_kept(const JsonView& analysis, const solver::Model& model) 
       if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<solver::Index>(i));
     }
   }
-  if (analysis.has("relative_to")) selection.seen_from = find_node(analysis["relative_to"], model);
+  if (analysis.has("relative_to"))
+    selection.seen_from = find_turning_node(analysis["relative_to"], system);
   if (const auto angles = analysis.find("angles")) {
     for (const auto& [name, place] : angles->entries()) {
-      Angle angle{name, find_node(place["node"], model), -1, place.get("initial_rad", 0.0)};
-      if (place.has("from")) angle.from = find_node(place["from"], model);
+      Angle angle{name, find_turning_node(place["node"], system), -1,
+                  place.get("initial_rad", 0.0)};
+      if (place.has("from")) angle.from = find_turning_node(place["from"], system);
       selection.angles.push_back(angle);
     }
   }
@@ -254,7 +265,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   const solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
-  MotionRecorder log(system, read_kept(analysis, model), record);
+  MotionRecorder log(system, read_kept(analysis, system), record);
   const auto moments =
       static_cast<double>(result.drawing ? max_drawn_moments(result.drawing->nodes.size()) - 1 : 1);
   const auto look = [&](const State& state) {

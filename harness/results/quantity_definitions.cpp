@@ -49,7 +49,7 @@ reaction_moment_N_m:SUPPORT  reaction moment of the ground, counterclockwise
 stress_Pa:MEMBER  largest stress by axial force and bending along a member
 von_mises_stress_Pa:PLATE  largest von Mises stress of a plate
 equilibrium_residual_N  largest force that is missing for equilibrium, inside a step by the error of interpolation
-moment_residual_N_m  largest moment that is missing for equilibrium
+moment_residual_N_m  largest moment that is missing for equilibrium; springs between nodes that lie apart leave their couple
 [statics]
 bending_stress_Pa:MEMBER.END  bending moment over section modulus
 stress_xx_Pa:NODE  normal stress along x at a node of a plate

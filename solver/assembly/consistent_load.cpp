@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/assembly/strain.h"
+#include "solver/elements/edge_load.h"
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_interpolation.h"
 #include "solver/model/quadrature.h"
@@ -58,10 +59,10 @@ Vector2d tangent(const Model& model, const Triangle& triangle, std::size_t k, do
   const auto position = [&](std::size_t i) -> const Vector2d& {
     return model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
   };
-  const Vector2d& a = position(k);
-  const Vector2d& b = position((k + 1) % 3);
-  if (!triangle.quadratic()) return b - a;
-  return (4 * at - 3) * a + (4 * at - 1) * b + (4 - 8 * at) * position(k + 3);
+  const auto dN = side_shape(triangle.quadratic(), at).dN;
+  Vector2d along = dN[0] * position(k) + dN[1] * position((k + 1) % 3);
+  if (triangle.quadratic()) along += dN[2] * position(k + 3);
+  return along;
 }
 
 bool runs_counterclockwise(const Model& model, const Triangle& triangle) {

@@ -4,6 +4,12 @@
 
 namespace trammel::solver {
 
+SideShape side_shape(bool quadratic, double s) {
+  if (!quadratic) return {{1 - s, s, 0}, {-1, 1, 0}};
+  return {{(1 - s) * (1 - 2 * s), s * (2 * s - 1), 4 * s * (1 - s)},
+          {4 * s - 3, 4 * s - 1, 4 - 8 * s}};
+}
+
 std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load) {
   std::array<Vector2d, 3> points = {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -14,13 +20,7 @@ std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load) {
   const double thickness = model.plates[static_cast<std::size_t>(load.plate)].thickness;
   std::array<Vector2d, 3> forces = {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
   for (const LineQuadraturePoint& point : line_quadrature()) {
-    const double s = point.xi;
-    std::array<double, 3> N = {1 - s, s, 0};
-    std::array<double, 3> dN = {-1, 1, 0};
-    if (quadratic) {
-      N = {(1 - s) * (1 - 2 * s), s * (2 * s - 1), 4 * s * (1 - s)};
-      dN = {4 * s - 3, 4 * s - 1, 4 - 8 * s};
-    }
+    const auto [N, dN] = side_shape(quadratic, point.xi);
     const Vector2d tangent = dN[0] * points[0] + dN[1] * points[1] + dN[2] * points[2];
     const Vector2d normal(tangent.y(), -tangent.x());
     const Vector2d traction = tangent.norm() * load.traction + load.normal * normal;

@@ -196,6 +196,7 @@ def main():
         faults = seeding.number([f for f in faults if f.get("quick")])
     targets = ["harness/trammel", *(f"tests/test_{folder}" for folder in given.tests)]
     programs = seeding.Build(build, out, given.jobs).run(faults, targets)
+    os.environ["TRAMMEL_PROGRAM"] = str(programs["harness/trammel"])  # which tests start
     probes = cases_of(programs["harness/trammel"], given.cases)
     for folder in given.tests:
         probes += suites_of(programs[f"tests/test_{folder}"], folder, given.cases)

@@ -35,8 +35,9 @@ std::string text_of(const std::filesystem::path& file) {
 
 /// The program itself, started in the folder.
 Outcome run(const Folder& folder, const std::string& words, const std::string& before = "") {
-  const std::string line = "cd '" + folder.path().string() + "' && " + before +
-                           " '" TRAMMEL_PROGRAM "' " + words + " >out.txt 2>err.txt </dev/null";
+  const std::string line = "cd '" + folder.path().string() + "' && " + before + " '" +
+                           testing::trammel_program() + "' " + words +
+                           " >out.txt 2>err.txt </dev/null";
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder.path() / "out.txt"),
           text_of(folder.path() / "err.txt")};
@@ -237,7 +238,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
                                 {"quantities", {{"displacement_y_m:B", Json::object()}}}};
   (void)folder.write(json);
   (void)run(folder, "run cantilever.json --shard 1/1 --out shard");
-  const std::string program = "'" TRAMMEL_PROGRAM "'", file = " cantilever.json";
+  const std::string program = "'" + testing::trammel_program() + "'", file = " cantilever.json";
   const std::vector<std::pair<std::string, std::string>> commands = {
       {"list", "/0/title"},
       {"describe" + file, "/model/nodes"},
@@ -256,7 +257,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
       {"effects scene-soft-platform --repeats 0", "/full_run/element_evaluations"},
       {"effects --random 1", "/kinds/0/within"},
       {"effects --random 1", "/scenes/0/deciding_s"},
-      {"grade \"" TRAMMEL_PROGRAM " solve\"" + file, "/runs/0/checks/0/verdict"},
+      {"grade \"" + testing::trammel_program() + " solve\"" + file, "/runs/0/checks/0/verdict"},
       {"history h.db", "/calls/0/checks"},
       {"slower " + program + file + " --repeats 10", "/0/ratio"}};
   std::set<std::string> seen = {"claims", "report", "export", "solve", "slurm"};

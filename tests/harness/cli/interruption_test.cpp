@@ -31,12 +31,13 @@ BOOST_AUTO_TEST_CASE(a_computation_that_is_killed_from_outside_costs_its_run_alo
   const auto files =
       std::array{folder.write(testing::endless()), folder.write(testing::cantilever())};
   const auto out = folder.path() / "out";
+  const std::string trammel = testing::trammel_program();
   const pid_t program = fork();
   if (program == 0) {
     const auto log = folder.path() / "log";
     if (std::freopen(log.c_str(), "w", stderr) == nullptr) _exit(126);
     if (std::freopen("/dev/null", "w", stdout) == nullptr) _exit(126);
-    execl(TRAMMEL_PROGRAM, "trammel", "run", files[0].c_str(), files[1].c_str(), "--jobs", "1",
+    execl(trammel.c_str(), "trammel", "run", files[0].c_str(), files[1].c_str(), "--jobs", "1",
           "--out", out.c_str(), nullptr);
     _exit(127);
   }
@@ -67,9 +68,9 @@ BOOST_AUTO_TEST_CASE(a_signal_while_drawing_or_timing_says_how_to_go_on) {
   const auto gnuplot = folder.write("gnuplot", "#!/bin/sh\n: >drawing\nexec sleep 20\n");
   std::filesystem::permissions(gnuplot, std::filesystem::perms::all);
   const auto status_of = [&](const std::string& words, const std::string& until) {
-    const std::string line = "cd " + folder.path().string() +
-                             "; PATH=$PWD:$PATH; " TRAMMEL_PROGRAM " " + words +
-                             " >out.txt 2>err.txt & " + until + "; kill -TERM $!; wait $!";
+    const std::string line = "cd " + folder.path().string() + "; PATH=$PWD:$PATH; " +
+                             testing::trammel_program() + " " + words + " >out.txt 2>err.txt & " +
+                             until + "; kill -TERM $!; wait $!";
     return WEXITSTATUS(std::system(line.c_str()));
   };
   const auto told = [&] { return read_text(folder.path() / "err.txt"); };

@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(the_matrices_are_those_of_the_case) {
 BOOST_AUTO_TEST_CASE(trammel_computes_an_exported_case_as_an_adapter) {
   const Folder folder;
   const auto at = [&](const char* name) { return (folder.path() / name).string(); };
-  const std::string program = TRAMMEL_PROGRAM;
+  const std::string program = testing::trammel_program();
   BOOST_REQUIRE(std::system((program + " export portal-frame --out " + at("c.json")).c_str()) == 0);
   BOOST_REQUIRE(std::system((program + " solve " + at("c.json") + " " + at("r.json")).c_str()) ==
                 0);

@@ -33,8 +33,8 @@ const fs::path kSource = TRAMMEL_SOURCE_DIR;
 
 /// The program itself, started in the folder. @returns its exit status
 int run(const Folder& folder, const std::string& words) {
-  const std::string line = "cd '" + folder.path().string() + "' && '" TRAMMEL_PROGRAM "' " + words +
-                           " >out.txt 2>err.txt </dev/null";
+  const std::string line = "cd '" + folder.path().string() + "' && '" + testing::trammel_program() +
+                           "' " + words + " >out.txt 2>err.txt </dev/null";
   const int status = std::system(line.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }

@@ -65,6 +65,24 @@ BOOST_AUTO_TEST_CASE(a_variant_states_its_own_values_and_what_is_particular_to_i
   BOOST_TEST(soft.windows.at(0).low == 0.5);
 }
 
+BOOST_AUTO_TEST_CASE(a_check_applies_to_each_variant_that_it_names_and_to_no_other) {
+  const auto applies_to = [](const Json& variants, const std::string& variant) {
+    Json json = testing::cantilever();
+    json["variants"]["soft"]["title"] = "Softer";
+    json["checks"] = {{"c",
+                       {{"quantity", "frequency_Hz"},
+                        {"role", "verification"},
+                        {"reference", "row"},
+                        {"tolerance", {{"relative", 0.1}, {"why", "test"}}},
+                        {"variants", variants}}}};
+    const Folder folder;
+    const Case given = testing::read(folder, json);
+    return !read_checks(patched(given, variant), variant, given.variants()).empty();
+  };
+  for (const char* named : {"base", "soft"}) BOOST_TEST(applies_to({"base", "soft"}, named));
+  BOOST_TEST(!applies_to({"soft"}, "base"));
+}
+
 BOOST_AUTO_TEST_CASE(a_half_width_stands_beside_values_only) {
   const Json agrees = {{"agrees", "r"}, {"within", 0.1}};
   const auto with = [](Json expect, const char* key, const Json& value) {

@@ -166,6 +166,26 @@ BOOST_AUTO_TEST_CASE(tracking_ends_no_later_than_its_spline) {
                       "/analysis/large-motion/end_time_s: expected a time on the path"));
 }
 
+BOOST_AUTO_TEST_CASE(where_only_hinges_meet_there_is_no_rotation_to_keep_or_to_see_from) {
+  const AnalysisResult result = result_of(slider_crank());
+  BOOST_TEST(result.quantities.contains("rotation_rad:A"));
+  BOOST_TEST(!result.quantities.contains("rotation_rad:S"));
+  const auto complaint_about = [](const char* key, const Json& value) {
+    Json json = slider_crank();
+    json["analysis"]["large-motion"][key] = value;
+    return complaint([&] { (void)result_of(json); });
+  };
+  for (const auto& [message, place] :
+       {std::pair{complaint_about("relative_to", "S"), "/relative_to"},
+        std::pair{complaint_about("angles", {{"a", {{"node", "S"}}}}), "/angles/a/node"},
+        std::pair{complaint_about("angles", {{"a", {{"node", "A"}, {"from", "S"}}}}),
+                  "/angles/a/from"}}) {
+    BOOST_TEST(contains(message, "/analysis/large-motion" + std::string(place) +
+                                     ": expected a node that has a rotation"),
+               message);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_drive_replaces_the_lock_of_an_actuator) {
   Json json = hinged_manipulator();
   json["model"]["manipulator"]["material"]["E_Pa"] = 6.9e14;  // the link turns as one

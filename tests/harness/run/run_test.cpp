@@ -190,6 +190,17 @@ BOOST_AUTO_TEST_CASE(a_singular_model_holds_where_it_is_expected_and_fails_where
   BOOST_TEST(exit_status(runs) == 1);
 }
 
+BOOST_AUTO_TEST_CASE(a_regression_fails_trammel_itself) {
+  const Folder folder;
+  Json json = testing::cantilever();
+  json["checks"]["as-before"] = {{"quantity", "displacement_y_m:B"},
+                                 {"role", "regression"},
+                                 {"bound", {{"at_most", 0}, {"why", "not what it was"}}}};
+  const std::vector<Run> runs = run_all({testing::read(folder, json)});
+  BOOST_TEST((find(runs.at(0), "as-before").verdict == Verdict::fail));
+  BOOST_TEST(exit_status(runs) == 1);
+}
+
 BOOST_AUTO_TEST_CASE(bad_input_spoils_its_own_run_only) {
   const Folder folder;
   Json json = testing::cantilever();

@@ -22,11 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 
 pid_t start(const fs::path& file, const fs::path& out) {
+  const std::string program = trammel_program();
   const pid_t child = fork();
   if (child != 0) return child;
   const int null = open("/dev/null", O_RDWR);
   for (const int stream : {0, 1, 2}) dup2(null, stream);
-  execl(TRAMMEL_PROGRAM, "trammel", "run", file.c_str(), "--jobs", "2", "--resume", "--out",
+  execl(program.c_str(), "trammel", "run", file.c_str(), "--jobs", "2", "--resume", "--out",
         out.c_str(), nullptr);
   _exit(127);
 }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -13,6 +14,12 @@
 namespace trammel::testing {
 
 using namespace harness;
+
+/// The program that is tested; the environment names another, that of tests/mutation.
+inline std::string trammel_program() {
+  const char* other = std::getenv("TRAMMEL_PROGRAM");
+  return other != nullptr ? other : TRAMMEL_PROGRAM;
+}
 
 /// A folder of its own that is gone afterwards.
 class Folder {
