@@ -21,9 +21,13 @@ MovingState state_of(const solver::System& system, const MotionHistory& motion,
   state.acceleration = solver::node_motion(system, motion.a.col(sample));
   if (!with_forces) return state;
   solver::ElasticState elastic;
-  elastic.u = system.T * motion.q.col(sample);
-  elastic.acceleration = system.T * motion.a.col(sample);
+  const Eigen::VectorXd v = motion.v.col(sample);
+  elastic.u = system.T * (motion.q.col(sample) + motion.damping.rayleigh.stiffness * v);
+  elastic.acceleration =
+      system.T * (motion.a.col(sample) + damping_acceleration(motion.damping, system.M, v));
   elastic.load_factor = motion.load_factor[static_cast<std::size_t>(sample)];
+  elastic.constraint_forces = constraint_forces(system, elastic);  // which damping bears upon, too
+  elastic.u = system.T * motion.q.col(sample);
   postprocess(system, elastic, state.forces);
   return state;
 }
@@ -93,6 +97,11 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   if (!result.outcome.solved()) return result;
   const bool with_forces = std::any_of(outputs.begin(), outputs.end(),
                                        [](const Output& one) { return one.needs_forces(); });
+  if (with_forces && analysis.has("rotating_frame")) {
+    throw analysis["outputs"].error(
+        "expected motions alone beside 'rotating_frame': what the frame does to the inside of "
+        "members is not recovered");
+  }
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {

@@ -21,10 +21,18 @@ namespace {
 
 using Eigen::VectorXd;
 
-solver::PiecewiseLinearLoad load_by(const solver::LoadHistory& history, const VectorXd& pattern) {
-  const auto count = std::ssize(history.factor);
-  return {pattern, history.time,
-          Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), count).eval()};
+/// The loads by their history, and the weight, which always acts.
+solver::PiecewiseLinearLoad load_in_time(const solver::System& system,
+                                         const solver::LoadHistory& history) {
+  const VectorXd weight = system.T.transpose() * system.weight;
+  solver::PiecewiseLinearLoad load;
+  load.pattern.resize(weight.size(), 2);
+  load.pattern << system.f - weight, weight;
+  load.time = history.time;
+  load.factor.setOnes(2, std::ssize(history.factor));
+  load.factor.row(0) =
+      Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), std::ssize(history.factor));
+  return load;
 }
 
 solver::TimeScheme read_scheme(const JsonView& transient) {
@@ -114,7 +122,7 @@ class Motion {
         system_(system),
         damped_(damped),
         factor_(read_load_history(transient)),
-        load_(load_by(factor_, system.f)) {}
+        load_(load_in_time(system, factor_)) {}
 
   MotionHistory run() {
     history_.counters = system_.counters;
@@ -189,13 +197,16 @@ class Motion {
 
   /// @param omega, shape  of the damped modes, at least
   void damp(const solver::HarmonicDamping& damping, const Eigen::VectorXd& omega,
-            const Eigen::MatrixXd& shape, solver::EquationOfMotion& equation) const {
+            const Eigen::MatrixXd& shape, solver::EquationOfMotion& equation) {
     equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
+    history_.damping.rayleigh = damping.rayleigh;
     const auto count = std::min<solver::Index>(std::ssize(damping.modal_ratio), omega.size());
     if (count == 0) return;
-    const Eigen::Map<const Eigen::VectorXd> ratio(damping.modal_ratio.data(), count);
-    equation.C +=
-        solver::modal_damping_matrix(system_.M, omega.head(count), shape.leftCols(count), ratio);
+    solver::ViscousDamping& modal = history_.damping;
+    modal.omega = omega.head(count);
+    modal.ratio = Eigen::Map<const VectorXd>(damping.modal_ratio.data(), count);
+    modal.shape = shape.leftCols(count);
+    equation.C += solver::modal_damping_matrix(system_.M, modal.omega, modal.shape, modal.ratio);
   }
 
   void superpose_modes() {
@@ -240,16 +251,16 @@ class Motion {
 
   /// What acts on coordinates without mass moves no mode: they follow it at once.
   void add_massless(const solver::ModalBasis& basis) {
-    const Eigen::VectorXd rest =
-        system_.f - system_.M * (basis.shape * (basis.shape.transpose() * system_.f));
-    if (!(rest.norm() > 1e-9 * system_.f.norm())) return;
+    const Eigen::MatrixXd rest =
+        load_.pattern - system_.M * (basis.shape * (basis.shape.transpose() * load_.pattern));
+    if (!(rest.norm() > 1e-9 * load_.pattern.norm())) return;
     solver::Factorization K;
     K.compute(system_.K);
     ++history_.counters.factorizations;
     if (!K.exists()) return;
-    const Eigen::VectorXd shape = K.solve(rest);
+    const VectorXd by_loads = K.solve(rest.col(0)), by_weight = K.solve(rest.col(1));
     for (solver::Index i = 0; i < history_.q.cols(); ++i) {
-      history_.q.col(i) += history_.load_factor[static_cast<std::size_t>(i)] * shape;
+      history_.q.col(i) += history_.load_factor[static_cast<std::size_t>(i)] * by_loads + by_weight;
     }
   }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
+#include "solver/assembly/damping.h"
 #include "solver/model/evidence.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/time/transient_history.h"
@@ -15,8 +16,9 @@ struct MotionHistory {
   solver::Evidence evidence;
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
-  std::vector<double> load_factor;  ///< of all loads, at those times
+  std::vector<double> load_factor;  ///< of the loads, not weight, at those times
   Eigen::MatrixXd q, v, a;          ///< free coordinate x time
+  solver::ViscousDamping damping;   ///< that it has
   std::int64_t steps = 0;           ///< of the integrator; 0 for superposed modes
 };
 

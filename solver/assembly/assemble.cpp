@@ -125,9 +125,15 @@ class Assembler {
     detail::scatter(coordinates, force, system_.load);
   }
 
+  template <std::size_t n, class Vector>
+  void add_weight(const std::array<Index, n>& coordinates, const Vector& force) {
+    add_load(coordinates, force);
+    detail::scatter(coordinates, force, system_.weight);
+  }
+
   void loads() {
     const Model& model = system_.model;
-    system_.load = Eigen::VectorXd::Zero(system_.coordinates.size);
+    system_.load = system_.weight = Eigen::VectorXd::Zero(system_.coordinates.size);
     for (const NodalLoad& load : model.loads) {
       if (load.force[2] != 0) {  // asks for the rotation, so that a node without one is an error
         (void)system_.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
@@ -140,6 +146,7 @@ class Assembler {
       if (!weight.isZero(0)) {
         system_.counters.count(Effect::gravity, 1);
         system_.counters.count(Effect::link_mass, 1);
+        detail::scatter(e.coordinates, element_load(e, weight), system_.weight);
       }
       const Vector2d q = member.load + weight;
       if (!q.isZero(0)) add_load(e.coordinates, element_load(e, q));
@@ -167,12 +174,12 @@ class Assembler {
     for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
       Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
       for (Index i = 0; i < fall.size(); ++i) fall[i] = model.gravity[i % 2];
-      add_load(coordinates, (m * fall).eval());
+      add_weight(coordinates, (m * fall).eval());
     });
     for (const PointMass& point_mass : model.masses) {
       const Vector2d weight = point_mass.mass * model.gravity;
-      add_load(system_.coordinates.node[static_cast<std::size_t>(point_mass.node)],
-               Vector3d(weight.x(), weight.y(), cross(point_mass.offset, weight)));
+      add_weight(system_.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+                 Vector3d(weight.x(), weight.y(), cross(point_mass.offset, weight)));
     }
   }
 

@@ -38,4 +38,13 @@ SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& 
   return sparse;
 }
 
+Eigen::VectorXd damping_acceleration(const ViscousDamping& damping, const SparseMatrix& M,
+                                     const Eigen::VectorXd& v) {
+  Eigen::VectorXd a = damping.rayleigh.mass * v;
+  if (damping.omega.size() == 0) return a;
+  const Eigen::VectorXd amplitude = damping.shape.transpose() * (M * v);
+  return a +
+         damping.shape * (2 * damping.ratio.cwiseProduct(damping.omega)).cwiseProduct(amplitude);
+}
+
 }  // namespace trammel::solver

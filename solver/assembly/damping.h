@@ -38,4 +38,18 @@ struct RayleighDamping {
                                                 const Eigen::MatrixXd& shape,
                                                 const Eigen::VectorXd& ratio);
 
+/// Rayleigh damping and that of some modes, all on the free coordinates.
+struct ViscousDamping {
+  RayleighDamping rayleigh;
+  Eigen::VectorXd omega;  ///< of the damped modes [rad/s]
+  Eigen::VectorXd ratio;  ///< mode
+  Eigen::MatrixXd shape;  ///< coordinate x mode, x^T M x = 1
+};
+
+/// What of the damping forces is the inertia force of some acceleration, at velocities v:
+///   mass v + sum over modes of 2 ratio w x (M x)^T v.
+/// The rest of C v is stiffness K v.
+[[nodiscard]] Eigen::VectorXd damping_acceleration(const ViscousDamping& damping,
+                                                   const SparseMatrix& M, const Eigen::VectorXd& v);
+
 }  // namespace trammel::solver

@@ -29,11 +29,12 @@ struct System {
   Constraints constraints;
   std::vector<SpringElement> springs;
 
-  SparseMatrix T;        ///< u x q
-  SparseMatrix K;        ///< stiffness, q x q [SI]; symmetric, stored whole
-  SparseMatrix M;        ///< mass, q x q [SI]; symmetric, stored whole; 0 x 0 without inertia
-  Eigen::VectorXd f;     ///< loads on q [SI]
-  Eigen::VectorXd load;  ///< loads on u [SI]; f = T^T load
+  SparseMatrix T;          ///< u x q
+  SparseMatrix K;          ///< stiffness, q x q [SI]; symmetric, stored whole
+  SparseMatrix M;          ///< mass, q x q [SI]; symmetric, stored whole; 0 x 0 without inertia
+  Eigen::VectorXd f;       ///< loads on q [SI]
+  Eigen::VectorXd load;    ///< loads on u [SI]; f = T^T load
+  Eigen::VectorXd weight;  ///< what of them is weight
   Counters counters;
 };
 

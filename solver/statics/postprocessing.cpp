@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "solver/assembly/inertia.h"
 #include "solver/assembly/strain.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
@@ -207,9 +208,7 @@ class Postprocessor {
 
  private:
   [[nodiscard]] Vector2d element_load(const FrameElement& e) const {
-    const Member& member = model_.members[static_cast<std::size_t>(e.member)];
-    return state_.load_factor *
-           element_axes(e, member.load + e.section.mass_per_length * model_.gravity);
+    return element_axes(e, acting_load(system_, state_, e));
   }
 
   /// Forces that the nodes exert on an element, in its axes: k u + k_G u + m a - f.
@@ -283,7 +282,7 @@ class Postprocessor {
     const auto position = [&](Index node) -> const Vector2d& {
       return system_.mesh.positions[static_cast<std::size_t>(node)];
     };
-    VectorXd load = state_.load_factor * system_.load;
+    VectorXd load = acting_load(system_, state_);
     if (state_.prestress) {  // second-order theory: the forces turn with what they act on
       load -= geometric_stiffness_forces(system_, *state_.prestress, u_);
     }
@@ -322,10 +321,22 @@ class Postprocessor {
 
 }  // namespace
 
+VectorXd acting_load(const System& system, const ElasticState& state) {
+  return state.load_factor * system.load +
+         (state.weight_factor - state.load_factor) * system.weight;
+}
+
+Vector2d acting_load(const System& system, const ElasticState& state, const FrameElement& element) {
+  const Member& member = system.model.members[static_cast<std::size_t>(element.member)];
+  return state.load_factor * member.load +
+         state.weight_factor * element.section.mass_per_length * system.model.gravity;
+}
+
 VectorXd constraint_forces(const System& system, const ElasticState& state) {
   if (state.constraint_forces.size() > 0) return state.constraint_forces;
-  VectorXd force = internal_forces(system, state.u) - state.load_factor * system.load;
+  VectorXd force = internal_forces(system, state.u) - acting_load(system, state);
   if (state.prestress) force += geometric_stiffness_forces(system, *state.prestress, state.u);
+  if (state.acceleration.size() > 0) force += inertia_forces(system, state.acceleration);
   return system.constraints.multipliers(force);
 }
 

@@ -12,11 +12,19 @@ namespace trammel::solver {
 /// A state from which forces and stresses follow.
 struct ElasticState {
   Eigen::VectorXd u;             ///< displacements of the unconstrained coordinates [m, rad]
-  double load_factor = 1;        ///< of the system's loads, which act in this state
-  Eigen::VectorXd acceleration;  ///< of the same coordinates; empty: at rest
+  double load_factor = 1;        ///< of the loads but weight, which act in this state
+  double weight_factor = 1;      ///< of the weight
+  Eigen::VectorXd acceleration;  ///< of the same coordinates, damping in proportion to mass among
+                                 ///< it; empty: at rest
   const Prestress* prestress = nullptr;  ///< second-order theory, where given
   Eigen::VectorXd constraint_forces;     ///< empty: not known yet
 };
+
+/// The loads that act in a state: on the unconstrained coordinates [N, N m], and along a frame
+/// element, in world axes [N/m].
+[[nodiscard]] Eigen::VectorXd acting_load(const System& system, const ElasticState& state);
+[[nodiscard]] Vector2d acting_load(const System& system, const ElasticState& state,
+                                   const FrameElement& element);
 
 /// Forces on the frame elements and in the constraints of a state, by whatever theory.
 struct RecoveredForces {
@@ -33,8 +41,8 @@ struct RecoveredForces {
 /// members: the largest at the ends of their elements and between them under the loads given.
 void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution);
 
-/// Multipliers of the constraint rows at rest: the forces of supports, rigid bodies and
-/// inextensible members.
+/// Multipliers of the constraint rows: the forces of supports, rigid bodies and inextensible
+/// members, which balance elastic and inertia forces and the loads.
 [[nodiscard]] Eigen::VectorXd constraint_forces(const System& system, const ElasticState& state);
 
 /// Frame element x (N, V, M at its first node, N, V, M at its second) [N, N, N m].

@@ -66,7 +66,7 @@ class SecondOrderTheory {
   [[nodiscard]] Prestress forces_of(const VectorXd& q, double load, const Prestress* before) const {
     ElasticState state;
     state.u = system_.T * q;
-    state.load_factor = load;
+    state.load_factor = state.weight_factor = load;
     state.prestress = before;
     BodyForces weights = body_forces(system_);
     for (Vector2d& weight : weights.element) weight *= load;

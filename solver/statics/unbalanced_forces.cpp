@@ -18,7 +18,6 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
   const auto& frame = system.mesh.frame;
   for (std::size_t i = 0; i < frame.size(); ++i) {
     const FrameElement& e = frame[i];
-    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
     const bool first = i == 0 || frame[i - 1].member != e.member;
     const bool last = i + 1 == frame.size() || frame[i + 1].member != e.member;
     Vector6d force = resultants.row(static_cast<Index>(i)).transpose();
@@ -26,9 +25,9 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
     force.head<3>() *= -1;
     force = frame_rotation(e.direction).transpose() * force;
-    const Vector2d load = member.load + e.section.mass_per_length * system.model.gravity;
     // A bar's section forces hold its loads already; a beam's are those at its very ends.
-    detail::scatter(e.coordinates, (force + state.load_factor * element_load(e, load)).eval(), sum);
+    detail::scatter(e.coordinates, (force + element_load(e, acting_load(system, state, e))).eval(),
+                    sum);
   }
 }
 
@@ -90,7 +89,7 @@ void add_constraints(const System& system, const ElasticState& state,
 
 double unbalanced_forces(const System& system, const ElasticState& state,
                          const StaticSolution& solution, const VectorXd& terms) {
-  VectorXd sum = -state.load_factor * system.load;
+  VectorXd sum = -acting_load(system, state);
   VectorXd magnitudes = terms;
   add_members(system, state, solution, sum);
   add_other_elements(system, state.u, sum);

@@ -10,8 +10,6 @@
 #include <numbers>
 
 #include "solver/assembly/equation_rows.h"
-#include "solver/assembly/inertia.h"
-#include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/sparse_lu.h"
 #include "solver/statics/postprocessing.h"
@@ -54,7 +52,11 @@ VectorXcd solve_direct(const System& system, const RayleighDamping& damping, dou
 }  // namespace
 
 HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damping)
-    : system_(system), damping_(damping), unsuperposed_load_(system.f), counters_(system.counters) {
+    : system_(system),
+      damping_{damping.rayleigh, {}, {}, {}},
+      load_(system.load - system.weight),
+      unsuperposed_load_(system.T.transpose() * load_),
+      counters_(system.counters) {
   for (const double ratio : damping.modal_ratio) {
     if (!(std::isfinite(ratio) && ratio >= 0)) {
       throw ModelError("a damping ratio must be a number that is not negative");
@@ -70,11 +72,11 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
     throw ModelError("there are " + std::to_string(count) + " damping ratios but only " +
                      std::to_string(modes_.frequency.size()) + " modes");
   }
-  participation_ = modes_.shape.transpose() * system.f;
+  participation_ = modes_.shape.transpose() * unsuperposed_load_;
   unsuperposed_load_ -= system.M * (modes_.shape * participation_);
-  modal_inertia_.resize(system.T.rows(), count);
-  for (Index j = 0; j < count; ++j)
-    modal_inertia_.col(j) = inertia_forces(system, system.T * modes_.shape.col(j));
+  damping_.omega = kTwoPi * modes_.frequency.head(count);
+  damping_.ratio = Eigen::Map<const VectorXd>(damping.modal_ratio.data(), count);
+  damping_.shape = modes_.shape.leftCols(count);
 }
 
 VectorXcd HarmonicSolver::at(double frequency) const {
@@ -89,8 +91,8 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   }
   for (Index j = 0; j < participation_.size(); ++j) {
     const double wj = kTwoPi * modes_.frequency[j];
-    const double decay = 2 * damping_.modal_ratio[static_cast<std::size_t>(j)] * wj +
-                         damping_.rayleigh.mass + damping_.rayleigh.stiffness * wj * wj;
+    const double decay =
+        2 * damping_.ratio[j] * wj + damping_.rayleigh.mass + damping_.rayleigh.stiffness * wj * wj;
     const Complex amplitude = participation_[j] / Complex(wj * wj - omega * omega, omega * decay);
     q += amplitude * modes_.shape.col(j).cast<Complex>();
   }
@@ -100,48 +102,31 @@ VectorXcd HarmonicSolver::at(double frequency) const {
 double HarmonicSolver::backward_error(const VectorXcd& q, double frequency) const {
   const double omega = kTwoPi * frequency;
   const Complex i(0, 1);
-  const VectorXcd u = system_.T * q;
   EquationRows rows(system_);
-  rows.add_stiffness(u, 1.0 + i * omega * damping_.rayleigh.stiffness);
-  rows.add_inertia(u, i * omega * damping_.rayleigh.mass - omega * omega);
-  rows.add_load(system_.load, -1);
-  for (Index j = 0; j < participation_.size(); ++j) {  // modal damping: M phi 2 zeta w phi^T M
-    const double wj = kTwoPi * modes_.frequency[j];
-    const double ratio = damping_.modal_ratio[static_cast<std::size_t>(j)];
-    const VectorXd phi = modes_.shape.col(j);
-    rows.add_inertia(system_.T * phi, 2 * ratio * wj * i * omega * (system_.M * phi).dot(q));
-  }
+  rows.add_stiffness(system_.T * q, 1.0 + i * omega * damping_.rayleigh.stiffness);
+  rows.add_inertia(system_.T * acceleration(q, omega), 1.0);
+  rows.add_load(load_, -1);
   return rows.backward_error();
 }
 
-VectorXcd HarmonicSolver::elastic_unbalance(const VectorXcd& u, double omega) const {
+VectorXcd HarmonicSolver::acceleration(const VectorXcd& q, double omega) const {
   const Complex i(0, 1);
-  const auto inertia = [this](const VectorXd& a) { return inertia_forces(system_, a); };
-  const VectorXcd stiffness =
-      internal_forces(system_, u.real()) + i * internal_forces(system_, u.imag());
-  const VectorXcd mass = inertia(u.real()) + i * inertia(u.imag());
-  const Complex k(1, omega * damping_.rayleigh.stiffness);
-  const Complex m(-omega * omega, omega * damping_.rayleigh.mass);
-  VectorXcd force = k * stiffness + m * mass - system_.load.cast<Complex>();
-  for (Index j = 0; j < participation_.size(); ++j) {  // modal damping, as in `backward_error`
-    const VectorXd image = modal_inertia_.col(j);
-    const double wj = kTwoPi * modes_.frequency[j];
-    const double ratio = damping_.modal_ratio[static_cast<std::size_t>(j)];
-    force += 2 * ratio * wj * i * omega * image.cast<Complex>().dot(u) * image;
-  }
-  return force / k;
+  const VectorXcd drag = damping_acceleration(damping_, system_.M, q.real()) +
+                         i * damping_acceleration(damping_, system_.M, q.imag());
+  return i * omega * drag - omega * omega * q;
 }
 
 HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequency) const {
   const double omega = kTwoPi * frequency;
   const VectorXcd u = system_.T * q;
-  const VectorXcd unbalance = elastic_unbalance(u, omega);
-  const auto part = [&](const VectorXd& displacement, const VectorXd& force, double load_factor) {
+  const Complex elastic = 1.0 / Complex(1, omega * damping_.rayleigh.stiffness);
+  const VectorXcd inertial = system_.T * (elastic * acceleration(q, omega));
+  const auto part = [&](const VectorXd& displacement, const VectorXd& acceleration, double load) {
     ElasticState state;
     state.u = displacement;
-    state.load_factor = load_factor;
-    state.acceleration = -omega * omega * state.u;
-    state.constraint_forces = system_.constraints.multipliers(force);
+    state.load_factor = load;
+    state.weight_factor = 0;
+    state.acceleration = acceleration;
     return element_resultants(system_, state);
   };
   const auto amplitude = [](const auto& a, const auto& b) {
@@ -149,8 +134,10 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   };
   HarmonicAmplitudes result;
   result.displacement = amplitude(node_motion(system_, q.real()), node_motion(system_, q.imag()));
-  const Eigen::Matrix<double, Eigen::Dynamic, 6> in_phase = part(u.real(), unbalance.real(), 1);
-  const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature = part(u.imag(), unbalance.imag(), 0);
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> in_phase =
+      part(u.real(), inertial.real(), elastic.real());
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature =
+      part(u.imag(), inertial.imag(), elastic.imag());
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
   const auto members = static_cast<Index>(system_.model.members.size());
   result.resultant_start.resize(members, 3);

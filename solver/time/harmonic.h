@@ -24,7 +24,7 @@ struct HarmonicAmplitudes {
   Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of its elements [Pa]
 };
 
-/// Steady response q(t) = Re(q e^{i w t}) to the model's loads varying as cos(w t):
+/// Steady response q(t) = Re(q e^{i w t}) to the model's loads, but weight, varying as cos(w t):
 ///   (K + i w C - w^2 M) q = f.
 /// Modes with a damping ratio are superposed; what they leave of the load is solved for directly,
 /// so that no mode is cut off.
@@ -46,23 +46,24 @@ class HarmonicSolver {
   /// damping.
   [[nodiscard]] double backward_error(const Eigen::VectorXcd& q, double frequency) const;
 
-  /// Section forces hold the stiffness, the inertia and the load of their element. Inextensible
-  /// members bear what extensible ones bear in the limit.
+  /// Section forces are those of the strains: 1 / (1 + i w stiffness) of what balances inertia,
+  /// damping in proportion to mass and loads. Inextensible members bear what extensible ones bear
+  /// in the limit.
   /// @param q  the response at `frequency` [Hz]
   [[nodiscard]] HarmonicAmplitudes amplitudes(const Eigen::VectorXcd& q, double frequency) const;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
-  /// (K + i w C - w^2 M) u - f on the unconstrained coordinates, over 1 + i w stiffness.
-  [[nodiscard]] Eigen::VectorXcd elastic_unbalance(const Eigen::VectorXcd& u, double omega) const;
+  /// What has the inertia forces (i w C - w^2 M) q, but for damping in proportion to stiffness.
+  [[nodiscard]] Eigen::VectorXcd acceleration(const Eigen::VectorXcd& q, double omega) const;
 
   const System& system_;
-  HarmonicDamping damping_;
+  ViscousDamping damping_;
   ModalSolution modes_;
+  Eigen::VectorXd load_;               // on the unconstrained coordinates
   Eigen::VectorXd participation_;      // Phi^T f
   Eigen::VectorXd unsuperposed_load_;  // f - M Phi Phi^T f
-  Eigen::MatrixXd modal_inertia_;      // M Phi on the unconstrained coordinates
   Outcome outcome_;
   mutable Counters counters_;
 };

@@ -236,4 +236,19 @@ BOOST_AUTO_TEST_CASE(a_response_without_meaning_is_refused_where_it_stands) {
   BOOST_TEST(contains(answer(json), "/analysis/harmonic/damping: there are 3 damping ratios"));
 }
 
+BOOST_AUTO_TEST_CASE(section_forces_in_a_rotating_frame_are_refused) {
+  Json json = testing::cantilever();
+  json["analysis"] = {
+      {"transient",
+       {{"duration_s", 0.1},
+        {"step_s", 0.01},
+        {"rotating_frame", {{"law", {{"spin_up", {{"speed_per_s", 5}, {"duration_s", 0.1}}}}}}},
+        {"outputs", {"displacement_x_m:B"}}}}};
+  json["model"].erase("loads");
+  BOOST_TEST(testing::result_of(json).outcome.solved());
+  json["analysis"]["transient"]["outputs"] = {"axial_force_N:AB.start"};
+  BOOST_TEST(contains(complaint([&] { (void)testing::result_of(json); }),
+                      "/analysis/transient/outputs: expected motions alone"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
