@@ -157,8 +157,8 @@ tangential_error_m:P  deflection of P along the trajectory
 normal_error_m:P  deflection of P across the trajectory
 rigid_torque_N_m:JOINT  torque of an active joint with rigid links
 elastic_torque_N_m:JOINT  difference that flexibility makes to the torque
-load_work_J  work of the loads
-dissipated_energy_J  energy lost by damping
+load_work_J  work of the loads on the free coordinates, which where inextensible links move depend on the axes
+dissipated_energy_J  energy lost by damping, on the free coordinates as the work of the loads
 dynamic_to_quasi_static_difference:P  distance from the quasi-static P over its largest deflection
 integration_error:P  difference from modal superposition over the largest deflection
 step_change:P  difference that half the step makes over the largest deflection

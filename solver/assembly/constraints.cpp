@@ -26,7 +26,8 @@ std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& c
       const Index u = coordinates.node[static_cast<std::size_t>(support.node)][k];
       if (u < 0) {
         throw ModelError("the support of " + node_label(model, support.node) +
-                         " fixes its rotation, but it has none: no member ends there");
+                         " fixes its rotation, but it has none: no member ends there and no rigid "
+                         "body holds it");
       }
       rows.push_back({ConstraintRow::Source::support, static_cast<Index>(i), {{u, 1.0}}});
     }

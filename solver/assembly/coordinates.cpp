@@ -21,7 +21,14 @@ std::vector<bool> nodes_with_rotation(const Model& model) {
       if (turns_with_node(member.ends[end])) give(member.nodes[end]);
     }
   }
-  for (const RigidBody& body : model.rigid_bodies) give(body.reference);
+  std::vector<bool> held(model.nodes.size(), false);
+  for (const RigidBody& body : model.rigid_bodies) {
+    give(body.reference);
+    for (const Index node : body.attached) held[static_cast<std::size_t>(node)] = true;
+  }
+  for (const NodalLoad& load : model.loads) {
+    if (load.force[2] != 0 && held[static_cast<std::size_t>(load.node)]) give(load.node);
+  }
   for (const PointMass& mass : model.masses) {
     if (mass.inertia > 0 || (mass.mass > 0 && !mass.offset.isZero(0))) give(mass.node);
   }
@@ -32,7 +39,8 @@ std::vector<bool> nodes_with_rotation(const Model& model) {
     }
   }
   for (const Support& support : model.supports) {
-    if (support.fixed[2] && joined[static_cast<std::size_t>(support.node)]) give(support.node);
+    const auto node = static_cast<std::size_t>(support.node);
+    if (support.fixed[2] && (joined[node] || held[node])) give(support.node);
   }
   return turns;
 }

@@ -47,11 +47,7 @@ class MotionPostprocessor {
     std::vector<Vector2d> positions;
     for (Index node = 0; node < std::ssize(model_.nodes); ++node)
       positions.push_back(moving_.position(node));
-    const Eigen::Index elements = ends.cols();
-    recover(system_,
-            {positions, u_, constraints, multipliers_, std::move(ends),
-             Eigen::Matrix2Xd::Zero(2, elements)},
-            state_);
+    recover(system_, {positions, u_, constraints, multipliers_, std::move(ends)}, state_);
   }
 
   void triangles() {

@@ -29,7 +29,7 @@ struct Wrench {
 struct SectionForces {
   Vector3d start;
   Vector3d end;
-  Vector2d load;  ///< (qx, qy) along and across the element [N/m]
+  Vector2d load;  ///< mean (qx, qy) along and across the element, inertia among it [N/m]
 
   /// Between the ends: parabolas through both moments.
   [[nodiscard]] Vector3d at(double x, double length) const {
@@ -107,7 +107,9 @@ class Recovery {
 
   [[nodiscard]] SectionForces section_forces(Index element) const {
     const Vector6d end = forces_.element.col(element);
-    return {-end.head<3>(), end.tail<3>(), forces_.load.col(element)};
+    const double length = system_.mesh.frame[static_cast<std::size_t>(element)].length;
+    const Vector2d load = -(end.head<2>() + end.segment<2>(3)) / length;
+    return {-end.head<3>(), end.tail<3>(), load};
   }
 
   /// |N| / A + |M| / W at a point of an element; 0 where a taper has come to its point, NaN where
@@ -189,11 +191,7 @@ class Postprocessor {
   void run(StaticSolution& solution) const {
     std::vector<Vector2d> positions;
     for (const Node& node : model_.nodes) positions.push_back(node.position);
-    RecoveredForces forces{positions, u_, system_.constraints, multipliers_, end_forces(), {}};
-    forces.load.resize(2, forces.element.cols());
-    for (std::size_t i = 0; i < system_.mesh.frame.size(); ++i)
-      forces.load.col(static_cast<Index>(i)) = element_load(system_.mesh.frame[i]);
-    recover(system_, forces, solution);
+    recover(system_, {positions, u_, system_.constraints, multipliers_, end_forces()}, solution);
     triangles(solution);
     equilibrium(solution);
   }

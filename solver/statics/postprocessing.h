@@ -34,11 +34,11 @@ struct RecoveredForces {
   Eigen::VectorXd multipliers;                       ///< of the constraint rows [N, N m]
   Eigen::Matrix<double, 6, Eigen::Dynamic> element;  ///< what its nodes do to each frame element,
                                                      ///< in its axes [N, N, N m]
-  Eigen::Matrix2Xd load;  ///< along and across each frame element, uniform [N/m]
 };
 
 /// Fills displacements, rotations of members' ends, reactions, section forces and the stresses of
-/// members: the largest at the ends of their elements and between them under the loads given.
+/// members: the largest at the ends of their elements and between them, where an element bears
+/// evenly what the forces at its ends leave.
 void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution);
 
 /// Multipliers of the constraint rows: the forces of supports, rigid bodies and inextensible

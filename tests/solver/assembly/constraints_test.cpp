@@ -146,4 +146,24 @@ BOOST_AUTO_TEST_CASE(constraint_forces_of_a_rigid_body_on_a_support_reach_the_gr
   BOOST_TEST(r.moment_residual < 1e-14);
 }
 
+BOOST_AUTO_TEST_CASE(what_a_rigid_body_holds_can_be_clamped_and_loaded_by_a_moment) {
+  const auto tip_under_moment = [](Index clamped, Index loaded) {
+    Model model = beam(unit_section(), 1, 1, 0.9);
+    const Vector2d start = model.nodes[0].position, end = model.nodes[1].position;
+    model.nodes.push_back({"base", start - Vector2d(0.3, 0.1)});
+    model.nodes.push_back({"tip", end + Vector2d(0.1, -0.2)});
+    model.rigid_bodies = {{"", 0, {2}}, {"", 1, {3}}};
+    model.supports = {{"", clamped, {true, true, true}}};
+    model.loads = {{loaded, {0, 0, 1}}};
+    const StaticSolution r = solve_statics(assemble(model));
+    BOOST_TEST(r.outcome.solved(), r.outcome.reason);
+    BOOST_TEST(r.reaction(0, 2) == -1, boost::test_tools::tolerance(1e-12));
+    return r.displacement(1, 2);
+  };
+  const double turned = tip_under_moment(0, 1);
+  BOOST_TEST(std::abs(turned) > 0);
+  BOOST_TEST(tip_under_moment(2, 1) == turned, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(tip_under_moment(0, 3) == turned, boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -107,8 +107,10 @@ BOOST_AUTO_TEST_CASE(each_meaningless_thing_is_told_in_one_sentence) {
        [](Model& m) { m.plates[0].material.nu = 1; });
   says("the point mass at node B has a negative mass", [](Model& m) { m.masses[0].mass = -1; });
   says("spring spring joins a node with itself", [](Model& m) { m.springs[0].nodes[1] = 2; });
-  says("the support of node C fixes its rotation, but it has none: no member ends there",
-       [](Model& m) { m.supports.push_back(clamp(2)); });
+  says(
+      "the support of node C fixes its rotation, but it has none: no member ends there and no "
+      "rigid body holds it",
+      [](Model& m) { m.supports.push_back(clamp(2)); });
   says("node C has no rotation: no member end is welded to it and no rigid body holds it",
        [](Model& m) {
          m.loads = {{2, {0, 0, 1}}};
