@@ -75,14 +75,14 @@ struct ComparedLeft {
   const T& x;
   int number;
 };
-#define TRAMMEL_COMPARISON(is, other)                              \
-  template <class A>                                               \
-  ComparedLeft<A> operator is(const A& a, Compared compared) {     \
-    return {a, compared.number};                                   \
-  }                                                                \
-  template <class A, class B>                                      \
-  bool operator is(const ComparedLeft<A>& a, const B& b) {         \
-    return fault(a.number) ? bool(a.x other b) : bool(a.x is b);   \
+#define TRAMMEL_COMPARISON(is, other)                            \
+  template <class A>                                             \
+  ComparedLeft<A> operator is(const A& a, Compared compared) {   \
+    return {a, compared.number};                                 \
+  }                                                              \
+  template <class A, class B>                                    \
+  bool operator is(const ComparedLeft<A>& a, const B& b) {       \
+    return fault(a.number) ? bool(a.x other b) : bool(a.x is b); \
   }
 TRAMMEL_COMPARISON(<, <=)
 TRAMMEL_COMPARISON(<=, <)
