@@ -100,13 +100,15 @@ def notice(fault, probes, **environment):
     return next(found, None) or next((f for f in alone if f[0]), (None, "", True))
 
 
-def chunks(probes):
-    """First a few, then ever more at a time; each suite by itself."""
+def chunks(probes, expected=()):
+    """Cases, first a few, then ever more at a time; suites each by itself, those that are expected first."""
+    suites = [p for p in probes if not p.is_case]
+    yield from ([p] for p in suites if p.group in expected)
     cases, size = [p for p in probes if p.is_case], 4
     while cases:
         yield cases[:size]
         cases, size = cases[size:], 3 * size
-    yield from ([p] for p in probes if not p.is_case)
+    yield from ([p] for p in suites if p.group not in expected)
 
 
 def cases_of(program, chosen):
@@ -135,7 +137,7 @@ def hunt(fault, probes, cap):
     near = sorted((p for p in probes if fault["id"] in p.reached),
                   key=lambda p: (p.seconds > cap, p.group not in expected, p.seconds))
     changed = False
-    for chunk in chunks(near):
+    for chunk in chunks(near, expected):
         probe, how, differs = notice(fault, chunk)
         if probe:
             return {"outcome": "noticed", "by": probe.group, "probe": probe.name, "how": how}
