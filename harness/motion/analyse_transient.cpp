@@ -91,10 +91,6 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
       reduced_system(analysis, solver::assemble(build_model(case_model, step), case_model.effects));
   if (!outcome.solved()) return {outcome, system.counters, std::nullopt};
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
-  const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
-  StepResult result{motion.outcome, motion.counters, std::nullopt, {}, motion.evidence};
-  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
-  if (!result.outcome.solved()) return result;
   const bool with_forces = std::any_of(outputs.begin(), outputs.end(),
                                        [](const Output& one) { return one.needs_forces(); });
   if (with_forces && analysis.has("rotating_frame")) {
@@ -102,6 +98,10 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
         "expected motions alone beside 'rotating_frame': what the frame does to the inside of "
         "members is not recovered");
   }
+  const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
+  StepResult result{motion.outcome, motion.counters, std::nullopt, {}, motion.evidence};
+  if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
+  if (!result.outcome.solved()) return result;
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {

@@ -25,14 +25,7 @@ using Eigen::VectorXd;
 solver::PiecewiseLinearLoad load_in_time(const solver::System& system,
                                          const solver::LoadHistory& history) {
   const VectorXd weight = system.T.transpose() * system.weight;
-  solver::PiecewiseLinearLoad load;
-  load.pattern.resize(weight.size(), 2);
-  load.pattern << system.f - weight, weight;
-  load.time = history.time;
-  load.factor.setOnes(2, std::ssize(history.factor));
-  load.factor.row(0) =
-      Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), std::ssize(history.factor));
-  return load;
+  return load_by_history(history, system.f - weight, weight);
 }
 
 solver::TimeScheme read_scheme(const JsonView& transient) {

@@ -82,14 +82,7 @@ PiecewiseLinearLoad load_in_time(const ElastodynamicsOptions& options, const Pat
   if (history.constant()) return step_load(f, options.time.start);
   const System& start = follower.system().start();
   const VectorXd applied = start.T.transpose() * start.load;
-  PiecewiseLinearLoad load;
-  load.pattern.resize(f.size(), 2);
-  load.pattern << applied, f - history.at(options.time.start) * applied;
-  load.time = history.time;
-  load.factor.setOnes(2, std::ssize(history.time));
-  load.factor.row(0) =
-      Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), std::ssize(history.factor));
-  return load;
+  return load_by_history(history, applied, f - history.at(options.time.start) * applied);
 }
 
 /// All modes at every sample, each by its closed form.

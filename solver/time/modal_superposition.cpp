@@ -77,6 +77,18 @@ PiecewiseLinearLoad step_load(const VectorXd& pattern, double start) {
           .factor = (Eigen::MatrixXd(1, 2) << 0, 1).finished()};
 }
 
+PiecewiseLinearLoad load_by_history(const LoadHistory& history, const VectorXd& varied,
+                                    const VectorXd& constant) {
+  PiecewiseLinearLoad load;
+  load.pattern.resize(varied.size(), 2);
+  load.pattern << varied, constant;
+  load.time = history.time;
+  load.factor.setOnes(2, std::ssize(history.factor));
+  load.factor.row(0) =
+      Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), std::ssize(history.factor));
+  return load;
+}
+
 ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   if (M.rows() != K.rows() || M.cols() != K.cols() || M.rows() != M.cols()) {
     throw ModelError("M and K are square and of one size");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/assembly/system.h"
+#include "solver/time/load_history.h"
 #include "solver/time/transient.h"
 
 /// The exact response of a model with constant matrices to a load that is linear between given
@@ -25,6 +26,11 @@ struct PiecewiseLinearLoad {
 
 /// From `start` on, the load does not change.
 [[nodiscard]] PiecewiseLinearLoad step_load(const Eigen::VectorXd& pattern, double start = 0);
+
+/// The product of a history and one load, and another load that always acts.
+[[nodiscard]] PiecewiseLinearLoad load_by_history(const LoadHistory& history,
+                                                  const Eigen::VectorXd& varied,
+                                                  const Eigen::VectorXd& constant);
 
 /// Modes to superpose, with x^T M x = 1 (paper Eq. 33).
 struct ModalBasis {
