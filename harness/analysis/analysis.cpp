@@ -6,6 +6,7 @@
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
 #include "harness/scene/with_model_errors.h"
+#include "harness/statics_modes/range_warnings.h"
 
 namespace trammel::harness {
 namespace {
@@ -105,6 +106,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
+    if (result.outcome.solved()) warn_of_passed_singularity(case_model, result.warnings);
     if (choice.beyond_tier && *choice.beyond_tier > *choice.tolerance) {
       result.warnings.push_back(
           {"the change by large displacement, at most,", *choice.beyond_tier, "",

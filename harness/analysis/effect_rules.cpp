@@ -176,6 +176,14 @@ EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model
   return scope;
 }
 
+/// Points beside a resonance say nothing of its peak, which damping alone bounds.
+EffectScope harmonic_scope(const JsonView& analysis, const solver::Model& model) {
+  EffectScope scope = vibration_scope(analysis, model);
+  if (scope.applicable.has(solver::Effect::damping))
+    scope.required = scope.required.with(solver::Effect::damping);
+  return scope;
+}
+
 EffectScope large_motion_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope = vibration_scope(analysis, model);
   if (analysis.has("mass_damping_per_s") || analysis.has("strain_rate_damping_s"))
@@ -258,6 +266,7 @@ const char* EffectRules::describe_number(solver::Effect effect) const {
 }
 
 const char* EffectRules::describe_required(solver::Effect effect) const {
+  if (effect == solver::Effect::damping) return "kept, for nothing else bounds a resonance";
   return effect == solver::Effect::axial_flexibility && estimate != nullptr
              ? "kept, for constraints that turn with the links cost more than it does"
              : "the analysis is of it";
@@ -301,7 +310,12 @@ const EffectRules& elastodynamics_effects() {
   return rules;
 }
 
-const EffectRules& vibration_effects() {
+const EffectRules& harmonic_effects() {
+  static const EffectRules rules = {no_keys, harmonic_scope, nullptr, 3};
+  return rules;
+}
+
+const EffectRules& transient_effects() {
   static const EffectRules rules = {no_keys, vibration_scope, nullptr, 3};
   return rules;
 }

@@ -53,7 +53,8 @@ struct EffectRules {
 [[nodiscard]] const EffectRules& statics_effects();
 [[nodiscard]] const EffectRules& modes_effects();
 [[nodiscard]] const EffectRules& elastodynamics_effects();
-[[nodiscard]] const EffectRules& vibration_effects();  ///< harmonic and transient response
+[[nodiscard]] const EffectRules& harmonic_effects();
+[[nodiscard]] const EffectRules& transient_effects();
 [[nodiscard]] const EffectRules& large_motion_effects();
 
 /// The scene's model where its path starts; of what only large motion has, the bare one.

@@ -214,15 +214,17 @@ std::string pretty(const Json& json, std::size_t deepest) {
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   static std::atomic<unsigned> count{0};
+  std::error_code error, ignored;
+  const std::filesystem::file_status there = std::filesystem::status(file, ignored);
+  const bool in_place = std::filesystem::exists(there) && !std::filesystem::is_regular_file(there);
   std::filesystem::path part = file;
-  part += ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+  if (!in_place) part += ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
   std::ofstream out(part, std::ios::binary);
   out << text;
   out.close();
-  std::error_code error, ignored;
-  if (out) std::filesystem::rename(part, file, error);
+  if (out && !in_place) std::filesystem::rename(part, file, error);
   if (out && !error) return;
-  std::filesystem::remove(part, ignored);
+  if (!in_place) std::filesystem::remove(part, ignored);
   throw InputError(file.string() + ": expected a place that can be written");
 }
 

@@ -24,7 +24,8 @@ namespace trammel::harness {
 /// it
 [[nodiscard]] std::string pretty(const Json& json, std::size_t deepest = 1000);
 
-/// Writes all of it or nothing: into a temporary file beside it, then renamed.
+/// Writes all of it or nothing: into a temporary file beside it, then renamed. What is no file, as
+/// a pipe or a device, is written to.
 /// @throws InputError  where the folder or file cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& text);
 

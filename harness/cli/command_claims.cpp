@@ -11,6 +11,7 @@
 #include "harness/results/results.h"
 #include "harness/run/claims.h"
 #include "harness/run/paper_items.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {
@@ -66,7 +67,7 @@ int paper_command(const std::string& results, bool json) {
   const Document claim_set = load_claims();
   std::vector<results::PaperItem> items = load_paper_items(claim_set, Catalogue());
   if (!results.empty())
-    judge_paper_items(results::read_results(std::filesystem::path(results)), items);
+    judge_paper_items(read_summary(results), items);
   if (json) {
     results::Claims shown;
     shown.items = std::move(items);

@@ -44,13 +44,19 @@ class Response {
       warn_of_rotation(largest_rotation(system_, system_.T * part), result.warnings);
   }
 
+  /// A gap where nothing bounds it.
   /// @returns its frequency
-  double record_peak(double low, double high, const Output& output, Recorder& record) const {
+  double record_peak(double low, double high, bool damped, const Output& output,
+                     Recorder& record) const {
     const solver::HarmonicPeak found = solver::harmonic_peak(
         response_, low, high, [&](const Eigen::VectorXcd& q, double frequency) {
           return amplitude_of(output, system_.model, response_.amplitudes(q, frequency), frequency);
         });
-    record.add(output.prefixed("peak_"), "", found.amplitude);
+    if (damped || !has_frequency_at(found.frequency)) {
+      record.add(output.prefixed("peak_"), "", found.amplitude);
+    } else {
+      record.add_gap(output.prefixed("peak_"), "");
+    }
     record.add("peak_frequency_Hz", output.name, found.frequency);
     return found.frequency;
   }
@@ -68,6 +74,13 @@ class Response {
   }
 
  private:
+  [[nodiscard]] bool has_frequency_at(double frequency) const {
+    constexpr double kNear = 1e-4;  // where the search ends beside a pole, with room
+    const auto below = solver::sturm_count(system_, frequency * (1 - kNear));
+    const auto above = solver::sturm_count(system_, frequency * (1 + kNear));
+    return below && above && *below != *above;
+  }
+
   const solver::System& system_;
   solver::HarmonicSolver response_;
 };
@@ -114,7 +127,7 @@ class HarmonicScene {
 
   /// @returns its frequency
   double record_peak(const Output& output, Recorder& record) const {
-    return response->record_peak(low_, high_, output, record);
+    return response->record_peak(low_, high_, damped_, output, record);
   }
 
   solver::System system;

@@ -262,7 +262,8 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   }
   release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
-  const solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
+  solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
+  options.breakpoints = system.large_motion().load_breakpoints;
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   MotionRecorder log(system, read_kept(analysis, system), record);

@@ -11,6 +11,7 @@
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/results/results.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {
@@ -96,7 +97,7 @@ Shard shard_from(const std::string& text) {
 
 std::map<std::string, double> earlier_costs(const fs::path& results) {
   std::map<std::string, double> costs;
-  for (const results::Run& run : results::read_results(results).runs)
+  for (const results::Run& run : read_summary(results).runs)
     costs[run.case_id + ":" + run.variant] = run.cost.cpu_s;
   return costs;
 }

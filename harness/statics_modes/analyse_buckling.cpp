@@ -46,6 +46,10 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
           draw_shape(system, buckling.shape.col(i), mode_label(i, factor, "times the loads")));
     }
   }
+  if (buckling.load_factor.size() == 0)
+    result.warnings.push_back(
+        {"the number of load factors", 0, "",
+         "nothing buckles, for the loads compress nothing, or there are none"});
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;
 }

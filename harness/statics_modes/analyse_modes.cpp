@@ -130,6 +130,12 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
   StepResult result{modes.outcome, modes.counters, std::nullopt, {}, modes.evidence};
   if (draw) result.drawing = draw_modes(case_model, system, modes);
   if (!modes.outcome.solved()) return result;
+  if (modes.frequency.size() == 0) {
+    result.outcome = {solver::Status::singular,
+                      system.K.rows() == 0 ? "nothing vibrates, for everything is held"
+                                           : "nothing vibrates, for nothing that moves has mass"};
+    return result;
+  }
   record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);
   if (analysis.has("count_below_Hz")) {
     const std::optional<solver::Index> below =

@@ -55,6 +55,28 @@ PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation
   return part;
 }
 
+/// Calls visit(row, triangle, at, weight) for the points at which stresses of plates are taken: row
+/// of Prestress::stress, area coordinates, share of the triangle's area.
+template <class Visit>
+void for_each_stress_point(const Model& model, Visit&& visit) {
+  Index row = 0;
+  for (const Triangle& triangle : model.triangles) {
+    if (!triangle.quadratic()) {
+      visit(row++, triangle, Vector3d(Vector3d::Constant(1 / 3.0)), 1.0);
+      continue;
+    }
+    for (const TriangleQuadraturePoint& point : triangle6_quadrature())
+      visit(row++, triangle, point.area_coordinates, point.weight);
+  }
+}
+
+/// A row for each of those points.
+Eigen::MatrixX3d no_stress(const Model& model) {
+  Index rows = 0;
+  for_each_stress_point(model, [&](Index row, const auto&...) { rows = row + 1; });
+  return Eigen::MatrixX3d::Zero(rows, 3);
+}
+
 /// Calls visit(coordinates, B, H) for every part B^T H B of the geometric stiffness.
 template <class Visit>
 void for_each_geometric_stiffness(const System& system, const Prestress& state, Visit&& visit) {
@@ -68,24 +90,20 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
     visit(e.coordinates, frame_chord_rotation_and_bending(e.direction, e.length),
           geometric_rigidity(e, theory, axial, axial_variation));
   }
-  const double h = 0.5;
-  for (std::size_t i = 0; i < model.triangles.size(); ++i) {
-    const Triangle& triangle = model.triangles[i];
-    const Eigen::RowVector3d stress = state.stress.row(static_cast<Index>(i));
-    if (stress.isZero(0)) continue;
-    const double t = model.plates[static_cast<std::size_t>(triangle.plate)].thickness;
-    if (triangle.quadratic()) {  // the middles of the sides: exact to degree 2
-      for (const Vector3d& at : {Vector3d(h, h, 0), Vector3d(0, h, h), Vector3d(h, 0, h)}) {
+  for_each_stress_point(
+      model, [&](Index row, const Triangle& triangle, const Vector3d& at, double weight) {
+        const Eigen::RowVector3d stress = state.stress.row(row);
+        if (stress.isZero(0)) return;
         const TriangleInterpolation point = interpolate(model, triangle, at);
-        const auto part = plate_geometric_stiffness<12>(point, stress, t * point.area / 3);
-        visit(system.coordinates.of_triangle<12>(triangle), part.B, part.H);
-      }
-    } else {
-      const TriangleInterpolation point = interpolate(model, triangle, Vector3d::Constant(1 / 3.0));
-      const auto part = plate_geometric_stiffness<6>(point, stress, t * point.area);
-      visit(system.coordinates.of_triangle<6>(triangle), part.B, part.H);
-    }
-  }
+        const double volume = model.plates[to_size(triangle.plate)].thickness * point.area * weight;
+        if (triangle.quadratic()) {
+          const auto part = plate_geometric_stiffness<12>(point, stress, volume);
+          visit(system.coordinates.of_triangle<12>(triangle), part.B, part.H);
+        } else {
+          const auto part = plate_geometric_stiffness<6>(point, stress, volume);
+          visit(system.coordinates.of_triangle<6>(triangle), part.B, part.H);
+        }
+      });
   using Matrix1d = Eigen::Matrix<double, 1, 1>;
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     if (state.arm_moment[static_cast<Index>(i)] == 0) continue;
@@ -119,17 +137,6 @@ VectorXd arm_moments(const System& system, const VectorXd& multipliers) {
     arm[static_cast<Index>(i)] = -multipliers[static_cast<Index>(i)] * (x ? R.x() : R.y());
   }
   return arm;
-}
-
-Eigen::MatrixX3d centroid_stress(const System& system, const VectorXd& u) {
-  const Model& model = system.model;
-  Eigen::MatrixX3d stress(static_cast<Index>(model.triangles.size()), 3);
-  for (Index i = 0; i < stress.rows(); ++i) {
-    const Triangle& triangle = model.triangles[to_size(i)];
-    stress.row(i) =
-        plate_stress(system, triangle, corners(model, triangle), Vector3d::Constant(1 / 3.0), u);
-  }
-  return stress;
 }
 
 }  // namespace
@@ -181,7 +188,11 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
     state.axial_variation[i] =
         -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
   }
-  state.stress = centroid_stress(system, u);
+  state.stress = no_stress(system.model);
+  for_each_stress_point(system.model, [&](Index row, const Triangle& triangle, const Vector3d& at,
+                                          double) {
+    state.stress.row(row) = plate_stress(system, triangle, corners(system.model, triangle), at, u);
+  });
   state.arm_moment = arm_moments(system, multipliers);
   state.offset_moment.setZero(static_cast<Index>(system.model.masses.size()));
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
@@ -205,7 +216,12 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
                         u[e.coordinates[4]] + u[e.coordinates[1]]);
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
   }
-  roundoff.stress.setZero(std::ssize(system.model.triangles), 3);
+  roundoff.stress = no_stress(system.model);
+  for_each_stress_point(
+      system.model, [&](Index row, const Triangle& triangle, const Vector3d& at, double) {
+        roundoff.stress.row(row).head<2>().setConstant(
+            plate_stress_roundoff(system, triangle, corners(system.model, triangle), at, u));
+      });
   const VectorXd force = internal_force_roundoff(system, u);
   const std::vector<ConstraintRow>& rows = system.constraints.rows;
   VectorXd of_row(std::ssize(rows));

@@ -16,7 +16,9 @@ struct Prestress {
   Eigen::VectorXd axial;  ///< frame element: mean axial force, tension positive [N]
   Eigen::VectorXd
       axial_variation;      ///< frame element: axial force at its second end less the first's [N]
-  Eigen::MatrixX3d stress;  ///< triangle: (sxx, syy, sxy) at its centroid [Pa]
+  /// (sxx, syy, sxy) of the triangles in turn, at the centroid or, of a six-node one, at the points of
+  /// its stiffness [Pa]
+  Eigen::MatrixX3d stress;
   Eigen::VectorXd arm_moment;  ///< constraint row: force on a rigid body's arm times the arm [N m]
   Eigen::VectorXd offset_moment;  ///< point mass: force on its centre times its offset [N m]
 };
@@ -36,8 +38,8 @@ struct BodyForces {
 [[nodiscard]] Prestress prestress(const System& system, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& multipliers, const BodyForces& body);
 
-/// What rounding changes in the forces of a state q, of one sign everywhere: those of members and
-/// on the arms of rigid bodies, zero for stresses of plates.
+/// What rounding changes in the forces of a state q, of one sign everywhere: those of members, on
+/// the arms of rigid bodies and of plates, whose stress it makes one of equal tension all round.
 /// @param q  free coordinates
 [[nodiscard]] Prestress prestress_roundoff(const System& system, const Eigen::VectorXd& q);
 

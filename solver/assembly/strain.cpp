@@ -3,6 +3,23 @@
 #include <limits>
 
 namespace trammel::solver {
+namespace {
+
+/// Stress of the deformation that `apply` makes of a triangle's matrix and displacements.
+template <class Apply>
+Vector3d stress_by_deformation(const System& system, const Triangle& triangle,
+                               const TrianglePoints& corners, const Vector3d& at,
+                               const Eigen::VectorXd& u, Apply&& apply) {
+  const Coordinates& coordinates = system.coordinates;
+  const Vector3d deformation = triangle.quadratic()
+                                   ? apply(triangle6_deformation_matrix(system.model, triangle, at),
+                                           detail::gather(coordinates.of_triangle<12>(triangle), u))
+                                   : apply(triangle_deformation(corners),
+                                           detail::gather(coordinates.of_triangle<6>(triangle), u));
+  return membrane_stress(system.model.plates[to_size(triangle.plate)].material, deformation);
+}
+
+}  // namespace
 
 Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
@@ -60,15 +77,18 @@ double strain_magnitude(const System& system, const Eigen::VectorXd& u) {
 
 Vector3d plate_stress(const System& system, const Triangle& triangle, const TrianglePoints& corners,
                       const Vector3d& at, const Eigen::VectorXd& u) {
-  const Material& material = system.model.plates[to_size(triangle.plate)].material;
-  if (triangle.quadratic()) {
-    return membrane_stress(material,
-                           triangle6_deformation_matrix(system.model, triangle, at) *
-                               detail::gather(system.coordinates.of_triangle<12>(triangle), u));
-  }
-  return membrane_stress(material,
-                         triangle_deformation(corners) *
-                             detail::gather(system.coordinates.of_triangle<6>(triangle), u));
+  const auto deformation = [](const auto& B, const auto& local) -> Vector3d { return B * local; };
+  return stress_by_deformation(system, triangle, corners, at, u, deformation);
+}
+
+double plate_stress_roundoff(const System& system, const Triangle& triangle,
+                             const TrianglePoints& corners, const Vector3d& at,
+                             const Eigen::VectorXd& u) {
+  const auto size = [](const auto& B, const auto& local) -> Vector3d {
+    return B.cwiseAbs() * local.cwiseAbs();
+  };
+  const Vector3d stress = stress_by_deformation(system, triangle, corners, at, u, size);
+  return kEps * stress.lpNorm<Eigen::Infinity>();
 }
 
 Operator stiffness_operator(const System& system) {

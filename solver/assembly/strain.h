@@ -104,6 +104,11 @@ void for_each_deformation(const System& system, Visit&& visit) {
                                     const TrianglePoints& corners, const Vector3d& at,
                                     const Eigen::VectorXd& u);
 
+/// What rounding of u changes in that, at most [Pa].
+[[nodiscard]] double plate_stress_roundoff(const System& system, const Triangle& triangle,
+                                           const TrianglePoints& corners, const Vector3d& at,
+                                           const Eigen::VectorXd& u);
+
 /// K x from the elements' deformations.
 [[nodiscard]] Operator stiffness_operator(const System& system);
 

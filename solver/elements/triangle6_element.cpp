@@ -1,20 +1,12 @@
 #include "solver/elements/triangle6_element.h"
 
-#include <array>
-
 #include "solver/elements/triangle_element.h"
 #include "solver/elements/triangle_interpolation.h"
-#include "solver/model/quadrature.h"
 
 namespace trammel::solver {
 namespace {
 
-struct Point {
-  Eigen::Vector3d area_coordinates;
-  double weight;
-};
-
-std::array<Point, 6> degree_4() {
+std::array<TriangleQuadraturePoint, 6> degree_4() {
   constexpr double a = 0.44594849091596488631832925388305;
   constexpr double b = 0.09157621350977074345957146340220;
   constexpr double wa = 0.22338158967801146569500700843312;
@@ -44,12 +36,16 @@ const Plate& plate_of(const Model& model, const Triangle& triangle) {
 
 }  // namespace
 
+const std::array<TriangleQuadraturePoint, 6>& triangle6_quadrature() {
+  static const std::array<TriangleQuadraturePoint, 6> points = degree_4();
+  return points;
+}
+
 Triangle6Stiffness triangle6_stiffness(const Model& model, const Triangle& triangle) {
-  static const std::array<Point, 6> rule = degree_4();
   const Plate& plate = plate_of(model, triangle);
   Triangle6Stiffness k;
   Index row = 0;
-  for (const Point& point : rule) {
+  for (const TriangleQuadraturePoint& point : triangle6_quadrature()) {
     const TriangleInterpolation at = interpolate(model, triangle, point.area_coordinates);
     k.deformation.middleRows<3>(row) = deformation_of(at);
     k.rigidity.segment<3>(row) =

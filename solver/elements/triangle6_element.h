@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "solver/model/model.h"
+#include "solver/model/quadrature.h"
 
 /// The six-node, isoparametric triangle in plane stress. Dofs (u1 v1 ... u6 v6) in world axes [m];
 /// corners first, then the middles of the sides 12, 23, 31, which may lie off the straight line.
@@ -19,7 +21,10 @@ struct Triangle6Stiffness {
   Eigen::Matrix<double, 18, 1> rigidity;      ///< C: diagonal [N m]
 };
 
-/// Rule: Dunavant (1985), degree 4.   Source: Zienkiewicz & Taylor; paper Eq. (8) for the material.
+/// The rule of the stiffness, exact to degree 4.   Source: Dunavant (1985).
+[[nodiscard]] const std::array<TriangleQuadraturePoint, 6>& triangle6_quadrature();
+
+/// Source: Zienkiewicz & Taylor; paper Eq. (8) for the material.
 [[nodiscard]] Triangle6Stiffness triangle6_stiffness(const Model& model, const Triangle& triangle);
 
 /// Consistent mass, rho t integral N^T N dA, exact for curved sides as well (degree 6).

@@ -238,19 +238,6 @@ class Postprocessor {
     return force - frame_uniform_load(q, e.length);
   }
 
-  /// (sxx, syy, sxy) of a triangle at a point in area coordinates.
-  [[nodiscard]] Vector3d plate_stress(const Triangle& triangle, const Vector3d& at) const {
-    const Material& material = model_.plates[static_cast<std::size_t>(triangle.plate)].material;
-    if (triangle.quadratic()) {
-      return membrane_stress(material,
-                             triangle6_deformation_matrix(model_, triangle, at) *
-                                 detail::gather(system_.coordinates.of_triangle<12>(triangle), u_));
-    }
-    return membrane_stress(material,
-                           triangle_deformation(corners(model_, triangle)) *
-                               detail::gather(system_.coordinates.of_triangle<6>(triangle), u_));
-  }
-
   void triangles(StaticSolution& solution) const {
     solution.triangle_stress.resize(static_cast<Index>(model_.triangles.size()), 3);
     const auto nodes = static_cast<Index>(model_.nodes.size());
@@ -262,11 +249,14 @@ class Postprocessor {
                                             Vector3d(0, h, h), Vector3d(h, 0, h)};
     for (std::size_t i = 0; i < model_.triangles.size(); ++i) {
       const Triangle& triangle = model_.triangles[i];
-      const double size = std::abs(signed_area(corners(model_, triangle)));
-      solution.triangle_stress.row(static_cast<Index>(i)) =
-          plate_stress(triangle, Vector3d::Constant(1 / 3.0));
+      const TrianglePoints corner = corners(model_, triangle);
+      const auto stress = [&](const Vector3d& at) {
+        return plate_stress(system_, triangle, corner, at, u_);
+      };
+      const double size = std::abs(signed_area(corner));
+      solution.triangle_stress.row(static_cast<Index>(i)) = stress(Vector3d::Constant(1 / 3.0));
       for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {
-        solution.node_stress.row(triangle.nodes[k]) += size * plate_stress(triangle, points[k]);
+        solution.node_stress.row(triangle.nodes[k]) += size * stress(points[k]);
         area[triangle.nodes[k]] += size;
       }
     }

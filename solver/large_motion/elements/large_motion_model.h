@@ -74,6 +74,7 @@ struct LargeMotionModel {
   std::vector<FollowerLoad> follower_loads;
   std::vector<InitialVelocity> initial_velocities;
   std::function<double(double)> load_history;  ///< factor on the loads (not gravity); empty: 1
+  std::vector<double> load_breakpoints;        ///< where it bends, ascending [s]
   double mass_damping = 0;                     ///< forces -mass_damping M v [1/s]
   double strain_rate_damping = 0;              ///< stress from strain + this times strain rate [s]
 };

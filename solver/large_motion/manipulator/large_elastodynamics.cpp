@@ -314,31 +314,6 @@ class LargeElastodynamics {
     start.node_stress.resize(0, 3);
   }
 
-  /// A time after the start at which a step ends.
-  struct StepEnd {
-    double time;
-    bool is_sample;
-  };
-
-  /// Samples, and where the load history bends, for no step sees a pulse within it; none: every
-  /// step is a sample.
-  [[nodiscard]] std::vector<StepEnd> step_ends() const {
-    std::vector<StepEnd> ends;
-    for (const double time : options_.time.sample_times)
-      if (time != options_.time.start) ends.push_back({time, true});
-    if (ends.empty()) return ends;
-    for (const double time : options_.load_history.time) {
-      const bool is_near_sample = std::any_of(ends.begin(), ends.end(), [&](const StepEnd& end) {
-        return std::abs(end.time - time) < 1e-6 * options_.time.step;
-      });
-      if (time > options_.time.start && time < options_.time.end && !is_near_sample)
-        ends.push_back({time, false});
-    }
-    std::sort(ends.begin(), ends.end(),
-              [](const StepEnd& a, const StepEnd& b) { return a.time < b.time; });
-    return ends;
-  }
-
   void integrate_from(const GeometricallyExactSystem& system, State& state) {
     constexpr double kInfinity = 1e8;
     IntegrationOptions integration;
@@ -346,16 +321,14 @@ class LargeElastodynamics {
     integration.step = options_.time.step;
     integration.spectral_radius =
         std::clamp(spectral_radius(options_.time.scheme, kInfinity), 0.0, 1.0);
-    const std::vector<StepEnd> ends = step_ends();
-    for (const StepEnd& end : ends) integration.output_times.push_back(end.time);
-    std::size_t observed = 0;
+    integration.breakpoints = options_.load_history.time;
+    for (const double time : options_.time.sample_times)
+      if (time != options_.time.start) integration.output_times.push_back(time);
     const ConstrainedSystem& equations = system;
     const IntegrationSummary summary =
         integrate(equations, state, integration, [&](const State& now) {
-          const std::size_t place = observed++;
           if (now.t > options_.time.start) balance_.add(system, now);
-          if (place == 0 || place > ends.size() || ends[place - 1].is_sample)
-            add_sample(system, now, start_, at_time(now.t));
+          add_sample(system, now, start_, at_time(now.t));
         });
     solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;
     solution_.evidence.add(summary.evidence);

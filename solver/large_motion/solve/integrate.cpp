@@ -1,7 +1,9 @@
 #include "solver/large_motion/solve/integrate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <vector>
@@ -15,6 +17,28 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
+/// Residuals of the rigid constraints in the states that are observed.
+class ConstraintResiduals {
+ public:
+  explicit ConstraintResiduals(const ConstrainedSystem& system) : system_(system) {}
+
+  void take(const State& state, IntegrationSummary& summary) {
+    residual_.setZero(system_.constraints());
+    rate_.setZero(system_.constraints());
+    system_.constraint_residual(state, residual_, rate_);
+    for (Index r = 0; r < residual_.size(); ++r) {
+      if (system_.compliance()[r] > 0) continue;
+      summary.max_constraint_residual =
+          std::max(summary.max_constraint_residual, std::abs(residual_[r]));
+      summary.max_constraint_rate = std::max(summary.max_constraint_rate, std::abs(rate_[r]));
+    }
+  }
+
+ private:
+  const ConstrainedSystem& system_;
+  VectorXd residual_, rate_;
+};
+
 class TimeIntegration {
  public:
   TimeIntegration(const ConstrainedSystem& system, Stepper& stepper,
@@ -23,7 +47,8 @@ class TimeIntegration {
         stepper_(stepper),
         options_(options),
         observe_(observe),
-        residuals_(system, stepper) {}
+        residuals_(system, stepper),
+        constraints_(system) {}
 
   IntegrationSummary run(State& state) {
     start_time_ = state.t;
@@ -34,7 +59,7 @@ class TimeIntegration {
     summary_.min_step = h;
     for (std::int64_t output = 1; state_time() < options_.end_time; ++output) {
       const double target = next_target(output, h);
-      if (!advance_to(target, h)) break;
+      if (!advance_over_breakpoints(target, h)) break;
       observe_state();
       if (!summary_.outcome.solved()) break;
     }
@@ -76,14 +101,32 @@ class TimeIntegration {
     return target;
   }
 
+  bool advance_over_breakpoints(double target, double& h) {
+    const double apart = 1e-6 * options_.step;
+    for (const double time : options_.breakpoints) {
+      if (time > state_time() + apart && time < target - apart && !advance_to(time, h))
+        return false;
+    }
+    return advance_to(target, h);
+  }
+
+  /// The largest of equal steps up to the target that are not above what was asked for.
+  double equal_step(double target) const {
+    const int multiple = options_.steps_in_multiples_of;
+    const double span = target - state_time();
+    return span / (multiple * std::ceil(span / (multiple * options_.step) * (1 - 1e-9)));
+  }
+
   bool advance_to(double target, double& h) {
+    const double longest =
+        options_.adaptive ? std::numeric_limits<double>::infinity() : equal_step(target);
     int failures = 0;
     double failed_step = 0;
     while (state_time() < target) {
       if (summary_.steps + summary_.rejected >= max_steps_) return fail(step_limit_reason_, h, {});
       const double remaining = target - state_time();
       // Equal steps up to the target: no tiny last one.
-      const double count = std::ceil(remaining / h * (1 - 1e-9));
+      const double count = std::ceil(remaining / std::min(h, longest) * (1 - 1e-9));
       const double step = count <= 1 ? remaining : remaining / count;
       if (step < 1e-7 * options_.step && remaining > step)
         return fail("no step is small enough", step, {});
@@ -143,16 +186,7 @@ class TimeIntegration {
       fail("the motion is not finite", options_.step, {});
       return;
     }
-    constraint_residual_.setZero(system_.constraints());
-    constraint_rate_.setZero(system_.constraints());
-    system_.constraint_residual(state, constraint_residual_, constraint_rate_);
-    for (Index r = 0; r < constraint_residual_.size(); ++r) {
-      if (system_.compliance()[r] > 0) continue;
-      summary_.max_constraint_residual =
-          std::max(summary_.max_constraint_residual, std::abs(constraint_residual_[r]));
-      summary_.max_constraint_rate =
-          std::max(summary_.max_constraint_rate, std::abs(constraint_rate_[r]));
-    }
+    constraints_.take(state, summary_);
     if (observe_) observe_(state);
   }
 
@@ -162,11 +196,47 @@ class TimeIntegration {
   const Observer& observe_;
   IntegrationSummary summary_;
   MotionResiduals residuals_;
+  ConstraintResiduals constraints_;
   double start_time_ = 0, next_look_ = 0;
   std::int64_t max_steps_ = 0;
   const char* step_limit_reason_ = "too many steps";
-  VectorXd constraint_residual_, constraint_rate_;
 };
+
+/// Rods of one length and joints may not admit the velocities that were given.
+Outcome outcome_of_start(const GeometricallyExactSystem& system, const State& state,
+                         const PrescribedVelocities& given) {
+  constexpr double kRounding = 1e-6;
+  const double fastest = state.v.size() > 0 ? state.v.lpNorm<Eigen::Infinity>() : 0.0;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto& [coordinate, value] = given[i];
+    const double missed = std::abs(state.v[coordinate] - value);
+    if (missed <= kRounding * std::max(std::abs(value), fastest)) continue;
+    const InitialVelocity& initial = system.large_motion().initial_velocities[i];
+    constexpr std::array kDirections = {" m/s along x", " m/s along y", " rad/s"};
+    std::ostringstream message;
+    message << "the constraints do not let node "
+            << system.model().nodes[static_cast<std::size_t>(initial.node)].name << " start with "
+            << value << kDirections[static_cast<std::size_t>(initial.direction)]
+            << ": beside what else is given, " << state.v[coordinate] << " is nearest";
+    return {Status::singular, message.str()};
+  }
+  return {};
+}
+
+/// Where two runs differ by their leading error alone, what is combined meets the constraints far
+/// better than either state resembles the other.
+Outcome outcome_of_extrapolation(const ConstrainedSystem& system,
+                                 const IntegrationSummary& summary) {
+  constexpr double kLimit = 1e-3;
+  const double size = system.coordinates() > 0 ? system.scale().maxCoeff() : 1;
+  if (summary.max_constraint_residual <= kLimit * size) return {};
+  std::ostringstream message;
+  message << "the steps are too long to be extrapolated: what the two runs give together misses a "
+             "constraint by "
+          << summary.max_constraint_residual << ", " << summary.max_constraint_residual / size
+          << " of the model's size";
+  return {Status::not_converged, message.str()};
+}
 
 }  // namespace
 
@@ -212,14 +282,18 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
   IntegrationSummary summary = integrate(system, state, fixed, keep);
   if (!summary.outcome.solved()) return summary;
   fixed.step /= 2;
+  fixed.steps_in_multiples_of *= 2;
+  summary.max_constraint_residual = summary.max_constraint_rate = 0;
   std::size_t next = 0;
   State extrapolated;
+  ConstraintResiduals constraints(system);
   const auto combine = [&](const State& fine) {
     const State& other = coarse[std::min(next++, coarse.size() - 1)];
     extrapolated = fine;
     extrapolated.q += (fine.q - other.q) / 3;
     extrapolated.v += (fine.v - other.v) / 3;
     extrapolated.lambda += (fine.lambda - other.lambda) / 3;
+    constraints.take(extrapolated, summary);
     if (observe) observe(extrapolated);
   };
   const IntegrationSummary second = integrate(system, state, fixed, combine);
@@ -230,11 +304,9 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
   summary.rejected += second.rejected;
   summary.iterations += second.iterations;
   summary.min_step = second.min_step;
-  summary.max_constraint_residual =
-      std::max(summary.max_constraint_residual, second.max_constraint_residual);
-  summary.max_constraint_rate = std::max(summary.max_constraint_rate, second.max_constraint_rate);
   summary.counters.factorizations += second.counters.factorizations;
   summary.counters.solves += second.counters.solves;
+  if (summary.outcome.solved()) summary.outcome = outcome_of_extrapolation(system, summary);
   return summary;
 }
 
@@ -251,7 +323,8 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
     }
     given.emplace_back(k, initial.value);
   }
-  return make_consistent(system, state, given, step);
+  const Outcome consistent = make_consistent(system, state, given, step);
+  return consistent.solved() ? outcome_of_start(system, state, given) : consistent;
 }
 
 }  // namespace trammel::solver::large_motion

@@ -36,14 +36,31 @@ MatrixXd mass_matrix(const ConstrainedSystem& system, const State& at_rest) {
   return M;
 }
 
-/// Row by row, K (x, y) = (M x / mu, 0) for the real or the imaginary part of a mode.
-double residual_of(const KktMatrix& K, const VectorXd& mode, const VectorXd& inertia) {
-  VectorXd residual(mode.size()), terms(mode.size());
+/// Row by row, K (x, y) = (M x / mu, 0) for the real or the imaginary part of a mode; a coordinate
+/// counts with at least a thousandth of the largest motion, as in equation_rows.h.
+double residual_of(const KktMatrix& K, const VectorXd& scale, const VectorXd& mode,
+                   const VectorXd& inertia) {
+  VectorXd residual(mode.size()), terms(mode.size()), size = mode.cwiseAbs();
   K.multiply(mode, residual);
-  K.term_magnitudes(mode.cwiseAbs(), terms);
+  auto motion = size.head(scale.size());
+  motion = motion.cwiseMax(kLeastShare * motion.cwiseQuotient(scale).maxCoeff() * scale);
+  K.term_magnitudes(size, terms);
   residual.head(inertia.size()) -= inertia;
   terms.head(inertia.size()) += inertia.cwiseAbs();
   return largest_ratio(residual, terms.array() + terms.maxCoeff() * 1e-9);
+}
+
+/// K^-1 (f, 0), and what rounding leaves of the rows solved for again.
+VectorXd refined_solve(const KktMatrix& K, Index size, const VectorXd& force) {
+  VectorXd x = VectorXd::Zero(size), product(size);
+  for (int pass = 0; pass < 3; ++pass) {
+    K.multiply(x, product);
+    VectorXd correction = -product;
+    correction.head(force.size()) += force;
+    K.solve(correction);
+    x += correction;
+  }
+  return x;
 }
 
 }  // namespace
@@ -64,13 +81,12 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     return found;
   }
   const MatrixXd M = mass_matrix(system, state);
-  MatrixXd flexibility = MatrixXd::Zero(n + m, n);  // K^-1 (M, 0)
-  flexibility.topRows(n) = M;
-  for (Index j = 0; j < n; ++j) K.solve(flexibility.col(j));
+  MatrixXd flexibility(n, n);  // of K^-1 (M, 0)
+  for (Index j = 0; j < n; ++j) flexibility.col(j) = refined_solve(K, n + m, M.col(j)).head(n);
   // Coordinates over their scale, so that no unit of length enters.
   const VectorXd& scale = system.scale();
   const ComplexEigenpairs pairs =
-      eigenpairs(scale.cwiseInverse().asDiagonal() * flexibility.topRows(n) * scale.asDiagonal());
+      eigenpairs(scale.cwiseInverse().asDiagonal() * flexibility * scale.asDiagonal());
   if (!pairs.converged) {
     found.outcome = {Status::not_converged, "the eigenvalues of the dense matrix"};
     return found;
@@ -91,10 +107,14 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     found.frequency[k] = std::abs(s.imag()) / (2 * std::numbers::pi);
     found.growth_rate[k] = std::abs(s.real());
     const VectorXcd x = scale.asDiagonal() * pairs.vector.col(order[to_size(k)]);
-    const VectorXcd mode = flexibility * x / mu, inertia = M * x / mu;
-    found.evidence.add(Residual::eigenvalue_equation,
-                       std::max(residual_of(K, mode.real(), inertia.real()),
-                                mu.imag() == 0 ? 0 : residual_of(K, mode.imag(), inertia.imag())));
+    const VectorXcd force = M * x / mu;
+    const VectorXcd mode = refined_solve(K, n + m, force.real()) +
+                           std::complex<double>(0, 1) * refined_solve(K, n + m, force.imag());
+    const VectorXcd inertia = M * mode.head(n) / mu;
+    found.evidence.add(
+        Residual::eigenvalue_equation,
+        std::max(residual_of(K, scale, mode.real(), inertia.real()),
+                 mu.imag() == 0 ? 0 : residual_of(K, scale, mode.imag(), inertia.imag())));
   }
   found.outcome = outcome_by_evidence(found.outcome, found.evidence);
   return found;

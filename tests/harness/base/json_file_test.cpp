@@ -1,5 +1,10 @@
 #include "harness/base/json_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 #include <boost/test/unit_test.hpp>
 
 #include "harness/base/errors.h"
@@ -82,6 +87,22 @@ BOOST_AUTO_TEST_CASE(a_failed_write_leaves_no_part_and_a_link_is_replaced_not_fo
   std::filesystem::create_symlink("elsewhere", folder.path() / "link");
   write_file(folder.path() / "link", "[1]");
   BOOST_TEST(read_text(folder.path() / "elsewhere") == "kept");
+}
+
+BOOST_AUTO_TEST_CASE(a_pipe_is_written_to_and_stays_one) {
+  const testing::Folder folder;
+  const auto pipe = folder.path() / "pipe";
+  BOOST_REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const int end = open(pipe.c_str(), O_RDWR);  // keeps what is written, so that nobody waits
+  std::filesystem::create_symlink("pipe", folder.path() / "link");
+  write_file(pipe, "[1]");
+  write_file(folder.path() / "link", "[2]");
+  std::array<char, 6> text{};
+  BOOST_TEST(read(end, text.data(), text.size()) == 6);
+  BOOST_TEST(std::string(text.data(), text.size()) == "[1][2]");
+  BOOST_TEST(std::filesystem::is_fifo(pipe));
+  BOOST_TEST(std::filesystem::is_symlink(folder.path() / "link"));
+  close(end);
 }
 
 BOOST_AUTO_TEST_CASE(a_message_is_one_line_whatever_a_key_holds) {

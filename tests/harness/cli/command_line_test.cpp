@@ -560,6 +560,12 @@ BOOST_AUTO_TEST_CASE(what_is_no_results_file_is_said_so_beside_one) {
   BOOST_TEST(contains(refusal("none.json"), "none.json: expected a readable file"));
   BOOST_TEST(contains(refusal("other.json"), "other.json: /a: expected no key of that name"));
   BOOST_TEST(contains(refusal("cantilever.json"), "expected variants alone or results alone"));
+  for (const char* command :
+       {"paper other.json", "run cantilever.json --shard 1/1 --costs other.json"}) {
+    const Outcome outcome = run(folder, command);
+    BOOST_TEST(outcome.status == 2);
+    BOOST_TEST(contains(outcome.err, "other.json: /a: expected no key of that name"));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_page_of_one_s_own_case_has_that_case_alone) {

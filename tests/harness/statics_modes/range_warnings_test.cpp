@@ -48,8 +48,29 @@ BOOST_AUTO_TEST_CASE(a_strain_beyond_what_the_section_means_is_solved_with_a_war
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_path_has_one_warning_with_its_largest_rotation) {
-  const AnalysisResult result = result_of(Json::parse(R"({
+// A rigid beam on three supports: two bear it.
+BOOST_AUTO_TEST_CASE(reactions_that_statics_does_not_determine_are_told) {
+  Json json = testing::cantilever();
+  BOOST_TEST(result_of(json).warnings.empty());
+  json["model"]["members"] = Json::object();
+  json["model"]["nodes"] = {{"A", {0, 0}}, {"B", {1, 0}}, {"C", {2, 0}}};
+  json["model"]["rigid_bodies"] = {{"beam", {{"reference", "A"}, {"nodes", {"B", "C"}}}}};
+  json["model"]["supports"] = {{"A", {"x", "y"}}, {"B", {"y"}}, {"C", {"y"}}};
+  json["model"]["loads"] = {{"tip", {{"node", "C"}, {"force_N", {0, 12}}}}};
+  json["analysis"] = {{"statics", Json::object()}};
+  json["checks"] = Json::object();
+  const AnalysisResult result = result_of(json);
+  BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
+  BOOST_REQUIRE(result.warnings.size() == 1U);
+  BOOST_TEST(contains(result.warnings[0].text(), "constraints that follow from others is 1: "),
+             result.warnings[0].text());
+}
+
+namespace {
+
+/// The centred platform turns from 0 to an angle in 40 steps.
+AnalysisResult turning_to(double angle) {
+  Json json = Json::parse(R"({
     "id": "across", "title": "Across a singularity", "extends": "table-1.json",
     "model": {
       "manipulator": {"joints": {"elbow": "hinged"}, "platform": {"kind": "rigid"}},
@@ -60,14 +81,32 @@ BOOST_AUTO_TEST_CASE(a_path_has_one_warning_with_its_largest_rotation) {
       "loads": {"P": {"node": "P", "force_N": [100, 0], "moment_N_m": 0.1}}
     },
     "analysis": {"statics": {}}
-  })"));
-  BOOST_REQUIRE(result.outcome.solved());
-  BOOST_REQUIRE(result.warnings.size() == 1U);
+  })");
+  json["model"]["trajectory"]["line"]["to"]["phi_rad"] = angle;
+  AnalysisResult result = result_of(json);
+  BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
+  return result;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_path_has_one_warning_with_its_largest_rotation) {
+  const AnalysisResult result = turning_to(0.9);
+  BOOST_REQUIRE(result.warnings.size() == 2U);
   double largest = 0;
   for (const double angle : testing::values(result, "rotation_rad:P"))
     largest = std::max(largest, std::abs(angle));
   BOOST_TEST(largest > kMaxLinearRotation);
   BOOST_TEST(result.warnings[0].value >= largest);
+}
+
+// The lines of the distal links meet in P at 0.669 rad, 0.744 of the way.
+BOOST_AUTO_TEST_CASE(a_path_through_a_parallel_singularity_between_two_points_warns) {
+  const AnalysisResult result = turning_to(0.9);
+  BOOST_TEST(contains(result.warnings.back().text(), "has passed a parallel singularity is 0.75 s"),
+             result.warnings.back().text());
+  for (const Warning& warning : turning_to(0.6).warnings)
+    BOOST_TEST(!contains(warning.text(), "singularity"), warning.text());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

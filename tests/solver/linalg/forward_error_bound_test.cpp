@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
 #include <cfenv>
 #include <cmath>
@@ -65,6 +66,29 @@ BOOST_AUTO_TEST_CASE(a_stiff_part_costs_no_digits) {
     BOOST_TEST(q[1] == 1 + 1 / stiff, boost::test_tools::tolerance(1e-15));
     BOOST_TEST(forward_error(K, R, q, f, solve) < 20 * kEps);
   }
+}
+
+// Of one coordinate the norm is a sum, so that the estimate is exact.
+BOOST_AUTO_TEST_CASE(the_bound_adds_up_what_rounding_of_strains_and_of_forces_does) {
+  StiffnessFactors K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
+  K.C = Eigen::Vector3d(2, 5, 0.7);
+  const MatrixXd A = K.A;
+  const MatrixXd inverse = (A.transpose() * K.C.asDiagonal() * A).inverse();
+  const VectorXd f = Eigen::Vector2d(0.3, -4);
+  const VectorXd q = inverse * f;
+  SparseMatrix R(1, 2);
+  R.insert(0, 1) = 1;
+  const VectorXd p = inverse.col(1), s = K.C.cwiseProduct(A * q);
+  const VectorXd in_row = Eigen::Vector3d(2, 3, 3).cwiseSqrt();
+  const VectorXd in_column = Eigen::Vector2d(4, 3).cwiseSqrt();
+  const VectorXd size = A.cwiseAbs() * q.cwiseAbs();
+  const double of_strains = in_row.cwiseProduct(size).cwiseProduct(K.C).dot((A * p).cwiseAbs());
+  const VectorXd force = A.cwiseAbs().transpose() * s.cwiseAbs() + f.cwiseAbs();
+  const double of_forces = in_column.cwiseProduct(force).dot(p.cwiseAbs());
+  const Operator solve = [&](const VectorXd& b) -> VectorXd { return inverse * b; };
+  BOOST_TEST(
+      forward_error(K, R, q, f, solve) == kEps / 2 * (of_strains + of_forces) / std::abs(q[1]),
+      boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(where_arithmetic_rounds_in_one_direction_the_bound_is_twice_as_wide) {

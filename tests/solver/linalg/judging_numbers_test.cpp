@@ -1,0 +1,49 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "solver/assembly/stiffness_factors.h"
+#include "solver/linalg/backward_error.h"
+#include "solver/linalg/dense_qr.h"
+#include "solver/model/numbers.h"
+#include "tests/support/solver/frames.h"
+
+BOOST_AUTO_TEST_SUITE(judging_numbers)
+
+using namespace trammel::solver;
+using namespace trammel::testing;
+
+BOOST_AUTO_TEST_CASE(a_residual_that_is_no_number_or_has_no_terms_is_infinite) {
+  const Eigen::Vector2d ones(1, 1);
+  BOOST_TEST(largest_ratio(Eigen::Vector2d(0, 3), Eigen::Vector2d(0, 6)) == 0.5);
+  for (const auto& [residual, terms] :
+       {std::pair(Eigen::Vector2d(0, kNaN), ones), std::pair(ones, Eigen::Vector2d(kNaN, 1)),
+        std::pair(Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 0)),
+        std::pair(Eigen::Vector2d(0, 1), Eigen::Vector2d(kNaN, 1))})
+    BOOST_TEST(std::isinf(largest_ratio(residual, terms)));
+}
+
+BOOST_AUTO_TEST_CASE(a_matrix_of_two_independent_columns_has_a_third_pivot_of_nothing) {
+  const Eigen::Matrix3d A{{1, 2, 3}, {0, 4, 4}, {2, -1, 1}};
+  BOOST_TEST(pivoted_solve(A, Eigen::Vector3d::Ones()).smallest_to_largest_pivot < 1e-15);
+  const PivotedSolution found =
+      pivoted_solve(Eigen::Vector3d(4, 8, 1).asDiagonal(), Eigen::Vector3d(4, 16, 3));
+  BOOST_TEST(found.smallest_to_largest_pivot == 0.125);
+  BOOST_TEST(found.x == Eigen::Vector3d(1, 2, 3));
+}
+
+// A bar within a rigid body does not stretch, but rounding of the body's motion stretches it.
+BOOST_AUTO_TEST_CASE(terms_that_cancel_in_a_strain_count_with_their_size) {
+  Model model;
+  model.nodes = {{"A", {0, 0}}, {"B", {3, 4}}};
+  model.rigid_bodies = {{"body", 0, {1}}};
+  model.members = {member("AB", 0, 1, unit_section())};
+  model.members[0].ends[0].fixity = model.members[0].ends[1].fixity = EndFixity::hinged;
+  const StiffnessFactors K = stiffness_factors(assemble(model));
+  BOOST_TEST(Eigen::MatrixXd(K.A).row(0).lpNorm<Eigen::Infinity>() < 1e-15);
+  // Along the bar both ends move by 0.6 x + 0.8 y; a turn moves B by (-4, 3).
+  const Eigen::RowVector3d terms = Eigen::RowVector3d(2 * 0.6, 2 * 0.8, 0.6 * 4 + 0.8 * 3);
+  const Eigen::MatrixXd size = K.size;
+  BOOST_TEST((size.row(0).head<3>() - terms).lpNorm<Eigen::Infinity>() < 1e-14);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
