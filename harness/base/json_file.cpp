@@ -56,8 +56,10 @@ class StrictReader : public nlohmann::json_sax<Json> {
       throw InputError(name_, here(), "expected a number that a double can hold" + got);
     }
     const std::size_t start = place + head.size();  // "line 1, column 5: ..."
-    throw InputError(name_ + ": " + what.substr(start, what.find(':', start) - start) +
-                     ": expected JSON" + got);
+    throw InputError(
+        name_ + ": " + what.substr(start, what.find(':', start) - start) +
+        (what.find("UTF-8") == std::string::npos ? ": expected JSON" : ": expected JSON in UTF-8") +
+        got);
   }
 
   Json take() { return std::move(root_); }

@@ -66,8 +66,7 @@ int claims_command(unsigned jobs, bool json) {
 int paper_command(const std::string& results, bool json) {
   const Document claim_set = load_claims();
   std::vector<results::PaperItem> items = load_paper_items(claim_set, Catalogue());
-  if (!results.empty())
-    judge_paper_items(read_summary(results), items);
+  if (!results.empty()) judge_paper_items(read_summary(results), items);
   if (json) {
     results::Claims shown;
     shown.items = std::move(items);

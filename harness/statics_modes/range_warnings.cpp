@@ -89,6 +89,13 @@ void warn_of_strain(const solver::Model& model, const solver::StaticSolution& so
                                  ", where the measures of strain differ by 5 %"});
 }
 
+void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings) {
+  if (!(solution.amplification > kMaxAmplification)) return;
+  add_warning(warnings, {"the amplification by second-order theory", solution.amplification, "",
+                         "the loads are near those of buckling, and errors of the mesh are "
+                         "amplified as much as displacements"});
+}
+
 void warn_of_step_error(const solver::TransientSummary& summary, std::vector<Warning>& warnings) {
   if (!(summary.estimated_error > kMaxStepError * summary.largest_motion)) return;
   add_warning(warnings, {"the estimated error of the time steps over the motion",

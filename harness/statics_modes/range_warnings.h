@@ -36,6 +36,11 @@ void warn_of_strain(const solver::Model& model, const solver::StaticSolution& so
 inline constexpr double kMaxStepError = 0.1;
 void warn_of_step_error(const solver::TransientSummary& summary, std::vector<Warning>& warnings);
 
+/// Near a buckling load whatever is wrong with the stiffness counts as much more as displacements
+/// grow; up to here that is one digit.
+inline constexpr double kMaxAmplification = 10;
+void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings);
+
 /// Of supports, rigid bodies and inextensible members that hold what others hold already: how they
 /// share the loads is not determined, and what is reported is one way of many.
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings);

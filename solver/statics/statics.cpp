@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/assembly/equation_rows.h"
+#include "solver/assembly/length_scales.h"
 #include "solver/model/numbers.h"
 #include "solver/statics/linear_solution.h"
 #include "solver/statics/postprocessing.h"
@@ -18,6 +19,14 @@ using Eigen::VectorXd;
 /// Digits that a relative error leaves, no more than a double has.
 double digits(double error) {
   return -std::log10(std::clamp(error, kEps, 1.0));
+}
+
+/// Largest displacement of the second state over that of the first, rotations times the model's
+/// size.
+double amplification(const System& system, const VectorXd& first, const VectorXd& second) {
+  const SparseMatrix lengths = free_length_scales(system);
+  const double size = (lengths * first).lpNorm<Eigen::Infinity>();
+  return size > 0 && second.size() > 0 ? (lengths * second).lpNorm<Eigen::Infinity>() / size : 1;
 }
 
 /// q and its digits, or the outcome that keeps them from being.
@@ -59,6 +68,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   if (options.second_order && solution.outcome.solved() && solution.q.size() > 0) {
     second = solve_second_order(system, solution.q, solution.counters);
     solution.outcome = second.outcome;
+    solution.amplification = amplification(system, solution.q, second.q);
     solution.q = second.q;
     solution.estimated_correct_digits = digits(second.error);
     state.prestress = &second.forces;

@@ -19,8 +19,9 @@ struct StaticsOptions {
 /// from a member's first to its second node, x along it and y to its left: tension is positive,
 /// EI v'' = M, dM/dx = -V, dV/dx = -q_y, dN/dx = -q_x.
 struct StaticSolution {
-  Outcome outcome;    ///< singular: the reason names the free motion in words
-  Eigen::VectorXd q;  ///< free coordinates; draw them with mesh_motion
+  Outcome outcome;           ///< singular: the reason names the free motion in words
+  Eigen::VectorXd q;         ///< free coordinates; draw them with mesh_motion
+  double amplification = 1;  ///< of the largest displacement, by second-order theory [-]
   double estimated_correct_digits =
       0;  ///< of the largest displacement: linear_solution.h, second_order.h
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation

@@ -29,6 +29,7 @@ BOOST_AUTO_TEST_CASE(text_that_is_no_json_is_answered_with_its_line_and_column) 
   BOOST_TEST(fault(R"({"a": nan})").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
   BOOST_TEST(fault(R"({"a": NaN})").rfind("x.json: line 1, column 7: expected JSON", 0) == 0);
   BOOST_TEST(fault(R"({"a": 1)").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
+  BOOST_TEST(fault("{\"\xe9\": 1}").find(": expected JSON in UTF-8 (got ") != std::string::npos);
   BOOST_TEST(fault("").rfind("x.json: line 1, column 1: expected JSON", 0) == 0);
   BOOST_TEST(fault("{} {}").rfind("x.json: line 1, column 4: expected JSON", 0) == 0);
   BOOST_TEST(fault("{\n  \"a\": 1,\n  \"b\": }\n").rfind("x.json: line 3, column 8: ", 0) == 0);

@@ -200,6 +200,10 @@ BOOST_AUTO_TEST_CASE(a_reference_less_certain_than_the_tolerance_proves_nothing)
   bench.reference["uncertainty"] = {{"absolute", 0.5}};
   BOOST_TEST(bench.verdict() == "error");
   BOOST_TEST(contains(bench.message, "the uncertainty of the reference is +-0.5"));
+  bench.reference["uncertainty"] = {{"absolute", 0.015}};  // the tolerance is +-0.01
+  BOOST_TEST(bench.verdict() == "error");
+  bench.reference["uncertainty"] = {{"absolute", 0.009}};
+  BOOST_TEST(bench.verdict() == "pass");
 }
 
 BOOST_AUTO_TEST_CASE(printed_digits_tell_the_uncertainty) {

@@ -59,6 +59,17 @@ BOOST_AUTO_TEST_CASE(bands_that_are_huge_fail_although_they_never_miss) {
   BOOST_TEST(summary.fails());
 }
 
+BOOST_AUTO_TEST_CASE(a_band_is_of_the_value_and_an_error_of_the_exact_one) {
+  Convergence found = made_up(3, 1);
+  found.series.values = {10, 10, 15};
+  found.error = {0, 0, 0.5};
+  found.gci = {NAN, NAN, 0.4};  // 6 beside an error of 5
+  BOOST_TEST(summarise({found}).levels == 1U);
+  BOOST_TEST(summarise({found}).hits == 1U);
+  found.gci[2] = 0.3;
+  BOOST_TEST(summarise({found}).hits == 0U);
+}
+
 BOOST_AUTO_TEST_CASE(a_few_levels_decide_nothing) {
   const NumericalUncertaintySummary summary = summarise({made_up(8, 0.5)});
   BOOST_TEST(summary.hit_rate() < 0.95);

@@ -65,6 +65,17 @@ BOOST_AUTO_TEST_CASE(round_off_is_no_change_and_what_has_gone_back_is_none) {
   BOOST_TEST(back.changes.empty());
 }
 
+BOOST_AUTO_TEST_CASE(a_millionth_of_the_tolerance_is_round_off_and_a_thousandth_is_a_change) {
+  const auto tolerated = [](const std::string& commit, double value) {
+    results::Results made = call(commit, value);
+    made.runs[0].checks[0].tolerance = results::Tolerance{-1.0, 1.0, true};
+    return made;
+  };
+  const Folder folder, other;
+  BOOST_TEST(kept(folder, {tolerated("one", 10), tolerated("two", 10 + 5e-7)}).changes.empty());
+  BOOST_TEST(kept(other, {tolerated("one", 10), tolerated("two", 10.001)}).changes.size() == 1U);
+}
+
 BOOST_AUTO_TEST_CASE(a_value_that_goes_one_way_in_small_steps_drifts) {
   const Folder folder, other;
   const History found =

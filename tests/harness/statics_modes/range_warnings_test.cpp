@@ -1,6 +1,9 @@
 #include "harness/statics_modes/range_warnings.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "tests/support/harness/analysing.h"
 
@@ -45,6 +48,23 @@ BOOST_AUTO_TEST_CASE(a_strain_beyond_what_the_section_means_is_solved_with_a_war
     const AnalysisResult across = of_cantilever(0, 3e12, analysis);
     BOOST_REQUIRE(!across.warnings.empty());
     BOOST_TEST(contains(across.warnings.back().text(), "the largest shear of a member is "));
+  }
+}
+
+// Euler's load of the cantilever is pi^2 E I / 4 L^2; at 0.95 of it displacements are some 20 times
+// as large.
+BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_says_so) {
+  const double critical = std::pow(std::numbers::pi / 4, 2) * 2e11 * 0.05 * 1e-3 / 12;
+  for (const auto& [share, warned] : {std::pair(0.8, false), std::pair(0.95, true)}) {
+    Json json = testing::cantilever();
+    json["model"]["loads"]["tip"]["force_N"] = {-share * critical, 1e3};
+    json["analysis"] = {{"statics", {{"second_order", true}}}};
+    const AnalysisResult result = result_of(json);
+    BOOST_REQUIRE_MESSAGE(result.outcome.solved(), result.outcome.reason);
+    const bool found = std::ranges::any_of(result.warnings, [](const Warning& warning) {
+      return contains(warning.text(), "the amplification by second-order theory is ");
+    });
+    BOOST_TEST(found == warned);
   }
 }
 
