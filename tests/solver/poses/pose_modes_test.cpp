@@ -71,6 +71,20 @@ void check(const char* what, const ManipulatorDesign& design, const std::vector<
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(the_round_off_of_strains_is_told_as_it_is_alone) {
+  const ManipulatorDesign design = with_elements(16);
+  const std::vector<Pose> poses = circle(5, 0.01);
+  const PoseModes modes = solve_pose_modes(design, poses, {.count = 3});
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const System system = assemble(build_manipulator(design, poses[i]));
+    const Eigen::VectorXd alone = solve_modes(system, {.count = 3}).roundoff;
+    for (Index k = 0; k < 3; ++k) {
+      const double ratio = modes.roundoff(k, static_cast<Index>(i)) / alone[k];
+      BOOST_TEST((ratio > 0.1 && ratio < 5), ratio << " times that alone, " << alone[k]);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(every_pose_of_a_circle_has_the_frequencies_it_has_alone) {
   for (const Index elements : {1, 2, 4})
     check("rigid", with_elements(elements), circle(70, 0.01), 3);
