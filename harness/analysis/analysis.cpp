@@ -1,15 +1,21 @@
 #include "harness/analysis/analysis.h"
 
+#include <Eigen/LU>
 #include <cfenv>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
 #include "harness/scene/with_model_errors.h"
-#include "harness/statics_modes/range_warnings.h"
+#include "solver/manipulator/kinematics.h"
 
 namespace trammel::harness {
 namespace {
+
+/// Analyses that tell forces at points of a path.
+const std::set<std::string> kFollowsForces = {"statics", "inverse-dynamics", "elastodynamics"};
 
 using solver::Residual;
 
@@ -74,6 +80,26 @@ void record_estimates(const AnalysisKind& kind, const EffectChoice& choice, Reco
   }
 }
 
+/// Between two points of the path J_x can change its sign, although each of them is far from any
+/// singularity.
+void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warning>& warnings) {
+  if (!case_model.manipulator || !case_model.path) return;
+  const solver::ManipulatorGeometry& geometry = case_model.manipulator->geometry;
+  double before = 0;
+  for (const solver::TrajectoryPoint& point : case_model.motion) {
+    const solver::Posture posture = solver::inverse_kinematics(geometry, point.pose);
+    if (!posture.outcome.solved()) return;
+    const double now = solver::jacobians(geometry, point.pose, posture).parallel.determinant();
+    if (before * now < 0) {
+      add_warning(warnings,
+                  {"the time before which the path crosses a parallel singularity", point.time,
+                   " s", "rigid links need infinite torques there, and hinged ones give way"});
+      return;
+    }
+    if (now != 0) before = now;
+  }
+}
+
 }  // namespace
 
 void set_solver_rounding(int mode) {
@@ -106,7 +132,8 @@ AnalysisResult analyse(const Document& document, const References& references,
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
-    if (result.outcome.solved()) warn_of_passed_singularity(case_model, result.warnings);
+    if (result.outcome.solved() && kFollowsForces.contains(kind.name))
+      warn_of_crossed_singularity(case_model, result.warnings);
     if (choice.beyond_tier && *choice.beyond_tier > *choice.tolerance) {
       result.warnings.push_back(
           {"the change by large displacement, at most,", *choice.beyond_tier, "",

@@ -206,6 +206,20 @@ void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& 
   text += json.is_object() ? '}' : ']';
 }
 
+/// A device or a pipe, or what the system shows as a file, as an open one at /dev/stdout.
+bool is_written_in_place(std::filesystem::path file) {
+  std::error_code ignored;
+  const std::filesystem::file_status there = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) return true;
+  for (int links = 0; links < 40; ++links) {
+    const std::string path = std::filesystem::absolute(file, ignored).string();
+    if (path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
+    if (!std::filesystem::is_symlink(file, ignored)) return false;
+    file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string pretty(const Json& json, std::size_t deepest) {
@@ -217,8 +231,7 @@ std::string pretty(const Json& json, std::size_t deepest) {
 void write_file(const std::filesystem::path& file, const std::string& text) {
   static std::atomic<unsigned> count{0};
   std::error_code error, ignored;
-  const std::filesystem::file_status there = std::filesystem::status(file, ignored);
-  const bool in_place = std::filesystem::exists(there) && !std::filesystem::is_regular_file(there);
+  const bool in_place = is_written_in_place(file);
   std::filesystem::path part = file;
   if (!in_place) part += ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
   std::ofstream out(part, std::ios::binary);

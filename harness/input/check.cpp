@@ -193,6 +193,8 @@ void require_target(const JsonView& place, const Check& check) {
   if (targets > 1) {
     throw place.error("expected either 'reference' or 'against_variant', 'against_quantity'");
   }
+  if (check.against_quantity == check.quantity && check.against_variant.empty())
+    throw place["against_quantity"].error("expected another quantity: every number is what it is");
   if (!check.reference_index.empty() && check.reference.empty()) {
     throw place["reference_index"].error("expected 'reference' beside it");
   }
@@ -275,7 +277,10 @@ bool applies(const JsonView& place, const std::string& variant,
   if (place.has("against_variant")) {
     require_variant(place["against_variant"], variants);
     // A variant is not judged against itself.
-    if (place.text("against_variant") == variant && !place.has("against_quantity")) return false;
+    const auto quantity = place.text("quantity");
+    if (place.text("against_variant") == variant &&
+        place.get("against_quantity", quantity) == quantity)
+      return false;
   }
   if (!place.has("variants")) return true;
   bool named = false;

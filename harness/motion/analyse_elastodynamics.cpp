@@ -224,10 +224,7 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
     record.add("equilibrium_residual_N", "", solution.state[i].equilibrium_residual);
     record.add("moment_residual_N_m", "", solution.state[i].moment_residual);
   }
-  if (!large) {
-    warn_of_redundancy(start, result.warnings);
-    warn_of_step_error(solution.summary, result.warnings);
-  }
+  if (!large) warn_of_redundancy(start, result.warnings);
   record_deflection(solution, record);
   record_torques(solution, record);
   record_energy(solution, !options.elastic_inertia, record);

@@ -44,19 +44,22 @@ class Response {
       warn_of_rotation(largest_rotation(system_, system_.T * part), result.warnings);
   }
 
-  /// A gap where nothing bounds it.
+  /// A gap at a resonance that nothing bounds.
+  /// @param resonances  natural frequencies within [low, high] that may be one [Hz]
   /// @returns its frequency
-  double record_peak(double low, double high, bool damped, const Output& output,
-                     Recorder& record) const {
+  double record_peak(double low, double high, const std::vector<double>& resonances,
+                     const Output& output, Recorder& record) const {
+    for (const double resonance : resonances) {
+      if (!is_pole(resonance, high, output)) continue;
+      record.add_gap(output.prefixed("peak_"), "");
+      record.add("peak_frequency_Hz", output.name, resonance);
+      return resonance;
+    }
     const solver::HarmonicPeak found = solver::harmonic_peak(
         response_, low, high, [&](const Eigen::VectorXcd& q, double frequency) {
           return amplitude_of(output, system_.model, response_.amplitudes(q, frequency), frequency);
         });
-    if (damped || !has_frequency_at(found.frequency)) {
-      record.add(output.prefixed("peak_"), "", found.amplitude);
-    } else {
-      record.add_gap(output.prefixed("peak_"), "");
-    }
+    record.add(output.prefixed("peak_"), "", found.amplitude);
     record.add("peak_frequency_Hz", output.name, found.frequency);
     return found.frequency;
   }
@@ -74,11 +77,17 @@ class Response {
   }
 
  private:
-  [[nodiscard]] bool has_frequency_at(double frequency) const {
-    constexpr double kNear = 1e-4;  // where the search ends beside a pole, with room
-    const auto below = solver::sturm_count(system_, frequency * (1 - kNear));
-    const auto above = solver::sturm_count(system_, frequency * (1 + kNear));
-    return below && above && *below != *above;
+  /// Whether the amplitude grows as 1 / distance on the way to a frequency.
+  [[nodiscard]] bool is_pole(double frequency, double high, const Output& output) const {
+    const double unit = frequency > 0 ? frequency : high;
+    const auto size_at = [&](double distance) {
+      const double near = frequency + distance * unit;
+      const Eigen::VectorXcd q = response_.at(near);
+      return q.size() == 0
+                 ? 0.0
+                 : amplitude_of(output, system_.model, response_.amplitudes(q, near), near);
+    };
+    return size_at(1e-6) > 10 * size_at(1e-4);
   }
 
   const solver::System& system_;
@@ -106,7 +115,10 @@ class HarmonicScene {
     outcome_ = reduced.outcome;
     outputs = read_outputs(analysis["outputs"], system.model);
     try {
-      response.emplace(system, damped_ ? read_damping(analysis) : solver::HarmonicDamping());
+      const auto damping = damped_ ? read_damping(analysis) : solver::HarmonicDamping();
+      response.emplace(system, damping);
+      if (damping.rayleigh.mass == 0 && damping.rayleigh.stiffness == 0)
+        resonances_ = frequencies_in_range();
     } catch (const solver::ModelError& error) {
       throw(analysis.has("damping") ? analysis["damping"] : analysis).error(error.what());
     }
@@ -127,7 +139,7 @@ class HarmonicScene {
 
   /// @returns its frequency
   double record_peak(const Output& output, Recorder& record) const {
-    return response->record_peak(low_, high_, damped_, output, record);
+    return response->record_peak(low_, high_, resonances_, output, record);
   }
 
   solver::System system;
@@ -135,9 +147,24 @@ class HarmonicScene {
   std::optional<Response> response;
 
  private:
+  [[nodiscard]] std::vector<double> frequencies_in_range() const {
+    std::vector<double> found;
+    // Where the end of the range is one of them to the last digits, a little beyond it.
+    for (const double beyond : {1e-9, 1e-6}) {
+      const auto count = solver::sturm_count(system, high_ * (1 + beyond));
+      if (!count) continue;
+      const solver::ModalSolution modes = solver::solve_modes(system, {.count = *count});
+      for (const double frequency : modes.frequency)
+        if (frequency >= low_ && frequency <= high_) found.push_back(frequency);
+      break;
+    }
+    return found;
+  }
+
   double low_, high_;
   std::size_t points_;
   bool damped_;
+  std::vector<double> resonances_;  ///< that Rayleigh damping does not bound [Hz]
   solver::Outcome outcome_;
 };
 

@@ -115,10 +115,9 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
     record_energy(system, motion, sample, drift, record);
     warn_of_rotation(largest_rotation(system, system.T * motion.q.col(sample)), result.warnings);
   }
-  warn_of_step_error(motion.summary, result.warnings);
   record_peaks(motion, outputs, values, record);
   if (system.load.isZero(0) && !analysis.has("rotating_frame")) drift.record(record);
-  record.add("steps", "", static_cast<double>(motion.summary.accepted));
+  record.add("steps", "", static_cast<double>(motion.steps));
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   if (result.drawing) draw_motion(system, motion, *result.drawing);
   return result;

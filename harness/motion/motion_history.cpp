@@ -160,7 +160,7 @@ class Motion {
     solver::TransientHistory found = solver::solve_transient(equation, options);
     history_.outcome = found.summary.outcome;
     history_.evidence = found.summary.evidence;
-    history_.summary = found.summary;
+    history_.steps = found.summary.accepted;
     history_.counters += found.summary.counters;
     history_.q = std::move(found.q);
     history_.v = std::move(found.v);

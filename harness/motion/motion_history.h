@@ -15,11 +15,11 @@ struct MotionHistory {
   solver::Outcome outcome;
   solver::Evidence evidence;
   solver::Counters counters;
-  std::vector<double> time;          ///< [s]
-  std::vector<double> load_factor;   ///< of the loads, not weight, at those times
-  Eigen::MatrixXd q, v, a;           ///< free coordinate x time
-  solver::ViscousDamping damping;    ///< that it has
-  solver::TransientSummary summary;  ///< of the integrator; none for superposed modes
+  std::vector<double> time;         ///< [s]
+  std::vector<double> load_factor;  ///< of the loads, not weight, at those times
+  Eigen::MatrixXd q, v, a;          ///< free coordinate x time
+  solver::ViscousDamping damping;   ///< that it has
+  std::int64_t steps = 0;           ///< of the integrator; 0 for superposed modes
 };
 
 /// As the key "transient" of the analysis says, damped where the effects have it.

@@ -150,7 +150,7 @@ void read_history(const JsonView& analysis, const solver::Model& built,
       throw(*stated)["time_s"][i].error("expected no jump: the integrators see none within a step");
     }
     large_motion.load_history = [history](double t) { return history.at(t); };
-    large_motion.load_breakpoints = history.time;
+    large_motion.load_breakpoints = history.bends();
   }
   const auto starts = analysis.find("initial_velocities");
   if (!starts) return;

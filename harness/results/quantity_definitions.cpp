@@ -48,8 +48,8 @@ reaction_moment_N_m:SUPPORT  reaction moment of the ground, counterclockwise
 [statics elastodynamics]
 stress_Pa:MEMBER  largest stress by axial force and bending along a member
 von_mises_stress_Pa:PLATE  largest von Mises stress of a plate
-equilibrium_residual_N  largest force that is missing for equilibrium, inside a step by the error of interpolation
-moment_residual_N_m  largest moment that is missing for equilibrium; springs between nodes that lie apart leave their couple
+equilibrium_residual_N  force that loads and reactions lack for equilibrium of the whole model, inside a step by the error of interpolation; of its parts see the residual recovered_forces
+moment_residual_N_m  moment that loads and reactions lack about the world origin; springs between nodes that lie apart leave their couple
 [statics]
 bending_stress_Pa:MEMBER.END  bending moment over section modulus
 stress_xx_Pa:NODE  normal stress along x at a node of a plate
@@ -109,7 +109,7 @@ peak_time_s:OUTPUT  time of the largest magnitude of an output
 [harmonic]
 frequency_Hz  frequency of the excitation
 natural_frequency_Hz  natural frequencies, where modes are superposed
-peak_frequency_Hz:OUTPUT  frequency of the largest amplitude of an output
+peak_frequency_Hz:OUTPUT  frequency of the largest amplitude of an output, or of the resonance that nothing bounds
 [transient large-motion elastodynamics inverse-dynamics forward-dynamics]
 kinetic_energy_J  kinetic energy
 [transient large-motion elastodynamics]

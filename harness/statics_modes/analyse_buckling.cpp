@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
+#include "harness/statics_modes/range_warnings.h"
 #include "solver/statics/buckling.h"
 
 namespace trammel::harness {
@@ -36,6 +37,11 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
   StepResult result{buckling.outcome, buckling.counters, std::nullopt, {}, buckling.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
+  if (system.K.rows() == 0) {
+    result.outcome = {solver::Status::singular, "nothing buckles, for everything is held"};
+    return result;
+  }
+  warn_of_redundancy(system, result.warnings);
   for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {
     const double factor = buckling.load_factor[i];
     const std::string mode = case_model.path ? std::to_string(i + 1) : "";

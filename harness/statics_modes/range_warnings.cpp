@@ -1,10 +1,8 @@
 #include "harness/statics_modes/range_warnings.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "solver/manipulator/kinematics.h"
 #include "solver/model/plane.h"
 
 namespace trammel::harness {
@@ -96,39 +94,13 @@ void warn_of_amplification(const solver::StaticSolution& solution, std::vector<W
                          "amplified as much as displacements"});
 }
 
-void warn_of_step_error(const solver::TransientSummary& summary, std::vector<Warning>& warnings) {
-  if (!(summary.estimated_error > kMaxStepError * summary.largest_motion)) return;
-  add_warning(warnings, {"the estimated error of the time steps over the motion",
-                         summary.estimated_error / summary.largest_motion, "",
-                         "shorter steps, or error control, tell what is left of it"});
-}
-
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings) {
   const std::vector<solver::Index>& pivot = system.constraints.pivot;
   const auto redundant = std::count(pivot.begin(), pivot.end(), -1);
   if (redundant == 0) return;
-  add_warning(warnings, {"the number of constraints that follow from others",
-                         static_cast<double>(redundant), "",
-                         "the forces among them are one way of many to bear the loads, which the "
-                         "stiffness of what is taken as rigid would decide"});
-}
-
-void warn_of_passed_singularity(const CaseModel& case_model, std::vector<Warning>& warnings) {
-  if (!case_model.manipulator || !case_model.path) return;
-  const solver::ManipulatorGeometry& geometry = case_model.manipulator->geometry;
-  double before = 0;
-  for (const solver::TrajectoryPoint& point : case_model.motion) {
-    const solver::Posture posture = solver::inverse_kinematics(geometry, point.pose);
-    if (!posture.outcome.solved()) return;
-    const double now = solver::jacobians(geometry, point.pose, posture).parallel.determinant();
-    if (before * now < 0) {
-      add_warning(warnings,
-                  {"the time by which the path has passed a parallel singularity", point.time, " s",
-                   "between two of its points, where torques and deflections are infinite"});
-      return;
-    }
-    before = now;
-  }
+  add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
+                         "statics does not determine the forces among them: those that are given, "
+                         "and what follows from them, are one admissible set"});
 }
 
 }  // namespace trammel::harness

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "harness/base/warning.h"
-#include "harness/scene/case_model.h"
 #include "solver/assembly/system.h"
 #include "solver/statics/statics.h"
-#include "solver/time/transient.h"
 
 /// How far the theories hold, and warnings of solutions that went farther.
 namespace trammel::harness {
@@ -31,11 +29,6 @@ void warn_of_rotation(double rotation, std::vector<Warning>& warnings);
 void warn_of_strain(const solver::Model& model, const solver::StaticSolution& solution,
                     std::vector<Warning>& warnings);
 
-/// The estimates of the steps' errors, added up as if none made good for another, over the motion:
-/// up to here the steps follow it.
-inline constexpr double kMaxStepError = 0.1;
-void warn_of_step_error(const solver::TransientSummary& summary, std::vector<Warning>& warnings);
-
 /// Near a buckling load whatever is wrong with the stiffness counts as much more as displacements
 /// grow; up to here that is one digit.
 inline constexpr double kMaxAmplification = 10;
@@ -44,9 +37,5 @@ void warn_of_amplification(const solver::StaticSolution& solution, std::vector<W
 /// Of supports, rigid bodies and inextensible members that hold what others hold already: how they
 /// share the loads is not determined, and what is reported is one way of many.
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings);
-
-/// Of two points of the path between which the actuators lose hold of the platform: J_x has
-/// determinants of two signs there, and each point by itself is far from any trouble.
-void warn_of_passed_singularity(const CaseModel& case_model, std::vector<Warning>& warnings);
 
 }  // namespace trammel::harness

@@ -16,8 +16,8 @@ struct Prestress {
   Eigen::VectorXd axial;  ///< frame element: mean axial force, tension positive [N]
   Eigen::VectorXd
       axial_variation;  ///< frame element: axial force at its second end less the first's [N]
-  /// (sxx, syy, sxy) of the triangles in turn, at the centroid or, of a six-node one, at the points
-  /// of its stiffness [Pa]
+  /// (sxx, syy, sxy) of the triangles in turn, at the centroid or, of a six-node one, at its
+  /// integration points [Pa]
   Eigen::MatrixX3d stress;
   Eigen::VectorXd arm_moment;  ///< constraint row: force on a rigid body's arm times the arm [N m]
   Eigen::VectorXd offset_moment;  ///< point mass: force on its centre times its offset [N m]

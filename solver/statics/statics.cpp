@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/assembly/equation_rows.h"
-#include "solver/assembly/length_scales.h"
+#include "solver/assembly/strain.h"
 #include "solver/model/numbers.h"
 #include "solver/statics/linear_solution.h"
 #include "solver/statics/postprocessing.h"
@@ -21,12 +21,14 @@ double digits(double error) {
   return -std::log10(std::clamp(error, kEps, 1.0));
 }
 
-/// Largest displacement of the second state over that of the first, rotations times the model's
-/// size.
-double amplification(const System& system, const VectorXd& first, const VectorXd& second) {
-  const SparseMatrix lengths = free_length_scales(system);
-  const double size = (lengths * first).lpNorm<Eigen::Infinity>();
-  return size > 0 && second.size() > 0 ? (lengths * second).lpNorm<Eigen::Infinity>() / size : 1;
+/// What second-order theory adds to the first is d = -(K + K_G)^-1 K_G q: the stiffness K of that
+/// motion over what the forces leave of it, d^T K d / d^T (K + K_G) d. Of one buckling shape it is
+/// 1 / (1 - share of its load), whatever else the loads move.
+double amplification(const System& system, const VectorXd& first, const SecondOrderState& second) {
+  const VectorXd added = second.q - first;
+  const double stiffness = strain_products(system, system.T * added)(0, 0);
+  const double left = -added.dot(geometric_stiffness(system, second.forces) * first);
+  return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
 
 /// q and its digits, or the outcome that keeps them from being.
@@ -68,7 +70,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   if (options.second_order && solution.outcome.solved() && solution.q.size() > 0) {
     second = solve_second_order(system, solution.q, solution.counters);
     solution.outcome = second.outcome;
-    solution.amplification = amplification(system, solution.q, second.q);
+    if (second.outcome.solved()) solution.amplification = amplification(system, solution.q, second);
     solution.q = second.q;
     solution.estimated_correct_digits = digits(second.error);
     state.prestress = &second.forces;

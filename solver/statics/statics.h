@@ -21,7 +21,7 @@ struct StaticsOptions {
 struct StaticSolution {
   Outcome outcome;           ///< singular: the reason names the free motion in words
   Eigen::VectorXd q;         ///< free coordinates; draw them with mesh_motion
-  double amplification = 1;  ///< of the largest displacement, by second-order theory [-]
+  double amplification = 1;  ///< of what second-order theory adds, by the loads [-]
   double estimated_correct_digits =
       0;  ///< of the largest displacement: linear_solution.h, second_order.h
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation

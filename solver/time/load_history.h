@@ -11,6 +11,8 @@ struct LoadHistory {
   std::vector<double> factor{1.0};  ///< one for each time [-]
 
   [[nodiscard]] bool constant() const { return time.size() == 1; }
+  /// Where its slope changes or it jumps [s].
+  [[nodiscard]] std::vector<double> bends() const;
   /// At a jump, the value after it.
   [[nodiscard]] double at(double t) const;
   /// The time whose loads act on the state in which a step of integration ends at `t`: at a jump,

@@ -91,7 +91,6 @@ class TransientIntegrator {
       }
     }
     summary_.time = now_.time;
-    summary_.largest_motion = largest_;
     summary_.evidence = evidence_.result();
     summary_.outcome = outcome_by_evidence(summary_.outcome, summary_.evidence,
                                            {Residual::equation_of_motion, Residual::energy});
@@ -335,6 +334,7 @@ class TransientIntegrator {
   /// steps late): q_1 - q(t_1) = h^2 (beta + (alpha_m - alpha_f) / 2 - 1/6) (a_1 - a_0). Where that
   /// vanishes the error of v remains, hence the 1/12.
   double error_ratio(double h) {
+    if (!options_.adaptive) return 0;
     const double factor = std::max(
         1.0 / 12, std::abs(scheme_.beta + (scheme_.alpha_m - scheme_.alpha_f) / 2 - 1.0 / 6));
     correction_ = next_.a - now_.a;
@@ -342,10 +342,6 @@ class TransientIntegrator {
     error_ = factor * h * h * std::sqrt(std::max(0.0, correction_.dot(residual_)));
     residual_.noalias() = matrices_.M() * next_.q;
     const double size = std::max(largest_, std::sqrt(std::max(0.0, next_.q.dot(residual_))));
-    if (!options_.adaptive) {
-      largest_ = size;
-      return 0;
-    }
     const double budget = options_.adaptive->relative * size + options_.adaptive->absolute;
     const double allowed = budget * h / (options_.end - options_.start);
     if (error_ <= allowed) largest_ = size;
@@ -374,7 +370,7 @@ class TransientIntegrator {
     ++summary_.accepted;
     summary_.smallest_step = summary_.accepted == 1 ? h : std::min(summary_.smallest_step, h);
     summary_.largest_step = std::max(summary_.largest_step, h);
-    summary_.estimated_error += error_;
+    if (options_.adaptive) summary_.estimated_error += error_;
     output_.step(now_, next_, h);
     std::swap(now_, next_);
   }

@@ -69,6 +69,13 @@ class ConstrainedSystem {
   ConstrainedSystem& operator=(ConstrainedSystem&&) = default;
 };
 
+/// The model's size [m], by which translations count.
+[[nodiscard]] inline double length_scale(const ConstrainedSystem& system) {
+  if (system.coordinates() == 0) return 1;
+  const double least = system.scale().minCoeff();
+  return least < 1 ? least : system.scale().maxCoeff();
+}
+
 /// Root mean square of a change of coordinates over their scale [-].
 [[nodiscard]] inline double weighted_rms_norm(const ConstrainedSystem& system,
                                               const Eigen::Ref<const VectorXd>& change) {

@@ -321,7 +321,7 @@ class LargeElastodynamics {
     integration.step = options_.time.step;
     integration.spectral_radius =
         std::clamp(spectral_radius(options_.time.scheme, kInfinity), 0.0, 1.0);
-    integration.breakpoints = options_.load_history.time;
+    integration.breakpoints = options_.load_history.bends();
     for (const double time : options_.time.sample_times)
       if (time != options_.time.start) integration.output_times.push_back(time);
     const ConstrainedSystem& equations = system;

@@ -82,7 +82,11 @@ class ConsistentInitialization {
 
   bool solve_velocities(const PrescribedVelocities& given) {
     assemble(1e-3);
-    const double penalty = 1e6 * mass_scale();
+    // More than masses and what of the stiffness stands in S beside them.
+    VectorXd ones = VectorXd::Zero(n_ + m_), rows = ones;
+    ones.head(n_).setOnes();
+    matrix_.term_magnitudes(ones, rows);
+    const double penalty = 1e6 * std::max(mass_scale(), n_ > 0 ? rows.head(n_).maxCoeff() : 0.0);
     for (const auto& [k, value] : given) matrix_.add_diagonal(k, penalty);
     if (!matrix_.factor(system_.symmetric())) return false;
     VectorXd penalty_force = VectorXd::Zero(n_);

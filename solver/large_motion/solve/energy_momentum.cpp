@@ -84,7 +84,8 @@ void EnergyMomentum::set_end_multipliers(double h) {
   }
 }
 
-StepReport EnergyMomentum::attempt(double h) {
+StepReport EnergyMomentum::attempt(double h, double end) {
+  end_ = end;
   StepReport report = newton(h, false);
   if (report.converged) return report;
   const int spent = report.iterations;
@@ -96,7 +97,7 @@ StepReport EnergyMomentum::attempt(double h) {
 
 void EnergyMomentum::predict(double h) {
   system_.constraint_residual(from_, previous_constraint_residual_, constraint_rate_);
-  to_.t = from_.t + h;
+  to_.t = end_;
   to_.load = system_.load_factor(to_.t);
   to_.gravity = from_.gravity;
   to_.q = from_.q + h * from_.v + h * h / 2 * from_.a;

@@ -15,7 +15,7 @@ class EnergyMomentum final : public Stepper {
  public:
   explicit EnergyMomentum(const ConservativeSystem& system);
 
-  [[nodiscard]] StepReport attempt(double h) override;
+  [[nodiscard]] StepReport attempt(double h, double end) override;
   void begin(const State& state) override;
   void accept() override;
   [[nodiscard]] const State& state() const override { return from_; }
@@ -40,6 +40,7 @@ class EnergyMomentum final : public Stepper {
   State from_, to_, midpoint_;
   VectorXd mean_lambda_, previous_mean_lambda_;  ///< multipliers of this step and the last
   double factored_step_ = 0, last_step_ = 0, relation_residual_ = 0;
+  double end_ = 0;  ///< of the step that is tried [s]
   bool first_ = true;
   EnergyStep energy_step_;
   VectorXd constraint_residual_, constraint_rate_, previous_constraint_residual_, step_, change_;

@@ -34,7 +34,8 @@ void GeneralizedAlpha::accept() {
   first_ = false;
 }
 
-StepReport GeneralizedAlpha::attempt(double h) {
+StepReport GeneralizedAlpha::attempt(double h, double end) {
+  end_ = end;
   saved_A0_ = A0_;
   // A0 stands for the acceleration at t0 + (am - af) h.
   const double shift = alpha_m_ - alpha_f_;
@@ -84,7 +85,7 @@ StepReport GeneralizedAlpha::newton(double h) {
 }
 
 void GeneralizedAlpha::predict(double h) {
-  to_.t = from_.t + h;
+  to_.t = end_;
   to_.load = system_.load_factor(to_.t);
   to_.gravity = from_.gravity;
   to_.a = from_.a;

@@ -21,7 +21,8 @@ class GeneralizedAlpha final : public Stepper {
   ///                          them in one step.
   GeneralizedAlpha(const ConstrainedSystem& system, double spectral_radius);
 
-  [[nodiscard]] StepReport attempt(double h) override;
+  [[nodiscard]] StepReport attempt(double h, double end) override;
+  void restart() override { first_ = true; }
   void begin(const State& state) override;
   void accept() override;
   [[nodiscard]] const State& state() const override { return from_; }
@@ -47,6 +48,7 @@ class GeneralizedAlpha final : public Stepper {
   State from_, to_;
   VectorXd A0_, A1_, saved_A0_, defect_;  ///< the method's own accelerations
   double last_step_ = 0, factored_step_ = 0, relation_residual_ = 0;
+  double end_ = 0;  ///< of the step that is tried [s]
   bool first_ = true;
   VectorXd constraint_residual_, constraint_rate_, velocity_correction_, position_correction_;
 };

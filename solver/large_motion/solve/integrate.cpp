@@ -81,7 +81,10 @@ class TimeIntegration {
     max_steps_ = options_.max_steps;
     if (options_.adaptive) return;
     const double equal_steps = (options_.end_time - start_time_) / options_.step;
-    const double limit = 1000 + 10 * equal_steps;
+    const double stops =
+        static_cast<double>(options_.steps_in_multiples_of) *
+        static_cast<double>(options_.breakpoints.size() + options_.output_times.size());
+    const double limit = 1000 + 10 * (equal_steps + stops);
     if (limit >= static_cast<double>(max_steps_)) return;
     max_steps_ = static_cast<std::int64_t>(limit);
     step_limit_reason_ = "steps keep failing, ten times as many as asked for are spent";
@@ -102,12 +105,20 @@ class TimeIntegration {
   }
 
   bool advance_over_breakpoints(double target, double& h) {
-    const double apart = 1e-6 * options_.step;
-    for (const double time : options_.breakpoints) {
-      if (time > state_time() + apart && time < target - apart && !advance_to(time, h))
-        return false;
+    // As near for both runs of an extrapolated motion.
+    const double apart = 1e-6 * options_.step * options_.steps_in_multiples_of;
+    bool bends = false;
+    for (; next_breakpoint_ < options_.breakpoints.size(); ++next_breakpoint_) {
+      const double time = options_.breakpoints[next_breakpoint_];
+      if (time > target + apart) break;
+      bends = time > target - apart;
+      if (bends || time < state_time() + apart) continue;
+      if (!advance_to(time, h)) return false;
+      stepper_.restart();
     }
-    return advance_to(target, h);
+    if (!advance_to(target, h)) return false;
+    if (bends) stepper_.restart();
+    return true;
   }
 
   /// The largest of equal steps up to the target that are not above what was asked for.
@@ -126,11 +137,12 @@ class TimeIntegration {
       if (summary_.steps + summary_.rejected >= max_steps_) return fail(step_limit_reason_, h, {});
       const double remaining = target - state_time();
       // Equal steps up to the target: no tiny last one.
-      const double count = std::ceil(remaining / std::min(h, longest) * (1 - 1e-9));
+      const double allowed = failures > 0 ? h : std::min(h, longest);
+      const double count = std::ceil(remaining / allowed * (1 - 1e-9));
       const double step = count <= 1 ? remaining : remaining / count;
       if (step < 1e-7 * options_.step && remaining > step)
         return fail("no step is small enough", step, {});
-      StepReport report = stepper_.attempt(step);
+      StepReport report = stepper_.attempt(step, count <= 1 ? target : state_time() + step);
       summary_.iterations += report.iterations;
       const double ratio = options_.adaptive ? report.error / options_.tolerance : 0.0;
       if (!report.converged || ratio > 1.5) {
@@ -147,7 +159,9 @@ class TimeIntegration {
       ++summary_.steps;
       summary_.min_step = std::min(summary_.min_step, step);
       if (options_.adaptive) {
-        h = step * std::clamp(0.85 / std::cbrt(std::max(ratio, 1e-6)), 0.3, 1.8);
+        // What an output or a bend of the load cut short does not shrink the next step.
+        const double wanted = step * 0.85 / std::cbrt(std::max(ratio, 1e-6));
+        h = std::clamp(wanted, 0.3 * step, std::max(1.8 * step, h));
       } else {
         h = std::min(options_.step, 2 * h);
       }
@@ -198,26 +212,34 @@ class TimeIntegration {
   MotionResiduals residuals_;
   ConstraintResiduals constraints_;
   double start_time_ = 0, next_look_ = 0;
+  std::size_t next_breakpoint_ = 0;
   std::int64_t max_steps_ = 0;
   const char* step_limit_reason_ = "too many steps";
 };
 
 /// Rods of one length and joints may not admit the velocities that were given.
 Outcome outcome_of_start(const GeometricallyExactSystem& system, const State& state,
-                         const PrescribedVelocities& given) {
+                         const PrescribedVelocities& given,
+                         const std::vector<InitialVelocity>& stated) {
   constexpr double kRounding = 1e-6;
-  const double fastest = state.v.size() > 0 ? state.v.lpNorm<Eigen::Infinity>() : 0.0;
+  const VectorXd& scale = system.scale();
+  const double fastest =
+      state.v.size() > 0 ? state.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>() : 0.0;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const auto& [coordinate, value] = given[i];
     const double missed = std::abs(state.v[coordinate] - value);
-    if (missed <= kRounding * std::max(std::abs(value), fastest)) continue;
-    const InitialVelocity& initial = system.large_motion().initial_velocities[i];
+    if (missed <= kRounding * std::max(std::abs(value), fastest * scale[coordinate])) continue;
+    const InitialVelocity& initial = stated[i];
     constexpr std::array kDirections = {" m/s along x", " m/s along y", " rad/s"};
     std::ostringstream message;
+    const double nearest = state.v[coordinate];
+    message.precision(9);
     message << "the constraints do not let node "
             << system.model().nodes[static_cast<std::size_t>(initial.node)].name << " start with "
             << value << kDirections[static_cast<std::size_t>(initial.direction)]
-            << ": beside what else is given, " << state.v[coordinate] << " is nearest";
+            << ": together with the other given velocities "
+            << (std::abs(nearest) < kRounding * fastest * scale[coordinate] ? 0.0 : nearest)
+            << " is nearest";
     return {Status::singular, message.str()};
   }
   return {};
@@ -228,13 +250,12 @@ Outcome outcome_of_start(const GeometricallyExactSystem& system, const State& st
 Outcome outcome_of_extrapolation(const ConstrainedSystem& system,
                                  const IntegrationSummary& summary) {
   constexpr double kLimit = 1e-3;
-  const double size = system.coordinates() > 0 ? system.scale().maxCoeff() : 1;
+  const double size = length_scale(system);
   if (summary.max_constraint_residual <= kLimit * size) return {};
   std::ostringstream message;
   message << "the steps are too long to be extrapolated: what the two runs give together misses a "
              "constraint by "
-          << summary.max_constraint_residual << ", " << summary.max_constraint_residual / size
-          << " of the model's size";
+          << summary.max_constraint_residual / size << " of the model's size";
   return {Status::not_converged, message.str()};
 }
 
@@ -313,18 +334,22 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
 Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
   state = system.reference_state();
   PrescribedVelocities given;
+  std::vector<InitialVelocity> stated;  // but for zeros where a support holds the node
   for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
     const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
                                         [static_cast<std::size_t>(initial.direction)];
     if (k < 0 || k >= system.coordinates()) {
+      if (initial.value == 0) continue;
       return {Status::singular,
               "a start velocity is given where a support holds node " +
-                  system.model().nodes[static_cast<std::size_t>(initial.node)].name};
+                  system.model().nodes[static_cast<std::size_t>(initial.node)].name +
+                  ", or it has no rotation"};
     }
     given.emplace_back(k, initial.value);
+    stated.push_back(initial);
   }
   const Outcome consistent = make_consistent(system, state, given, step);
-  return consistent.solved() ? outcome_of_start(system, state, given) : consistent;
+  return consistent.solved() ? outcome_of_start(system, state, given, stated) : consistent;
 }
 
 }  // namespace trammel::solver::large_motion

@@ -17,7 +17,7 @@ enum class Integrator { generalized_alpha, energy_momentum };
 struct IntegrationOptions {
   Integrator integrator = Integrator::generalized_alpha;
   double end_time = 1;  ///< [s]
-  double step = 1e-3;   ///< fixed, or the first [s]
+  double step = 1e-3;   ///< at most, or the first [s]
   bool adaptive = false;
   double tolerance = 1e-6;  ///< local position error a step over the model's size; adaptive only
   double output_step = 0;   ///< observed at multiples of this, hit exactly; 0: every step [s]

@@ -11,7 +11,7 @@ namespace trammel::solver::large_motion {
 MotionResiduals::MotionResiduals(const ConstrainedSystem& system, const Stepper& stepper)
     : system_(system),
       stepper_(stepper),
-      size_(system.coordinates() > 0 ? system.scale().maxCoeff() : 1),
+      size_(length_scale(system)),
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
       residual_(VectorXd::Zero(system.coordinates())),
       unknowns_(VectorXd::Zero(system.coordinates() + system.constraints())),

@@ -30,10 +30,12 @@ class Stepper {
   Stepper& operator=(Stepper&&) = delete;
   virtual ~Stepper() = default;
 
-  /// Tries a step of size h [s] from the state `begin` was given or the last accepted one; the
-  /// result waits in `next` until it is accepted.
-  [[nodiscard]] virtual StepReport attempt(double h) = 0;
+  /// Tries a step of size h [s] from the state `begin` was given or the last accepted one to the
+  /// time `end`; the result waits in `next` until it is accepted.
+  [[nodiscard]] virtual StepReport attempt(double h, double end) = 0;
   virtual void begin(const State& state) = 0;
+  /// The loads bend where the last step has ended: accelerations do not go on as before.
+  virtual void restart() {}
   virtual void accept() = 0;
   [[nodiscard]] virtual const State& state() const = 0;
   [[nodiscard]] virtual const State& next() const = 0;

@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(a_pipe_is_written_to_and_stays_one) {
   const testing::Folder folder;
   const auto pipe = folder.path() / "pipe";
   BOOST_REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  const int end = open(pipe.c_str(), O_RDWR);  // keeps what is written, so that nobody waits
+  const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // so that nobody waits
   std::filesystem::create_symlink("pipe", folder.path() / "link");
   write_file(pipe, "[1]");
   write_file(folder.path() / "link", "[2]");
@@ -103,6 +103,17 @@ BOOST_AUTO_TEST_CASE(a_pipe_is_written_to_and_stays_one) {
   BOOST_TEST(std::string(text.data(), text.size()) == "[1][2]");
   BOOST_TEST(std::filesystem::is_fifo(pipe));
   BOOST_TEST(std::filesystem::is_symlink(folder.path() / "link"));
+  close(end);
+}
+
+BOOST_AUTO_TEST_CASE(an_open_file_of_the_system_is_written_to) {
+  const testing::Folder folder;
+  const auto file = folder.path() / "file", link = folder.path() / "link";
+  const int end = open(file.c_str(), O_RDWR | O_CREAT, 0600);
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(end), link);
+  write_file(link, "[1]");
+  BOOST_TEST(std::filesystem::is_symlink(link));
+  BOOST_TEST(read_text(file) == "[1]");
   close(end);
 }
 

@@ -83,6 +83,23 @@ BOOST_AUTO_TEST_CASE(a_check_applies_to_each_variant_that_it_names_and_to_no_oth
   BOOST_TEST(!applies_to({"soft"}, "base"));
 }
 
+BOOST_AUTO_TEST_CASE(a_quantity_is_not_judged_against_itself) {
+  Json json = testing::cantilever();
+  json["variants"]["soft"] = Json::object();
+  Json& check = json["checks"]["c"];
+  check = {{"quantity", "frequency_Hz"},
+           {"against_quantity", "frequency_Hz"},
+           {"role", "verification"},
+           {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
+  BOOST_TEST(contains(complaint([&] { (void)check_of(json); }),
+                      "/checks/c/against_quantity: expected another quantity"));
+  check["against_variant"] = "base";
+  const Folder folder;
+  const Case given = testing::read(folder, json);
+  BOOST_TEST(read_checks(patched(given, "base"), "base", given.variants()).empty());
+  BOOST_TEST(read_checks(patched(given, "soft"), "soft", given.variants()).size() == 1U);
+}
+
 BOOST_AUTO_TEST_CASE(a_half_width_stands_beside_values_only) {
   const Json agrees = {{"agrees", "r"}, {"within", 0.1}};
   const auto with = [](Json expect, const char* key, const Json& value) {

@@ -50,7 +50,7 @@ class FalseClaim final : public Stepper {
  public:
   FalseClaim(const ConstrainedSystem& system, std::function<void(State&)> change)
       : system_(system), found_(system, 0.9), change_(std::move(change)) {}
-  StepReport attempt(double h) override { return found_.attempt(h); }
+  StepReport attempt(double h, double end) override { return found_.attempt(h, end); }
   void begin(const State& state) override { found_.begin(state); }
   void accept() override {
     found_.accept();
@@ -80,7 +80,7 @@ Outcome outcome_of(const std::function<void(State&)>& change) {
   FalseClaim stepper(system, change);
   stepper.begin(state);
   for (int i = 0; i < 10; ++i) {
-    BOOST_TEST_REQUIRE(stepper.attempt(0.01).converged);
+    BOOST_TEST_REQUIRE(stepper.attempt(0.01, 0.01 * (i + 1)).converged);
     stepper.accept();
   }
   MotionResiduals residuals(system, stepper);
