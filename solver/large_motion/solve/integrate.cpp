@@ -43,8 +43,7 @@ class TimeIntegration {
  public:
   TimeIntegration(const ConstrainedSystem& system, Stepper& stepper,
                   const IntegrationOptions& options, const Observer& observe)
-      : system_(system),
-        stepper_(stepper),
+      : stepper_(stepper),
         options_(options),
         observe_(observe),
         residuals_(system, stepper),
@@ -204,7 +203,6 @@ class TimeIntegration {
     if (observe_) observe_(state);
   }
 
-  const ConstrainedSystem& system_;
   Stepper& stepper_;
   const IntegrationOptions& options_;
   const Observer& observe_;
