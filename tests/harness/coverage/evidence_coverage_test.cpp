@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "harness/coverage/case_features.h"
+#include "harness/results/quantity_definitions.h"
 #include "tests/support/harness/support.h"
 
 BOOST_AUTO_TEST_SUITE(evidence_coverage)
@@ -104,6 +105,38 @@ BOOST_AUTO_TEST_CASE(an_error_that_a_study_takes_counts_as_what_it_is_taken_from
   check["quantity"] = "relative_error:displacement_x_m:B";
   BOOST_TEST(evidence(check, feature, {{"study", study}}) == List{"self-consistency"},
              boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(what_agrees_with_itself_alone_is_not_verified) {
+  results::CoverageRow row;
+  BOOST_TEST(!row.is_verified());
+  row.evidence = {"self-consistency"};
+  BOOST_TEST(!row.is_verified());
+  row.evidence = {"self-consistency", "exact"};
+  BOOST_TEST(row.is_verified());
+}
+
+BOOST_AUTO_TEST_CASE(a_series_whose_check_fails_has_none) {
+  results::Results made;
+  results::Run run;
+  run.case_id = "a";
+  run.quantities = {{"frequency_Hz", {1.0}}};
+  results::Check check;
+  check.quantity = "frequency_Hz";
+  run.checks = {check};
+  made.cases.resize(1);
+  made.cases[0].id = "a";
+  made.cases[0].analysis = "modes";
+  for (const auto& [verdict, judged] :
+       {std::pair(results::Verdict::pass, 1), std::pair(results::Verdict::fail, 0),
+        std::pair(results::Verdict::error, 0), std::pair(results::Verdict::recorded, 0)}) {
+    run.checks[0].verdict = verdict;
+    made.runs = {run};
+    std::vector<results::CoverageRow> rows = {
+        {"quantity", "modes: " + results::find_quantity_definition("frequency_Hz", "modes")->name}};
+    count_series(made, rows);
+    BOOST_TEST(rows[0].judged == judged);
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

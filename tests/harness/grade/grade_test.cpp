@@ -272,4 +272,13 @@ BOOST_AUTO_TEST_CASE(a_right_solver_agrees_and_each_fault_is_caught_by_the_cases
     BOOST_TEST((off_cases(folder, fault, caught, 1) == caught), fault);
 }
 
+BOOST_AUTO_TEST_CASE(whoever_is_off_broken_crashed_or_late_has_failed) {
+  using results::Grade;
+  for (const Grade grade : {Grade::off, Grade::broken, Grade::crashed, Grade::timed_out})
+    BOOST_TEST(is_failure(grade), to_string(grade));
+  for (const Grade grade : {Grade::agrees, Grade::cannot, Grade::not_exported, Grade::not_given,
+                            Grade::not_judged, Grade::not_run})
+    BOOST_TEST(!is_failure(grade), to_string(grade));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

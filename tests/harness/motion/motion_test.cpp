@@ -203,11 +203,13 @@ BOOST_AUTO_TEST_CASE(a_resonance_without_damping_has_no_peak) {
              tolerance(1e-10));
 }
 
-// Beside the resonance damping changes little, at it everything.
+// At 1, 1.5 and 2 Hz it changes a ten-thousandth, at 10 rad/s everything.
 BOOST_AUTO_TEST_CASE(automatic_effects_keep_the_damping_of_a_harmonic_response) {
   Json json = harmonic();
+  json["analysis"]["harmonic"]["points"] = 3;
+  json["analysis"]["harmonic"]["damping"]["modal"]["ratio"] = 0.001;
   const double peak = last(result_of(json), "peak_displacement_x_m:P");
-  json["effects"] = {{"auto", {{"tolerance", 0.9}}}};
+  json["effects"] = {{"auto", {{"tolerance", 0.05}}}};
   BOOST_TEST(last(result_of(json), "peak_displacement_x_m:P") == peak, tolerance(1e-6));
 }
 
