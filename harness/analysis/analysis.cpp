@@ -3,8 +3,6 @@
 #include <Eigen/LU>
 #include <cfenv>
 #include <cmath>
-#include <set>
-#include <string>
 
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
@@ -13,9 +11,6 @@
 
 namespace trammel::harness {
 namespace {
-
-/// Analyses that tell forces at points of a path.
-const std::set<std::string> kFollowsForces = {"statics", "inverse-dynamics", "elastodynamics"};
 
 using solver::Residual;
 
@@ -132,7 +127,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
-    if (result.outcome.solved() && kFollowsForces.contains(kind.name))
+    if (result.outcome.solved() && kind.tells_forces)
       warn_of_crossed_singularity(case_model, result.warnings);
     if (choice.beyond_tier && *choice.beyond_tier > *choice.tolerance) {
       result.warnings.push_back(

@@ -38,6 +38,7 @@ struct AnalysisKind {
   /// What a result must show before it counts as solved; empty: it solves no equation of its own.
   std::vector<solver::Residual> evidence = {};
   PointAnalysis of_points = {};
+  bool tells_forces = false;  ///< at points of a path, which may cross a singularity between two
 
   [[nodiscard]] bool needs_model(const Document& document) const;
 };

@@ -62,9 +62,10 @@ int solve_command(const std::string& case_file, const std::string& result_file) 
   const Run& run = runs.front();
   if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
   if (run.error == Run::RunError::input) throw InputError(run.reason);
-  for (const Warning& warning :
-       run.result.outcome.solved() ? run.result.warnings : std::vector<Warning>())
-    std::cerr << "trammel: " << given.id() << ": warning: " << warning.text() << '\n';
+  if (run.result.outcome.solved()) {
+    for (const Warning& warning : run.result.warnings)
+      std::cerr << "trammel: " << given.id() << ": warning: " << warning.text() << '\n';
+  }
   write_file(result_file, pretty({{"status", run.status},
                                   {"reason", run.reason},
                                   {"quantities", quantities_json(given, run.result.quantities)},

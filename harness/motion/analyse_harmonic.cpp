@@ -57,7 +57,7 @@ class Response {
     }
     const solver::HarmonicPeak found = solver::harmonic_peak(
         response_, low, high, [&](const Eigen::VectorXcd& q, double frequency) {
-          return amplitude_of(output, system_.model, response_.amplitudes(q, frequency), frequency);
+          return amplitude(output, q, frequency);
         });
     record.add(output.prefixed("peak_"), "", found.amplitude);
     record.add("peak_frequency_Hz", output.name, found.frequency);
@@ -83,11 +83,14 @@ class Response {
     const auto size_at = [&](double distance) {
       const double near = frequency + distance * unit;
       const Eigen::VectorXcd q = response_.at(near);
-      return q.size() == 0
-                 ? 0.0
-                 : amplitude_of(output, system_.model, response_.amplitudes(q, near), near);
+      return q.size() == 0 ? 0.0 : amplitude(output, q, near);
     };
     return size_at(1e-6) > 10 * size_at(1e-4);
+  }
+
+  [[nodiscard]] double amplitude(const Output& output, const Eigen::VectorXcd& q,
+                                 double frequency) const {
+    return amplitude_of(output, system_.model, response_.amplitudes(q, frequency), frequency);
   }
 
   const solver::System& system_;
@@ -117,8 +120,7 @@ class HarmonicScene {
     try {
       const auto damping = damped_ ? read_damping(analysis) : solver::HarmonicDamping();
       response.emplace(system, damping);
-      if (damping.rayleigh.mass == 0 && damping.rayleigh.stiffness == 0)
-        resonances_ = frequencies_in_range();
+      bounded_ = damping.rayleigh.mass != 0 || damping.rayleigh.stiffness != 0;
     } catch (const solver::ModelError& error) {
       throw(analysis.has("damping") ? analysis["damping"] : analysis).error(error.what());
     }
@@ -137,9 +139,34 @@ class HarmonicScene {
     if (damped_) result.counters.count(solver::Effect::damping, 1);
   }
 
-  /// @returns its frequency
-  double record_peak(const Output& output, Recorder& record) const {
-    return response->record_peak(low_, high_, resonances_, output, record);
+  /// Of every output.
+  /// @returns the frequency of the first
+  double record_peaks(Recorder& record) const {
+    std::optional<double> first;
+    std::vector<double> resonances;
+    if (!bounded_) resonances = frequencies_in_range().value_or(resonances);
+    for (const Output& output : outputs) {
+      const double at = response->record_peak(low_, high_, resonances, output, record);
+      if (!first) first = at;
+    }
+    return first.value_or(low_);
+  }
+
+  /// Natural frequencies within the range [Hz]; nothing where they are not found.
+  [[nodiscard]] std::optional<std::vector<double>> frequencies_in_range() const {
+    // Where the end of the range is one of them to the last digits, a little beyond it.
+    for (const double beyond : {1e-9, 1e-6}) {
+      const auto count = solver::sturm_count(system, high_ * (1 + beyond));
+      if (!count) continue;
+      if (*count == 0) return std::vector<double>();
+      const solver::ModalSolution modes = solver::solve_modes(system, {.count = *count});
+      if (!modes.outcome.solved()) return std::nullopt;
+      std::vector<double> found;
+      for (const double frequency : modes.frequency)
+        if (frequency >= low_ && frequency <= high_) found.push_back(frequency);
+      return found;
+    }
+    return std::nullopt;
   }
 
   solver::System system;
@@ -147,24 +174,10 @@ class HarmonicScene {
   std::optional<Response> response;
 
  private:
-  [[nodiscard]] std::vector<double> frequencies_in_range() const {
-    std::vector<double> found;
-    // Where the end of the range is one of them to the last digits, a little beyond it.
-    for (const double beyond : {1e-9, 1e-6}) {
-      const auto count = solver::sturm_count(system, high_ * (1 + beyond));
-      if (!count) continue;
-      const solver::ModalSolution modes = solver::solve_modes(system, {.count = *count});
-      for (const double frequency : modes.frequency)
-        if (frequency >= low_ && frequency <= high_) found.push_back(frequency);
-      break;
-    }
-    return found;
-  }
-
   double low_, high_;
   std::size_t points_;
   bool damped_;
-  std::vector<double> resonances_;  ///< that Rayleigh damping does not bound [Hz]
+  bool bounded_ = false;  ///< every resonance, by Rayleigh damping
   solver::Outcome outcome_;
 };
 
@@ -175,14 +188,10 @@ std::set<std::size_t> harmonic_sample(const JsonView& analysis, const CaseModel&
   const HarmonicScene scene(analysis, case_model, 0);
   const double low = analysis.number("from_Hz"), high = analysis.number("to_Hz");
   const std::size_t points = points_of(analysis);
-  const std::optional<solver::Index> below = solver::sturm_count(scene.system, high);
-  solver::ModalSolution modes;
-  if (below && *below > 0) modes = solver::solve_modes(scene.system, {.count = *below});
+  const std::optional<std::vector<double>> frequencies = scene.frequencies_in_range();
   std::set<std::size_t> sample = {points - 1};
-  for (std::size_t i = 0; i < points; i += below && modes.outcome.solved() ? kStride : 1)
-    sample.insert(i);
-  for (const double frequency : modes.frequency) {
-    if (!(frequency > low && frequency < high)) continue;
+  for (std::size_t i = 0; i < points; i += frequencies ? kStride : 1) sample.insert(i);
+  for (const double frequency : frequencies.value_or(std::vector<double>())) {
     const double share = (frequency - low) / (high - low) * static_cast<double>(points - 1);
     const auto before = static_cast<std::size_t>(share);
     sample.insert({before, std::min(before + 1, points - 1)});
@@ -210,10 +219,8 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
   if (!result.outcome.solved()) return result;
   const std::size_t points = points_of(analysis);
   for (std::size_t point = 0; point < points; ++point) scene.record_at(point, true, record, result);
-  for (const Output& output : scene.outputs) {
-    const double at = scene.record_peak(output, record);
-    if (result.drawing && &output == &scene.outputs.front()) response.draw_at(at, *result.drawing);
-  }
+  const double at = scene.record_peaks(record);
+  if (result.drawing && !scene.outputs.empty()) response.draw_at(at, *result.drawing);
   for (solver::Index i = 0; i < response.of_system().frequencies().size(); ++i) {
     record.add("natural_frequency_Hz", "", response.of_system().frequencies()[i]);
   }

@@ -215,19 +215,25 @@ class TimeIntegration {
   const char* step_limit_reason_ = "too many steps";
 };
 
+/// Of a start velocity; -1 where a support holds the node, or it has no rotation.
+Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
+  const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
+                                      [static_cast<std::size_t>(initial.direction)];
+  return k < system.coordinates() ? k : -1;
+}
+
 /// Rods of one length and joints may not admit the velocities that were given.
-Outcome outcome_of_start(const GeometricallyExactSystem& system, const State& state,
-                         const PrescribedVelocities& given,
-                         const std::vector<InitialVelocity>& stated) {
+Outcome outcome_of_start(const GeometricallyExactSystem& system, const State& state) {
   constexpr double kRounding = 1e-6;
   const VectorXd& scale = system.scale();
   const double fastest =
       state.v.size() > 0 ? state.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>() : 0.0;
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    const auto& [coordinate, value] = given[i];
+  for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
+    const Index coordinate = coordinate_of(system, initial);
+    if (coordinate < 0) continue;
+    const double value = initial.value;
     const double missed = std::abs(state.v[coordinate] - value);
     if (missed <= kRounding * std::max(std::abs(value), fastest * scale[coordinate])) continue;
-    const InitialVelocity& initial = stated[i];
     constexpr std::array kDirections = {" m/s along x", " m/s along y", " rad/s"};
     std::ostringstream message;
     const double nearest = state.v[coordinate];
@@ -332,11 +338,9 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
 Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
   state = system.reference_state();
   PrescribedVelocities given;
-  std::vector<InitialVelocity> stated;  // but for zeros where a support holds the node
   for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
-    const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
-                                        [static_cast<std::size_t>(initial.direction)];
-    if (k < 0 || k >= system.coordinates()) {
+    const Index k = coordinate_of(system, initial);
+    if (k < 0) {
       if (initial.value == 0) continue;
       return {Status::singular,
               "a start velocity is given where a support holds node " +
@@ -344,10 +348,9 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
                   ", or it has no rotation"};
     }
     given.emplace_back(k, initial.value);
-    stated.push_back(initial);
   }
   const Outcome consistent = make_consistent(system, state, given, step);
-  return consistent.solved() ? outcome_of_start(system, state, given, stated) : consistent;
+  return consistent.solved() ? outcome_of_start(system, state) : consistent;
 }
 
 }  // namespace trammel::solver::large_motion

@@ -108,8 +108,8 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     found.growth_rate[k] = std::abs(s.real());
     const VectorXcd x = scale.asDiagonal() * pairs.vector.col(order[to_size(k)]);
     const VectorXcd force = M * x / mu;
-    const VectorXcd mode = refined_solve(K, n + m, force.real()) +
-                           std::complex<double>(0, 1) * refined_solve(K, n + m, force.imag());
+    VectorXcd mode = refined_solve(K, n + m, force.real());
+    if (mu.imag() != 0) mode += std::complex<double>(0, 1) * refined_solve(K, n + m, force.imag());
     const VectorXcd inertia = M * mode.head(n) / mu;
     found.evidence.add(
         Residual::eigenvalue_equation,

@@ -233,4 +233,55 @@ BOOST_AUTO_TEST_CASE(steps_beyond_number_are_refused_before_the_first) {
              refusal);
 }
 
+namespace {
+
+/// A free mass of 1 kg under 2 N times a history.
+Json pushed(const Json& times, const Json& factors) {
+  Json json = Json::parse(R"({
+    "id": "pushed", "title": "A mass that is pushed",
+    "model": {"nodes": {"A": [0, 0]}, "point_masses": {"p": {"node": "A", "mass_kg": 1}},
+              "loads": {"t": {"node": "A", "force_N": [2, 0]}}},
+    "analysis": {"large-motion": {"end_time_s": 1, "step_s": 0.1, "spectral_radius": 1}}
+  })");
+  json["analysis"]["large-motion"]["load_history"] = {{"time_s", times}, {"factor", factors}};
+  return json;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(steps_end_where_a_load_bends_and_only_there) {
+  Json times = Json::array(), constant = Json::array(), zigzag = Json::array();
+  for (int i = 0; i <= 2000; ++i) {
+    times.push_back(i / 2000.0);
+    constant.push_back(1);
+    zigzag.push_back(i % 2);
+  }
+  BOOST_TEST(only(result_of(pushed(times, constant)), "steps") == 10);
+  const AnalysisResult bent = result_of(pushed(times, zigzag));
+  BOOST_REQUIRE_MESSAGE(bent.outcome.solved(), bent.outcome.reason);
+  BOOST_TEST(only(bent, "steps") == 2000);
+  BOOST_TEST(testing::values(bent, "velocity_x_m_per_s:A").back() == 1, tolerance(1e-12));
+}
+
+// By similarity: the times of a length L go with its root.
+BOOST_AUTO_TEST_CASE(a_stretched_rod_is_refused_whatever_its_length) {
+  for (const double length : {1e-3, 1.0, 1e3}) {
+    Json json = Json::parse(R"({
+      "id": "pendulum", "title": "A pendulum",
+      "model": {"nodes": {"O": [0, 0], "B": [1, 0]},
+                "rigid_bodies": {"rod": {"reference": "O", "nodes": ["B"]}},
+                "point_masses": {"bob": {"node": "B", "mass_kg": 1}},
+                "supports": {"O": ["x", "y"]}, "gravity_m_s2": [0, -9.81]},
+      "analysis": {"large-motion": {"extrapolated": true}}
+    })");
+    json["model"]["nodes"]["B"] = {-length, 0};
+    json["analysis"]["large-motion"]["step_s"] = 0.25 * std::sqrt(length);
+    json["analysis"]["large-motion"]["end_time_s"] = 10 * std::sqrt(length);
+    const AnalysisResult result = result_of(json);
+    BOOST_TEST((result.outcome.status == Status::not_converged));
+    BOOST_TEST(contains(result.outcome.reason, "too long to be extrapolated"),
+               result.outcome.reason);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

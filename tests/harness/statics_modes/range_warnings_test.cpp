@@ -69,6 +69,34 @@ BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_says_so) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(loads_that_compress_nothing_have_no_load_factor_and_a_warning) {
+  for (const auto& [along, warned] : {std::pair(1.0, true), std::pair(-1.0, false)}) {
+    const AnalysisResult result = of_cantilever(along, 0, "buckling");
+    BOOST_TEST(result.warnings.size() == (warned ? 1U : 0U));
+    if (warned) BOOST_TEST(contains(result.warnings[0].text(), "nothing buckles, for the loads"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_vibrate_or_buckle_is_singular_and_says_why) {
+  const auto reason = [](const Json& supports, double density, const char* analysis) {
+    Json json = testing::cantilever();
+    json["model"]["elements"] = 1;
+    json["model"]["supports"] = supports;
+    json["model"]["materials"]["steel"]["rho_kg_m3"] = density;
+    json["analysis"] = {{analysis, {{"count", 1}}}};
+    const AnalysisResult result = result_of(json);
+    BOOST_TEST((result.outcome.status == solver::Status::singular));
+    return result.outcome.reason;
+  };
+  const Json all = {"x", "y", "rotation"};
+  BOOST_TEST(reason({{"A", all}, {"B", all}}, 7800, "modes") ==
+             "nothing vibrates, for everything is held");
+  BOOST_TEST(reason({{"A", all}, {"B", all}}, 7800, "buckling") ==
+             "nothing buckles, for everything is held");
+  BOOST_TEST(reason({{"A", all}}, 0, "modes") ==
+             "nothing vibrates, for nothing that moves has mass");
+}
+
 // A rigid beam on three supports: two bear it.
 BOOST_AUTO_TEST_CASE(reactions_that_statics_does_not_determine_are_told) {
   Json json = testing::cantilever();
