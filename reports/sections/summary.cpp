@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "harness/base/find_or_add.h"
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/sections/check_status_data.h"
@@ -14,6 +15,8 @@
 namespace trammel::reports {
 
 namespace {
+
+using harness::find_or_add;
 
 struct Role {
   const char *name, *meaning;
@@ -155,22 +158,16 @@ struct KnownDiscrepancy {
   Targets targets = {};
 };
 
-template <typename Item, typename Is>
-Item& find_or_add(std::vector<Item>& items, Is is, const Item& fresh) {
-  const auto found = std::find_if(items.begin(), items.end(), is);
-  return found == items.end() ? items.emplace_back(fresh) : *found;
-}
-
 void add(KnownDiscrepancy& known, const Run& run, const Check& check, const CaseInfo& info) {
   ++known.checks;
-  find_or_add(
+  find_or_add<const CaseInfo*>(
       known.cases, [&](const CaseInfo* c) { return c == &info; }, &info);
   Reason& reason = find_or_add(
       known.reasons, [&](const Reason& r) { return r.text == check.why; },
       Reason{check.why, &check, &check, {}});
   if (check.difference < reason.lowest->difference) reason.lowest = &check;
   if (check.difference > reason.highest->difference) reason.highest = &check;
-  find_or_add(
+  find_or_add<const Run*>(
       reason.runs, [&](const Run* r) { return r == &run; }, &run);
 }
 
