@@ -55,6 +55,8 @@ void print(const Convergence& found) {
       last += ", off by " +
               rounded(std::abs(*found.richardson - *series.exact) / std::abs(*series.exact), 2);
     }
+  } else if (series.values.size() > 2) {
+    last += std::string(last.empty() ? "" : ", ") + "no value that it converges to";
   }
   std::cout << wrapped(last, "    ") << '\n';
 }

@@ -91,6 +91,15 @@ class ConvergenceStudy {
     for (std::size_t k = 2; k < count(); ++k) observed_[k] = order_of_three(v_, h_, k);
   }
 
+  /// Whether the values of three levels move no less than an order of zero would let them, as those
+  /// of a stress at a reentrant corner do: they tell of no value to converge to.
+  [[nodiscard]] bool diverges(std::size_t k) const {
+    if (k < 2) return false;
+    const double before = std::abs(v_[k - 1] - v_[k - 2]), last = std::abs(v_[k] - v_[k - 1]);
+    if (last <= kRoundoffMargin * roundoff_[k] * std::abs(v_[k])) return false;
+    return last * std::log(h_[k - 2] / h_[k - 1]) >= before * std::log(h_[k - 1] / h_[k]);
+  }
+
   /// A converged value expected from a level and those before it, and how far to trust it.
   struct Expected {
     double value = kNaN;
@@ -112,11 +121,12 @@ class ConvergenceStudy {
 
   [[nodiscard]] Expected expected(std::size_t k) const {
     const double seen = observed_[k];
+    if (diverges(k)) return {};
     if (!series_.theory) return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
     const double lowest = series_.lower.value_or(*series_.theory);
     // Two levels show no order: Roache's factor for that of theory.
     if (k == 1) return {extrapolated(k, lowest), 3};
-    // Values that go to and fro, or away from each other.
+    // Values that go to and fro.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
     if (is_theoretical_order(seen) && series_.lower) {
       const double value =
@@ -138,7 +148,8 @@ class ConvergenceStudy {
       gci_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
       // The extrapolated value of the level where it changes least, round-off counted in.
-      const double change = std::abs(value - before) + roundoff_[k] * std::abs(value);
+      const double from = std::isfinite(before) ? before : v_[k];
+      const double change = std::abs(value - from) + roundoff_[k] * std::abs(value);
       before = value;
       if (k < 2 || !(change < min_change)) continue;
       min_change = change;

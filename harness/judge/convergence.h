@@ -34,10 +34,10 @@ struct Convergence {
   std::vector<bool> in_asymptotic_range;
   std::vector<bool> at_roundoff_floor;  ///< error not above 100 times the round-off error
   std::optional<double> fitted_order;   ///< slope over the asymptotic range
-  std::optional<double> richardson;     ///< extrapolated value
+  std::optional<double> richardson;     ///< extrapolated value; none where the values diverge
   std::optional<TwoTermFit> two_term;   ///< of the relative error; where two orders mix
   /// Grid convergence index: relative half width of where the converged value is expected, from
-  /// the values alone (never from the exact one), round-off included.
+  /// the values alone (never from the exact one), round-off included. NaN where they diverge.
   std::vector<double> gci;
   /// Roache's factor in the band: 1.25 where the observed order is within a tenth of theory (with
   /// two orders: within a tenth of the range between them), else 3.

@@ -53,6 +53,43 @@ BOOST_AUTO_TEST_CASE(a_refinement_by_any_ratio_shows_its_order) {
   BOOST_TEST(std::abs(found.richardson.value() - 3) < 1e-9);
 }
 
+/// v on h = 1, 1/2, 1/4 ...
+Series of_values(const std::vector<double>& values) {
+  Series series = made_up(2, 0, 0, values.size());
+  series.values = values;
+  return series;
+}
+
+BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
+  // As the logarithm of h does, as 1/h does, and to and fro.
+  for (const auto& values : {std::vector<double>{1, 2, 3, 4, 5}, {1, 2, 4, 8, 16}, {1, 2, 0, 4}}) {
+    for (const bool known : {false, true}) {
+      Series series = of_values(values);
+      if (!known) series.theory.reset();
+      const Convergence found = analyse_convergence(series);
+      BOOST_TEST(!found.richardson.has_value());
+      for (std::size_t k = 2; k < values.size(); ++k) BOOST_TEST(std::isnan(found.gci[k]));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(values_that_move_away_on_coarse_meshes_alone_are_extrapolated_from_the_fine) {
+  const Convergence found = analyse_convergence(of_values({1, 2, 6, 7, 7.25, 7.3125}));
+  BOOST_TEST(std::isnan(found.gci[2]));
+  BOOST_TEST(std::abs(found.richardson.value() - 7.3333333333333333) < 1e-12);
+  const Convergence last = analyse_convergence(of_values({1, 2, 6, 7}));
+  BOOST_TEST(std::abs(last.richardson.value() - 7.3333333333333333) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(slow_convergence_and_noise_of_rounding_do_not_diverge) {
+  const Convergence slow = analyse_convergence(of_values({4, 3, 2.1, 1.29}));  // order 0.15
+  BOOST_TEST(std::isfinite(slow.gci[3]));
+  BOOST_TEST(slow.richardson.has_value());
+  const Convergence noise = analyse_convergence(of_values({3, 3 + 1e-15, 3 - 2e-15, 3 + 8e-15}));
+  BOOST_TEST(noise.richardson.value() == 3, boost::test_tools::tolerance(1e-13));
+  BOOST_TEST(std::isfinite(noise.gci[3]));
+}
+
 BOOST_AUTO_TEST_CASE(the_next_term_keeps_coarse_meshes_out_of_the_asymptotic_range) {
   Series series = made_up(4, 0.1, 0.5, 8);
   series.exact = 10;
