@@ -9,6 +9,8 @@
 
 namespace trammel::solver {
 
+using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
 /// One homogeneous sum over unconstrained coordinates: sum of coefficient * u = 0.
 struct ConstraintRow {
   enum class Source { support, linear, rigid_body, inextensible };
@@ -26,7 +28,7 @@ struct Constraints {
   std::vector<Index> pivot;         ///< row -> coordinate it eliminates, -1 where it was dropped
   std::vector<Index> free;          ///< coordinate u -> q, or -1 where it is eliminated
   Index free_count = 0;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> T;  ///< u x q
+  RowMajorMatrix T;  ///< u x q
 
   /// Multipliers lambda, one a row, with C^T lambda = `force` [a force on each coordinate u]: the
   /// generalised forces by which the constraints hold the model. 0 for a dropped row.

@@ -252,6 +252,13 @@ VectorXd geometric_stiffness_forces(const System& system, const Prestress& state
   return force;
 }
 
+double geometric_energy_roundoff(const System& system, const SparseMatrix& K_G,
+                                 const Prestress& roundoff, const VectorXd& x) {
+  const VectorXd u = system.T * x, size = x.cwiseAbs();
+  return kEps * size.dot(K_G.cwiseAbs() * size) +
+         u.dot(geometric_stiffness_forces(system, roundoff, u));
+}
+
 Vector6d geometric_stiffness_forces(const FrameElement& element, BeamTheory theory, double axial,
                                     double axial_variation, const Vector6d& u) {
   const Vector3d d = frame_chord_rotation_and_bending(element.direction, element.length) * u;

@@ -66,4 +66,9 @@ struct BodyForces {
                                                   double axial, double axial_variation,
                                                   const Vector6d& u);
 
+/// What rounding makes of x^T K_G x, that of the forces (`prestress_roundoff`) included.
+/// @param x  free coordinates
+[[nodiscard]] double geometric_energy_roundoff(const System& system, const SparseMatrix& K_G,
+                                               const Prestress& roundoff, const Eigen::VectorXd& x);
+
 }  // namespace trammel::solver

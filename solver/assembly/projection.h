@@ -27,7 +27,7 @@ class Projection {
   }
 
  private:
-  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+  using Row = RowMajorMatrix::InnerIterator;
 
   /// k u_i u_j + k u_j u_i, or k u_i^2 on the diagonal, in terms of q.
   void add_pair(Index i, Index j, double k, bool diagonal) {
@@ -43,7 +43,7 @@ class Projection {
     }
   }
 
-  const Eigen::SparseMatrix<double, Eigen::RowMajor>& T_;
+  const RowMajorMatrix& T_;
   SymmetricBuilder& builder_;
 };
 

@@ -97,7 +97,7 @@ SparseMatrix centrifugal_softening(const System& system, RotationAxis axis) {
 }
 
 SparseMatrix gyroscopic_matrix(const System& system) {
-  using Row = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+  using Row = RowMajorMatrix::InnerIterator;
   const auto& T = system.constraints.T;
   std::vector<Eigen::Triplet<double>> entries;
   const RotationAxis normal = RotationAxis::normal;

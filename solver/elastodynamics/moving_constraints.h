@@ -15,8 +15,6 @@ namespace trammel::solver {
 /// X the eliminated coordinates (columns p of C) of the free ones (f).
 class MovingConstraints {
  public:
-  using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
   /// @param start  the system where it was built;  @param motion  of no part
   /// @param derivatives  T. and T.. too
   MovingConstraints(const System& start, const NominalMotion& motion, bool derivatives);

@@ -377,12 +377,15 @@ Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null, 
   return Solver(pencil, null, count, method, factorization, counters).run();
 }
 
+bool same_pattern(const SparseMatrix& A, const SparseMatrix& B) {
+  return A.isCompressed() && B.isCompressed() && A.cols() == B.cols() &&
+         A.nonZeros() == B.nonZeros() &&
+         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1, B.outerIndexPtr()) &&
+         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(), B.innerIndexPtr());
+}
+
 SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
-  const bool same_pattern =
-      K.isCompressed() && B.isCompressed() && K.nonZeros() == B.nonZeros() &&
-      std::equal(K.outerIndexPtr(), K.outerIndexPtr() + K.outerSize() + 1, B.outerIndexPtr()) &&
-      std::equal(K.innerIndexPtr(), K.innerIndexPtr() + K.nonZeros(), B.innerIndexPtr());
-  if (!same_pattern) return K - t * B;
+  if (!same_pattern(K, B)) return K - t * B;
   SparseMatrix A = K;
   A.coeffs() -= t * B.coeffs();
   return A;

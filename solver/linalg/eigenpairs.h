@@ -46,6 +46,9 @@ struct Eigenpairs {
                                            Index count, EigenMethod method,
                                            Factorization& factorization, Counters& counters);
 
+/// Whether both are compressed and hold entries at the same places.
+[[nodiscard]] bool same_pattern(const SparseMatrix& A, const SparseMatrix& B);
+
 /// K - t B, with the pattern of both whatever t is.
 [[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
 

@@ -50,13 +50,10 @@ ModalSolution solve_modes_with(const System& system, const Prestress& state,
   solution.frequency = pairs.value.cwiseSqrt() / (2 * std::numbers::pi);
   solution.shape = pairs.vector;
   solution.roundoff.resize(pairs.value.size());
-  const SparseMatrix size = K_G.cwiseAbs();
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const VectorXd x = pairs.vector.col(j);
-    const VectorXd u = system.T * x;
-    const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs()) +
-                             u.dot(geometric_stiffness_forces(system, roundoff, u));
-    const double rounding = strain_roundoff(system, u) + geometric;
+    const double rounding =
+        strain_roundoff(system, system.T * x) + geometric_energy_roundoff(system, K_G, roundoff, x);
     solution.roundoff[j] = 0.5 * (rounding / pairs.value[j] + pairs.error[j]) + 4 * kEps;
   }
   judge_modes(system, &K_G, solution, std::move(factorization), pairs.check_shift);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/assembly/inertia.h"
+#include "solver/elastodynamics/moving_pattern.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/linalg/backward_error.h"
 
@@ -160,24 +161,13 @@ void MovingPencil::add_springs() {
 }
 
 void MovingPencil::find_contributions() {
-  const auto& T = constraints_.T();
   for (Element& element : elements_) {
     element.k = element.B.transpose() * element.c.asDiagonal() * element.B;
     element.first = contributions_.size();
-    for (Index i = 0; i < 6; ++i) {
-      const Index u = element.coordinates[to_size(i)];
-      for (Index j = 0; j < 6 && u >= 0; ++j) {
-        const Index w = element.coordinates[to_size(j)];
-        if (w < 0) continue;
-        for (int a = T.outerIndexPtr()[u]; a < T.outerIndexPtr()[u + 1]; ++a) {
-          for (int b = T.outerIndexPtr()[w]; b < T.outerIndexPtr()[w + 1]; ++b) {
-            const int row = T.innerIndexPtr()[a], column = T.innerIndexPtr()[b];
-            if (row >= column)
-              contributions_.push_back({static_cast<int>(i + 6 * j), a, b, row, column});
-          }
-        }
-      }
-    }
+    for_each_contribution(element.coordinates, constraints_.T(),
+                          [&](int local, int a, int b, int row, int column) {
+                            if (row >= column) contributions_.push_back({local, a, b, row, column});
+                          });
     element.last = contributions_.size();
   }
 }

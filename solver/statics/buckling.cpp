@@ -47,14 +47,12 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.shape = pairs.vector;
   solution.inertia_count = pairs.inertia_count;
   solution.roundoff.resize(pairs.value.size());
-  const SparseMatrix size = softening.cwiseAbs();
   const Prestress roundoff = prestress_roundoff(system, statics.q);
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Eigen::VectorXd x = pairs.vector.col(j);
     const Eigen::VectorXd u = system.T * x;
     const double elastic = strain_roundoff(system, u) / pairs.value[j];
-    const double geometric = kEps * x.cwiseAbs().dot(size * x.cwiseAbs()) +
-                             u.dot(geometric_stiffness_forces(system, roundoff, u));
+    const double geometric = geometric_energy_roundoff(system, softening, roundoff, x);
     solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
     EquationRows rows(system);
     rows.add_stiffness(u);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/linalg/eigenpairs.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver {
@@ -18,12 +19,6 @@ double matrix_norm(const SparseMatrix& A) {
     norm = std::max(norm, sum);
   }
   return norm;
-}
-
-bool same_pattern(const SparseMatrix& A, const SparseMatrix& B) {
-  return A.isCompressed() && B.isCompressed() && A.nonZeros() == B.nonZeros() &&
-         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1, B.outerIndexPtr()) &&
-         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(), B.innerIndexPtr());
 }
 
 void check(const EquationOfMotion& e) {

@@ -370,7 +370,6 @@ class TransientIntegrator {
     ++summary_.accepted;
     summary_.smallest_step = summary_.accepted == 1 ? h : std::min(summary_.smallest_step, h);
     summary_.largest_step = std::max(summary_.largest_step, h);
-    if (options_.adaptive) summary_.estimated_error += error_;
     output_.step(now_, next_, h);
     std::swap(now_, next_);
   }

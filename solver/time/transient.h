@@ -74,7 +74,6 @@ struct TransientSummary {
   std::int64_t rejected = 0;
   double smallest_step = 0, largest_step = 0;  ///< [s]
   double largest_residual = 0;  ///< |M a + C v + K q - f| over the sum of the four norms, worst
-  double estimated_error = 0;   ///< sum of the steps' estimates [m sqrt(kg)]; error control only
   Counters counters;
 };
 
