@@ -19,7 +19,8 @@ FOLDERS = ("solver", "harness", "references", "reports", "tests")
 
 
 def number(faults):
-    """Numbers them and finds their places; a drift of the sources is an error."""
+    """Numbers them and finds their places; a drift of the sources is an error, a fault that stands twice as well."""
+    same = {}
     for index, fault in enumerate(faults):
         text = (ROOT / fault["file"]).read_text()
         before = fault.get("before", "")
@@ -29,6 +30,9 @@ def number(faults):
                      f"{text.count(place)}), and another in its place: {place!r}")
         begin = text.index(place) + len(before)
         fault.update(number=index, span=(begin, begin + len(fault["old"])))
+        change = fault["file"], fault["span"], "".join(fault.get("new", "1 %").split())
+        if same.setdefault(change, fault["id"]) != fault["id"]:
+            sys.exit(f"{fault['id']}: the same as {same[change]}")
     return faults
 
 
