@@ -113,6 +113,8 @@ Window read_window(const JsonView& place) {
     return place[side].json().is_null() ? open : place[side].get<double>();
   };
   const Window window{limit(0, -kUnlimited), limit(1, kUnlimited)};
+  if (place[0].json().is_null() && place[1].json().is_null())
+    throw place.error("expected a limit on one side at least");
   if (window.low > window.high) {
     throw place.error("expected the lower limit first (got " + shortest(window.low) + ", " +
                       shortest(window.high) + ")");
@@ -276,6 +278,8 @@ bool applies(const JsonView& place, const std::string& variant,
              const std::vector<std::string>& variants) {
   if (place.has("against_variant")) {
     require_variant(place["against_variant"], variants);
+    if (variants.size() == 1 && !place.has("against_quantity"))
+      throw place["against_variant"].error("expected a case with other variants to compare");
     // A variant is not judged against itself.
     const auto quantity = place.text("quantity");
     if (place.text("against_variant") == variant &&

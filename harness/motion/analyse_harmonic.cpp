@@ -45,18 +45,19 @@ class Response {
   }
 
   /// A gap at a resonance that nothing bounds.
-  /// @param resonances  natural frequencies within [low, high] that may be one [Hz]
+  /// @param resonances  natural frequencies within [low, high] [Hz]
+  /// @param bounded  all of them
   /// @returns its frequency
-  double record_peak(double low, double high, const std::vector<double>& resonances,
+  double record_peak(double low, double high, const std::vector<double>& resonances, bool bounded,
                      const Output& output, Recorder& record) const {
     for (const double resonance : resonances) {
-      if (!is_pole(resonance, high, output)) continue;
+      if (bounded || !is_pole(resonance, high, output)) continue;
       record.add_gap(output.prefixed("peak_"), "");
       record.add("peak_frequency_Hz", output.name, resonance);
       return resonance;
     }
     const solver::HarmonicPeak found = solver::harmonic_peak(
-        response_, low, high, [&](const Eigen::VectorXcd& q, double frequency) {
+        response_, low, high, resonances, [&](const Eigen::VectorXcd& q, double frequency) {
           return amplitude(output, q, frequency);
         });
     record.add(output.prefixed("peak_"), "", found.amplitude);
@@ -141,12 +142,18 @@ class HarmonicScene {
 
   /// Of every output.
   /// @returns the frequency of the first
-  double record_peaks(Recorder& record) const {
+  double record_peaks(Recorder& record, std::vector<Warning>& warnings) const {
+    if (outputs.empty()) return low_;
     std::optional<double> first;
-    std::vector<double> resonances;
-    if (!bounded_) resonances = frequencies_in_range().value_or(resonances);
+    std::optional<std::vector<double>> resonances = frequencies_in_range();
+    if (!resonances) {
+      add_warning(warnings, {"the number of natural frequencies found in the range", 0, "",
+                             "a narrow peak between two of 65 frequencies may have been missed"});
+      const Eigen::VectorXd damped = response->of_system().frequencies();
+      resonances.emplace(damped.begin(), damped.end());
+    }
     for (const Output& output : outputs) {
-      const double at = response->record_peak(low_, high_, resonances, output, record);
+      const double at = response->record_peak(low_, high_, *resonances, bounded_, output, record);
       if (!first) first = at;
     }
     return first.value_or(low_);
@@ -219,7 +226,10 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
   if (!result.outcome.solved()) return result;
   const std::size_t points = points_of(analysis);
   for (std::size_t point = 0; point < points; ++point) scene.record_at(point, true, record, result);
-  const double at = scene.record_peaks(record);
+  if (std::any_of(scene.outputs.begin(), scene.outputs.end(),
+                  [](const Output& one) { return one.needs_forces(); }))
+    warn_of_redundancy(scene.system, result.warnings);
+  const double at = scene.record_peaks(record, result.warnings);
   if (result.drawing && !scene.outputs.empty()) response.draw_at(at, *result.drawing);
   for (solver::Index i = 0; i < response.of_system().frequencies().size(); ++i) {
     record.add("natural_frequency_Hz", "", response.of_system().frequencies()[i]);

@@ -69,6 +69,8 @@ solver::large_motion::IntegrationOptions read_large_motion_options(const JsonVie
   solver::large_motion::IntegrationOptions options;
   if (analysis.get<std::string>("integrator", "generalized-alpha") == "energy-momentum") {
     options.integrator = solver::large_motion::Integrator::energy_momentum;
+    if (analysis.has("spectral_radius"))
+      throw analysis["spectral_radius"].error("expected it beside 'generalized-alpha' alone");
   }
   options.end_time = analysis.number("end_time_s");
   options.step = analysis.number("step_s");

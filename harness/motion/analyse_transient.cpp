@@ -101,7 +101,12 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
   StepResult result{motion.outcome, motion.counters, std::nullopt, {}, motion.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
-  if (!result.outcome.solved()) return result;
+  if (!result.outcome.solved()) {
+    if (analysis.has("reduction"))
+      result.outcome.reason += "; component modes may be too few for the loads within members";
+    return result;
+  }
+  if (with_forces) warn_of_redundancy(system, result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
-#include "harness/statics_modes/range_warnings.h"
 #include "solver/statics/buckling.h"
 
 namespace trammel::harness {
@@ -41,7 +40,6 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
     result.outcome = {solver::Status::singular, "nothing buckles, for everything is held"};
     return result;
   }
-  warn_of_redundancy(system, result.warnings);
   for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {
     const double factor = buckling.load_factor[i];
     const std::string mode = case_model.path ? std::to_string(i + 1) : "";

@@ -62,8 +62,8 @@ void record_vibration(const GeometricallyExactSystem& system, const PathPoint& p
   }
 }
 
-void record_events(const StaticPath& path, Recorder& record) {
-  for (const PathEvent& event : path.events) {
+void record_events(const std::vector<PathEvent>& events, Recorder& record) {
+  for (const PathEvent& event : events) {
     const bool limit = event.kind == PathEvent::Kind::limit_point;
     record.add(limit ? "limit_load_factor" : "bifurcation_load_factor", "", event.load);
   }
@@ -111,10 +111,10 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   std::vector<PathPoint> recorded_points;
-  StaticPath path;
+  std::vector<PathEvent> events;  // of the longest path
   for (const double factor : factors) {
     options.target = factor;
-    path = follow_static_path(system, options);
+    StaticPath path = follow_static_path(system, options);
     result.counters.element_evaluations = system.element_evaluations();
     result.counters.factorizations += path.counters.factorizations;
     result.counters.solves += path.counters.solves;
@@ -123,6 +123,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     result.evidence.add(path.evidence);
     if (!path.outcome.solved()) return result;
     recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
+    if (factor == *std::max_element(factors.begin(), factors.end())) events = path.events;
   }
   const auto vibrations = analysis.get("vibration_modes", solver::Index{0});
   if (!large_motion.follower_loads.empty() && vibrations == 0)
@@ -138,7 +139,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     if (!result.outcome.solved()) return result;
   }
   if (!case_model.path) {
-    record_events(path, record);
+    record_events(events, record);
     record_newton(recorded_points.back().newton, record);
   }
   if (result.drawing) draw_poses(system, recorded_points, *result.drawing);

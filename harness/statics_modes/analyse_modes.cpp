@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
-#include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"
 #include "harness/statics_modes/rotating_state.h"
 #include "solver/modes/modes.h"
@@ -138,8 +137,6 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
     return result;
   }
   record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);
-  if (case_model.effects.has(solver::Effect::geometric_stiffening))
-    warn_of_redundancy(system, result.warnings);
   if (analysis.has("count_below_Hz")) {
     const std::optional<solver::Index> below =
         solver::sturm_count(system, analysis.number("count_below_Hz"));

@@ -99,8 +99,8 @@ void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warn
   const auto redundant = std::count(pivot.begin(), pivot.end(), -1);
   if (redundant == 0) return;
   add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
-                         "statics does not determine the forces among them: those that are given, "
-                         "and what follows from them, are one admissible set"});
+                         "statics does not determine the forces among them: those that are given "
+                         "are one admissible set"});
 }
 
 }  // namespace trammel::harness

@@ -2,10 +2,13 @@
 
 #include <Eigen/Jacobi>
 #include <cmath>
+#include <numbers>
 
+#include "solver/assembly/length_scales.h"
 #include "solver/assembly/projection.h"
 #include "solver/elements/triangle_interpolation.h"
 #include "solver/model/numbers.h"
+#include "solver/model/plane.h"
 
 namespace trammel::solver {
 namespace {
@@ -77,6 +80,31 @@ Eigen::MatrixX3d no_stress(const Model& model) {
   return Eigen::MatrixX3d::Zero(rows, 3);
 }
 
+/// The rail of a row that is a slider's on a turning one; null otherwise.
+const LinearConstraint::Rail* rail_of(const Model& model, const ConstraintRow& row) {
+  if (row.source != ConstraintRow::Source::linear) return nullptr;
+  const auto& rail = model.constraints[to_size(row.index)].rail;
+  return rail ? &*rail : nullptr;
+}
+
+/// A slider on a line of direction t and normal n, at d from the node whose rotation θ turns it:
+/// n . w - θ t . d = 0 for small displacements w from that node, and to the second order
+/// n . w - θ t . (d + w) - θ^2 n . d / 2. The rail's force times that is the work.
+template <class Visit>
+void visit_rail(const System& system, const LinearConstraint::Rail& rail, double force,
+                Visit&& visit) {
+  const auto& node = system.coordinates.node[to_size(rail.node)];
+  const auto& slider = system.coordinates.node[to_size(rail.slider)];
+  if (node[2] < 0) return;
+  const Vector2d &t = rail.direction, d = system.mesh.positions[to_size(rail.slider)] -
+                                          system.mesh.positions[to_size(rail.node)];
+  Eigen::Matrix<double, 2, 5> B;
+  B << 1, 0, 0, 0, 0, 0, t.x(), t.y(), -t.x(), -t.y();
+  Eigen::Matrix2d H;
+  H << force * perpendicular(t).dot(d), force, force, 0;
+  visit(std::array<Index, 5>{node[2], slider[0], slider[1], node[0], node[1]}, B, H);
+}
+
 /// Calls visit(coordinates, B, H) for every part B^T H B of the geometric stiffness.
 template <class Visit>
 void for_each_geometric_stiffness(const System& system, const Prestress& state, Visit&& visit) {
@@ -110,6 +138,11 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
     const Index rotation = system.constraints.rows[i].terms[2].first;
     visit(std::array<Index, 1>{rotation}, Matrix1d(1),
           Matrix1d(state.arm_moment[static_cast<Index>(i)]));
+  }
+  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
+    if (state.rail_force[static_cast<Index>(i)] != 0)
+      visit_rail(system, *rail_of(model, system.constraints.rows[i]),
+                 state.rail_force[static_cast<Index>(i)], visit);
   }
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     if (state.offset_moment[static_cast<Index>(i)] == 0) continue;
@@ -194,6 +227,11 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
     state.stress.row(row) = plate_stress(system, triangle, corners(system.model, triangle), at, u);
   });
   state.arm_moment = arm_moments(system, multipliers);
+  state.rail_force.setZero(multipliers.size());
+  for (Index i = 0; i < multipliers.size(); ++i) {
+    if (rail_of(system.model, system.constraints.rows[to_size(i)]) != nullptr)
+      state.rail_force[i] = multipliers[i];
+  }
   state.offset_moment.setZero(static_cast<Index>(system.model.masses.size()));
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
     state.offset_moment[static_cast<Index>(i)] =
@@ -227,8 +265,37 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
   VectorXd of_row(std::ssize(rows));
   for (Index i = 0; i < of_row.size(); ++i) of_row[i] = force[rows[to_size(i)].terms.front().first];
   roundoff.arm_moment = arm_moments(system, of_row).cwiseAbs();
+  roundoff.rail_force.setZero(of_row.size());
   roundoff.offset_moment.setZero(std::ssize(system.model.masses));
   return roundoff;
+}
+
+Outcome require_determined_stiffening(const System& system) {
+  const Constraints& constraints = system.constraints;
+  VectorXd selfstress = VectorXd::Zero(std::ssize(constraints.rows));
+  VectorXd force = VectorXd::Zero(system.T.rows());
+  double amount = 1;  // of each redundant constraint another, so that they do not cancel
+  for (Index i = 0; i < selfstress.size(); ++i) {
+    if (constraints.pivot[to_size(i)] >= 0) continue;
+    selfstress[i] = amount;
+    for (const auto& [u, c] : constraints.rows[to_size(i)].terms) force[u] -= c * amount;
+    amount = std::fmod(amount + std::numbers::phi, 1.0) + 0.5;
+  }
+  if (selfstress.isZero(0)) return {};
+  selfstress += constraints.multipliers(force);
+  const BodyForces none{std::vector<Vector2d>(system.mesh.frame.size(), Vector2d::Zero()),
+                        std::vector<Vector2d>(system.model.masses.size(), Vector2d::Zero())};
+  const VectorXd at_rest = VectorXd::Zero(system.T.rows());
+  SparseMatrix K_G = geometric_stiffness(system, prestress(system, at_rest, selfstress, none));
+  const double size = box_diagonal(system.mesh.positions);
+  const VectorXd length =
+      (free_length_scales(system).cwiseAbs().transpose() * VectorXd::Ones(system.T.rows()));
+  K_G = length.cwiseInverse().asDiagonal() * K_G * length.cwiseInverse().asDiagonal();
+  const double stiffening = K_G.nonZeros() > 0 ? K_G.coeffs().abs().maxCoeff() : 0;
+  if (stiffening * size <= 1e-9 * selfstress.cwiseAbs().maxCoeff()) return {};
+  return {Status::singular,
+          "forces of redundant constraints, which statics does not determine, stiffen or soften "
+          "the model: a member or body between them has to be flexible"};
 }
 
 SparseMatrix geometric_stiffness(const System& system, const Prestress& state) {

@@ -5,6 +5,7 @@
 
 #include "solver/assembly/strain.h"
 #include "solver/assembly/system.h"
+#include "solver/model/outcome.h"
 
 /// Geometric stiffness: how the forces of a state act on small further motions. The loads keep
 /// their direction and the geometry is the undeformed one (second-order theory). Like the elastic
@@ -20,6 +21,7 @@ struct Prestress {
   /// integration points [Pa]
   Eigen::MatrixX3d stress;
   Eigen::VectorXd arm_moment;  ///< constraint row: force on a rigid body's arm times the arm [N m]
+  Eigen::VectorXd rail_force;  ///< constraint row of a slider: force of its turning rail on it [N]
   Eigen::VectorXd offset_moment;  ///< point mass: force on its centre times its offset [N m]
 };
 
@@ -42,6 +44,10 @@ struct BodyForces {
 /// the arms of rigid bodies and of plates, whose stress it makes one of equal tension all round.
 /// @param q  free coordinates
 [[nodiscard]] Prestress prestress_roundoff(const System& system, const Eigen::VectorXd& q);
+
+/// singular where redundant constraints, whose forces nothing determines, stiffen or soften a free
+/// motion: an inextensible member between two clamps can be pulled taut by any force.
+[[nodiscard]] Outcome require_determined_stiffening(const System& system);
 
 /// Axial force of each element [N], of inextensible ones from their constraint.
 [[nodiscard]] Eigen::VectorXd axial_forces(const System& system, const Eigen::VectorXd& u,

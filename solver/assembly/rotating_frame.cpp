@@ -146,20 +146,24 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
   return force;
 }
 
-BodyForces body_forces(const System& system, const RotatingFrame& frame) {
+BodyForces body_forces(const System& system, const RotatingFrame& frame, const VectorXd& u) {
   BodyForces body = body_forces(system);
   const Eigen::Matrix2d w2 = frame.speed * frame.speed * distance_projector(frame.axis);
   for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
     const FrameElement& e = system.mesh.frame[i];
-    const Vector2d middle = (system.mesh.positions[static_cast<std::size_t>(e.nodes[0])] +
-                             system.mesh.positions[static_cast<std::size_t>(e.nodes[1])]) /
-                            2;
+    const auto position = [&](std::size_t end) -> Vector2d {
+      return system.mesh.positions[to_size(e.nodes[end])] +
+             Vector2d(u[e.coordinates[3 * end]], u[e.coordinates[3 * end + 1]]);
+    };
+    const Vector2d middle = (position(0) + position(1)) / 2;
     body.element[i] += e.section.mass_per_length * w2 * (middle - frame.centre);
   }
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
     const PointMass& point_mass = system.model.masses[i];
     const Vector2d position =
-        system.model.nodes[static_cast<std::size_t>(point_mass.node)].position + point_mass.offset;
+        system.model.nodes[to_size(point_mass.node)].position + point_mass.offset +
+        centre_of_mass_interpolation(point_mass) *
+            detail::gather(system.coordinates.node[to_size(point_mass.node)], u);
     body.point_mass[i] += point_mass.mass * w2 * (position - frame.centre);
   }
   return body;

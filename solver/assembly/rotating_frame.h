@@ -35,7 +35,8 @@ struct RotatingFrame {
 [[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame,
                                                  const Eigen::VectorXd& u);
 
-/// The model's own body forces and the centrifugal ones of the undeformed geometry.
-[[nodiscard]] BodyForces body_forces(const System& system, const RotatingFrame& frame);
+/// The model's own body forces and the centrifugal ones of displacements u.
+[[nodiscard]] BodyForces body_forces(const System& system, const RotatingFrame& frame,
+                                     const Eigen::VectorXd& u);
 
 }  // namespace trammel::solver

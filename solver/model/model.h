@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -146,8 +147,14 @@ struct Coordinate {
 
 /// sum of coefficient * coordinate = 0; Eq. 25 and pins of finite radius are such sums.
 struct LinearConstraint {
+  /// Of a slider, whose first-order equation the sum is: the node turns its line.
+  struct Rail {
+    Index node = 0, slider = 0;
+    Vector2d direction = Vector2d::UnitX();
+  };
   std::string name;
   std::vector<std::pair<Coordinate, double>> terms;
+  std::optional<Rail> rail = {};
 };
 
 struct NodalLoad {

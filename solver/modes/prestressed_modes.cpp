@@ -19,7 +19,8 @@ using Eigen::VectorXd;
 /// @param roundoff  of these
 ModalSolution solve_modes_with(const System& system, const Prestress& state,
                                const Prestress& roundoff, const ModesOptions& options) {
-  const SparseMatrix K_G = geometric_stiffness(system, state);
+  const SparseMatrix K_G =
+      system.K.rows() == 0 ? SparseMatrix(0, 0) : geometric_stiffness(system, state);
   ModalSolution solution;
   solution.counters = system.counters;
   if (system.K.rows() == 0) {
@@ -70,15 +71,8 @@ PrestressedModes solve_prestressed_modes(const System& system, const ModesOption
     result.modes.counters = result.state.counters;
     return result;
   }
-  ElasticState state;
-  state.u = system.T * result.state.q;
-  const VectorXd first = constraint_forces(system, state);
-  Prestress forces = prestress(system, state.u, first, body_forces(system));
-  state.prestress = &forces;  // the constraints' forces of second-order theory
-  const VectorXd second = constraint_forces(system, state);
-  const Prestress settled = prestress(system, state.u, second, body_forces(system));
-  result.modes =
-      solve_modes_with(system, settled, prestress_roundoff(system, result.state.q), options);
+  result.modes = solve_modes_with(system, result.state.forces,
+                                  prestress_roundoff(system, result.state.q), options);
   const auto solved = result.modes.counters;
   result.modes.evidence.add(result.state.evidence);
   result.modes.counters = result.state.counters;

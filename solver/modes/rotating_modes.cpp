@@ -25,7 +25,6 @@ class SteadyState {
         prestress_at_steady_state_(options.prestress_at_steady_state),
         geometric_stiffening_(options.stiffening),
         counters_(counters),
-        body_(body_forces(system, frame_)),
         softening_(-frame_.speed * frame_.speed * centrifugal_softening(system, frame_.axis)),
         elastic_(stiffness_operator(system)),
         q(VectorXd::Zero(system.K.rows())) {}
@@ -87,7 +86,8 @@ class SteadyState {
         internal_forces(system_, u) - system_.load - centrifugal_forces(system_, frame_, shape);
     if (geometric_.axial.size() > 0) force += geometric_stiffness_forces(system_, geometric_, u);
     counters_.count(Effect::geometric_stiffening, 1);
-    geometric_ = prestress(system_, u, system_.constraints.multipliers(force), body_);
+    geometric_ = prestress(system_, u, system_.constraints.multipliers(force),
+                           body_forces(system_, frame_, shape));
     added_ = softening_ + geometric_stiffness(system_, geometric_);
   }
 
@@ -95,7 +95,6 @@ class SteadyState {
   RotatingFrame frame_;
   bool prestress_at_steady_state_, geometric_stiffening_;
   Counters& counters_;
-  BodyForces body_;
   SparseMatrix softening_;
   SparseMatrix added_;
   Operator elastic_;
@@ -180,6 +179,8 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   result.counters = system.counters;
   if (system.K.rows() == 0) return result;
   result.outcome = require_held(system, result.counters);
+  if (result.outcome.solved() && options.stiffening)
+    result.outcome = require_determined_stiffening(system);
   if (!result.outcome.solved()) return result;
   SteadyState steady(system, options, result.counters);
   if (!steady.run()) {

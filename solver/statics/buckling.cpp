@@ -20,6 +20,8 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.outcome = statics.outcome;
   solution.evidence = statics.evidence;
   if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
+  solution.outcome = require_determined_stiffening(system);
+  if (!solution.outcome.solved()) return solution;
   ElasticState state;
   state.u = system.T * statics.q;
   const Prestress forces =

@@ -163,6 +163,8 @@ class SecondOrderTheory {
 
 SecondOrderState solve_second_order(const System& system, const VectorXd& linear,
                                     Counters& counters) {
+  const Outcome determined = require_determined_stiffening(system);
+  if (!determined.solved()) return {determined, {}, {}};
   return SecondOrderTheory(system, linear, counters).run();
 }
 

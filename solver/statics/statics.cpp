@@ -73,7 +73,8 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
     if (second.outcome.solved()) solution.amplification = amplification(system, solution.q, second);
     solution.q = second.q;
     solution.estimated_correct_digits = digits(second.error);
-    state.prestress = &second.forces;
+    solution.forces = second.forces;
+    state.prestress = &solution.forces;
   }
   if (!solution.outcome.solved()) {
     solution.q.resize(0);

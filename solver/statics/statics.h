@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/assembly/prestress.h"
 #include "solver/assembly/system.h"
 #include "solver/model/evidence.h"
 
@@ -21,6 +22,7 @@ struct StaticsOptions {
 struct StaticSolution {
   Outcome outcome;           ///< singular: the reason names the free motion in words
   Eigen::VectorXd q;         ///< free coordinates; draw them with mesh_motion
+  Prestress forces;          ///< second-order theory: of q, those that hold it
   double amplification = 1;  ///< of what second-order theory adds, by the loads [-]
   double estimated_correct_digits =
       0;  ///< of the largest displacement: linear_solution.h, second_order.h

@@ -5,6 +5,7 @@
 
 #include "solver/assembly/strain.h"
 #include "solver/linalg/backward_error.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 namespace {
@@ -54,34 +55,49 @@ void add_geometric(const System& system, const ElasticState& state, VectorXd& su
   sum += geometric_stiffness_forces(system, rest, state.u);
 }
 
-/// Adds what supports and other constraints exert, with its magnitudes: a constraint carries the
-/// rounding of the terms at each of its coordinates to all of them.
+/// What the rounding of a constraint's force is a share of: a constraint carries the terms at each
+/// of its coordinates to all of them, as a chain of inextensible elements does to its loose end.
+class CarriedTerms {
+ public:
+  CarriedTerms(const std::vector<ConstraintRow>& rows, const VectorXd& force, const VectorXd& terms)
+      : terms_(terms), row_(force.cwiseAbs()) {
+    for (Index i = 0; i < row_.size(); ++i) carry(rows[to_size(i)], row_[i]);
+    for (Index i = row_.size(); i-- > 0;) carry(rows[to_size(i)], row_[i]);
+  }
+
+  [[nodiscard]] double of_row(std::size_t i) const { return row_[static_cast<Index>(i)]; }
+
+ private:
+  void carry(const ConstraintRow& row, double& size) {
+    if (row.source == ConstraintRow::Source::support) return;
+    for (const auto& [coordinate, coefficient] : row.terms) {
+      if (coefficient != 0) size = std::max(size, terms_[coordinate] / std::abs(coefficient));
+    }
+    for (const auto& [coordinate, coefficient] : row.terms)
+      terms_[coordinate] = std::max(terms_[coordinate], std::abs(coefficient) * size);
+  }
+
+  VectorXd terms_, row_;
+};
+
+/// Adds what supports and other constraints exert, with its magnitudes.
 void add_constraints(const System& system, const ElasticState& state,
                      const StaticSolution& solution, VectorXd& sum, VectorXd& magnitudes) {
-  const VectorXd terms = magnitudes;
   const VectorXd multipliers = constraint_forces(system, state);
+  const CarriedTerms carried(system.constraints.rows, multipliers, magnitudes);
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[i];
     double force = multipliers[static_cast<Index>(i)];
-    if (row.source == ConstraintRow::Source::inextensible) {  // an axial force: the members have it
-      for (const auto& [coordinate, coefficient] : row.terms)
-        magnitudes[coordinate] += std::abs(coefficient * force);
-      continue;
-    }
+    for (const auto& [coordinate, coefficient] : row.terms)
+      magnitudes[coordinate] += std::abs(coefficient) * carried.of_row(i);
+    if (row.source == ConstraintRow::Source::inextensible) continue;  // the members have it
     if (row.source == ConstraintRow::Source::support) {
       const Index u = row.terms.front().first;
       const auto& node = system.coordinates.node[static_cast<std::size_t>(
           system.model.supports[static_cast<std::size_t>(row.index)].node)];
       force = solution.reaction(row.index, u == node[0] ? 0 : u == node[1] ? 1 : 2);
     }
-    double size = std::abs(force);
-    for (const auto& [coordinate, coefficient] : row.terms) {
-      if (coefficient != 0) size = std::max(size, terms[coordinate] / std::abs(coefficient));
-    }
-    for (const auto& [coordinate, coefficient] : row.terms) {
-      sum[coordinate] -= coefficient * force;
-      magnitudes[coordinate] += std::abs(coefficient) * size;
-    }
+    for (const auto& [coordinate, coefficient] : row.terms) sum[coordinate] -= coefficient * force;
   }
 }
 

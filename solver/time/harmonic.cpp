@@ -1,5 +1,6 @@
 #include "solver/time/harmonic.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
@@ -63,15 +64,8 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
     }
   }
   const auto count = static_cast<Index>(damping.modal_ratio.size());
-  if (count == 0) return;
-  modes_ = solve_modes(system, {count, EigenMethod::automatic});
-  counters_ = modes_.counters;
-  outcome_ = modes_.outcome;
-  if (!outcome_.solved()) return;
-  if (modes_.frequency.size() < count) {
-    throw ModelError("there are " + std::to_string(count) + " damping ratios but only " +
-                     std::to_string(modes_.frequency.size()) + " modes");
-  }
+  superpose(count);
+  if (!outcome_.solved() || modes_.frequency.size() == 0) return;
   participation_ = modes_.shape.transpose() * unsuperposed_load_;
   unsuperposed_load_ -= system.M * (modes_.shape * participation_);
   damping_.omega = kTwoPi * modes_.frequency.head(count);
@@ -79,8 +73,34 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
   damping_.shape = modes_.shape.leftCols(count);
 }
 
+void HarmonicSolver::superpose(Index damped) {
+  Factorization K;
+  K.compute(system_.K);
+  ++counters_.factorizations;
+  const ZeroEnergyModes free = find_zero_energy_modes(system_, K, counters_);
+  if (damped > 0) {
+    const Counters before = counters_;
+    modes_ = solve_modes(system_, {std::max(damped, free.count()), EigenMethod::automatic});
+    counters_ = modes_.counters;
+    counters_.factorizations += before.factorizations;
+    counters_.solves += before.solves;
+    outcome_ = modes_.outcome;
+    if (outcome_.solved() && modes_.frequency.size() < damped) {
+      throw ModelError("there are " + std::to_string(damped) + " damping ratios but only " +
+                       std::to_string(modes_.frequency.size()) + " modes");
+    }
+  } else if (free.count() > 0 && free.all_found) {
+    const Eigen::MatrixXd mass = free.basis.transpose() * system_.M * free.basis;
+    const Eigen::LLT<Eigen::MatrixXd> factor(mass);
+    if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) return;  // moves no mass
+    modes_.shape = factor.matrixU().solve<Eigen::OnTheRight>(free.basis);
+    modes_.frequency.setZero(free.count());
+  }
+}
+
 VectorXcd HarmonicSolver::at(double frequency) const {
   const double omega = kTwoPi * frequency;
+  if (omega == 0 && (modes_.frequency.array() == 0).any()) return {};
   VectorXcd q = solve_direct(system_, damping_.rayleigh, omega, unsuperposed_load_);
   ++counters_.factorizations;
   counters_.solves += 2;
@@ -91,8 +111,9 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   }
   for (Index j = 0; j < participation_.size(); ++j) {
     const double wj = kTwoPi * modes_.frequency[j];
+    const double ratio = j < damping_.ratio.size() ? damping_.ratio[j] : 0;
     const double decay =
-        2 * damping_.ratio[j] * wj + damping_.rayleigh.mass + damping_.rayleigh.stiffness * wj * wj;
+        2 * ratio * wj + damping_.rayleigh.mass + damping_.rayleigh.stiffness * wj * wj;
     const Complex amplitude = participation_[j] / Complex(wj * wj - omega * omega, omega * decay);
     q += amplitude * modes_.shape.col(j).cast<Complex>();
   }
@@ -165,11 +186,12 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
 }
 
 HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double high,
+                           const std::vector<double>& resonances,
                            const std::function<double(const VectorXcd&, double)>& amplitude) {
   constexpr int kScan = 64;
   std::vector<double> places;
   for (int i = 0; i <= kScan; ++i) places.push_back(low + (high - low) * i / kScan);
-  for (const double f : response.frequencies()) {
+  for (const double f : resonances) {
     if (f > low && f < high) places.push_back(f);
   }
   std::sort(places.begin(), places.end());
@@ -186,11 +208,21 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
       best = i;
     }
   }
+  // As near as lies lower on both sides: between two places there may be more than one peak.
+  const double first = places[best > 0 ? best - 1 : 0],
+               last = places[std::min(best + 1, places.size() - 1)];
+  double from = peak.frequency, to = peak.frequency;
+  for (double width = 1e-6 * std::max(peak.frequency, 1e-3 * high);; width *= 4) {
+    from = std::max(first, peak.frequency - width);
+    to = std::min(last, peak.frequency + width);
+    const bool lower =
+        (from == first || size(from) < peak.amplitude) && (to == last || size(to) < peak.amplitude);
+    if (lower) break;
+  }
   constexpr int kBits = 26;  // half of a double's: a maximum is flat
   std::uintmax_t evaluations = 100;
   const auto [frequency, negative] = boost::math::tools::brent_find_minima(
-      [&](double f) { return -size(f); }, places[best > 0 ? best - 1 : 0],
-      places[std::min(best + 1, places.size() - 1)], kBits, evaluations);
+      [&](double f) { return -size(f); }, from, to, kBits, evaluations);
   if (-negative > peak.amplitude) peak = {frequency, -negative};
   return peak;
 }

@@ -26,8 +26,8 @@ struct HarmonicAmplitudes {
 
 /// Steady response q(t) = Re(q e^{i w t}) to the model's loads, but weight, varying as cos(w t):
 ///   (K + i w C - w^2 M) q = f.
-/// Modes with a damping ratio are superposed; what they leave of the load is solved for directly,
-/// so that no mode is cut off.
+/// Modes with a damping ratio and motions of the whole that deform nothing are superposed; what
+/// they leave of the load is solved for directly, so that no mode is cut off.
 class HarmonicSolver {
  public:
   /// @throws ModelError  for a negative or infinite ratio, or fewer modes than ratios.
@@ -36,10 +36,13 @@ class HarmonicSolver {
   /// singular: a mechanism; not_converged: the modes are not all found
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   /// Of the damped modes [Hz].
-  [[nodiscard]] const Eigen::VectorXd& frequencies() const { return modes_.frequency; }
+  [[nodiscard]] Eigen::VectorXd frequencies() const {
+    return modes_.frequency.head(damping_.ratio.size());
+  }
 
   /// @param frequency  [Hz]
-  /// @return  empty where the undamped rest resonates exactly
+  /// @return  empty where the undamped rest resonates exactly, and at 0 Hz where nothing holds the
+  ///          model
   [[nodiscard]] Eigen::VectorXcd at(double frequency) const;
 
   /// Backward error of (K + i w C - w^2 M) q = f with the matrices formed afresh, C with the modes'
@@ -58,6 +61,9 @@ class HarmonicSolver {
   /// What has the inertia forces (i w C - w^2 M) q, but for damping in proportion to stiffness.
   [[nodiscard]] Eigen::VectorXcd acceleration(const Eigen::VectorXcd& q, double omega) const;
 
+  /// Those with a ratio, and the motions of a model that is not held.
+  void superpose(Index damped);
+
   const System& system_;
   ViscousDamping damping_;
   ModalSolution modes_;
@@ -73,11 +79,13 @@ struct HarmonicPeak {
   double amplitude = 0;  ///< in the unit of what is looked at
 };
 
-/// The largest amplitude between two frequencies: scanned at even steps and at the damped modes'
-/// frequencies, then closed in on by golden section to about 1e-9 of the frequency.
+/// The largest amplitude between two frequencies: scanned at even steps and at the resonances, then
+/// closed in on by Brent's method to about 1e-8 of the frequency.
+/// @param resonances  natural frequencies, all that lie between; where some are not known their
+///                    peaks may be missed [Hz]
 /// @param amplitude  of a response at a frequency [Hz]
 [[nodiscard]] HarmonicPeak harmonic_peak(
-    const HarmonicSolver& response, double low, double high,
+    const HarmonicSolver& response, double low, double high, const std::vector<double>& resonances,
     const std::function<double(const Eigen::VectorXcd&, double)>& amplitude);
 
 }  // namespace trammel::solver

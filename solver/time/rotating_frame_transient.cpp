@@ -27,6 +27,8 @@ VectorXd unit_rotation(const System& system, const Vector2d& centre) {
 
 /// K_1, from the statics under the centrifugal forces of 1 rad/s.
 Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseMatrix& K_1) {
+  if (Outcome determined = require_determined_stiffening(system); !determined.solved())
+    return determined;
   const VectorXd force = centrifugal_forces(system, unit, VectorXd::Zero(system.T.rows()));
   const VectorXd on_q = system.T.transpose() * force;
   Factorization factorization;
@@ -37,7 +39,7 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
   const VectorXd u = system.T * factorization.solve(on_q);
   const VectorXd held = internal_forces(system, u) - force;
   K_1 = geometric_stiffness(system, prestress(system, u, system.constraints.multipliers(held),
-                                              body_forces(system, unit)));
+                                              body_forces(system, unit, VectorXd::Zero(u.size()))));
   return {};
 }
 

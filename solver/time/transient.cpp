@@ -167,7 +167,8 @@ class TransientIntegrator {
 
   /// What the load of the segment can move: the size of the motion, before there is any, to which
   /// the error is compared. x = M^-1 f moves as an oscillator with its own Rayleigh quotient, a
-  /// free body as far as the time lasts.
+  /// free body as far as the time lasts: to the place where the load would hold it, or as far as
+  /// the speed carries that a shorter segment leaves it.
   void estimate_size_from_load(double begin, double end) {
     constexpr int kPoints = 8;
     const double time = options_.end - options_.start;
@@ -182,7 +183,8 @@ class TransientIntegrator {
       const double squared = correction_.dot(next_.MA);
       if (!(squared > 0)) continue;
       const double stiffness = std::max(correction_.dot(next_.Kq) / squared, 1 / (time * time));
-      largest_ = std::max(largest_, std::sqrt(squared) / stiffness);
+      const double share = std::min(1.0, (end - begin) * std::sqrt(stiffness));
+      largest_ = std::max(largest_, share * std::sqrt(squared) / stiffness);
     }
   }
 

@@ -97,7 +97,8 @@ class PathFollower {
       return stop(
           {Status::singular, "free motion: " + describe_largest_coordinate(system_, shape)});
     }
-    displacement_weight_ = 1 / std::pow(std::max(response, 1e-6), 2);
+    const double typical = response < 1e-6 ? mean_response(point.state) : response;
+    displacement_weight_ = 1 / std::pow(std::max(typical, 1e-6), 2);
     direction_.load = 1;
     normalize(direction_);
     point.unstable_directions = equilibrium_.matrix().negative_pivots();
@@ -106,6 +107,17 @@ class PathFollower {
     add_evidence(point.state);
     path_.points.push_back(std::move(point));
     return true;
+  }
+
+  /// Of the way to the target, linear: drives that start from rest move nothing at first.
+  double mean_response(const State& start) {
+    State end = start;
+    system_.set_load(end, options_.target);
+    NewtonResult newton;
+    equilibrium_.correction(end, residual_step_, newton);
+    const double response = weighted_rms_norm(system_, residual_step_.head(system_.coordinates())) /
+                            std::abs(options_.target);
+    return std::isfinite(response) ? response : 0;
   }
 
   bool points_done() const { return system_.coordinates() == 0; }

@@ -100,6 +100,24 @@ BOOST_AUTO_TEST_CASE(a_quantity_is_not_judged_against_itself) {
   BOOST_TEST(read_checks(patched(given, "soft"), "soft", given.variants()).size() == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(a_check_that_nothing_could_fail_is_bad_input) {
+  Json json = testing::cantilever();
+  Json& check = json["checks"]["c"];
+  check = {{"quantity", "frequency_Hz"},
+           {"against_variant", "base"},
+           {"role", "verification"},
+           {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
+  BOOST_TEST(contains(complaint([&] { (void)check_of(json); }),
+                      "/checks/c/against_variant: expected a case with other variants"));
+  check = {{"quantity", "frequency_Hz"},
+           {"role", "validation"},
+           {"expect", {{"agrees", "w"}, {"value_between", {nullptr, nullptr}}}}};
+  BOOST_TEST(contains(complaint([&] { (void)check_of(json); }),
+                      "/checks/c/expect/value_between: expected a limit on one side"));
+  check["expect"]["value_between"] = {nullptr, 1};
+  BOOST_TEST(check_of(json).windows.at(0).high == 1);
+}
+
 BOOST_AUTO_TEST_CASE(a_half_width_stands_beside_values_only) {
   const Json agrees = {{"agrees", "r"}, {"within", 0.1}};
   const auto with = [](Json expect, const char* key, const Json& value) {
