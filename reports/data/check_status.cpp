@@ -70,9 +70,9 @@ CheckStatus check_status(const Check& check) {
 }
 
 CheckStatus check_status(const Run& run) {
-  const bool expected =
-      !run.checks.empty() && std::all_of(run.checks.begin(), run.checks.end(),
-                                         [](const Check& c) { return c.verdict == Verdict::pass; });
+  const bool expected = !run.checks.empty() && std::ranges::all_of(run.checks, [](const Check& c) {
+    return c.verdict == Verdict::pass;
+  });
   switch (run.status) {
     case Status::solved:
       return CheckStatus::passes;
@@ -125,14 +125,14 @@ bool worse(const Check& a, const Check& b) {
 }
 
 const Check& CheckGroup::worst() const {
-  return **std::min_element(checks.begin(), checks.end(),
-                            [](const Check* a, const Check* b) { return worse(*a, *b); });
+  return **std::ranges::min_element(checks,
+                                    [](const Check* a, const Check* b) { return worse(*a, *b); });
 }
 
 std::vector<CheckGroup> group_checks(const Run& run) {
   std::vector<CheckGroup> groups;
   for (const Check& check : run.checks) {
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const CheckGroup& known) {
+    auto group = std::ranges::find_if(groups, [&](const CheckGroup& known) {
       return known.front().name == check.name && known.front().quantity == check.quantity;
     });
     if (group == groups.end()) group = groups.insert(groups.end(), CheckGroup{&run, {}});

@@ -48,7 +48,7 @@ std::string statistic_text(std::string statistic) {
   }};
   for (const auto& [key, text_of_key] : words)
     if (statistic == key) return text_of_key;
-  std::replace(statistic.begin(), statistic.end(), '_', ' ');
+  std::ranges::replace(statistic, '_', ' ');
   return statistic;
 }
 
@@ -148,15 +148,15 @@ std::string quantity_text(const Check& check) {
 std::string entry_text(const Check& check, std::size_t entries) {
   if (!check.index) return "";
   const std::string number = std::to_string(*check.index + 1);
-  if (check.quantity.rfind("frequency", 0) == 0) return "mode " + number;
+  if (check.quantity.starts_with("frequency")) return "mode " + number;
   if (entries > 20 || *check.index > 20) return "point " + number;
   return entries > 1 || *check.index > 0 ? number : "";
 }
 
 std::string failure_text(const CheckGroup& group) {
   const Check& worst = group.worst();
-  const auto bad = static_cast<std::size_t>(
-      std::count_if(group.checks.begin(), group.checks.end(), [](const Check* check) {
+  const auto bad =
+      static_cast<std::size_t>(std::ranges::count_if(group.checks, [](const Check* check) {
         return check->verdict == Verdict::fail || check->verdict == Verdict::error;
       }));
   std::string text;

@@ -24,7 +24,7 @@ std::string work_counters_text(const Counters& counters) {
   for (const auto& [name, n] : counters) {
     if (n == 0 && name == "steps") continue;  // most computations have none
     std::string words = name;
-    std::replace(words.begin(), words.end(), '_', ' ');
+    std::ranges::replace(words, '_', ' ');
     text += (text.empty() ? "" : ", ") + grouped(n) + " " + words;
   }
   return text;

@@ -73,7 +73,7 @@ std::string tic(const std::string& text, double at) {
 }
 
 std::size_t characters(const std::string& utf8) {
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), starts_character));
+  return static_cast<std::size_t>(std::ranges::count_if(utf8, starts_character));
 }
 
 std::string shortened(const std::string& text, std::size_t max_characters) {

@@ -90,7 +90,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 bool opens_group(const std::string& line) {
-  return line.rfind("<g", 0) == 0 && line.find('>') == line.size() - 1;
+  return line.starts_with("<g") && line.find('>') == line.size() - 1;
 }
 
 /// Groups that hold nothing go, and with them those that then hold nothing.
@@ -117,7 +117,7 @@ std::string symbols(const std::string& definitions, const std::string& body) {
     grown = false;
     for (const std::string& line : lines) {
       const std::size_t at = line.find("id='");
-      if (at == std::string::npos || line.rfind("<filter", 0) == 0) continue;
+      if (at == std::string::npos || line.starts_with("<filter")) continue;
       const std::string id = line.substr(at + 4, line.find('\'', at + 4) - at - 4);
       if (seen.find("#" + id + "'") == std::string::npos || !used.insert(line).second) continue;
       seen += line;

@@ -23,7 +23,7 @@ using Sweeps = std::vector<const Convergence*>;
 /// Relative errors: as given, else the distance from the extrapolated value.
 Numbers errors_of(const Convergence& c) {
   Numbers errors = c.error;
-  const bool given = std::any_of(errors.begin(), errors.end(), [](const Number& e) { return e; });
+  const bool given = std::ranges::any_of(errors, &Number::has_value);
   if (given || !c.richardson || *c.richardson == 0) return errors;
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (c.values[i]) errors[i] = std::abs(*c.values[i] / *c.richardson - 1);
@@ -56,7 +56,7 @@ PlotScript::Rows floor_of(const Sweeps& sweeps) {
 
 /// "mode 3: 3.99"; "index" where the quantity has no better word.
 std::string entry_name(const Convergence& c) {
-  const std::string word = c.quantity.rfind("frequency", 0) == 0 ? "mode " : "entry ";
+  const std::string word = c.quantity.starts_with("frequency") ? "mode " : "entry ";
   return word + std::to_string(c.index + 1);
 }
 
@@ -160,9 +160,9 @@ std::string conclusion_of_two(const Sweeps& sweeps) {
 }
 
 bool any_asymptotic(const Sweeps& sweeps) {
-  return std::any_of(sweeps.begin(), sweeps.end(), [](const Convergence* c) {
+  return std::ranges::any_of(sweeps, [](const Convergence* c) {
     const auto& inside = c->in_asymptotic_range;
-    return std::find(inside.begin(), inside.end(), true) != inside.end();
+    return std::ranges::find(inside, true) != inside.end();
   });
 }
 
@@ -249,8 +249,7 @@ void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
 
 Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
-  const bool exact =
-      std::any_of(first.error.begin(), first.error.end(), [](const Number& e) { return e; });
+  const bool exact = std::ranges::any_of(first.error, &Number::has_value);
   PlotScript script;
   parameter_axis(script, sweeps);
   const std::string words = to_text(parse_quantity(first.quantity));
@@ -295,11 +294,11 @@ std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
     // A count that is right on every mesh has nothing to show.
     const Numbers errors = errors_of(c);
     const auto nonzero =
-        std::count_if(errors.begin(), errors.end(), [](const Number& e) { return e && *e != 0; });
+        std::ranges::count_if(errors, [](const Number& e) { return e && *e != 0; });
     if (nonzero < 2) continue;
     const std::string key = c.sweep + "\n" + c.quantity;
-    const auto same = std::find_if(groups.begin(), groups.end(),
-                                   [&](const auto& group) { return group.first == key; });
+    const auto same =
+        std::ranges::find_if(groups, [&](const auto& group) { return group.first == key; });
     if (same == groups.end()) {
       groups.push_back({key, {&c}});
     } else {

@@ -48,8 +48,7 @@ CostExtent extent_of(const CostStudy& study) {
 std::vector<std::string> curves_of(const CostStudy& study) {
   std::vector<std::string> curves;
   for (const CostSetting& setting : study.settings)
-    if (std::find(curves.begin(), curves.end(), setting.curve) == curves.end())
-      curves.push_back(setting.curve);
+    if (std::ranges::find(curves, setting.curve) == curves.end()) curves.push_back(setting.curve);
   return curves;
 }
 
@@ -173,8 +172,8 @@ std::string notes_on(const CostStudy& study) {
 Figure cost_figure(const CostStudy& study) {
   PlotScript script;
   const CostExtent extent = extent_of(study);
-  const bool any_outside = std::any_of(study.settings.begin(), study.settings.end(),
-                                       [](const CostSetting& s) { return s.without_result(); });
+  const bool any_outside =
+      std::ranges::any_of(study.settings, [](const CostSetting& s) { return s.without_result(); });
   script.log_axis("x", extent.low_error, extent.high_error);
   script.log_axis("y", extent.low_time, extent.high_time);
   const double low = std::pow(10, std::floor(std::log10(extent.low_error) + 1e-9));
@@ -194,8 +193,8 @@ Figure cost_figure(const CostStudy& study) {
   std::vector<std::string> keys = {"efficient front"};
   for (std::size_t i = 0; i < curves.size(); ++i) {
     draw_curve(script, study, curves[i], i, strip);
-    const auto first = std::find_if(study.settings.begin(), study.settings.end(),
-                                    [&](const CostSetting& s) { return s.curve == curves[i]; });
+    const auto first = std::ranges::find_if(
+        study.settings, [&](const CostSetting& s) { return s.curve == curves[i]; });
     keys.push_back(first->curve_title);
   }
   Figure figure;

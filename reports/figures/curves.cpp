@@ -77,7 +77,7 @@ const Run* run_of(const std::vector<const Run*>& runs, const std::string& varian
 
 /// Whether a run has one of the quantities at least.
 bool has_any(const Run& run, const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+  return std::ranges::any_of(names, [&](const std::string& name) {
     const Numbers* values = run.quantity(name);
     return values && !values->empty();
   });
@@ -128,9 +128,8 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
 /// A quantity among those of a plot: what tells them apart.
 std::string own_words(const std::string& name, const PlotRequest& request) {
   const QuantityLabel quantity = parse_quantity(name);
-  const bool one_label = std::all_of(request.y.begin(), request.y.end(), [&](const auto& y) {
-    return parse_quantity(y).label == quantity.label;
-  });
+  const bool one_label = std::ranges::all_of(
+      request.y, [&](const auto& y) { return parse_quantity(y).label == quantity.label; });
   return one_label && !quantity.subject.empty() ? quantity.subject : to_text(quantity);
 }
 
@@ -192,7 +191,7 @@ void log_range(PlotScript& script, const std::string& axis,
 /// smallest and the largest. The power of ten of an axis is no unit of a number in a text.
 std::string measured(const std::vector<Series>& series, const Scale& axis,
                      const std::string& unit) {
-  const Scale scale = axis.unit.rfind("10", 0) == 0 ? Scale{1, unit} : axis;
+  const Scale scale = axis.unit.starts_with("10") ? Scale{1, unit} : axis;
   const auto said = [&](const Series& s) {
     std::string text = trimmed(scale.factor * s.largest, 3);
     if (!scale.unit.empty()) text += "\u202f" + scale.unit;
@@ -201,9 +200,8 @@ std::string measured(const std::vector<Series>& series, const Scale& axis,
   if (series.size() <= 2)
     return "Largest magnitude: " + said(series.front()) +
            (series.size() == 2 ? ", " + said(series.back()) : "") + ".";
-  const auto [low, high] =
-      std::minmax_element(series.begin(), series.end(),
-                          [](const Series& a, const Series& b) { return a.largest < b.largest; });
+  const auto [low, high] = std::ranges::minmax_element(
+      series, [](const Series& a, const Series& b) { return a.largest < b.largest; });
   return "Largest magnitude: from " + said(*low) + " to " + said(*high) + ".";
 }
 

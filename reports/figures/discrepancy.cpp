@@ -25,11 +25,10 @@ std::vector<DiscrepancySubject> subjects(const std::vector<const Run*>& runs) {
   for (const Run* run : runs) {
     for (CheckGroup& group : group_checks(*run)) {
       const Check& check = group.front();
-      const bool expected =
-          std::any_of(group.checks.begin(), group.checks.end(),
-                      [](const Check* entry) { return entry->known_discrepancy(); });
+      const bool expected = std::ranges::any_of(
+          group.checks, [](const Check* entry) { return entry->known_discrepancy(); });
       if (!expected || !check.tolerance) continue;
-      auto subject = std::find_if(out.begin(), out.end(), [&](const DiscrepancySubject& known) {
+      auto subject = std::ranges::find_if(out, [&](const DiscrepancySubject& known) {
         return known.name == check.name && known.measure == check.measure;
       });
       if (subject == out.end())
@@ -45,7 +44,7 @@ bool by_digits(const CheckGroup& group) {
 }
 
 bool digits_shown(const DiscrepancySubject& subject) {
-  return std::any_of(subject.rows.begin(), subject.rows.end(), by_digits);
+  return std::ranges::any_of(subject.rows, by_digits);
 }
 
 struct Span {
@@ -97,8 +96,8 @@ void draw_digits(PlotScript& script, const CheckGroup& group, std::size_t row, d
   std::vector<const Check*> order;
   for (const Check* check : group.checks)
     if (check->difference) order.push_back(check);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Check* a, const Check* b) { return *a->difference < *b->difference; });
+  std::ranges::stable_sort(
+      order, [](const Check* a, const Check* b) { return *a->difference < *b->difference; });
   const double near = 0.02 * (span.high - span.low);
   const auto distance = [&](std::size_t i) {
     return *order[i]->difference - *order[i - 1]->difference;
@@ -214,7 +213,7 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Discrepancy
                                        : reference          ? reference->title
                                                             : subject.name);
   figure.caption = conclusion(subject);
-  const bool modes = first.quantity.rfind("frequency", 0) == 0;
+  const bool modes = first.quantity.starts_with("frequency");
   if (digits_shown(subject)) {
     figure.caption += std::string(" Digits number the ") + (modes ? "modes." : "entries.");
   }

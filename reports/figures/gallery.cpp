@@ -43,10 +43,10 @@ std::vector<std::pair<std::string, const Drawing*>> further_poses(
   for (const Run* run : runs) {
     if (!run->drawing || run->drawing->joints.empty() || poses.size() + 1 == kMaxPoses) continue;
     const Drawing& drawing = *run->drawing;
-    const bool known = same_geometry(base, drawing) ||
-                       std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
-                         return same_geometry(*pose.second, drawing);
-                       });
+    const bool known =
+        same_geometry(base, drawing) || std::ranges::any_of(poses, [&](const auto& pose) {
+          return same_geometry(*pose.second, drawing);
+        });
     if (!known) poses.emplace_back(info.variant_title(run->variant), &drawing);
   }
   return poses;
@@ -61,7 +61,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;
   const auto drawn =
-      std::find_if(runs.begin(), runs.end(), [](const Run* run) { return run->drawing; });
+      std::ranges::find_if(runs, [](const Run* run) { return run->drawing.has_value(); });
   if (drawn != runs.end()) {
     const auto poses = further_poses(info, runs, *(*drawn)->drawing);
     if (auto figure = mechanism_figure(info, **drawn, poses)) gallery.shown.push_back(*figure);
@@ -108,8 +108,8 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
 
 std::string family_title(const std::string& id) {
   std::string title = id;
-  std::replace(title.begin(), title.end(), '-', ' ');
-  std::replace(title.begin(), title.end(), '_', ' ');
+  std::ranges::replace(title, '-', ' ');
+  std::ranges::replace(title, '_', ' ');
   if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
     title[0] = static_cast<char>(title[0] - 'a' + 'A');
   return title;
@@ -153,8 +153,8 @@ std::vector<Family> plan_families(const Results& results) {
     for (const Run& run : results.runs)
       if (run.case_id == info.id) runs.push_back(&run);
     if (runs.empty()) continue;
-    auto family = std::find_if(families.begin(), families.end(),
-                               [&](const Family& f) { return f.id == info.family; });
+    auto family =
+        std::ranges::find_if(families, [&](const Family& f) { return f.id == info.family; });
     if (family == families.end()) {
       family = families.insert(families.end(), Family{});
       family->id = info.family;

@@ -24,7 +24,7 @@ struct Field {
 
 /// The smallest distance between two different coordinates.
 double spacing(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double whole = values.back() - values.front();
   double min_gap = whole;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -48,7 +48,7 @@ Field read_field(const Numbers& x, const Numbers& y, const Numbers& value) {
   field.dy = spacing(ys);
   if (field.dx == 0) field.dx = field.dy;  // one column, or one row, of square cells
   if (field.dy == 0) field.dy = field.dx;
-  std::sort(field.cells.begin(), field.cells.end(), [&](const Cell& a, const Cell& b) {
+  std::ranges::sort(field.cells, [&](const Cell& a, const Cell& b) {
     return std::abs(a.y - b.y) > 0.5 * field.dy ? a.y < b.y : a.x < b.x;
   });
   return field;
@@ -56,7 +56,7 @@ Field read_field(const Numbers& x, const Numbers& y, const Numbers& value) {
 
 /// Limits between classes that hold about as many cells each, in two digits.
 std::vector<double> class_limits(std::vector<double> sorted) {
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const std::size_t classes = palette::kSequence.size();
   std::vector<double> limits;
   for (std::size_t k = 1; k < classes; ++k) {
@@ -92,9 +92,8 @@ std::vector<PlotScript::Rows> boxes(const Field& field) {
 /// Tics far enough apart for the width of a square plot: about four, at 1, 2 or 5 times a power of
 /// ten.
 double tic_step(const Field& field) {
-  const auto [low, high] =
-      std::minmax_element(field.cells.begin(), field.cells.end(),
-                          [](const Cell& a, const Cell& b) { return a.x < b.x; });
+  const auto [low, high] = std::ranges::minmax_element(
+      field.cells, [](const Cell& a, const Cell& b) { return a.x < b.x; });
   const double coarse = (high->x - low->x + field.dx) / 3;
   const double decade = std::pow(10.0, std::floor(std::log10(coarse)));
   for (const double step : {5.0, 2.0})

@@ -36,8 +36,8 @@ const char* joint_color(const JointSymbol& symbol) {
 }
 
 bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
-  return std::any_of(drawing.joints.begin(), drawing.joints.end(),
-                     [&](const Joint& joint) { return joint.kind == symbol.kind; });
+  return std::ranges::any_of(drawing.joints,
+                             [&](const Joint& joint) { return joint.kind == symbol.kind; });
 }
 
 /// Joints of one kind; a hinge is a ring with paper inside.

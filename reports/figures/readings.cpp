@@ -21,8 +21,8 @@ using SameRow = std::vector<const results::RowProbabilities*>;
 std::vector<SameRow> same_rows(const results::ModelProbabilities& probabilities) {
   std::vector<SameRow> out;
   for (const results::RowProbabilities& row : probabilities.rows) {
-    auto same = std::find_if(out.begin(), out.end(),
-                             [&](const SameRow& known) { return known.front()->row == row.row; });
+    auto same = std::ranges::find_if(
+        out, [&](const SameRow& known) { return known.front()->row == row.row; });
     if (same == out.end()) same = out.insert(out.end(), SameRow{});
     same->push_back(&row);
   }
@@ -121,8 +121,8 @@ Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
 
 std::vector<Figure> reading_figures(const CaseInfo& info, const std::vector<const Run*>& runs) {
   std::vector<Figure> figures;
-  const auto run = std::find_if(runs.begin(), runs.end(),
-                                [](const Run* some) { return some->model_probabilities; });
+  const auto run = std::ranges::find_if(
+      runs, [](const Run* candidate) { return candidate->model_probabilities.has_value(); });
   if (run == runs.end()) return figures;
   for (const SameRow& row : same_rows(*(*run)->model_probabilities)) {
     const results::RowProbabilities& middle = *row[row.size() / 2];

@@ -41,7 +41,7 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
 
 /// "mode 3, 15.1 Hz": what swings with a frequency.
 bool is_mode(const Shape& shape) {
-  return shape.label.rfind("mode", 0) == 0 && shape.label.find(" Hz") != std::string::npos;
+  return shape.label.starts_with("mode") && shape.label.find(" Hz") != std::string::npos;
 }
 
 bool is_drawn_whole(const Drawing& drawing, std::size_t shapes) {
@@ -138,7 +138,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   script.command("unset multiplot");
 
   figure.id = slug(info.id + "-" + run.variant + "-shapes");
-  const bool modes = drawing.shapes.front().label.rfind("mode", 0) == 0;
+  const bool modes = drawing.shapes.front().label.starts_with("mode");
   figure.title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run);
   figure.caption =
       (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)) +

@@ -36,16 +36,15 @@ bool is_shown(const Check& check) {
 /// A row a case; a row a check where the family has one case only.
 std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string>& titles,
                                          const std::vector<const Run*>& runs) {
-  const bool one_case = std::all_of(runs.begin(), runs.end(), [&](const Run* run) {
-    return run->case_id == runs.front()->case_id;
-  });
+  const bool one_case = std::ranges::all_of(
+      runs, [&](const Run* run) { return run->case_id == runs.front()->case_id; });
   std::vector<ToleranceRow> rows;
   for (const Run* run : runs) {
     for (const Check& check : run->checks) {
       if (!is_shown(check)) continue;
       const std::string label = one_case ? check_title(check) : titles.at(run->case_id);
-      auto row = std::find_if(rows.begin(), rows.end(),
-                              [&](const ToleranceRow& known) { return known.label == label; });
+      auto row = std::ranges::find_if(
+          rows, [&](const ToleranceRow& known) { return known.label == label; });
       if (row == rows.end()) row = rows.insert(rows.end(), ToleranceRow{label, {}, 0});
       row->checks.emplace_back(run, &check);
       row->worst = std::max(row->worst, share(check));
@@ -63,7 +62,7 @@ PlotScript::Rows points(const std::vector<ToleranceRow>& rows, Belongs belongs) 
       if (belongs(*check)) out.push_back({share(*check), strip_y(i)});
   // Points that fall on each other are one on paper.
   for (auto& point : out) point[0] = std::pow(10, std::round(100 * std::log10(point[0])) / 100);
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }

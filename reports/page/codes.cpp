@@ -65,7 +65,7 @@ std::vector<Row> plan_rows(const std::vector<Code>& codes) {
       const auto same = [&](const Row& row) {
         return row.info->id == run.case_id && row.variant == run.variant;
       };
-      if (std::any_of(rows.begin(), rows.end(), same)) continue;
+      if (std::ranges::any_of(rows, same)) continue;
       Row row{&code.results.case_info(run.case_id), run.variant, {}};
       for (const Code& other : codes) {
         row.runs.push_back(find_run(other.results, run.case_id, run.variant));
@@ -144,7 +144,7 @@ std::vector<bool> nearest_of(const Row& row, const Check* shown) {
     away.push_back(has ? std::abs(*check->computed - *check->expected)
                        : std::numeric_limits<double>::infinity());
   }
-  const double least = *std::min_element(away.begin(), away.end());
+  const double least = *std::ranges::min_element(away);
   std::vector<bool> nearest;
   std::size_t farther = 0;
   for (const double distance : away) {
@@ -159,10 +159,9 @@ std::size_t entries_of(const Row& row, const Check& shown) {
   std::ptrdiff_t most = 0;
   for (const Run* run : row.runs)
     if (run != nullptr)
-      most =
-          std::max(most, std::count_if(run->checks.begin(), run->checks.end(), [&](const Check& c) {
-                     return c.name == shown.name && c.quantity == shown.quantity;
-                   }));
+      most = std::max(most, std::ranges::count_if(run->checks, [&](const Check& c) {
+                        return c.name == shown.name && c.quantity == shown.quantity;
+                      }));
   return static_cast<std::size_t>(most);
 }
 
@@ -223,8 +222,7 @@ std::filesystem::path write_codes(const std::vector<std::filesystem::path>& resu
   for (const Row& row : planned) rows.push_back(row_data(row, codes));
   std::vector<Grade> grades;
   for (const Grade grade : kAllGrades) {
-    if (std::none_of(codes.begin(), codes.end(),
-                     [&](const Code& code) { return code.counts.count(grade) > 0; }))
+    if (std::ranges::none_of(codes, [&](const Code& code) { return code.counts.count(grade) > 0; }))
       continue;
     grades.push_back(grade);
     Data head = object();

@@ -64,8 +64,7 @@ std::string side_text(const SideComparison& comparison, const ComparedSide& side
   for (const auto member : {&ComparedSide::solver, &ComparedSide::commit, &ComparedSide::date,
                             &ComparedSide::processor}) {
     const auto same = [&](const ComparedSide& other) { return other.*member == side.*member; };
-    if (!std::all_of(comparison.sides.begin(), comparison.sides.end(), same) &&
-        !(side.*member).empty())
+    if (!std::ranges::all_of(comparison.sides, same) && !(side.*member).empty())
       text += ", " + side.*member;
   }
   return text;

@@ -141,7 +141,7 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
       return entry.get("case_link")->string_value() == path;
     };
     const bool is_here = section.get("family_link")->string_value() == path;
-    const bool open = is_here || std::any_of(entries.begin(), entries.end(), stands_here);
+    const bool open = is_here || std::ranges::any_of(entries, stands_here);
     const bool has_cases = open || path == "index.html";
     set_flag(family, "is_here", is_here);
     Data cases = list();
@@ -283,7 +283,7 @@ std::vector<ReferencePage> reference_pages(const Results& results,
     pages[first].references.push_back(entry);
   }
   const auto is_empty = [](const auto& page) { return page.references.list_value().empty(); };
-  pages.erase(std::remove_if(pages.begin(), pages.end(), is_empty), pages.end());
+  std::erase_if(pages, is_empty);
   return pages;
 }
 

@@ -49,8 +49,8 @@ std::string number_text(const ClaimInterpretation& interpretation, double value)
 /// The value, or the least and the most of several.
 std::string measured(const ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
-  const auto [lowest, highest] = std::minmax_element(
-      interpretation.entries.begin(), interpretation.entries.end(),
+  const auto [lowest, highest] = std::ranges::minmax_element(
+      interpretation.entries,
       [](const ClaimEntry& a, const ClaimEntry& b) { return a.value < b.value; });
   const std::string low = number_text(interpretation, lowest->value);
   const std::string high = number_text(interpretation, highest->value);
@@ -65,9 +65,9 @@ Data interpretation_data(const ClaimInterpretation& interpretation, const Result
   Data cases = list();
   std::vector<std::string> seen;
   for (const ClaimEntry& entry : interpretation.entries) {
-    const bool listed = std::any_of(results.runs.begin(), results.runs.end(),
-                                    [&](const Run& run) { return run.case_id == entry.case_id; });
-    if (!listed || std::find(seen.begin(), seen.end(), entry.case_id) != seen.end()) continue;
+    const bool listed = std::ranges::any_of(
+        results.runs, [&](const Run& run) { return run.case_id == entry.case_id; });
+    if (!listed || std::ranges::find(seen, entry.case_id) != seen.end()) continue;
     seen.push_back(entry.case_id);
     Data data_of_case = object();
     data_of_case.set("case_id", entry.case_id);
@@ -123,7 +123,7 @@ Data item_data(const PaperItem& item, const Claims& claims) {
   data.set("shown", shown);
   Data verdicts = list();
   for (const Claim& claim : claims.claims) {
-    if (std::find(item.claims.begin(), item.claims.end(), claim.id) == item.claims.end()) continue;
+    if (std::ranges::find(item.claims, claim.id) == item.claims.end()) continue;
     Data entry = object();
     entry.set("claim_id", claim.id);
     set_verdict(entry, claim.verdict);
@@ -139,9 +139,8 @@ Data item_data(const PaperItem& item, const Claims& claims) {
 std::string overview(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {
-    const auto n =
-        std::count_if(claims.claims.begin(), claims.claims.end(),
-                      [&](const Claim& claim) { return claim.verdict == style.verdict; });
+    const auto n = std::ranges::count_if(
+        claims.claims, [&](const Claim& claim) { return claim.verdict == style.verdict; });
     if (n > 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + style.verdict;
   }
   return count(claims.claims.size(), "claim") + ": " + text +

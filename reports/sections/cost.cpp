@@ -32,8 +32,8 @@ std::vector<CaseCost> costs(const std::vector<Family>& families) {
         cost.wall_s += run->cost.wall_s;
         cost.cpu_s += run->cost.cpu_s;
         for (const auto& [name, n] : run->cost.counters) {
-          auto known = std::find_if(cost.counters.begin(), cost.counters.end(),
-                                    [&, key = name](const auto& c) { return c.first == key; });
+          auto known = std::ranges::find_if(
+              cost.counters, [&, key = name](const auto& c) { return c.first == key; });
           if (known == cost.counters.end()) {
             cost.counters.emplace_back(name, n);
           } else {
@@ -44,8 +44,8 @@ std::vector<CaseCost> costs(const std::vector<Family>& families) {
       out.push_back(std::move(cost));
     }
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const CaseCost& a, const CaseCost& b) { return a.wall_s > b.wall_s; });
+  std::ranges::stable_sort(
+      out, [](const CaseCost& a, const CaseCost& b) { return a.wall_s > b.wall_s; });
   return out;
 }
 

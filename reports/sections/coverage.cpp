@@ -15,8 +15,7 @@ Data row_data(const CoverageRow& row) {
   Data kinds = list();
   for (const char* kind : kKinds) {
     Data cell = object();
-    const bool has =
-        std::find(row.evidence.begin(), row.evidence.end(), kind) != row.evidence.end();
+    const bool has = std::ranges::find(row.evidence, kind) != row.evidence.end();
     cell.set("mark", has ? "●" : "");
     kinds.push_back(cell);
   }
@@ -69,8 +68,8 @@ Data coverage_section(const Results& results, bool with_verified) {
   Data kinds = list();
   for (const char* kind : kKinds) kinds.push_back(Data(kind));
   section.set("kinds", kinds);
-  const auto verified = std::count_if(rows.begin(), rows.end(),
-                                      [](const CoverageRow& row) { return row.is_verified(); });
+  const auto verified =
+      std::ranges::count_if(rows, [](const CoverageRow& row) { return row.is_verified(); });
   int series = 0, judged = 0;
   for (const CoverageRow& row : rows) {
     series += row.series;

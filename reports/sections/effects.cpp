@@ -10,13 +10,13 @@ namespace trammel::reports {
 namespace {
 
 bool chose_effects(const Run* run) {
-  return std::any_of(run->effects.begin(), run->effects.end(),
-                     [](const EffectRow& effect) { return effect.estimated_change.has_value(); });
+  return std::ranges::any_of(
+      run->effects, [](const EffectRow& effect) { return effect.estimated_change.has_value(); });
 }
 
 /// "axial-flexibility" -> "axial flexibility"
 std::string text_of(std::string name) {
-  std::replace(name.begin(), name.end(), '-', ' ');
+  std::ranges::replace(name, '-', ' ');
   return name;
 }
 
@@ -47,7 +47,7 @@ Data row_of(const EffectRow& effect) {
 }  // namespace
 
 void set_effects(Data& data, const std::vector<const Run*>& runs) {
-  const auto found = std::find_if(runs.begin(), runs.end(), chose_effects);
+  const auto found = std::ranges::find_if(runs, chose_effects);
   set_text(data, "effects_title", found == runs.end() ? "" : title_of(**found));
   Data rows = list();
   if (found != runs.end()) {

@@ -45,8 +45,7 @@ Counts counts_of(const std::vector<const Run*>& runs) {
 CheckStatus overall(const std::vector<const Run*>& runs) {
   const Counts counts = counts_of(runs);
   const auto any_run = [&](CheckStatus which) {
-    return std::any_of(runs.begin(), runs.end(),
-                       [&](const Run* run) { return check_status(*run) == which; });
+    return std::ranges::any_of(runs, [&](const Run* run) { return check_status(*run) == which; });
   };
   for (const CheckStatus bad : {CheckStatus::error, CheckStatus::fails})
     if (count_of(counts, bad) > 0 || any_run(bad)) return bad;

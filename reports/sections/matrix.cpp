@@ -47,7 +47,7 @@ std::vector<MatrixSubject> subjects(const Family& family) {
   for (const Run* run : family.runs) {
     for (const Check& check : run->checks) {
       if (!belongs(check)) continue;
-      auto subject = std::find_if(out.begin(), out.end(), [&](const MatrixSubject& s) {
+      auto subject = std::ranges::find_if(out, [&](const MatrixSubject& s) {
         return s.reference == check.reference && s.quantity == check.quantity &&
                s.check == check.name;
       });
@@ -70,12 +70,10 @@ void sort_rows(MatrixSubject& subject) {
     for (const auto& [_, check] : row.checks) sum += *check->difference * *check->difference;
     row.distance = std::sqrt(sum / static_cast<double>(row.checks.size()));
   }
-  std::stable_sort(subject.rows.begin(), subject.rows.end(),
-                   [](const MatrixRow& a, const MatrixRow& b) {
-                     if (a.checks.size() != b.checks.size())
-                       return a.checks.size() > b.checks.size();
-                     return a.distance < b.distance;
-                   });
+  std::ranges::stable_sort(subject.rows, [](const MatrixRow& a, const MatrixRow& b) {
+    if (a.checks.size() != b.checks.size()) return a.checks.size() > b.checks.size();
+    return a.distance < b.distance;
+  });
 }
 
 std::string row_title(const Family& family, const Results& results, const MatrixRow& row) {
@@ -98,7 +96,7 @@ Data cell_of(const Check* check) {
 }
 
 std::string entry_word(const MatrixSubject& subject) {
-  return subject.quantity.rfind("frequency", 0) == 0 ? "mode" : "entry";
+  return subject.quantity.starts_with("frequency") ? "mode" : "entry";
 }
 
 struct Nearest {

@@ -74,7 +74,7 @@ struct OrderRow {
 std::vector<OrderRow> rows_of(const Run& run) {
   std::vector<OrderRow> rows;
   for (const Convergence& c : run.convergence) {
-    const auto same = std::find_if(rows.begin(), rows.end(), [&](const OrderRow& row) {
+    const auto same = std::ranges::find_if(rows, [&](const OrderRow& row) {
       return row.front().sweep == c.sweep && row.front().quantity == c.quantity;
     });
     if (same == rows.end()) {

@@ -84,9 +84,9 @@ Data missing_row(const std::string& check) {
 Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
   Data pictures = list();
   for (const PlotRequest& request : info.figures) {
-    const auto figure = std::find_if(
-        gallery.shown.begin(), gallery.shown.end(),
-        [&](const Figure& drawn) { return drawn.id == slug(info.id + "-" + request.id); });
+    const auto figure = std::ranges::find_if(gallery.shown, [&](const Figure& drawn) {
+      return drawn.id == slug(info.id + "-" + request.id);
+    });
     if (figure == gallery.shown.end()) continue;
     Data picture = object();
     picture.set("link", case_link(info.id) + "#fig-" + figure->id);
@@ -99,7 +99,7 @@ Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
 /// "Stress case 7: from 1 to 10,000 elements" is listed under item 7 without its first words.
 std::string title_of(const CaseInfo& info) {
   const std::string prefix = "Stress case " + std::to_string(info.stress_suite->item) + ": ";
-  if (info.title.rfind(prefix, 0) != 0) return info.title;
+  if (!info.title.starts_with(prefix)) return info.title;
   std::string title = info.title.substr(prefix.size());
   if (title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
   return title;

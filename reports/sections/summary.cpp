@@ -120,8 +120,7 @@ struct Targets {
       stated.insert({run.case_id, check.name, check.quantity, check.index.value_or(-1)});
       return;
     }
-    const bool equal =
-        std::count(reference->values.begin(), reference->values.end(), check.expected) > 1;
+    const bool equal = std::ranges::count(reference->values, check.expected) > 1;
     printed.insert({check.reference, *check.expected, equal ? check.index.value_or(-1) : -1});
   }
   [[nodiscard]] std::string text() const {

@@ -153,7 +153,7 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
   for (const Run* run : runs) {
     for (const CheckGroup& group : group_checks(*run)) {
       const Check& check = group.worst();
-      const auto same = std::find_if(worst.begin(), worst.end(), [&](const Worst& known) {
+      const auto same = std::ranges::find_if(worst, [&](const Worst& known) {
         return known.check->name == check.name && known.check->quantity == check.quantity;
       });
       if (same == worst.end()) {

@@ -46,7 +46,7 @@ const Check* find_better(const Run& run, const Check& target, const Results& res
 
 /// Of the entries of one check the one farthest from its target.
 void keep_farthest(std::vector<Target>& targets, const Target& candidate) {
-  const auto same = std::find_if(targets.begin(), targets.end(), [&](const Target& other) {
+  const auto same = std::ranges::find_if(targets, [&](const Target& other) {
     return other.run == candidate.run && other.check->name == candidate.check->name &&
            other.check->quantity == candidate.check->quantity;
   });
@@ -124,7 +124,7 @@ Data case_of(const CaseInfo& info, const std::vector<Target>& targets, const Res
 }
 
 bool is_benchmark(const CaseInfo& info) {
-  return std::find(info.labels.begin(), info.labels.end(), "benchmark") != info.labels.end();
+  return std::ranges::find(info.labels, "benchmark") != info.labels.end();
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ Data targets_section(const Results& results, const std::vector<Family>& families
         targets.insert(targets.end(), more.begin(), more.end());
       }
       share_better_values(targets);
-      const bool known = std::any_of(targets.begin(), targets.end(), [](const Target& target) {
+      const bool known = std::ranges::any_of(targets, [](const Target& target) {
         return target.run->variant == "base" && target.check->known_discrepancy();
       });
       wrong += known ? 1 : 0;

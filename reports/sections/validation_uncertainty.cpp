@@ -36,7 +36,7 @@ void add_run(const Run& run, const CaseInfo& info, std::vector<ComparisonSubject
   if (!run.uncertainty) return;
   for (const Comparison& c : run.uncertainty->comparisons) {
     if (!c.expected || *c.expected == 0 || !c.difference || !c.u_val) continue;
-    auto subject = std::find_if(subjects.begin(), subjects.end(), [&](const ComparisonSubject& s) {
+    auto subject = std::ranges::find_if(subjects, [&](const ComparisonSubject& s) {
       return s.info == &info && s.reference == c.reference && s.check == c.check;
     });
     if (subject == subjects.end())
@@ -80,15 +80,14 @@ std::string verdict_text(const Tally& counts) {
 }
 
 std::string display_name(std::string name) {
-  std::replace(name.begin(), name.end(), '-', ' ');
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '-', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 
 std::string dominant_text(const Tally& counts) {
-  const auto most =
-      std::max_element(counts.dominant.begin(), counts.dominant.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most = std::ranges::max_element(
+      counts.dominant, [](const auto& a, const auto& b) { return a.second < b.second; });
   if (most == counts.dominant.end()) return "";
   return " The dominant input is the " + display_name(most->first) + ", for " +
          std::to_string(most->second) + " of " + std::to_string(counts.entries) + ".";
@@ -150,7 +149,7 @@ Data table_of(const ComparisonSubject& subject, bool is_only, const Results& res
   set_text(table, "check", is_only ? "" : display_name(subject.check));
   table.set("case_title", subject.info->title);
   table.set("case_link", case_link(subject.info->id));
-  const bool modes = subject.quantity.rfind("frequency", 0) == 0;
+  const bool modes = subject.quantity.starts_with("frequency");
   Data columns = list();
   for (const auto& [entry, target] : subject.targets) {
     Data column = object();
@@ -190,10 +189,9 @@ Data validation_uncertainty_section(const Results& results, const std::vector<Fa
   Data tables = list();
   for (const ComparisonSubject& subject : subjects) {
     for (const ComparisonRow& row : subject.rows) all.add(row);
-    const auto same =
-        std::count_if(subjects.begin(), subjects.end(), [&](const ComparisonSubject& other) {
-          return other.info == subject.info && other.reference == subject.reference;
-        });
+    const auto same = std::ranges::count_if(subjects, [&](const ComparisonSubject& other) {
+      return other.info == subject.info && other.reference == subject.reference;
+    });
     tables.push_back(table_of(subject, same == 1, results));
   }
   set_flag(section, "has_rows", !subjects.empty());

@@ -28,8 +28,8 @@ Number statistic(const std::string& name, const Numbers& numbers) {
   if (name == "max") return *highest;
   if (name == "min") return *lowest;
   if (name == "range") return *highest - *lowest;
-  if (name == "max_abs") return std::abs(*std::max_element(values.begin(), values.end(), smaller));
-  if (name == "min_abs") return std::abs(*std::min_element(values.begin(), values.end(), smaller));
+  if (name == "max_abs") return std::abs(*std::ranges::max_element(values, smaller));
+  if (name == "min_abs") return std::abs(*std::ranges::min_element(values, smaller));
   if (name == "sum") return sum;
   if (name == "mean") return sum / n;
   if (name == "rms")
@@ -87,8 +87,7 @@ Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs) {
     Data rows = list();
     for (const Run* run : runs) {
       const bool wanted = table.variants.empty() ||
-                          std::find(table.variants.begin(), table.variants.end(), run->variant) !=
-                              table.variants.end();
+                          std::ranges::find(table.variants, run->variant) != table.variants.end();
       if (wanted) rows.push_back(row_of(table, info, *run));
     }
     data.set("rows", rows);

@@ -53,8 +53,8 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  std::replace(name.begin(), name.end(), '-', ' ');
+  std::ranges::replace(name, '_', ' ');
+  std::ranges::replace(name, '-', ' ');
   for (const char* direction : {" x", " y"})
     if (ends_with(name, direction))
       return std::string(direction + 1) + " " + name.substr(0, name.size() - 2);
@@ -65,7 +65,7 @@ std::string words(std::string name) {
 bool takes_prefix(const std::string& unit) {
   static const std::array<const char*, 10> plain = {"m",   "N",  "Pa", "s", "Hz",
                                                     "N·m", "kg", "J",  "W", "rad"};
-  return std::find(plain.begin(), plain.end(), unit) != plain.end();
+  return std::ranges::find(plain, unit) != plain.end();
 }
 
 /// Whether what follows the colon is the name of a quantity in turn, be it of the whole model:
@@ -73,7 +73,7 @@ bool takes_prefix(const std::string& unit) {
 bool is_of_a_quantity(const std::string& base) {
   static const std::array<const char*, 4> names = {"relative_error", "roundoff",
                                                    "error_over_roundoff", "min_error_at"};
-  return std::find(names.begin(), names.end(), base) != names.end();
+  return std::ranges::find(names, base) != names.end();
 }
 
 }  // namespace
