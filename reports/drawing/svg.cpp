@@ -1,7 +1,9 @@
 #include "reports/drawing/svg.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <kainjow/mustache.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -165,30 +167,12 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
          xml_escaped(title + ". " + description) + "\">\n" + body + "</svg>\n";
 }
 
-std::string xml_escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&apos;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-    }
-  }
-  return out;
+std::string xml_escaped(std::string text) {
+  const auto is_unfit = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t';
+  };
+  std::ranges::replace_if(text, is_unfit, ' ');
+  return kainjow::mustache::html_escape(text);
 }
 
 }  // namespace trammel::reports

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -53,8 +54,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 }
 
 std::string words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  std::ranges::replace(name, '-', ' ');
+  name = spaced(name);
   for (const char* direction : {" x", " y"})
     if (ends_with(name, direction))
       return std::string(direction + 1) + " " + name.substr(0, name.size() - 2);
