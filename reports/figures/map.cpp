@@ -5,6 +5,7 @@
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/curves.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -109,10 +110,7 @@ std::string class_name(const std::vector<double>& limits, std::size_t k) {
 }
 
 const Run* run_for(const PlotRequest& request, const std::vector<const Run*>& runs) {
-  const std::string variant = request.variants.empty() ? "base" : request.variants.front();
-  for (const Run* run : runs)
-    if (run->variant == variant) return run;
-  return nullptr;
+  return find_run(runs, request.variants.empty() ? "base" : request.variants.front());
 }
 
 /// Values of all maps of the case that show the same quantity, so that one colour means one thing.
@@ -255,18 +253,17 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   const int key_height = draw_map(script, request, *found->run, field, classes);
 
   const QuantityLabel quantity = parse_quantity(request.value);
-  Figure figure;
-  figure.id = slug(info.id + "-" + request.id);
-  figure.title = request.title;
-  figure.caption =
-      request.caption + (request.caption.empty() ? "" : " ") + "Colours: " + quantity.label +
-      (quantity.unit.empty() ? "" : " in " + quantity.unit) + classes.describe(field.cells.size());
-  figure.alt = "Map of " + to_text(quantity) + " over positions; the largest magnitude is " +
-               trimmed(largest, 3) + " " + quantity.unit + ".";
-  figure.height = 420 + key_height;
-  figure.commands = script.commands();
-  figure.data = table_of(field, request);
-  return figure;
+  return Figure{.id = slug(info.id + "-" + request.id),
+                .title = request.title,
+                .caption = request.caption + (request.caption.empty() ? "" : " ") + "Colours: " +
+                           quantity.label + (quantity.unit.empty() ? "" : " in " + quantity.unit) +
+                           classes.describe(field.cells.size()),
+                .alt = "Map of " + to_text(quantity) +
+                       " over positions; the largest magnitude is " + trimmed(largest, 3) + " " +
+                       quantity.unit + ".",
+                .height = 420 + key_height,
+                .commands = script.commands(),
+                .data = table_of(field, request)};
 }
 
 }  // namespace trammel::reports

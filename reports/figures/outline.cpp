@@ -189,4 +189,8 @@ void frame(PlotScript& script, const Box& box) {
   script.command("set xtics " + step + "; set ytics " + step);
 }
 
+int height_of(const Box& box) {
+  return static_cast<int>(std::clamp(410.0 * box.height() / box.width(), 90.0, 470.0)) + 80;
+}
+
 }  // namespace trammel::reports

@@ -44,6 +44,9 @@ struct Box {
 /// Sets ranges and an equal scale on both axes.
 void frame(PlotScript& script, const Box& box);
 
+/// Height of a drawing of its own that has room for the box, its axes included [px].
+[[nodiscard]] int height_of(const Box& box);
+
 /// A title with the variant's behind it, unless it is the case as it stands.
 [[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "harness/base/find_or_add.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/text/number.h"
@@ -21,10 +23,8 @@ using SameRow = std::vector<const results::RowProbabilities*>;
 std::vector<SameRow> same_rows(const results::ModelProbabilities& probabilities) {
   std::vector<SameRow> out;
   for (const results::RowProbabilities& row : probabilities.rows) {
-    auto same = std::ranges::find_if(
-        out, [&](const SameRow& known) { return known.front()->row == row.row; });
-    if (same == out.end()) same = out.insert(out.end(), SameRow{});
-    same->push_back(&row);
+    const auto same = [&](const SameRow& known) { return known.front()->row == row.row; };
+    harness::find_or_add(out, same, SameRow{}).push_back(&row);
   }
   return out;
 }
@@ -69,7 +69,7 @@ std::string caption_of(const results::RowProbabilities& row, double worst) {
 
 Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
   PlotScript script;
-  Figure figure;
+  Table table;
   std::size_t shown = 1;
   while (shown < std::min(row.leading.size(), kMaxReadings) &&
          row.leading[shown].probability.value_or(0) >= kMinProbability)
@@ -78,8 +78,8 @@ Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
   const auto count_of = static_cast<double>(row.printed.size());
   std::vector<std::string> titles;
   double worst = 0, extent = 2 * band;
-  figure.data.heads = {"reading", "probability", "number", "printed_" + row.unit,
-                       "predicted_" + row.unit};
+  table.heads = {"reading", "probability", "number", "printed_" + row.unit,
+                 "predicted_" + row.unit};
   script.curve({{0.5, -band}, {count_of + 0.5, -band}, {count_of + 0.5, band}, {0.5, band}},
                "with filledcurves closed" + lc(palette::kAmber), "discrepancy");
   script.curve({{0.5, 0}, {count_of + 0.5, 0}}, "with lines lw 1.5" + lc(palette::kInk));
@@ -96,9 +96,8 @@ Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
                      lc(palette::color(i)),
                  titles.back());
     for (std::size_t k = 0; k < std::min(row.printed.size(), reading.values.size()); ++k)
-      figure.data.rows.push_back({reading.title, cell(reading.probability),
-                                  static_cast<double>(k + 1), cell(row.printed[k]),
-                                  cell(reading.values[k])});
+      table.rows.push_back({reading.title, cell(reading.probability), static_cast<double>(k + 1),
+                            cell(row.printed[k]), cell(reading.values[k])});
   }
   script.range("x", 0.5, count_of + 0.5);
   script.range("y", -1.1 * extent, 1.1 * extent);
@@ -107,14 +106,15 @@ Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
   script.axis_label("y", "predicted over printed, less 1 (%)");
   const int key = script.key_below(titles);
   script.plot();
-  figure.id = slug(info.id + "-" + row.row + "-readings");
-  figure.title = "Most probable readings beside the printed row " + row.row;
-  figure.caption = caption_of(row, worst);
-  figure.alt = "Relative differences of the most probable readings from the printed numbers. " +
-               figure.caption;
-  figure.height = 320 + key;
-  figure.commands = script.commands();
-  return figure;
+  const std::string caption = caption_of(row, worst);
+  return {.id = slug(info.id + "-" + row.row + "-readings"),
+          .title = "Most probable readings beside the printed row " + row.row,
+          .caption = caption,
+          .alt = "Relative differences of the most probable readings from the printed numbers. " +
+                 caption,
+          .height = 320 + key,
+          .commands = script.commands(),
+          .data = std::move(table)};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "reports/figures/moving.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -109,7 +110,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   std::vector<std::vector<Point>> moved;
   std::vector<double> factors;
   Figure figure;
-  figure.data.heads = {"shape", "node", "x_m", "y_m", "u_x_m", "u_y_m", "drawn_times"};
+  figure.data.heads = words_in("shape node x_m y_m u_x_m u_y_m drawn_times");
   for (std::size_t s = 0; s < n; ++s) {
     const Shape& shape = drawing.shapes[s];
     const double factor = factor_for(shape, side);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/find_or_add.h"
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/drawing/palette.h"
 #include "reports/figures/strip.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -43,11 +45,10 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
     for (const Check& check : run->checks) {
       if (!is_shown(check)) continue;
       const std::string label = one_case ? check_title(check) : titles.at(run->case_id);
-      auto row = std::ranges::find_if(
-          rows, [&](const ToleranceRow& known) { return known.label == label; });
-      if (row == rows.end()) row = rows.insert(rows.end(), ToleranceRow{label, {}, 0});
-      row->checks.emplace_back(run, &check);
-      row->worst = std::max(row->worst, share(check));
+      const auto same = [&](const ToleranceRow& known) { return known.label == label; };
+      ToleranceRow& row = harness::find_or_add(rows, same, {label, {}, 0});
+      row.checks.emplace_back(run, &check);
+      row.worst = std::max(row.worst, share(check));
     }
   }
   return rows;
@@ -94,7 +95,7 @@ void draw_limits(PlotScript& script, std::size_t rows) {
 
 Table table_of(const std::vector<ToleranceRow>& rows) {
   Table table;
-  table.heads = {"case", "variant", "check", "quantity", "index", "share_of_tolerance", "verdict"};
+  table.heads = words_in("case variant check quantity index share_of_tolerance verdict");
   for (const ToleranceRow& row : rows)
     for (const auto& [run, check] : row.checks) {
       const double used = tolerance_fraction(*check);
@@ -141,15 +142,14 @@ std::optional<Figure> tolerance_figure(const std::string& family,
                "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)), "fails or error");
   script.plot();
 
-  Figure figure;
-  figure.id = slug(family + "-tolerance");
-  figure.title = "Share of the tolerance used by each check";
-  figure.caption = conclusion(rows);
-  figure.alt = "One dot per check on a logarithmic axis, with the limit marked. " + figure.caption;
-  figure.height = strip_height(rows.size()) + 20;
-  figure.commands = script.commands();
-  figure.data = table_of(rows);
-  return figure;
+  const std::string caption = conclusion(rows);
+  return Figure{.id = slug(family + "-tolerance"),
+                .title = "Share of the tolerance used by each check",
+                .caption = caption,
+                .alt = "One dot per check on a logarithmic axis, with the limit marked. " + caption,
+                .height = strip_height(rows.size()) + 20,
+                .commands = script.commands(),
+                .data = table_of(rows)};
 }
 
 }  // namespace trammel::reports

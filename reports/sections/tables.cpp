@@ -11,6 +11,7 @@
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -204,10 +205,9 @@ Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
 
 Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
   Table table;
-  table.heads = {"case",      "variant",    "status",        "check",          "role",
-                 "quantity",  "index",      "unit",          "target",         "computed",
-                 "measure",   "difference", "tolerance_low", "tolerance_high", "expectation",
-                 "reference", "verdict",    "reason",        "message"};
+  table.heads = words_in(
+      "case variant status check role quantity index unit target computed measure difference "
+      "tolerance_low tolerance_high expectation reference verdict reason message");
   for (const Run* run : runs)
     for (const Check& c : run->checks)
       table.rows.push_back(
