@@ -23,7 +23,7 @@ std::string work_counters_text(const Counters& counters) {
   std::string text;
   for (const auto& [name, n] : counters) {
     if (n == 0 && name == "steps") continue;  // most computations have none
-    text += (text.empty() ? "" : ", ") + grouped(n) + " " + spaced(name);
+    add_item(text, grouped(n) + " " + spaced(name));
   }
   return text;
 }

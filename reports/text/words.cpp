@@ -21,6 +21,10 @@ std::string low_to_high(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 
+void add_item(std::string& list, const std::string& item, const std::string& separator) {
+  list += (list.empty() ? "" : separator) + item;
+}
+
 std::vector<std::string> words_in(const std::string& text) {
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
