@@ -74,8 +74,7 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
     if (c.in_asymptotic_range[k]) inside.push_back(line.back());
   }
   const std::string color = lc(palette::color(i));
-  const std::string style = std::to_string(palette::kOpenPoint[i % palette::kOpenPoint.size()]);
-  const std::string solid = std::to_string(palette::kFilledPoint[i % palette::kFilledPoint.size()]);
+  const std::string style = palette::open_point(i), solid = palette::filled_point(i);
   script.curve(line, "with linespoints lw 1.4 ps 0.8 pt " + style + color);
   script.curve(inside, "with points ps 0.8 pt " + solid + color);
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
@@ -165,8 +164,7 @@ std::string conclusion(const Sweeps& sweeps) {
     ++fitted;
     orders.cover(c->fitted_order);
     if (theory && std::abs(*c->fitted_order - *theory) > 0.1)
-      off += (off.empty() ? "" : ", ") + entry_name(*c) + " (" + significant(*c->fitted_order, 3) +
-             ")";
+      add_item(off, entry_name(*c) + " (" + significant(*c->fitted_order, 3) + ")");
   }
   const std::string against = theory ? "; theory: " + trimmed(*theory, 3) : "";
   std::string text;
@@ -229,7 +227,7 @@ void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
   const std::size_t step = (levels.size() + 8) / 9;
   std::size_t i = 0;
   for (const double level : levels)
-    if (i++ % step == 0) tics += (tics.empty() ? "" : ", ") + tic(trimmed(level, 3), level);
+    if (i++ % step == 0) add_item(tics, tic(trimmed(level, 3), level));
   script.command("set xtics (" + tics + ")");
   const QuantityLabel parameter = parse_quantity(sweeps.front()->sweep);
   script.axis_label("x", axis_label(parameter.label, parameter.unit));

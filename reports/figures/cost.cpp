@@ -48,11 +48,6 @@ std::vector<std::string> curves_of(const CostStudy& study) {
   return curves;
 }
 
-std::string point_type(std::size_t curve, bool filled) {
-  const auto& types = filled ? palette::kFilledPoint : palette::kOpenPoint;
-  return std::to_string(types[curve % types.size()]);
-}
-
 /// Where what has no usable error stands: right of the axis, in a strip of its own.
 struct Strip {
   double left = 0, middle = 0, right = 0;
@@ -105,7 +100,7 @@ void draw_curve(PlotScript& script, const CostStudy& study, const std::string& c
   }
   const std::string color = lc(palette::color(number));
   const bool filled = number < palette::kFilledPoint.size();
-  const std::string mark = point_type(number, filled);
+  const std::string mark = filled ? palette::filled_point(number) : palette::open_point(number);
   script.curve(points, "using 1:2 with lines lw 1.2" + color);
   script.curve(points, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
   script.curve(outside, "using 1:2 with points lw 1.6 ps 1 pt 2" + color);

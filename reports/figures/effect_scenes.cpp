@@ -37,8 +37,7 @@ void draw_scatter(const Scatter& scatter, Figure& figure) {
   for (const auto& [analysis, rows] : scatter.points) {
     const std::size_t number = keys.size() - 1;
     script.curve(rows,
-                 "using 1:2 with points ps 0.7 pt " +
-                     std::to_string(palette::kFilledPoint[number % palette::kFilledPoint.size()]) +
+                 "using 1:2 with points ps 0.7 pt " + palette::filled_point(number) +
                      lc(palette::color(number)),
                  analysis);
     keys.push_back(analysis);

@@ -18,11 +18,11 @@ constexpr double kMinProbability = 1e-3;  ///< of a reading that is drawn
 constexpr double kMinBits = 0.01;         ///< of information that is worth a sentence
 
 /// The row under each discrepancy, in their order.
-using SameRow = std::vector<const results::RowProbabilities*>;
+using SameRow = std::vector<const RowProbabilities*>;
 
-std::vector<SameRow> same_rows(const results::ModelProbabilities& probabilities) {
+std::vector<SameRow> same_rows(const ModelProbabilities& probabilities) {
   std::vector<SameRow> out;
-  for (const results::RowProbabilities& row : probabilities.rows) {
+  for (const RowProbabilities& row : probabilities.rows) {
     const auto same = [&](const SameRow& known) { return known.front()->row == row.row; };
     harness::find_or_add(out, same, SameRow{}).push_back(&row);
   }
@@ -30,7 +30,7 @@ std::vector<SameRow> same_rows(const results::ModelProbabilities& probabilities)
 }
 
 /// Predicted over printed, less 1 [%]; an empty row where either is missing.
-PlotScript::Rows differences(const results::RowProbabilities& row, const results::Numbers& values) {
+PlotScript::Rows differences(const RowProbabilities& row, const Numbers& values) {
   PlotScript::Rows out;
   for (std::size_t k = 0; k < std::min(row.printed.size(), values.size()); ++k) {
     if (!row.printed[k] || !values[k] || *row.printed[k] == 0) {
@@ -49,8 +49,8 @@ double largest(const PlotScript::Rows& points) {
   return size;
 }
 
-std::string caption_of(const results::RowProbabilities& row, double worst) {
-  const results::ReadingClass& first = row.leading.front();
+std::string caption_of(const RowProbabilities& row, double worst) {
+  const ReadingClass& first = row.leading.front();
   const double discrepancy = row.discrepancy.value_or(0);
   std::string text = "Under a discrepancy of " + relative(discrepancy, 2, false) +
                      " the most probable reading is " + first.title + ", with " +
@@ -67,7 +67,7 @@ std::string caption_of(const results::RowProbabilities& row, double worst) {
          trimmed(row.entropy_bits.value_or(0), 3) + " bits.";
 }
 
-Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
+Figure figure_of(const CaseInfo& info, const RowProbabilities& row) {
   PlotScript script;
   Table table;
   std::size_t shown = 1;
@@ -85,16 +85,16 @@ Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
   script.curve({{0.5, 0}, {count_of + 0.5, 0}}, "with lines lw 1.5" + lc(palette::kInk));
   titles.emplace_back("discrepancy");
   for (std::size_t i = 0; i < shown; ++i) {
-    const results::ReadingClass& reading = row.leading[i];
+    const ReadingClass& reading = row.leading[i];
     const PlotScript::Rows points = differences(row, reading.values);
     if (i == 0) worst = largest(points);
     extent = std::max(extent, largest(points));
     titles.push_back(shortened(reading.title, kMaxTitle) + " (" +
                      relative(reading.probability.value_or(0), 2, false) + ")");
-    script.curve(points,
-                 "with linespoints lw 1.4 ps 1 pt " + std::to_string(palette::kFilledPoint[i]) +
-                     lc(palette::color(i)),
-                 titles.back());
+    script.curve(
+        points,
+        "with linespoints lw 1.4 ps 1 pt " + palette::filled_point(i) + lc(palette::color(i)),
+        titles.back());
     for (std::size_t k = 0; k < std::min(row.printed.size(), reading.values.size()); ++k)
       table.rows.push_back({reading.title, cell(reading.probability), static_cast<double>(k + 1),
                             cell(row.printed[k]), cell(reading.values[k])});
@@ -125,7 +125,7 @@ std::vector<Figure> reading_figures(const CaseInfo& info, const std::vector<cons
       runs, [](const Run* candidate) { return candidate->model_probabilities.has_value(); });
   if (run == runs.end()) return figures;
   for (const SameRow& row : same_rows(*(*run)->model_probabilities)) {
-    const results::RowProbabilities& middle = *row[row.size() / 2];
+    const RowProbabilities& middle = *row[row.size() / 2];
     if (!middle.leading.empty()) figures.push_back(figure_of(info, middle));
   }
   return figures;

@@ -76,7 +76,7 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   std::string equal;
   for (std::size_t s = free; s + 1 < n; ++s) {
     const std::string pair = std::to_string(s + 1) + " and " + std::to_string(s + 2);
-    if (gap(s) < 1e-9) equal += (equal.empty() ? "" : ", ") + pair;
+    if (gap(s) < 1e-9) add_item(equal, pair);
     if (gap(s) < gap(nearest)) nearest = s;
   }
   text += "Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
