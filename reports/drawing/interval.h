@@ -21,6 +21,10 @@ struct Interval {
     cover(x / factor);
     cover(x * factor);
   }
+  void widen(double by) {
+    low -= by;
+    high += by;
+  }
   [[nodiscard]] bool empty() const { return low > high; }
   [[nodiscard]] double length() const { return high - low; }
 };

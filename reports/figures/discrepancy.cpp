@@ -52,8 +52,8 @@ Interval extent(const DiscrepancySubject& subject, double origin) {
       span.cover(check->tolerance->low);
       span.cover(check->tolerance->high);
     }
-  const double room = std::max(0.06 * span.length(), 1e-12);
-  return {span.low - room, span.high + room};
+  span.widen(std::max(0.06 * span.length(), 1e-12));
+  return span;
 }
 
 PlotScript::Rows box(double x0, double x1, std::size_t row) {

@@ -25,8 +25,8 @@ struct Scatter {
   std::map<std::string, PlotScript::Rows> points;  ///< by analysis
 };
 
-void draw_scatter(const Scatter& scatter, Figure& figure) {
-  PlotScript script;
+/// @returns the height of the key
+int draw_scatter(PlotScript& script, const Scatter& scatter) {
   script.log_axis("x", scatter.x.low, scatter.x.high);
   script.log_axis("y", scatter.y.low, scatter.y.high);
   script.axis_label("x", scatter.x_label);
@@ -42,9 +42,9 @@ void draw_scatter(const Scatter& scatter, Figure& figure) {
                  analysis);
     keys.push_back(analysis);
   }
-  figure.height = 350 + script.key_below(keys);
+  const int key_height = script.key_below(keys);
   script.plot();
-  figure.commands = script.commands();
+  return key_height;
 }
 
 Table table_of(const std::vector<EffectScene>& scenes) {
@@ -61,15 +61,16 @@ Table table_of(const std::vector<EffectScene>& scenes) {
 Figure figure_of(const Scatter& scatter, const std::vector<EffectScene>& scenes,
                  const std::string& id, const std::string& title, const std::string& caption,
                  const std::string& alt) {
-  Figure figure;
-  figure.id = id;
-  figure.title = title;
-  figure.caption = caption;
-  figure.alt = alt + caption;
-  figure.is_linked = true;
-  draw_scatter(scatter, figure);
-  figure.data = table_of(scenes);
-  return figure;
+  PlotScript script;
+  const int key_height = draw_scatter(script, scatter);
+  return {.id = id,
+          .title = title,
+          .caption = caption,
+          .alt = alt + caption,
+          .height = 350 + key_height,
+          .commands = script.commands(),
+          .data = table_of(scenes),
+          .is_linked = true};
 }
 
 Figure obtained_figure(const std::vector<EffectScene>& scenes) {

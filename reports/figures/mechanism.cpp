@@ -58,14 +58,14 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
 
 /// Names stand outside: away from the middle of the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
-  const double cx = 0.5 * (box.x0 + box.x1);
-  const double cy = 0.5 * (box.y0 + box.y1);
+  const double cx = 0.5 * (box.x.low + box.x.high);
+  const double cy = 0.5 * (box.y.low + box.y.high);
   std::set<std::string> named;
   for (const Joint& joint : drawing.joints) {
     if (joint.name.empty() || !named.insert(joint.name).second) continue;
     const auto& [x, y] = drawing.nodes[joint.node];
     const double r = std::hypot(x - cx, y - cy) + 1e-300;
-    const double reach = 0.055 * std::max(box.width(), box.height());
+    const double reach = 0.055 * box.side();
     const double lift = r < reach ? reach : 0;
     script.label(joint.name, shortest(x + reach * (x - cx) / r) + "," +
                                  shortest(y + reach * (y - cy) / r + lift) +

@@ -101,10 +101,9 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   const Drawing& drawing = *run.drawing;
   const std::vector<Pose> moments = moments_of(drawing);
   if (moments.size() < 2) return std::nullopt;
-  const Box body = box_around({drawing.nodes}, 0, 0);
   const Largest deflection = largest(
       moments, [](const Pose& moment) -> const std::vector<Point>& { return moment.displacement; });
-  const double factor = magnification(deflection.length, std::max(body.width(), body.height()));
+  const double factor = magnification(deflection.length, box_around({drawing.nodes}, 0, 0).side());
   std::vector<std::vector<Point>> places, everything;
   for (const Pose& moment : moments) {
     everything.push_back(moment.nodes);

@@ -38,7 +38,7 @@ class Panel {
   }
 
   [[nodiscard]] Coordinates places(std::vector<Point> nodes) const {
-    for (auto& [x, y] : nodes) x -= box_.x0, y -= box_.y1;
+    for (auto& [x, y] : nodes) x -= box_.x.low, y -= box_.y.high;
     return vectors(nodes);
   }
 
