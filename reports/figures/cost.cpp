@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/find_or_add.h"
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
@@ -41,10 +42,13 @@ Interval times_of(const CostStudy& study) {
   return times;
 }
 
-std::vector<std::string> curves_of(const CostStudy& study) {
-  std::vector<std::string> curves;
-  for (const CostSetting& setting : study.settings)
-    if (std::ranges::find(curves, setting.curve) == curves.end()) curves.push_back(setting.curve);
+/// The first setting of each curve.
+std::vector<const CostSetting*> curves_of(const CostStudy& study) {
+  std::vector<const CostSetting*> curves;
+  for (const CostSetting& setting : study.settings) {
+    const auto same = [&](const CostSetting* first) { return first->curve == setting.curve; };
+    harness::find_or_add(curves, same, &setting);
+  }
   return curves;
 }
 
@@ -83,13 +87,12 @@ PlotScript::Rows steps_of(const CostStudy& study, double right) {
   return rows;
 }
 
-void draw_curve(PlotScript& script, const CostStudy& study, const std::string& curve,
+/// @param first  of its settings
+void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& first,
                 std::size_t number, const Strip& strip) {
   PlotScript::Rows points, outside;
-  std::string title;
   for (const CostSetting& setting : study.settings) {
-    if (setting.curve != curve) continue;
-    title = setting.curve_title;
+    if (setting.curve != first.curve) continue;
     if (setting.without_result() && setting.relative && *setting.relative > 0)
       outside.push_back({strip.middle, *setting.relative});
     if (!is_drawn(study, setting)) continue;
@@ -104,7 +107,7 @@ void draw_curve(PlotScript& script, const CostStudy& study, const std::string& c
   script.curve(points, "using 1:2 with lines lw 1.2" + color);
   script.curve(points, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
   script.curve(outside, "using 1:2 with points lw 1.6 ps 1 pt 2" + color);
-  script.key_entry("with linespoints lw 1.2 ps 0.8 pt " + mark + color, title);
+  script.key_entry("with linespoints lw 1.2 ps 0.8 pt " + mark + color, first.curve_title);
 }
 
 Table table_of(const CostStudy& study) {
@@ -154,13 +157,11 @@ Figure cost_figure(const CostStudy& study) {
   script.axis_label("y", "time, relative to the baseline");
   script.curve(steps_of(study, high), "using 1:2 with lines lw 5" + lc(palette::kPlate),
                "efficient front");
-  const std::vector<std::string> curves = curves_of(study);
+  const std::vector<const CostSetting*> curves = curves_of(study);
   std::vector<std::string> keys = {"efficient front"};
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    draw_curve(script, study, curves[i], i, strip);
-    const auto first = std::ranges::find_if(
-        study.settings, [&](const CostSetting& s) { return s.curve == curves[i]; });
-    keys.push_back(first->curve_title);
+    draw_curve(script, study, *curves[i], i, strip);
+    keys.push_back(curves[i]->curve_title);
   }
   const int key_height = script.key_below(keys);
   script.plot();

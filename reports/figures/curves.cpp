@@ -188,8 +188,7 @@ std::string measured(const std::vector<Series>& series, const Scale& axis,
   if (series.size() <= 2)
     return "Largest magnitude: " + said(series.front()) +
            (series.size() == 2 ? ", " + said(series.back()) : "") + ".";
-  const auto [low, high] = std::ranges::minmax_element(
-      series, [](const Series& a, const Series& b) { return a.largest < b.largest; });
+  const auto [low, high] = std::ranges::minmax_element(series, {}, &Series::largest);
   return "Largest magnitude: from " + said(*low) + " to " + said(*high) + ".";
 }
 

@@ -93,8 +93,7 @@ std::vector<PlotScript::Rows> boxes(const Field& field) {
 /// Tics far enough apart for the width of a square plot: about four, at 1, 2 or 5 times a power of
 /// ten.
 double tic_step(const Field& field) {
-  const auto [low, high] = std::ranges::minmax_element(
-      field.cells, [](const Cell& a, const Cell& b) { return a.x < b.x; });
+  const auto [low, high] = std::ranges::minmax_element(field.cells, {}, &Cell::x);
   const double coarse = (high->x - low->x + field.dx) / 3;
   const double decade = std::pow(10.0, std::floor(std::log10(coarse)));
   for (const double step : {5.0, 2.0})

@@ -115,19 +115,18 @@ std::string status_text(const Run& run, Grade grade, const Check* here) {
 }
 
 Data cell(const Run* run, const Check* shown, bool nearest) {
-  Data data = object({{"there", run != nullptr}});
-  if (run == nullptr) return data;
+  if (run == nullptr) return object({{"there", false}});
   const Grade grade = grade_of(*run);
   const Check* here = shown == nullptr ? nullptr : find_check(*run, *shown);
   const bool not_computed = grade == Grade::cannot || grade == Grade::not_exported;
-  set(data, {{"status_class", mark(grade).first},
-             {"sign", mark(grade).second},
-             {"status_text", status_text(*run, grade, here)},
-             {"difference", here == nullptr ? "" : difference_text(*here)},
-             {"reason", is_failure(grade) || not_computed ? run->reason : std::string()},
-             {"time", not_computed ? "" : duration(run->cost.wall_s)},
-             {"nearest", nearest}});
-  return data;
+  return object({{"there", true},
+                 {"status_class", mark(grade).first},
+                 {"sign", mark(grade).second},
+                 {"status_text", status_text(*run, grade, here)},
+                 {"difference", here == nullptr ? "" : difference_text(*here)},
+                 {"reason", is_failure(grade) || not_computed ? run->reason : std::string()},
+                 {"time", not_computed ? "" : duration(run->cost.wall_s)},
+                 {"nearest", nearest}});
 }
 
 /// The codes whose numbers lie nearest to the expected one; none where all are as near.

@@ -1,6 +1,7 @@
 #include "reports/sections/cost.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "harness/base/find_or_add.h"
 #include "reports/data/work_counters_text.h"
@@ -40,8 +41,7 @@ std::vector<CaseCost> costs(const std::vector<Family>& families) {
       out.push_back(std::move(cost));
     }
   }
-  std::ranges::stable_sort(
-      out, [](const CaseCost& a, const CaseCost& b) { return a.wall_s > b.wall_s; });
+  std::ranges::stable_sort(out, std::ranges::greater(), &CaseCost::wall_s);
   return out;
 }
 
@@ -80,8 +80,7 @@ std::string within(double error) {
 }
 
 Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
-  Data row = object({{"within", within(cheapest.error)}, {"found", cheapest.setting.has_value()}});
-  if (!cheapest.setting) return row;
+  if (!cheapest.setting) return object({{"within", within(cheapest.error)}, {"found", false}});
   const CostSetting& setting = study.settings[*cheapest.setting];
   const Number error_of = study.error(setting);
   std::string settings = setting.title;
@@ -90,12 +89,13 @@ Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
     settings += " or " + study.settings[cheapest.tied[i]].title;
   if (cheapest.tied.size() > named)
     settings += " or one of " + std::to_string(cheapest.tied.size() - named) + " more";
-  set(row, {{"setting", settings},
-            {"error", error_of ? relative(*error_of, 2, false) : "–"},
-            {"times", times(setting.relative)},
-            {"cpu", duration(setting.cpu_s)},
-            {"work", work_counters_text(setting.counters)}});
-  return row;
+  return object({{"within", within(cheapest.error)},
+                 {"found", true},
+                 {"setting", settings},
+                 {"error", error_of ? relative(*error_of, 2, false) : "–"},
+                 {"times", times(setting.relative)},
+                 {"cpu", duration(setting.cpu_s)},
+                 {"work", work_counters_text(setting.counters)}});
 }
 
 std::string status_text(const CostSetting& setting) {
