@@ -22,6 +22,7 @@ const std::vector<std::pair<std::string, std::string>>& units() {
       {"_Hz_per_Pa", "Hz/Pa"},
       {"_Hz_per_m", "Hz/m"},
       {"_percent", "%"},
+      {"_deg", "deg"},
       {"_m_per_s", "m/s"},
       {"_kg_m2", "kg m^2"},
       {"_kg_m3", "kg/m^3"},
@@ -47,15 +48,16 @@ const std::vector<std::pair<std::string, std::string>>& units() {
 
 }  // namespace
 
-std::string unit_of(const std::string& name) {
+NameAndUnit split_unit(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
-  for (const auto& [suffix, unit] : units()) {
-    if (head.size() > suffix.size() &&
-        head.compare(head.size() - suffix.size(), suffix.size(), suffix) == 0) {
-      return unit;
-    }
-  }
-  return "1";
+  for (const auto& [suffix, unit] : units())
+    if (head.size() > suffix.size() && head.ends_with(suffix))
+      return {head.substr(0, head.size() - suffix.size()), unit};
+  return {head, "1"};
+}
+
+std::string unit_of(const std::string& name) {
+  return split_unit(name).unit;
 }
 
 bool is_count(const std::string& name) {

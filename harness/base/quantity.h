@@ -16,6 +16,13 @@ struct Quantity {
 
 using Quantities = std::map<std::string, Quantity>;
 
+/// A quantity's name without what it belongs to, and its unit apart: "reaction_moment_N_m:A1" is
+/// "reaction_moment" in "N m". What has no unit is in "1".
+struct NameAndUnit {
+  std::string name, unit;
+};
+[[nodiscard]] NameAndUnit split_unit(const std::string& name);
+
 /// The unit in a quantity's name, as references write it: "frequency_Hz" -> "Hz",
 /// "reaction_moment_N_m:A1" -> "N m", "parallel_singularity_distance" -> "1".
 [[nodiscard]] std::string unit_of(const std::string& name);

@@ -5,51 +5,33 @@
 #include <limits>
 #include <stdexcept>
 
+#include "harness/base/find_or_add.h"
+
 namespace trammel::reports {
 
 namespace {
 
-struct StatusText {
+struct StatusStyle {
   CheckStatus status;
   const char *words, *css, *sign;
+  int severity;
 };
 
-constexpr std::array<StatusText, 7> kStatusTexts = {{
-    {CheckStatus::passes, "passes", "passes", "✓"},
-    {CheckStatus::known_discrepancy, "does not agree (known)", "known-discrepancy", "≠"},
-    {CheckStatus::not_judged, "not judged", "not-judged", "○"},
-    {CheckStatus::fails, "fails", "fails", "✗"},
-    {CheckStatus::error, "error", "error", "!"},
-    {CheckStatus::not_run, "not run", "not-run", "–"},
-    {CheckStatus::not_given, "not given", "not-run", "·"},
+constexpr std::array<StatusStyle, 7> kStatusStyles = {{
+    {CheckStatus::passes, "passes", "passes", "✓", 0},
+    {CheckStatus::known_discrepancy, "does not agree (known)", "known-discrepancy", "≠", 1},
+    {CheckStatus::not_judged, "not judged", "not-judged", "○", 2},
+    {CheckStatus::fails, "fails", "fails", "✗", 4},
+    {CheckStatus::error, "error", "error", "!", 5},
+    {CheckStatus::not_run, "not run", "not-run", "–", 3},
+    {CheckStatus::not_given, "not given", "not-run", "·", 3},
 }};
 
-const StatusText& text_of(CheckStatus status) {
-  for (const StatusText& name : kStatusTexts)
-    if (name.status == status) return name;
-  throw std::logic_error("unknown status");
+const StatusStyle& style_of(CheckStatus status) {
+  return *std::ranges::find(kStatusStyles, status, &StatusStyle::status);
 }
 
 }  // namespace
-
-int severity(CheckStatus status) {
-  switch (status) {
-    case CheckStatus::error:
-      return 5;
-    case CheckStatus::fails:
-      return 4;
-    case CheckStatus::not_run:
-    case CheckStatus::not_given:
-      return 3;
-    case CheckStatus::not_judged:
-      return 2;
-    case CheckStatus::known_discrepancy:
-      return 1;
-    case CheckStatus::passes:
-      return 0;
-  }
-  return 0;
-}
 
 CheckStatus check_status(const Check& check) {
   switch (check.verdict) {
@@ -70,9 +52,9 @@ CheckStatus check_status(const Check& check) {
 }
 
 CheckStatus check_status(const Run& run) {
-  const bool expected =
-      !run.checks.empty() && std::all_of(run.checks.begin(), run.checks.end(),
-                                         [](const Check& c) { return c.verdict == Verdict::pass; });
+  const bool expected = !run.checks.empty() && std::ranges::all_of(run.checks, [](const Check& c) {
+    return c.verdict == Verdict::pass;
+  });
   switch (run.status) {
     case Status::solved:
       return CheckStatus::passes;
@@ -93,13 +75,16 @@ CheckStatus check_status(const Run& run) {
 }
 
 std::string to_text(CheckStatus status) {
-  return text_of(status).words;
+  return style_of(status).words;
 }
 std::string css_class(CheckStatus status) {
-  return text_of(status).css;
+  return style_of(status).css;
 }
 std::string sign(CheckStatus status) {
-  return text_of(status).sign;
+  return style_of(status).sign;
+}
+int severity(CheckStatus status) {
+  return style_of(status).severity;
 }
 
 double tolerance_fraction(const Check& check) {
@@ -125,18 +110,17 @@ bool worse(const Check& a, const Check& b) {
 }
 
 const Check& CheckGroup::worst() const {
-  return **std::min_element(checks.begin(), checks.end(),
-                            [](const Check* a, const Check* b) { return worse(*a, *b); });
+  return **std::ranges::min_element(checks,
+                                    [](const Check* a, const Check* b) { return worse(*a, *b); });
 }
 
 std::vector<CheckGroup> group_checks(const Run& run) {
   std::vector<CheckGroup> groups;
   for (const Check& check : run.checks) {
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const CheckGroup& known) {
+    const auto same = [&](const CheckGroup& known) {
       return known.front().name == check.name && known.front().quantity == check.quantity;
-    });
-    if (group == groups.end()) group = groups.insert(groups.end(), CheckGroup{&run, {}});
-    group->checks.push_back(&check);
+    };
+    harness::find_or_add(groups, same, CheckGroup{&run, {}}).checks.push_back(&check);
   }
   return groups;
 }

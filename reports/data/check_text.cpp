@@ -7,6 +7,7 @@
 
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -34,12 +35,10 @@ int digits_for(const Check& check) {
 
 /// The part of an order check that judges the extrapolated value.
 bool is_extrapolated(const Check& check) {
-  const std::string end = ".richardson";
-  return check.name.size() > end.size() &&
-         check.name.compare(check.name.size() - end.size(), end.size(), end) == 0;
+  return check.name.ends_with(".richardson");
 }
 
-std::string statistic_text(std::string statistic) {
+std::string statistic_text(const std::string& statistic) {
   constexpr std::array<std::pair<const char*, const char*>, 4> words = {{
       {"max_abs", "largest magnitude"},
       {"max", "largest"},
@@ -48,8 +47,7 @@ std::string statistic_text(std::string statistic) {
   }};
   for (const auto& [key, text_of_key] : words)
     if (statistic == key) return text_of_key;
-  std::replace(statistic.begin(), statistic.end(), '_', ' ');
-  return statistic;
+  return spaced(statistic);
 }
 
 /// As many as show how far from 1 it is.
@@ -148,15 +146,15 @@ std::string quantity_text(const Check& check) {
 std::string entry_text(const Check& check, std::size_t entries) {
   if (!check.index) return "";
   const std::string number = std::to_string(*check.index + 1);
-  if (check.quantity.rfind("frequency", 0) == 0) return "mode " + number;
+  if (check.quantity.starts_with("frequency")) return "mode " + number;
   if (entries > 20 || *check.index > 20) return "point " + number;
   return entries > 1 || *check.index > 0 ? number : "";
 }
 
 std::string failure_text(const CheckGroup& group) {
   const Check& worst = group.worst();
-  const auto bad = static_cast<std::size_t>(
-      std::count_if(group.checks.begin(), group.checks.end(), [](const Check* check) {
+  const auto bad =
+      static_cast<std::size_t>(std::ranges::count_if(group.checks, [](const Check* check) {
         return check->verdict == Verdict::fail || check->verdict == Verdict::error;
       }));
   std::string text;

@@ -8,24 +8,14 @@ namespace trammel::reports {
 
 namespace {
 
-Data cell(const std::string& text) {
-  Data data = object();
-  data.set("value", text);
-  return data;
+Data row_of(const std::string& title, const std::string& probability, const Numbers& values) {
+  const auto cell = [](const Number& value) {
+    return object({{"value", value ? significant(*value, 5) : ""}});
+  };
+  return object({{"title", title}, {"probability", probability}, {"cells", list_of(values, cell)}});
 }
 
-Data row_of(const std::string& title, const std::string& probability,
-            const results::Numbers& values) {
-  Data row = object(), cells = list();
-  row.set("title", title);
-  row.set("probability", probability);
-  for (const results::Number& value : values)
-    cells.push_back(cell(value ? significant(*value, 5) : ""));
-  row.set("cells", cells);
-  return row;
-}
-
-std::string caption_of(const results::RowProbabilities& row) {
+std::string caption_of(const RowProbabilities& row) {
   std::string text = count(static_cast<std::size_t>(row.readings), "reading") + " in " +
                      count(static_cast<std::size_t>(row.classes), "class", "classes") +
                      " that the row could tell apart; 95\u202f% of the probability lie in " +
@@ -34,45 +24,45 @@ std::string caption_of(const results::RowProbabilities& row) {
                      trimmed(row.entropy_bits.value_or(0), 3) + " bits.";
   if (row.further_numbers.empty()) return text;
   text += " One further number would lower it by:";
-  for (const results::FurtherNumber& further : row.further_numbers)
+  for (const FurtherNumber& further : row.further_numbers)
     text += (&further == &row.further_numbers.front() ? " " : ", ") + further.name + " " +
             trimmed(further.expected_information_bits.value_or(0), 2);
   return text + " bits.";
 }
 
-Data table_of(const results::RowProbabilities& row, const std::string& variant) {
-  Data table = object(), rows = list();
-  table.set("title", "Row " + row.row + " under a discrepancy of " +
-                         relative(row.discrepancy.value_or(0), 2, false) +
-                         (variant == "base" ? "" : ", variant " + variant));
+Data table_of(const RowProbabilities& row, const std::string& variant) {
+  Data rows = list();
   rows.push_back(row_of("as printed [" + row.unit + "]", "", row.printed));
-  for (const results::ReadingClass& some : row.leading) {
+  for (const ReadingClass& some : row.leading) {
     const auto others = static_cast<std::size_t>(some.readings - 1);
     rows.push_back(row_of(
         some.title + (others == 0 ? "" : " (and " + count(others, "other") + " within the noise)"),
         relative(some.probability.value_or(0), 3, false), some.values));
   }
-  table.set("rows", rows);
-  table.set("caption", caption_of(row));
-  return table;
+  return object({{"title", "Row " + row.row + " under a discrepancy of " +
+                               relative(row.discrepancy.value_or(0), 2, false) +
+                               (variant == "base" ? "" : ", variant " + variant)},
+                 {"rows", rows},
+                 {"caption", caption_of(row)}});
 }
 
 }  // namespace
 
 void set_model_probabilities(Data& data, const std::vector<const Run*>& runs) {
-  Data tables = list(), excluded = list();
+  Data tables = list();
+  std::vector<std::string> excluded;
   for (const Run* run : runs) {
     if (!run->model_probabilities) continue;
-    for (const results::RowProbabilities& row : run->model_probabilities->rows)
+    for (const RowProbabilities& row : run->model_probabilities->rows)
       tables.push_back(table_of(row, run->variant));
-    for (const results::ExcludedReadings& some : run->model_probabilities->excluded)
-      excluded.push_back(cell(count(static_cast<std::size_t>(some.readings), "combination") +
-                              ", as " + some.first + ": " + some.reason));
+    for (const ExcludedReadings& some : run->model_probabilities->excluded)
+      excluded.push_back(count(static_cast<std::size_t>(some.readings), "combination") + ", as " +
+                         some.first + ": " + some.reason);
   }
-  set_flag(data, "has_model_probabilities", tables.is_non_empty_list());
-  data.set("model_probabilities", tables);
-  set_flag(data, "has_excluded_readings", excluded.is_non_empty_list());
-  data.set("excluded_readings", excluded);
+  set(data, {{"has_model_probabilities", tables.is_non_empty_list()},
+             {"model_probabilities", tables},
+             {"has_excluded_readings", !excluded.empty()},
+             {"excluded_readings", texts(excluded, "value")}});
 }
 
 }  // namespace trammel::reports

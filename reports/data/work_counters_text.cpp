@@ -1,6 +1,6 @@
 #include "reports/data/work_counters_text.h"
 
-#include <algorithm>
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -23,9 +23,7 @@ std::string work_counters_text(const Counters& counters) {
   std::string text;
   for (const auto& [name, n] : counters) {
     if (n == 0 && name == "steps") continue;  // most computations have none
-    std::string words = name;
-    std::replace(words.begin(), words.end(), '_', ' ');
-    text += (text.empty() ? "" : ", ") + grouped(n) + " " + words;
+    add_item(text, grouped(n) + " " + spaced(name));
   }
   return text;
 }

@@ -17,10 +17,10 @@ struct Figure {
   int width = 500, height = 360;  ///< of the drawing; on the page it scales with its column
   std::string commands;           ///< gnuplot commands of a PlotScript
   Table data;
-  std::string moving;      ///< JSON of modes or moments that a page's script moves; or empty
-  bool is_linked = false;  ///< its page loads the drawing from its file when it comes into view
-  int number = 0;          ///< on its page, from 1
-  std::string svg;  ///< the drawing, once drawn: an element for inlining, with ids of its own
+  std::string moving = {};  ///< JSON of modes or moments that a page's script moves; or empty
+  bool is_linked = false;   ///< its page loads the drawing from its file when it comes into view
+  int number = 0;           ///< on its page, from 1
+  std::string svg = {};  ///< the drawing, once drawn: an element for inlining, with ids of its own
 };
 
 /// Lower-case letters, digits and single hyphens, at most 100; with a hash at the end where that is

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -73,7 +74,7 @@ std::string tic(const std::string& text, double at) {
 }
 
 std::size_t characters(const std::string& utf8) {
-  return static_cast<std::size_t>(std::count_if(utf8.begin(), utf8.end(), starts_character));
+  return static_cast<std::size_t>(std::ranges::count_if(utf8, starts_character));
 }
 
 std::string shortened(const std::string& text, std::size_t max_characters) {
@@ -133,17 +134,18 @@ void PlotScript::axis_label(const std::string& axis, const std::string& text) {
   command("set " + axis + "label " + gnuplot_string(text));
 }
 
-void PlotScript::log_axis(const std::string& axis, double low, double high, int max_labels) {
+void PlotScript::log_axis(const std::string& axis, double low, double high) {
+  constexpr int kMaxLabels = 7;
   const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
   const int last = static_cast<int>(std::ceil(std::log10(high) - 1e-9));
   int step = 1;
-  while ((last - first) / step + 1 > max_labels) ++step;
+  while ((last - first) / step + 1 > kMaxLabels) ++step;
   command("set logscale " + axis);
   range(axis, std::pow(10.0, first), std::pow(10.0, last));
   std::string tics;
   for (int exponent = first; exponent <= last; ++exponent)
     if ((last - exponent) % step == 0)
-      tics += (tics.empty() ? "" : ", ") + tic(power_of_ten(exponent), std::pow(10.0, exponent));
+      add_item(tics, tic(power_of_ten(exponent), std::pow(10.0, exponent)));
   command("set " + axis + "tics (" + tics + ")");
 }
 

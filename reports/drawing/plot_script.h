@@ -54,7 +54,7 @@ class PlotScript {
   void axis_label(const std::string& axis, const std::string& text);
 
   /// A logarithmic axis over whole decades, labelled 10⁻⁶ 10⁻⁴ ...
-  void log_axis(const std::string& axis, double low, double high, int max_labels = 7);
+  void log_axis(const std::string& axis, double low, double high);
 
   [[nodiscard]] const std::string& commands() const { return commands_; }
 

@@ -1,7 +1,9 @@
 #include "reports/drawing/svg.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <kainjow/mustache.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -90,7 +92,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 bool opens_group(const std::string& line) {
-  return line.rfind("<g", 0) == 0 && line.find('>') == line.size() - 1;
+  return line.starts_with("<g") && line.find('>') == line.size() - 1;
 }
 
 /// Groups that hold nothing go, and with them those that then hold nothing.
@@ -117,7 +119,7 @@ std::string symbols(const std::string& definitions, const std::string& body) {
     grown = false;
     for (const std::string& line : lines) {
       const std::size_t at = line.find("id='");
-      if (at == std::string::npos || line.rfind("<filter", 0) == 0) continue;
+      if (at == std::string::npos || line.starts_with("<filter")) continue;
       const std::string id = line.substr(at + 4, line.find('\'', at + 4) - at - 4);
       if (seen.find("#" + id + "'") == std::string::npos || !used.insert(line).second) continue;
       seen += line;
@@ -165,30 +167,12 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
          xml_escaped(title + ". " + description) + "\">\n" + body + "</svg>\n";
 }
 
-std::string xml_escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&apos;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-    }
-  }
-  return out;
+std::string xml_escaped(std::string text) {
+  const auto is_unfit = [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t';
+  };
+  std::ranges::replace_if(text, is_unfit, ' ');
+  return kainjow::mustache::html_escape(text);
 }
 
 }  // namespace trammel::reports

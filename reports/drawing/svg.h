@@ -11,6 +11,6 @@ namespace trammel::reports {
                                    const std::string& title, const std::string& description);
 
 /// & < > " ' as entities; other control characters, which XML cannot hold, as spaces.
-[[nodiscard]] std::string xml_escaped(const std::string& text);
+[[nodiscard]] std::string xml_escaped(std::string text);
 
 }  // namespace trammel::reports

@@ -6,11 +6,14 @@
 #include <map>
 #include <set>
 
+#include "harness/base/find_or_add.h"
+#include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -23,7 +26,7 @@ using Sweeps = std::vector<const Convergence*>;
 /// Relative errors: as given, else the distance from the extrapolated value.
 Numbers errors_of(const Convergence& c) {
   Numbers errors = c.error;
-  const bool given = std::any_of(errors.begin(), errors.end(), [](const Number& e) { return e; });
+  const bool given = std::ranges::any_of(errors, &Number::has_value);
   if (given || !c.richardson || *c.richardson == 0) return errors;
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (c.values[i]) errors[i] = std::abs(*c.values[i] / *c.richardson - 1);
@@ -33,14 +36,6 @@ Numbers errors_of(const Convergence& c) {
 double drawn_error(double error) {
   return std::max(std::abs(error), kSmallestDrawnError);
 }
-
-struct Extent {
-  double low = 1, high = 1e-16;
-  void cover(double y) {
-    low = std::min(low, y);
-    high = std::max(high, y);
-  }
-};
 
 /// Largest estimate of round-off at each level over all indices.
 PlotScript::Rows floor_of(const Sweeps& sweeps) {
@@ -56,7 +51,7 @@ PlotScript::Rows floor_of(const Sweeps& sweeps) {
 
 /// "mode 3: 3.99"; "index" where the quantity has no better word.
 std::string entry_name(const Convergence& c) {
-  const std::string word = c.quantity.rfind("frequency", 0) == 0 ? "mode " : "entry ";
+  const std::string word = c.quantity.starts_with("frequency") ? "mode " : "entry ";
   return word + std::to_string(c.index + 1);
 }
 
@@ -68,7 +63,7 @@ std::string series_title(const Convergence& c, bool alone) {
 }
 
 void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool alone,
-                 Extent& extent) {
+                 Interval& extent) {
   const Numbers errors = errors_of(c);
   PlotScript::Rows line, inside;
   for (std::size_t k = 0; k < errors.size(); ++k) {
@@ -79,8 +74,7 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
     if (c.in_asymptotic_range[k]) inside.push_back(line.back());
   }
   const std::string color = lc(palette::color(i));
-  const std::string style = std::to_string(palette::kOpenPoint[i % palette::kOpenPoint.size()]);
-  const std::string solid = std::to_string(palette::kFilledPoint[i % palette::kFilledPoint.size()]);
+  const std::string style = palette::open_point(i), solid = palette::filled_point(i);
   script.curve(line, "with linespoints lw 1.4 ps 0.8 pt " + style + color);
   script.curve(inside, "with points ps 0.8 pt " + solid + color);
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
@@ -102,7 +96,7 @@ std::map<double, double> lowest_errors(const Sweeps& sweeps) {
 }
 
 /// A triangle below the lowest curve between two neighbouring levels, its slope the theory's.
-void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Extent& extent) {
+void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
   if (theory <= 0) return;
   const std::map<double, double> lowest = lowest_errors(sweeps);
   // Where the lowest curve falls most steeply there is room beside it.
@@ -129,13 +123,6 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Extent&
                                        " front textcolor rgb '" + palette::kInk + "'");
 }
 
-/// "3.98 to 4.01", "4.00".
-std::string span(double low, double high) {
-  const std::string a = significant(low, 3);
-  const std::string b = significant(high, 3);
-  return a == b ? a : a + " to " + b;
-}
-
 /// "a h^4 + b h^1.35": the two orders that mix by theory.
 std::string law_of(const Convergence& c) {
   return "a h^" + trimmed(*c.theory_order, 3) + " + b h^" + trimmed(*c.lower_order, 3);
@@ -160,26 +147,24 @@ std::string conclusion_of_two(const Sweeps& sweeps) {
 }
 
 bool any_asymptotic(const Sweeps& sweeps) {
-  return std::any_of(sweeps.begin(), sweeps.end(), [](const Convergence* c) {
+  return std::ranges::any_of(sweeps, [](const Convergence* c) {
     const auto& inside = c->in_asymptotic_range;
-    return std::find(inside.begin(), inside.end(), true) != inside.end();
+    return std::ranges::find(inside, true) != inside.end();
   });
 }
 
 std::string conclusion(const Sweeps& sweeps) {
   if (sweeps.front()->lower_order && sweeps.front()->theory_order) return conclusion_of_two(sweeps);
-  double low = 1e300, high = -1e300;
+  Interval orders;
   std::string off;
   std::size_t fitted = 0;
   const Number theory = sweeps.front()->theory_order;
   for (const Convergence* c : sweeps) {
     if (!c->fitted_order) continue;
     ++fitted;
-    low = std::min(low, *c->fitted_order);
-    high = std::max(high, *c->fitted_order);
+    orders.cover(c->fitted_order);
     if (theory && std::abs(*c->fitted_order - *theory) > 0.1)
-      off += (off.empty() ? "" : ", ") + entry_name(*c) + " (" + significant(*c->fitted_order, 3) +
-             ")";
+      add_item(off, entry_name(*c) + " (" + significant(*c->fitted_order, 3) + ")");
   }
   const std::string against = theory ? "; theory: " + trimmed(*theory, 3) : "";
   std::string text;
@@ -188,11 +173,12 @@ std::string conclusion(const Sweeps& sweeps) {
            (any_asymptotic(sweeps) ? "too few levels lie" : "no level lies") +
            " in the asymptotic range";
   } else {
-    text = sweeps.size() == 1 ? "The error falls with order " + span(low, high)
+    text = sweeps.size() == 1 ? "The error falls"
            : fitted == sweeps.size()
-               ? "All " + std::to_string(fitted) + " fall with order " + span(low, high)
+               ? "All " + std::to_string(fitted) + " fall"
                : std::to_string(fitted) + " of " + std::to_string(sweeps.size()) +
-                     " have levels in the asymptotic range and fall with order " + span(low, high);
+                     " have levels in the asymptotic range and fall";
+    text += " with order " + low_to_high(significant(orders.low, 3), significant(orders.high, 3));
   }
   text += against + ".";
   if (!off.empty()) {
@@ -241,7 +227,7 @@ void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
   const std::size_t step = (levels.size() + 8) / 9;
   std::size_t i = 0;
   for (const double level : levels)
-    if (i++ % step == 0) tics += (tics.empty() ? "" : ", ") + tic(trimmed(level, 3), level);
+    if (i++ % step == 0) add_item(tics, tic(trimmed(level, 3), level));
   script.command("set xtics (" + tics + ")");
   const QuantityLabel parameter = parse_quantity(sweeps.front()->sweep);
   script.axis_label("x", axis_label(parameter.label, parameter.unit));
@@ -249,14 +235,13 @@ void parameter_axis(PlotScript& script, const Sweeps& sweeps) {
 
 Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
-  const bool exact =
-      std::any_of(first.error.begin(), first.error.end(), [](const Number& e) { return e; });
+  const bool exact = std::ranges::any_of(first.error, &Number::has_value);
   PlotScript script;
   parameter_axis(script, sweeps);
   const std::string words = to_text(parse_quantity(first.quantity));
   script.axis_label(
       "y", exact ? "relative error of " + words : "distance of " + words + " from extrapolated");
-  Extent extent;
+  Interval extent{1, 1e-16};
   std::vector<std::string> titles = {"round-off"};
   for (const Convergence* c : sweeps) titles.push_back(series_title(*c, sweeps.size() == 1));
   const int key_height = script.key_below(titles);
@@ -269,46 +254,38 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   script.log_axis("y", extent.low, extent.high);
   script.plot();
 
-  Figure figure;
-  figure.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity);
-  figure.title =
-      titled("Convergence of " + words + " over " + parse_quantity(first.sweep).label, info, run);
-  figure.caption = conclusion(sweeps) + legend_sentence(sweeps);
-  if (!exact)
-    figure.caption +=
-        " No exact value is at hand: errors are distances from the "
-        "Richardson-extrapolated value.";
-  figure.alt = "Error against " + parse_quantity(first.sweep).label + " on logarithmic axes. " +
-               conclusion(sweeps);
-  figure.height = 360 + key_height;
-  figure.commands = script.commands();
-  figure.data = table_of(sweeps);
-  return figure;
+  const std::string parameter = parse_quantity(first.sweep).label, result = conclusion(sweeps);
+  return {.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity),
+          .title = titled("Convergence of " + words + " over " + parameter, info, run),
+          .caption = result + legend_sentence(sweeps) +
+                     (exact ? ""
+                            : " No exact value is at hand: errors are distances from the "
+                              "Richardson-extrapolated value."),
+          .alt = "Error against " + parameter + " on logarithmic axes. " + result,
+          .height = 360 + key_height,
+          .commands = script.commands(),
+          .data = table_of(sweeps)};
 }
 
 }  // namespace
 
 std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
-  std::vector<std::pair<std::string, Sweeps>> groups;
+  std::vector<Sweeps> groups;
   for (const Convergence& c : run.convergence) {
     if (c.parameter.empty()) continue;
     // A count that is right on every mesh has nothing to show.
     const Numbers errors = errors_of(c);
     const auto nonzero =
-        std::count_if(errors.begin(), errors.end(), [](const Number& e) { return e && *e != 0; });
+        std::ranges::count_if(errors, [](const Number& e) { return e && *e != 0; });
     if (nonzero < 2) continue;
-    const std::string key = c.sweep + "\n" + c.quantity;
-    const auto same = std::find_if(groups.begin(), groups.end(),
-                                   [&](const auto& group) { return group.first == key; });
-    if (same == groups.end()) {
-      groups.push_back({key, {&c}});
-    } else {
-      same->second.push_back(&c);
-    }
+    const auto same = [&](const Sweeps& known) {
+      return known.front()->sweep == c.sweep && known.front()->quantity == c.quantity;
+    };
+    harness::find_or_add(groups, same, Sweeps{}).push_back(&c);
   }
   std::vector<Figure> figures;
   figures.reserve(groups.size());
-  for (const auto& [_, sweeps] : groups) figures.push_back(figure_of(info, run, sweeps));
+  for (const Sweeps& sweeps : groups) figures.push_back(figure_of(info, run, sweeps));
   return figures;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/text/number.h"
@@ -69,15 +70,9 @@ PlotScript::Rows curve_rows(const Numbers* x, const Numbers& y, std::pair<double
   return thinned(rows);
 }
 
-const Run* run_of(const std::vector<const Run*>& runs, const std::string& variant) {
-  for (const Run* run : runs)
-    if (run->variant == variant) return run;
-  return nullptr;
-}
-
 /// Whether a run has one of the quantities at least.
 bool has_any(const Run& run, const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+  return std::ranges::any_of(names, [&](const std::string& name) {
     const Numbers* values = run.quantity(name);
     return values && !values->empty();
   });
@@ -93,7 +88,7 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
     const std::size_t before = series.size();
     for (std::size_t iv = 0; iv < variants.size(); ++iv) {
       const std::string& variant = variants[iv];
-      const Run* run = run_of(runs, variant);
+      const Run* run = find_run(runs, variant);
       const Numbers* values = run ? run->quantity(y) : nullptr;
       const Numbers* x = run ? run->quantity(request.x) : nullptr;
       if (!run) {
@@ -128,9 +123,8 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
 /// A quantity among those of a plot: what tells them apart.
 std::string own_words(const std::string& name, const PlotRequest& request) {
   const QuantityLabel quantity = parse_quantity(name);
-  const bool one_label = std::all_of(request.y.begin(), request.y.end(), [&](const auto& y) {
-    return parse_quantity(y).label == quantity.label;
-  });
+  const bool one_label = std::ranges::all_of(
+      request.y, [&](const auto& y) { return parse_quantity(y).label == quantity.label; });
   return one_label && !quantity.subject.empty() ? quantity.subject : to_text(quantity);
 }
 
@@ -166,33 +160,26 @@ std::string common_words(const std::vector<std::string>& names) {
 }
 
 void x_range(PlotScript& script, const Numbers& values, double factor) {
-  double low = 1e300, high = -1e300;
-  for (const Number& value : values) {
-    if (!value) continue;
-    low = std::min(low, factor * *value);
-    high = std::max(high, factor * *value);
-  }
-  if (low < high) script.range("x", low, high);
+  Interval x;
+  for (const Number& value : values)
+    if (value) x.cover(factor * *value);
+  if (x.length() > 0) script.range("x", x.low, x.high);
 }
 
 void log_range(PlotScript& script, const std::string& axis,
                const std::vector<const Numbers*>& curves) {
-  double low = 1e300, high = 0;
-  for (const Numbers* values : curves) {
-    for (const Number& value : *values) {
-      if (!value || *value == 0) continue;
-      low = std::min(low, std::abs(*value));
-      high = std::max(high, std::abs(*value));
-    }
-  }
-  if (high > 0) script.log_axis(axis, low, high > low ? high : 10 * high);
+  Interval shown_values;
+  for (const Numbers* values : curves)
+    for (const Number& value : *values) shown_values.cover(shown(value, true));
+  const auto [low, high] = shown_values;
+  if (low <= high) script.log_axis(axis, low, high > low ? high : 10 * high);
 }
 
 /// "Largest magnitude: 8.13 mm (base), 8.10 mm (rigid platform)."; of more than two curves the
 /// smallest and the largest. The power of ten of an axis is no unit of a number in a text.
 std::string measured(const std::vector<Series>& series, const Scale& axis,
                      const std::string& unit) {
-  const Scale scale = axis.unit.rfind("10", 0) == 0 ? Scale{1, unit} : axis;
+  const Scale scale = axis.unit.starts_with("10") ? Scale{1, unit} : axis;
   const auto said = [&](const Series& s) {
     std::string text = trimmed(scale.factor * s.largest, 3);
     if (!scale.unit.empty()) text += "\u202f" + scale.unit;
@@ -201,16 +188,14 @@ std::string measured(const std::vector<Series>& series, const Scale& axis,
   if (series.size() <= 2)
     return "Largest magnitude: " + said(series.front()) +
            (series.size() == 2 ? ", " + said(series.back()) : "") + ".";
-  const auto [low, high] =
-      std::minmax_element(series.begin(), series.end(),
-                          [](const Series& a, const Series& b) { return a.largest < b.largest; });
+  const auto [low, high] = std::ranges::minmax_element(series, {}, &Series::largest);
   return "Largest magnitude: from " + said(*low) + " to " + said(*high) + ".";
 }
 
 Table table_of(const std::vector<Series>& series, const std::vector<const Run*>& runs,
                const PlotRequest& request) {
   Table table;
-  const Numbers* x = run_of(runs, series.front().variant)->quantity(request.x);
+  const Numbers* x = find_run(runs, series.front().variant)->quantity(request.x);
   table.heads = {request.x.empty() ? "index" : request.x};
   std::size_t n = 0;
   for (const Series& s : series) {
@@ -247,7 +232,7 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
       entries.emplace_back(line + dashed(i) + lc(palette::kMuted), info.variant_title(variants[i]));
   }
   for (const Series& s : series) {
-    const Numbers* at = run_of(runs, s.variant)->quantity(request.x);
+    const Numbers* at = find_run(runs, s.variant)->quantity(request.x);
     const auto rows = curve_rows(at, *s.values, factors, request);
     const std::string style = dashed(s.dash) + lc(palette::color(s.color));
     const std::string marks = rows.size() <= 40 ? "linespoints pt 7 ps 0.6" : "lines";
@@ -264,6 +249,11 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
 
 }  // namespace
 
+const Run* find_run(const std::vector<const Run*>& runs, const std::string& variant) {
+  const auto found = std::ranges::find(runs, variant, &Run::variant);
+  return found == runs.end() ? nullptr : *found;
+}
+
 std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& request,
                                     const std::vector<const Run*>& runs, std::string& problem) {
   std::vector<std::string> variants = request.variants;
@@ -277,7 +267,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   const QuantityLabel x = parse_quantity(request.x);
   double largest = 0;
   for (const Series& s : series) largest = std::max(largest, s.largest);
-  const Numbers* x_values = run_of(runs, series.front().variant)->quantity(request.x);
+  const Numbers* x_values = find_run(runs, series.front().variant)->quantity(request.x);
   const Scale y_scale = request.is_log("y") ? Scale{1, y.unit} : readable_scale(y.unit, largest);
   const Scale x_scale = x.unit == "s" || !x_values || request.is_log("x")
                             ? Scale{1, x.unit}
@@ -302,17 +292,15 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
       draw_series(script, series, info, request, variants, {x_scale.factor, y_scale.factor}, runs);
   script.plot();
 
-  Figure figure;
-  figure.id = slug(info.id + "-" + request.id);
-  figure.title = request.title;
-  figure.caption =
-      request.caption + (request.caption.empty() ? "" : " ") + measured(series, y_scale, y.unit);
-  figure.alt = "Curves of " + words + " over " + (request.x.empty() ? "number" : to_text(x)) +
-               ". " + measured(series, y_scale, y.unit);
-  figure.height = 345 + key_height;
-  figure.commands = script.commands();
-  figure.data = table_of(series, runs, request);
-  return figure;
+  const std::string largest_text = measured(series, y_scale, y.unit);
+  return Figure{.id = slug(info.id + "-" + request.id),
+                .title = request.title,
+                .caption = request.caption + (request.caption.empty() ? "" : " ") + largest_text,
+                .alt = "Curves of " + words + " over " +
+                       (request.x.empty() ? "number" : to_text(x)) + ". " + largest_text,
+                .height = 345 + key_height,
+                .commands = script.commands(),
+                .data = table_of(series, runs, request)};
 }
 
 }  // namespace trammel::reports

@@ -1,12 +1,14 @@
 #include "reports/figures/discrepancy.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "harness/base/find_or_add.h"
 #include "reports/data/check_status.h"
+#include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/figures/strip.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -25,16 +27,14 @@ std::vector<DiscrepancySubject> subjects(const std::vector<const Run*>& runs) {
   for (const Run* run : runs) {
     for (CheckGroup& group : group_checks(*run)) {
       const Check& check = group.front();
-      const bool expected =
-          std::any_of(group.checks.begin(), group.checks.end(),
-                      [](const Check* entry) { return entry->known_discrepancy(); });
+      const bool expected = std::ranges::any_of(
+          group.checks, [](const Check* entry) { return entry->known_discrepancy(); });
       if (!expected || !check.tolerance) continue;
-      auto subject = std::find_if(out.begin(), out.end(), [&](const DiscrepancySubject& known) {
+      const auto same = [&](const DiscrepancySubject& known) {
         return known.name == check.name && known.measure == check.measure;
-      });
-      if (subject == out.end())
-        subject = out.insert(out.end(), DiscrepancySubject{check.name, check.measure, {}});
-      subject->rows.push_back(std::move(group));
+      };
+      auto& subject = harness::find_or_add(out, same, {check.name, check.measure, {}});
+      subject.rows.push_back(std::move(group));
     }
   }
   return out;
@@ -44,29 +44,16 @@ bool by_digits(const CheckGroup& group) {
   return group.checks.size() > 1 && group.checks.size() <= kMaxDigits;
 }
 
-bool digits_shown(const DiscrepancySubject& subject) {
-  return std::any_of(subject.rows.begin(), subject.rows.end(), by_digits);
-}
-
-struct Span {
-  double low = 0, high = 0;
-  void cover(const Number& x) {
-    if (!x) return;
-    low = std::min(low, *x);
-    high = std::max(high, *x);
-  }
-};
-
-Span extent(const DiscrepancySubject& subject, double origin) {
-  Span span{origin, origin};
+Interval extent(const DiscrepancySubject& subject, double origin) {
+  Interval span{origin, origin};
   for (const CheckGroup& row : subject.rows)
     for (const Check* check : row.checks) {
       span.cover(check->difference);
       span.cover(check->tolerance->low);
       span.cover(check->tolerance->high);
     }
-  const double room = std::max(0.06 * (span.high - span.low), 1e-12);
-  return {span.low - room, span.high + room};
+  span.widen(std::max(0.06 * span.length(), 1e-12));
+  return span;
 }
 
 PlotScript::Rows box(double x0, double x1, std::size_t row) {
@@ -76,8 +63,8 @@ PlotScript::Rows box(double x0, double x1, std::size_t row) {
 
 /// The bands of a row; one that is too narrow to be seen is drawn as wide as a digit.
 PlotScript::Rows tolerance_bars(const CheckGroup& group, std::size_t row, double factor,
-                                const Span& span) {
-  const double min_width = 0.022 * (span.high - span.low);
+                                const Interval& span) {
+  const double min_width = 0.022 * span.length();
   PlotScript::Rows rows;
   for (const Check* check : group.checks) {
     double low = check->tolerance->low.value_or(span.low);
@@ -93,13 +80,13 @@ PlotScript::Rows tolerance_bars(const CheckGroup& group, std::size_t row, double
 
 /// Entries as digits where they stand; those that would fall on each other one higher, one lower.
 void draw_digits(PlotScript& script, const CheckGroup& group, std::size_t row, double factor,
-                 const Span& span) {
+                 const Interval& span) {
   std::vector<const Check*> order;
   for (const Check* check : group.checks)
     if (check->difference) order.push_back(check);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Check* a, const Check* b) { return *a->difference < *b->difference; });
-  const double near = 0.02 * (span.high - span.low);
+  std::ranges::stable_sort(
+      order, [](const Check* a, const Check* b) { return *a->difference < *b->difference; });
+  const double near = 0.02 * span.length();
   const auto distance = [&](std::size_t i) {
     return *order[i]->difference - *order[i - 1]->difference;
   };
@@ -118,7 +105,7 @@ void draw_digits(PlotScript& script, const CheckGroup& group, std::size_t row, d
 }
 
 void draw_row(PlotScript& script, const CheckGroup& group, std::size_t row, double factor,
-              const Span& span) {
+              const Interval& span) {
   script.curve(tolerance_bars(group, row, factor, span),
                "with filledcurves closed" + lc(palette::kAmber), row == 0 ? "expected" : "");
   if (by_digits(group)) return draw_digits(script, group, row, factor, span);
@@ -137,7 +124,7 @@ std::string words(double x, const std::string& measure) {
 }
 
 std::string conclusion(const DiscrepancySubject& subject) {
-  Span span{1e300, -1e300};
+  Interval span;
   std::size_t n = 0, outside = 0;
   for (const CheckGroup& row : subject.rows)
     for (const Check* check : row.checks) {
@@ -145,7 +132,7 @@ std::string conclusion(const DiscrepancySubject& subject) {
       ++n;
       if (check->verdict != Verdict::pass) ++outside;
     }
-  if (span.low > span.high) return "No difference could be computed.";
+  if (span.empty()) return "No difference could be computed.";
   std::string text = n == 1 ? "The difference is " + words(span.low, subject.measure)
                             : "The " + count(n, "difference") + " lie between " +
                                   words(span.low, subject.measure) + " and " +
@@ -160,18 +147,10 @@ Table table_of(const DiscrepancySubject& subject, const CaseInfo& info) {
   const std::string unit = subject.measure == "relative" || subject.measure == "ratio"
                                ? "_" + subject.measure
                                : "_" + subject.rows.front().front().unit;
-  table.heads = {"case",
-                 "variant",
-                 "title",
-                 "quantity",
-                 "index",
-                 "computed",
-                 "expected",
-                 "unit",
-                 "difference" + unit,
-                 "recorded_low" + unit,
-                 "recorded_high" + unit,
-                 "verdict"};
+  table.heads = words_in("case variant title quantity index computed expected unit");
+  for (const char* name : {"difference", "recorded_low", "recorded_high"})
+    table.heads.push_back(name + unit);
+  table.heads.emplace_back("verdict");
   for (const CheckGroup& row : subject.rows)
     for (const Check* check : row.checks)
       table.rows.push_back({info.id, row.run->variant, info.variant_title(row.run->variant),
@@ -186,7 +165,7 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Discrepancy
   const bool percent = subject.measure == "relative";
   const double factor = percent ? 100 : 1;
   const double origin = subject.measure == "ratio" ? 1 : 0;
-  const Span span = extent(subject, origin);
+  const Interval span = extent(subject, origin);
   PlotScript script;
   std::vector<std::string> labels;
   for (const CheckGroup& row : subject.rows) labels.push_back(info.variant_title(row.run->variant));
@@ -208,21 +187,19 @@ Figure figure_of(const CaseInfo& info, const Results& results, const Discrepancy
   script.plot();
 
   const Reference* reference = results.reference(first.reference);
-  Figure figure;
-  figure.id = slug(info.id + "-" + subject.name + "-" + subject.measure + "-discrepancy");
-  figure.title = "Does not agree: " + (!first.title.empty() ? first.title
-                                       : reference          ? reference->title
-                                                            : subject.name);
-  figure.caption = conclusion(subject);
-  const bool modes = first.quantity.rfind("frequency", 0) == 0;
-  if (digits_shown(subject)) {
-    figure.caption += std::string(" Digits number the ") + (modes ? "modes." : "entries.");
-  }
-  figure.alt = "Differences of every variant with the recorded range. " + figure.caption;
-  figure.height = strip_height(subject.rows.size()) + 20;
-  figure.commands = script.commands();
-  figure.data = table_of(subject, info);
-  return figure;
+  std::string caption = conclusion(subject);
+  const bool modes = first.quantity.starts_with("frequency");
+  if (std::ranges::any_of(subject.rows, by_digits))
+    caption += std::string(" Digits number the ") + (modes ? "modes." : "entries.");
+  return {.id = slug(info.id + "-" + subject.name + "-" + subject.measure + "-discrepancy"),
+          .title = "Does not agree: " + (!first.title.empty() ? first.title
+                                         : reference          ? reference->title
+                                                              : subject.name),
+          .caption = caption,
+          .alt = "Differences of every variant with the recorded range. " + caption,
+          .height = strip_height(subject.rows.size()) + 20,
+          .commands = script.commands(),
+          .data = table_of(subject, info)};
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "reports/figures/effect_scenes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
+#include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 namespace {
@@ -14,47 +15,41 @@ namespace {
 constexpr double kSmallestDrawnChange = 1e-9;  ///< stands for less
 constexpr double kLong_s = 0.01;  ///< of shorter scenes the time is that of reading them
 
-struct ScatterPoint {
-  double x = 0, y = 0;
-};
+constexpr double kSceneMargin = 1.3;  ///< no point stands on the frame
 
 struct Scatter {
   std::string x_label, y_label;
-  ScatterPoint low, high;          ///< of the axes
-  std::vector<ScatterPoint> line;  ///< the limit, drawn through
+  Interval x, y;          ///< of the axes
+  PlotScript::Rows line;  ///< the limit, drawn through
   std::string line_title;
   std::map<std::string, PlotScript::Rows> points;  ///< by analysis
 };
 
-void draw_scatter(const Scatter& scatter, Figure& figure) {
-  PlotScript script;
-  script.log_axis("x", scatter.low.x, scatter.high.x);
-  script.log_axis("y", scatter.low.y, scatter.high.y);
+/// @returns the height of the key
+int draw_scatter(PlotScript& script, const Scatter& scatter) {
+  script.log_axis("x", scatter.x.low, scatter.x.high);
+  script.log_axis("y", scatter.y.low, scatter.y.high);
   script.axis_label("x", scatter.x_label);
   script.axis_label("y", scatter.y_label);
-  PlotScript::Rows line;
-  for (const ScatterPoint& point : scatter.line) line.push_back({point.x, point.y});
-  script.curve(line, std::string("using 1:2 with lines lw 1.5 dt 2") + lc(palette::kMuted),
+  script.curve(scatter.line, "using 1:2 with lines lw 1.5 dt 2" + lc(palette::kMuted),
                scatter.line_title);
   std::vector<std::string> keys = {scatter.line_title};
   for (const auto& [analysis, rows] : scatter.points) {
     const std::size_t number = keys.size() - 1;
     script.curve(rows,
-                 "using 1:2 with points ps 0.7 pt " +
-                     std::to_string(palette::kFilledPoint[number % palette::kFilledPoint.size()]) +
+                 "using 1:2 with points ps 0.7 pt " + palette::filled_point(number) +
                      lc(palette::color(number)),
                  analysis);
     keys.push_back(analysis);
   }
-  figure.height = 350 + script.key_below(keys);
+  const int key_height = script.key_below(keys);
   script.plot();
-  figure.commands = script.commands();
+  return key_height;
 }
 
 Table table_of(const std::vector<EffectScene>& scenes) {
   Table table;
-  table.heads = {"scene",   "analysis", "tolerance", "change",
-                 "minimal", "whole_s",  "chosen_s",  "deciding_s"};
+  table.heads = words_in("scene analysis tolerance change minimal whole_s chosen_s deciding_s");
   for (const EffectScene& s : scenes)
     table.rows.push_back({s.scene, s.analysis, s.tolerance, s.change,
                           std::string(s.minimal ? "yes" : "no"), s.whole_s, s.chosen_s,
@@ -66,32 +61,32 @@ Table table_of(const std::vector<EffectScene>& scenes) {
 Figure figure_of(const Scatter& scatter, const std::vector<EffectScene>& scenes,
                  const std::string& id, const std::string& title, const std::string& caption,
                  const std::string& alt) {
-  Figure figure;
-  figure.id = id;
-  figure.title = title;
-  figure.caption = caption;
-  figure.alt = alt + caption;
-  figure.is_linked = true;
-  draw_scatter(scatter, figure);
-  figure.data = table_of(scenes);
-  return figure;
+  PlotScript script;
+  const int key_height = draw_scatter(script, scatter);
+  return {.id = id,
+          .title = title,
+          .caption = caption,
+          .alt = alt + caption,
+          .height = 350 + key_height,
+          .commands = script.commands(),
+          .data = table_of(scenes),
+          .is_linked = true};
 }
 
 Figure obtained_figure(const std::vector<EffectScene>& scenes) {
   Scatter scatter{
-      "change asked for at most", "change obtained", {1, 1}, {0, 0}, {}, "asked for", {}};
+      "change asked for at most", "change obtained", {1, 0}, {1, 0}, {}, "asked for", {}};
   std::size_t within = 0, minimal = 0;
   for (const EffectScene& scene : scenes) {
     const double change = std::max(scene.change, kSmallestDrawnChange);
     scatter.points[scene.analysis].push_back({scene.tolerance, change});
-    scatter.low = {std::min(scatter.low.x, scene.tolerance / 1.3),
-                   std::min(scatter.low.y, change / 1.3)};
-    scatter.high = {std::max(scatter.high.x, scene.tolerance * 1.3),
-                    std::max({scatter.high.y, change * 1.3, scene.tolerance * 1.3})};
+    scatter.x.cover_around(scene.tolerance, kSceneMargin);
+    scatter.y.cover_around(change, kSceneMargin);
+    scatter.y.high = std::max(scatter.y.high, scene.tolerance * kSceneMargin);
     within += scene.change <= scene.tolerance ? 1 : 0;
     minimal += scene.minimal ? 1 : 0;
   }
-  scatter.line = {{scatter.low.x, scatter.low.x}, {scatter.high.x, scatter.high.x}};
+  scatter.line = {{scatter.x.low, scatter.x.low}, {scatter.x.high, scatter.x.high}};
   return figure_of(
       scatter, scenes, "effects-obtained", "Effects chosen automatically: asked for and obtained",
       std::to_string(within) + " of " + count(scenes.size(), "scene") +
@@ -105,8 +100,8 @@ Figure obtained_figure(const std::vector<EffectScene>& scenes) {
 Figure time_figure(const std::vector<EffectScene>& scenes) {
   Scatter scatter{"time with all effects [ms]",
                   "time over that of all effects",
-                  {1e300, 0.5},
-                  {0, 2},
+                  {1e300, 0},
+                  {0.5, 2},
                   {},
                   "no gain",
                   {}};
@@ -115,18 +110,17 @@ Figure time_figure(const std::vector<EffectScene>& scenes) {
   for (const EffectScene& scene : scenes) {
     const double time = scene.deciding_s + scene.chosen_s;
     if (!(scene.whole_s > 0 && time > 0)) continue;
-    const ScatterPoint point{1e3 * scene.whole_s, time / scene.whole_s};
-    scatter.points[scene.analysis].push_back({point.x, point.y});
-    scatter.low = {std::min(scatter.low.x, point.x / 1.3), std::min(scatter.low.y, point.y / 1.3)};
-    scatter.high = {std::max(scatter.high.x, point.x * 1.3),
-                    std::max(scatter.high.y, point.y * 1.3)};
+    const double whole_ms = 1e3 * scene.whole_s, share = time / scene.whole_s;
+    scatter.points[scene.analysis].push_back({whole_ms, share});
+    scatter.x.cover_around(whole_ms, kSceneMargin);
+    scatter.y.cover_around(share, kSceneMargin);
     whole += scene.whole_s;
     spent += time;
     if (scene.whole_s < kLong_s) continue;
     ++long_ones;
     faster += time <= scene.whole_s ? 1 : 0;
   }
-  scatter.line = {{scatter.low.x, 1}, {scatter.high.x, 1}};
+  scatter.line = {{scatter.x.low, 1}, {scatter.x.high, 1}};
   return figure_of(scatter, scenes, "effects-time",
                    "Effects chosen automatically: time spent and saved",
                    std::to_string(faster) + " of " + count(long_ones, "scene") +

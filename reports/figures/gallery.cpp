@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "harness/base/find_or_add.h"
 #include "reports/figures/convergence.h"
 #include "reports/figures/curves.h"
 #include "reports/figures/discrepancy.h"
@@ -14,6 +15,7 @@
 #include "reports/figures/readings.h"
 #include "reports/figures/shapes.h"
 #include "reports/figures/tolerance.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -43,17 +45,17 @@ std::vector<std::pair<std::string, const Drawing*>> further_poses(
   for (const Run* run : runs) {
     if (!run->drawing || run->drawing->joints.empty() || poses.size() + 1 == kMaxPoses) continue;
     const Drawing& drawing = *run->drawing;
-    const bool known = same_geometry(base, drawing) ||
-                       std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
-                         return same_geometry(*pose.second, drawing);
-                       });
+    const bool known =
+        same_geometry(base, drawing) || std::ranges::any_of(poses, [&](const auto& pose) {
+          return same_geometry(*pose.second, drawing);
+        });
     if (!known) poses.emplace_back(info.variant_title(run->variant), &drawing);
   }
   return poses;
 }
 
 void append(std::vector<Figure>& figures, std::vector<Figure> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(figures));
+  std::ranges::move(more, std::back_inserter(figures));
 }
 
 /// Drawing and shapes of the first run are shown; the shapes and convergence of others are folded.
@@ -61,7 +63,7 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;
   const auto drawn =
-      std::find_if(runs.begin(), runs.end(), [](const Run* run) { return run->drawing; });
+      std::ranges::find_if(runs, [](const Run* run) { return run->drawing.has_value(); });
   if (drawn != runs.end()) {
     const auto poses = further_poses(info, runs, *(*drawn)->drawing);
     if (auto figure = mechanism_figure(info, **drawn, poses)) gallery.shown.push_back(*figure);
@@ -106,15 +108,6 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   return gallery;
 }
 
-std::string family_title(const std::string& id) {
-  std::string title = id;
-  std::replace(title.begin(), title.end(), '-', ' ');
-  std::replace(title.begin(), title.end(), '_', ' ');
-  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
-    title[0] = static_cast<char>(title[0] - 'a' + 'A');
-  return title;
-}
-
 std::map<std::string, std::string> short_titles(const Family& family) {
   std::map<std::string, std::string> titles;
   for (const CaseInfo* info : family.cases) titles[info->id] = family.short_title(*info);
@@ -141,8 +134,8 @@ std::string Family::short_title(const CaseInfo& info) const {
 
 std::vector<const Run*> Family::runs_of(const std::string& case_id) const {
   std::vector<const Run*> out;
-  std::copy_if(runs.begin(), runs.end(), std::back_inserter(out),
-               [&](const Run* run) { return run->case_id == case_id; });
+  std::ranges::copy_if(runs, std::back_inserter(out),
+                       [&](const Run* run) { return run->case_id == case_id; });
   return out;
 }
 
@@ -153,16 +146,12 @@ std::vector<Family> plan_families(const Results& results) {
     for (const Run& run : results.runs)
       if (run.case_id == info.id) runs.push_back(&run);
     if (runs.empty()) continue;
-    auto family = std::find_if(families.begin(), families.end(),
-                               [&](const Family& f) { return f.id == info.family; });
-    if (family == families.end()) {
-      family = families.insert(families.end(), Family{});
-      family->id = info.family;
-      family->title = family_title(info.family);
-    }
-    family->cases.push_back(&info);
-    family->runs.insert(family->runs.end(), runs.begin(), runs.end());
-    family->galleries[info.id] = gallery_of(info, results, runs);
+    Family& family = harness::find_or_add(
+        families, [&](const Family& known) { return known.id == info.family; },
+        Family{info.family, capitalized(spaced(info.family)), {}, {}, {}, {}});
+    family.cases.push_back(&info);
+    family.runs.insert(family.runs.end(), runs.begin(), runs.end());
+    family.galleries[info.id] = gallery_of(info, results, runs);
   }
   for (Family& family : families) {
     if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))

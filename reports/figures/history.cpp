@@ -1,10 +1,12 @@
 #include "reports/figures/history.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -29,8 +31,8 @@ Figure history_figure(const History& history) {
   const std::string machine = history.calls.back().machine;
   PlotScript::Rows time, work, failing;
   double first_time = 0, first_work = 0;
-  Figure figure;
-  figure.data.heads = {"call", "date", "commit", "runs", "checks", "failures", "cpu_s", "work"};
+  Table table;
+  table.heads = words_in("call date commit runs checks failures cpu_s work");
   for (const HistoryCall& call : history.calls) {
     const auto number = static_cast<double>(call.id);
     const auto counted = static_cast<double>(call.work);
@@ -40,9 +42,9 @@ Figure history_figure(const History& history) {
     if (timed) time.push_back({number, call.cpu_s / first_time});
     if (first_work > 0) work.push_back({number, counted / first_work});
     if (!call.green()) failing.push_back({number, first_work > 0 ? counted / first_work : 1});
-    figure.data.rows.push_back({number, call.date, call.commit, static_cast<double>(call.runs),
-                                static_cast<double>(call.checks),
-                                static_cast<double>(call.failures), call.cpu_s, counted});
+    table.rows.push_back({number, call.date, call.commit, static_cast<double>(call.runs),
+                          static_cast<double>(call.checks), static_cast<double>(call.failures),
+                          call.cpu_s, counted});
   }
   PlotScript script;
   script.axis_label("x", "call");
@@ -58,13 +60,13 @@ Figure history_figure(const History& history) {
                "processor time");
   script.curve(failing, "with points lw 2 ps 1.6 pt 2" + lc(palette::kInk), "with failures");
   script.plot();
-  figure.id = "history";
-  figure.title = "Work and time of the calls";
-  figure.caption = caption_of(work, time);
-  figure.alt = "Curves of counted work and processor time over the calls.";
-  figure.height = 260 + key;
-  figure.commands = script.commands();
-  return figure;
+  return {.id = "history",
+          .title = "Work and time of the calls",
+          .caption = caption_of(work, time),
+          .alt = "Curves of counted work and processor time over the calls.",
+          .height = 260 + key,
+          .commands = script.commands(),
+          .data = std::move(table)};
 }
 
 }  // namespace trammel::reports

@@ -5,6 +5,7 @@
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/curves.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -24,7 +25,7 @@ struct Field {
 
 /// The smallest distance between two different coordinates.
 double spacing(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double whole = values.back() - values.front();
   double min_gap = whole;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -48,7 +49,7 @@ Field read_field(const Numbers& x, const Numbers& y, const Numbers& value) {
   field.dy = spacing(ys);
   if (field.dx == 0) field.dx = field.dy;  // one column, or one row, of square cells
   if (field.dy == 0) field.dy = field.dx;
-  std::sort(field.cells.begin(), field.cells.end(), [&](const Cell& a, const Cell& b) {
+  std::ranges::sort(field.cells, [&](const Cell& a, const Cell& b) {
     return std::abs(a.y - b.y) > 0.5 * field.dy ? a.y < b.y : a.x < b.x;
   });
   return field;
@@ -56,7 +57,7 @@ Field read_field(const Numbers& x, const Numbers& y, const Numbers& value) {
 
 /// Limits between classes that hold about as many cells each, in two digits.
 std::vector<double> class_limits(std::vector<double> sorted) {
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const std::size_t classes = palette::kSequence.size();
   std::vector<double> limits;
   for (std::size_t k = 1; k < classes; ++k) {
@@ -92,9 +93,7 @@ std::vector<PlotScript::Rows> boxes(const Field& field) {
 /// Tics far enough apart for the width of a square plot: about four, at 1, 2 or 5 times a power of
 /// ten.
 double tic_step(const Field& field) {
-  const auto [low, high] =
-      std::minmax_element(field.cells.begin(), field.cells.end(),
-                          [](const Cell& a, const Cell& b) { return a.x < b.x; });
+  const auto [low, high] = std::ranges::minmax_element(field.cells, {}, &Cell::x);
   const double coarse = (high->x - low->x + field.dx) / 3;
   const double decade = std::pow(10.0, std::floor(std::log10(coarse)));
   for (const double step : {5.0, 2.0})
@@ -110,10 +109,7 @@ std::string class_name(const std::vector<double>& limits, std::size_t k) {
 }
 
 const Run* run_for(const PlotRequest& request, const std::vector<const Run*>& runs) {
-  const std::string variant = request.variants.empty() ? "base" : request.variants.front();
-  for (const Run* run : runs)
-    if (run->variant == variant) return run;
-  return nullptr;
+  return find_run(runs, request.variants.empty() ? "base" : request.variants.front());
 }
 
 /// Values of all maps of the case that show the same quantity, so that one colour means one thing.
@@ -256,18 +252,17 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
   const int key_height = draw_map(script, request, *found->run, field, classes);
 
   const QuantityLabel quantity = parse_quantity(request.value);
-  Figure figure;
-  figure.id = slug(info.id + "-" + request.id);
-  figure.title = request.title;
-  figure.caption =
-      request.caption + (request.caption.empty() ? "" : " ") + "Colours: " + quantity.label +
-      (quantity.unit.empty() ? "" : " in " + quantity.unit) + classes.describe(field.cells.size());
-  figure.alt = "Map of " + to_text(quantity) + " over positions; the largest magnitude is " +
-               trimmed(largest, 3) + " " + quantity.unit + ".";
-  figure.height = 420 + key_height;
-  figure.commands = script.commands();
-  figure.data = table_of(field, request);
-  return figure;
+  return Figure{.id = slug(info.id + "-" + request.id),
+                .title = request.title,
+                .caption = request.caption + (request.caption.empty() ? "" : " ") + "Colours: " +
+                           quantity.label + (quantity.unit.empty() ? "" : " in " + quantity.unit) +
+                           classes.describe(field.cells.size()),
+                .alt = "Map of " + to_text(quantity) +
+                       " over positions; the largest magnitude is " + trimmed(largest, 3) + " " +
+                       quantity.unit + ".",
+                .height = 420 + key_height,
+                .commands = script.commands(),
+                .data = table_of(field, request)};
 }
 
 }  // namespace trammel::reports

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
+#include <utility>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -36,8 +37,8 @@ const char* joint_color(const JointSymbol& symbol) {
 }
 
 bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
-  return std::any_of(drawing.joints.begin(), drawing.joints.end(),
-                     [&](const Joint& joint) { return joint.kind == symbol.kind; });
+  return std::ranges::any_of(drawing.joints,
+                             [&](const Joint& joint) { return joint.kind == symbol.kind; });
 }
 
 /// Joints of one kind; a hinge is a ring with paper inside.
@@ -57,14 +58,14 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
 
 /// Names stand outside: away from the middle of the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
-  const double cx = 0.5 * (box.x0 + box.x1);
-  const double cy = 0.5 * (box.y0 + box.y1);
+  const double cx = 0.5 * (box.x.low + box.x.high);
+  const double cy = 0.5 * (box.y.low + box.y.high);
   std::set<std::string> named;
   for (const Joint& joint : drawing.joints) {
     if (joint.name.empty() || !named.insert(joint.name).second) continue;
     const auto& [x, y] = drawing.nodes[joint.node];
     const double r = std::hypot(x - cx, y - cy) + 1e-300;
-    const double reach = 0.055 * std::max(box.width(), box.height());
+    const double reach = 0.055 * box.side();
     const double lift = r < reach ? reach : 0;
     script.label(joint.name, shortest(x + reach * (x - cx) / r) + "," +
                                  shortest(y + reach * (y - cy) / r + lift) +
@@ -157,26 +158,25 @@ std::optional<Figure> mechanism_figure(
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  Figure figure;
-  figure.data.heads = {"pose", "node", "x_m", "y_m", "joint", "name"};
-  const int key_height = draw_overlays(script, figure.data, overlays, base_label, drawing);
+  Table table;
+  table.heads = words_in("pose node x_m y_m joint name");
+  const int key_height = draw_overlays(script, table, overlays, base_label, drawing);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
-  add_rows(figure.data, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
+  add_rows(table, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
   for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);
   name_joints(script, drawing, box_around({drawing.nodes}, 0, 0));
   script.plot();
 
-  const Box tight = box_around(sets, 0, 0);
-  figure.id = slug(info.id + "-" + run.variant + "-mechanism");
-  figure.title = titled("Geometry", info, run);
-  figure.caption = mechanism_caption(tight, sets.size());
-  figure.alt = "Drawing of the model with its joints. " + figure.caption;
-  const double drawn = 410.0 * box.height() / box.width();
-  figure.height = static_cast<int>(std::clamp(drawn, 90.0, 470.0)) + 80 + key_height;
-  figure.commands = script.commands();
-  return figure;
+  const std::string caption = mechanism_caption(box_around(sets, 0, 0), sets.size());
+  return Figure{.id = slug(info.id + "-" + run.variant + "-mechanism"),
+                .title = titled("Geometry", info, run),
+                .caption = caption,
+                .alt = "Drawing of the model with its joints. " + caption,
+                .height = height_of(box) + key_height,
+                .commands = script.commands(),
+                .data = std::move(table)};
 }
 
 }  // namespace trammel::reports

@@ -7,6 +7,7 @@
 #include "reports/drawing/plot_script.h"
 #include "reports/figures/moving.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -82,7 +83,7 @@ void draw_moment(PlotScript& script, const Drawing& drawing, const std::vector<P
 
 Table table_of(const std::vector<Pose>& moments) {
   Table table;
-  table.heads = {"time_s", "node", "x_m", "y_m", "u_x_m", "u_y_m"};
+  table.heads = words_in("time_s node x_m y_m u_x_m u_y_m");
   for (const Pose& moment : moments)
     for (std::size_t i = 0; i < moment.nodes.size(); ++i) {
       const Point u = moment.displacement.empty() ? Point() : moment.displacement[i];
@@ -100,10 +101,9 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   const Drawing& drawing = *run.drawing;
   const std::vector<Pose> moments = moments_of(drawing);
   if (moments.size() < 2) return std::nullopt;
-  const Box body = box_around({drawing.nodes}, 0, 0);
   const Largest deflection = largest(
       moments, [](const Pose& moment) -> const std::vector<Point>& { return moment.displacement; });
-  const double factor = magnification(deflection.length, std::max(body.width(), body.height()));
+  const double factor = magnification(deflection.length, box_around({drawing.nodes}, 0, 0).side());
   std::vector<std::vector<Point>> places, everything;
   for (const Pose& moment : moments) {
     everything.push_back(moment.nodes);
@@ -127,17 +127,16 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
     draw_moment(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
   }
   script.plot();
-  Figure figure;
-  figure.data = table_of(moments);
-  figure.id = slug(info.id + "-" + run.variant + "-motion");
-  figure.title = titled("Motion", info, run);
-  figure.caption = caption_of(moments, deflection, factor, drawn + "\u202fs (thick: the first)");
-  figure.alt = "Outlines of the mechanism at a few moments. " + figure.caption;
-  figure.height =
-      static_cast<int>(std::clamp(410.0 * box.height() / box.width(), 90.0, 470.0)) + 80;
-  figure.commands = script.commands();
-  figure.moving = moving_poses(drawing, moments, factor, box, 500);
-  return figure;
+  const std::string caption =
+      caption_of(moments, deflection, factor, drawn + "\u202fs (thick: the first)");
+  return Figure{.id = slug(info.id + "-" + run.variant + "-motion"),
+                .title = titled("Motion", info, run),
+                .caption = caption,
+                .alt = "Outlines of the mechanism at a few moments. " + caption,
+                .height = height_of(box),
+                .commands = script.commands(),
+                .data = table_of(moments),
+                .moving = moving_poses(drawing, moments, factor, box, 500)};
 }
 
 }  // namespace trammel::reports

@@ -11,7 +11,7 @@ namespace trammel::reports {
 namespace {
 
 using Json = nlohmann::json;
-using Numbers = std::vector<long>;
+using Coordinates = std::vector<long>;
 
 /// The lines of a drawing by the places of their nodes among those that are drawn.
 class Panel {
@@ -27,8 +27,8 @@ class Panel {
   }
 
   /// x, y of each node that is drawn. @param of  one a node of the drawing
-  [[nodiscard]] Numbers vectors(const std::vector<Point>& of, double factor = 1) const {
-    Numbers numbers(2 * places_.size());
+  [[nodiscard]] Coordinates vectors(const std::vector<Point>& of, double factor = 1) const {
+    Coordinates numbers(2 * places_.size());
     for (const auto& [node, place] : places_) {
       const auto& [x, y] = of[static_cast<std::size_t>(node)];
       numbers[2 * static_cast<std::size_t>(place)] = std::lround(scale_ * factor * x);
@@ -37,8 +37,8 @@ class Panel {
     return numbers;
   }
 
-  [[nodiscard]] Numbers places(std::vector<Point> nodes) const {
-    for (auto& [x, y] : nodes) x -= box_.x0, y -= box_.y1;
+  [[nodiscard]] Coordinates places(std::vector<Point> nodes) const {
+    for (auto& [x, y] : nodes) x -= box_.x.low, y -= box_.y.high;
     return vectors(nodes);
   }
 
@@ -58,7 +58,7 @@ class Panel {
 };
 
 /// Each row less the one before.
-Json steps(std::vector<Numbers> rows) {
+Json steps(std::vector<Coordinates> rows) {
   for (std::size_t k = rows.size(); k-- > 1;)
     std::ranges::transform(rows[k], rows[k - 1], rows[k].begin(), std::minus());
   return rows;
@@ -86,7 +86,7 @@ std::string moving_modes(const Drawing& drawing, const std::vector<double>& fact
 std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& moments, double factor,
                          const Box& box, double panel) {
   Panel moving(drawing, box, panel);
-  std::vector<Numbers> still, moved;
+  std::vector<Coordinates> still, moved;
   for (const Pose& moment : moments) {
     moving.json["times"].push_back(*moment.time_s);
     still.push_back(moving.places(moment.nodes));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -160,33 +159,29 @@ std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape
 }
 
 Box box_around(const std::vector<std::vector<Point>>& sets, double margin, double min_aspect) {
-  constexpr double far = std::numeric_limits<double>::max();
-  Box box{far, -far, far, -far};
+  Box box;
   for (const auto& set : sets) {
     for (const auto& [x, y] : set) {
-      box.x0 = std::min(box.x0, x);
-      box.x1 = std::max(box.x1, x);
-      box.y0 = std::min(box.y0, y);
-      box.y1 = std::max(box.y1, y);
+      box.x.cover(x);
+      box.y.cover(y);
     }
   }
-  const double side = std::max({box.width(), box.height(), 1e-12});
-  const auto widen = [&](double& low, double& high) {
-    const double more = margin * side + std::max(0.0, 0.5 * (min_aspect * side - (high - low)));
-    low -= more;
-    high += more;
-  };
-  widen(box.x0, box.x1);
-  widen(box.y0, box.y1);
+  const double side = std::max(box.side(), 1e-12);
+  for (Interval* range : {&box.x, &box.y})
+    range->widen(margin * side + std::max(0.0, 0.5 * (min_aspect * side - range->length())));
   return box;
 }
 
 void frame(PlotScript& script, const Box& box) {
-  script.range("x", box.x0, box.x1);
-  script.range("y", box.y0, box.y1);
+  script.range("x", box.x.low, box.x.high);
+  script.range("y", box.y.low, box.y.high);
   script.command("set size ratio -1");
-  const std::string step = shortest(round_step(std::max(box.width(), box.height()) / 5));
+  const std::string step = shortest(round_step(box.side() / 5));
   script.command("set xtics " + step + "; set ytics " + step);
+}
+
+int height_of(const Box& box) {
+  return static_cast<int>(std::clamp(410.0 * box.height() / box.width(), 90.0, 470.0)) + 80;
 }
 
 }  // namespace trammel::reports

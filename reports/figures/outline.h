@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "reports/data/results.h"
+#include "reports/drawing/interval.h"
 #include "reports/drawing/plot_script.h"
 
 namespace trammel::reports {
@@ -34,15 +36,19 @@ namespace trammel::reports {
 
 /// The smallest box around all points, never thinner than `min_aspect` times its longer side.
 struct Box {
-  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-  [[nodiscard]] double width() const { return x1 - x0; }
-  [[nodiscard]] double height() const { return y1 - y0; }
+  Interval x, y;
+  [[nodiscard]] double width() const { return x.length(); }
+  [[nodiscard]] double height() const { return y.length(); }
+  [[nodiscard]] double side() const { return std::max(width(), height()); }  ///< the longer one
 };
 [[nodiscard]] Box box_around(const std::vector<std::vector<Point>>& sets, double margin,
                              double min_aspect);
 
 /// Sets ranges and an equal scale on both axes.
 void frame(PlotScript& script, const Box& box);
+
+/// Height of a drawing of its own that has room for the box, its axes included [px].
+[[nodiscard]] int height_of(const Box& box);
 
 /// A title with the variant's behind it, unless it is the case as it stands.
 [[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);

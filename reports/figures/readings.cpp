@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "harness/base/find_or_add.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/text/number.h"
@@ -16,21 +18,19 @@ constexpr double kMinProbability = 1e-3;  ///< of a reading that is drawn
 constexpr double kMinBits = 0.01;         ///< of information that is worth a sentence
 
 /// The row under each discrepancy, in their order.
-using SameRow = std::vector<const results::RowProbabilities*>;
+using SameRow = std::vector<const RowProbabilities*>;
 
-std::vector<SameRow> same_rows(const results::ModelProbabilities& probabilities) {
+std::vector<SameRow> same_rows(const ModelProbabilities& probabilities) {
   std::vector<SameRow> out;
-  for (const results::RowProbabilities& row : probabilities.rows) {
-    auto same = std::find_if(out.begin(), out.end(),
-                             [&](const SameRow& known) { return known.front()->row == row.row; });
-    if (same == out.end()) same = out.insert(out.end(), SameRow{});
-    same->push_back(&row);
+  for (const RowProbabilities& row : probabilities.rows) {
+    const auto same = [&](const SameRow& known) { return known.front()->row == row.row; };
+    harness::find_or_add(out, same, SameRow{}).push_back(&row);
   }
   return out;
 }
 
 /// Predicted over printed, less 1 [%]; an empty row where either is missing.
-PlotScript::Rows differences(const results::RowProbabilities& row, const results::Numbers& values) {
+PlotScript::Rows differences(const RowProbabilities& row, const Numbers& values) {
   PlotScript::Rows out;
   for (std::size_t k = 0; k < std::min(row.printed.size(), values.size()); ++k) {
     if (!row.printed[k] || !values[k] || *row.printed[k] == 0) {
@@ -49,8 +49,8 @@ double largest(const PlotScript::Rows& points) {
   return size;
 }
 
-std::string caption_of(const results::RowProbabilities& row, double worst) {
-  const results::ReadingClass& first = row.leading.front();
+std::string caption_of(const RowProbabilities& row, double worst) {
+  const ReadingClass& first = row.leading.front();
   const double discrepancy = row.discrepancy.value_or(0);
   std::string text = "Under a discrepancy of " + relative(discrepancy, 2, false) +
                      " the most probable reading is " + first.title + ", with " +
@@ -67,9 +67,9 @@ std::string caption_of(const results::RowProbabilities& row, double worst) {
          trimmed(row.entropy_bits.value_or(0), 3) + " bits.";
 }
 
-Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
+Figure figure_of(const CaseInfo& info, const RowProbabilities& row) {
   PlotScript script;
-  Figure figure;
+  Table table;
   std::size_t shown = 1;
   while (shown < std::min(row.leading.size(), kMaxReadings) &&
          row.leading[shown].probability.value_or(0) >= kMinProbability)
@@ -78,27 +78,26 @@ Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
   const auto count_of = static_cast<double>(row.printed.size());
   std::vector<std::string> titles;
   double worst = 0, extent = 2 * band;
-  figure.data.heads = {"reading", "probability", "number", "printed_" + row.unit,
-                       "predicted_" + row.unit};
+  table.heads = {"reading", "probability", "number", "printed_" + row.unit,
+                 "predicted_" + row.unit};
   script.curve({{0.5, -band}, {count_of + 0.5, -band}, {count_of + 0.5, band}, {0.5, band}},
                "with filledcurves closed" + lc(palette::kAmber), "discrepancy");
   script.curve({{0.5, 0}, {count_of + 0.5, 0}}, "with lines lw 1.5" + lc(palette::kInk));
   titles.emplace_back("discrepancy");
   for (std::size_t i = 0; i < shown; ++i) {
-    const results::ReadingClass& reading = row.leading[i];
+    const ReadingClass& reading = row.leading[i];
     const PlotScript::Rows points = differences(row, reading.values);
     if (i == 0) worst = largest(points);
     extent = std::max(extent, largest(points));
     titles.push_back(shortened(reading.title, kMaxTitle) + " (" +
                      relative(reading.probability.value_or(0), 2, false) + ")");
-    script.curve(points,
-                 "with linespoints lw 1.4 ps 1 pt " + std::to_string(palette::kFilledPoint[i]) +
-                     lc(palette::color(i)),
-                 titles.back());
+    script.curve(
+        points,
+        "with linespoints lw 1.4 ps 1 pt " + palette::filled_point(i) + lc(palette::color(i)),
+        titles.back());
     for (std::size_t k = 0; k < std::min(row.printed.size(), reading.values.size()); ++k)
-      figure.data.rows.push_back({reading.title, cell(reading.probability),
-                                  static_cast<double>(k + 1), cell(row.printed[k]),
-                                  cell(reading.values[k])});
+      table.rows.push_back({reading.title, cell(reading.probability), static_cast<double>(k + 1),
+                            cell(row.printed[k]), cell(reading.values[k])});
   }
   script.range("x", 0.5, count_of + 0.5);
   script.range("y", -1.1 * extent, 1.1 * extent);
@@ -107,25 +106,26 @@ Figure figure_of(const CaseInfo& info, const results::RowProbabilities& row) {
   script.axis_label("y", "predicted over printed, less 1 (%)");
   const int key = script.key_below(titles);
   script.plot();
-  figure.id = slug(info.id + "-" + row.row + "-readings");
-  figure.title = "Most probable readings beside the printed row " + row.row;
-  figure.caption = caption_of(row, worst);
-  figure.alt = "Relative differences of the most probable readings from the printed numbers. " +
-               figure.caption;
-  figure.height = 320 + key;
-  figure.commands = script.commands();
-  return figure;
+  const std::string caption = caption_of(row, worst);
+  return {.id = slug(info.id + "-" + row.row + "-readings"),
+          .title = "Most probable readings beside the printed row " + row.row,
+          .caption = caption,
+          .alt = "Relative differences of the most probable readings from the printed numbers. " +
+                 caption,
+          .height = 320 + key,
+          .commands = script.commands(),
+          .data = std::move(table)};
 }
 
 }  // namespace
 
 std::vector<Figure> reading_figures(const CaseInfo& info, const std::vector<const Run*>& runs) {
   std::vector<Figure> figures;
-  const auto run = std::find_if(runs.begin(), runs.end(),
-                                [](const Run* some) { return some->model_probabilities; });
+  const auto run = std::ranges::find_if(
+      runs, [](const Run* candidate) { return candidate->model_probabilities.has_value(); });
   if (run == runs.end()) return figures;
   for (const SameRow& row : same_rows(*(*run)->model_probabilities)) {
-    const results::RowProbabilities& middle = *row[row.size() / 2];
+    const RowProbabilities& middle = *row[row.size() / 2];
     if (!middle.leading.empty()) figures.push_back(figure_of(info, middle));
   }
   return figures;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/figures/moving.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -41,7 +43,7 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
 
 /// "mode 3, 15.1 Hz": what swings with a frequency.
 bool is_mode(const Shape& shape) {
-  return shape.label.rfind("mode", 0) == 0 && shape.label.find(" Hz") != std::string::npos;
+  return shape.label.starts_with("mode") && shape.label.find(" Hz") != std::string::npos;
 }
 
 bool is_drawn_whole(const Drawing& drawing, std::size_t shapes) {
@@ -75,7 +77,7 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   std::string equal;
   for (std::size_t s = free; s + 1 < n; ++s) {
     const std::string pair = std::to_string(s + 1) + " and " + std::to_string(s + 2);
-    if (gap(s) < 1e-9) equal += (equal.empty() ? "" : ", ") + pair;
+    if (gap(s) < 1e-9) add_item(equal, pair);
     if (gap(s) < gap(nearest)) nearest = s;
   }
   text += "Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
@@ -103,22 +105,21 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || run.drawing->shapes.empty()) return std::nullopt;
   const Drawing& drawing = *run.drawing;
   if (drawing.members.empty() && drawing.triangles.empty()) return std::nullopt;
-  const Box body = box_around({drawing.nodes}, 0, 0);
-  const double side = std::max(body.width(), body.height());
+  const double side = box_around({drawing.nodes}, 0, 0).side();
   const std::size_t n = std::min(drawing.shapes.size(), kMaxShapes);
   std::vector<std::vector<Point>> moved;
   std::vector<double> factors;
-  Figure figure;
-  figure.data.heads = {"shape", "node", "x_m", "y_m", "u_x_m", "u_y_m", "drawn_times"};
+  Table table;
+  table.heads = words_in("shape node x_m y_m u_x_m u_y_m drawn_times");
   for (std::size_t s = 0; s < n; ++s) {
     const Shape& shape = drawing.shapes[s];
     const double factor = factor_for(shape, side);
     factors.push_back(factor);
     moved.push_back(displaced(drawing.nodes, shape, factor));
     for (std::size_t i = 0; i < drawing.nodes.size(); ++i)
-      figure.data.rows.push_back({shape.label, static_cast<double>(i), drawing.nodes[i].first,
-                                  drawing.nodes[i].second, shape.displacement[i].first,
-                                  shape.displacement[i].second, factor});
+      table.rows.push_back({shape.label, static_cast<double>(i), drawing.nodes[i].first,
+                            drawing.nodes[i].second, shape.displacement[i].first,
+                            shape.displacement[i].second, factor});
   }
   auto everything = moved;
   everything.push_back(drawing.nodes);
@@ -137,20 +138,22 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
     draw_panel(script, drawing, moved[s], drawing.shapes[s].label, n);
   script.command("unset multiplot");
 
-  figure.id = slug(info.id + "-" + run.variant + "-shapes");
-  const bool modes = drawing.shapes.front().label.rfind("mode", 0) == 0;
-  figure.title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run);
-  figure.caption =
-      (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)) +
-      "Grey: at rest; blue: displaced. Each shape is scaled so that its largest "
-      "displacement is " +
-      trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side.";
-  figure.alt = "Small pictures of the shapes";
-  for (std::size_t s = 0; s < n; ++s) figure.alt += (s ? "; " : ": ") + drawing.shapes[s].label;
-  figure.height = static_cast<int>(height * static_cast<double>(rows)) + 8;
-  figure.commands = script.commands();
-  if (is_drawn_whole(drawing, n)) figure.moving = moving_modes(drawing, factors, box, panel);
-  return figure;
+  const bool modes = drawing.shapes.front().label.starts_with("mode");
+  std::string labels;
+  for (std::size_t s = 0; s < n; ++s) add_item(labels, drawing.shapes[s].label, "; ");
+  return Figure{
+      .id = slug(info.id + "-" + run.variant + "-shapes"),
+      .title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run),
+      .caption =
+          (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)) +
+          "Grey: at rest; blue: displaced. Each shape is scaled so that its largest "
+          "displacement is " +
+          trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side.",
+      .alt = "Small pictures of the shapes: " + labels,
+      .height = static_cast<int>(height * static_cast<double>(rows)) + 8,
+      .commands = script.commands(),
+      .data = std::move(table),
+      .moving = is_drawn_whole(drawing, n) ? moving_modes(drawing, factors, box, panel) : ""};
 }
 
 }  // namespace trammel::reports

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/find_or_add.h"
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/drawing/palette.h"
 #include "reports/figures/strip.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -36,19 +38,17 @@ bool is_shown(const Check& check) {
 /// A row a case; a row a check where the family has one case only.
 std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string>& titles,
                                          const std::vector<const Run*>& runs) {
-  const bool one_case = std::all_of(runs.begin(), runs.end(), [&](const Run* run) {
-    return run->case_id == runs.front()->case_id;
-  });
+  const bool one_case = std::ranges::all_of(
+      runs, [&](const Run* run) { return run->case_id == runs.front()->case_id; });
   std::vector<ToleranceRow> rows;
   for (const Run* run : runs) {
     for (const Check& check : run->checks) {
       if (!is_shown(check)) continue;
       const std::string label = one_case ? check_title(check) : titles.at(run->case_id);
-      auto row = std::find_if(rows.begin(), rows.end(),
-                              [&](const ToleranceRow& known) { return known.label == label; });
-      if (row == rows.end()) row = rows.insert(rows.end(), ToleranceRow{label, {}, 0});
-      row->checks.emplace_back(run, &check);
-      row->worst = std::max(row->worst, share(check));
+      const auto same = [&](const ToleranceRow& known) { return known.label == label; };
+      ToleranceRow& row = harness::find_or_add(rows, same, {label, {}, 0});
+      row.checks.emplace_back(run, &check);
+      row.worst = std::max(row.worst, share(check));
     }
   }
   return rows;
@@ -63,7 +63,7 @@ PlotScript::Rows points(const std::vector<ToleranceRow>& rows, Belongs belongs) 
       if (belongs(*check)) out.push_back({share(*check), strip_y(i)});
   // Points that fall on each other are one on paper.
   for (auto& point : out) point[0] = std::pow(10, std::round(100 * std::log10(point[0])) / 100);
-  std::sort(out.begin(), out.end());
+  std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
@@ -95,7 +95,7 @@ void draw_limits(PlotScript& script, std::size_t rows) {
 
 Table table_of(const std::vector<ToleranceRow>& rows) {
   Table table;
-  table.heads = {"case", "variant", "check", "quantity", "index", "share_of_tolerance", "verdict"};
+  table.heads = words_in("case variant check quantity index share_of_tolerance verdict");
   for (const ToleranceRow& row : rows)
     for (const auto& [run, check] : row.checks) {
       const double used = tolerance_fraction(*check);
@@ -142,15 +142,14 @@ std::optional<Figure> tolerance_figure(const std::string& family,
                "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)), "fails or error");
   script.plot();
 
-  Figure figure;
-  figure.id = slug(family + "-tolerance");
-  figure.title = "Share of the tolerance used by each check";
-  figure.caption = conclusion(rows);
-  figure.alt = "One dot per check on a logarithmic axis, with the limit marked. " + figure.caption;
-  figure.height = strip_height(rows.size()) + 20;
-  figure.commands = script.commands();
-  figure.data = table_of(rows);
-  return figure;
+  const std::string caption = conclusion(rows);
+  return Figure{.id = slug(family + "-tolerance"),
+                .title = "Share of the tolerance used by each check",
+                .caption = caption,
+                .alt = "One dot per check on a logarithmic axis, with the limit marked. " + caption,
+                .height = strip_height(rows.size()) + 20,
+                .commands = script.commands(),
+                .data = table_of(rows)};
 }
 
 }  // namespace trammel::reports

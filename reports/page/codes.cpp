@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <stdexcept>
 
 #include "harness/results/run_grade.h"
 #include "reports/data/check_text.h"
@@ -18,8 +17,6 @@
 namespace trammel::reports {
 
 namespace {
-
-using namespace reports;
 
 /// A column of the matrix, with what its cells come to.
 struct Code {
@@ -65,7 +62,7 @@ std::vector<Row> plan_rows(const std::vector<Code>& codes) {
       const auto same = [&](const Row& row) {
         return row.info->id == run.case_id && row.variant == run.variant;
       };
-      if (std::any_of(rows.begin(), rows.end(), same)) continue;
+      if (std::ranges::any_of(rows, same)) continue;
       Row row{&code.results.case_info(run.case_id), run.variant, {}};
       for (const Code& other : codes) {
         row.runs.push_back(find_run(other.results, run.case_id, run.variant));
@@ -118,20 +115,18 @@ std::string status_text(const Run& run, Grade grade, const Check* here) {
 }
 
 Data cell(const Run* run, const Check* shown, bool nearest) {
-  Data data = object();
-  set_flag(data, "there", run != nullptr);
-  if (run == nullptr) return data;
+  if (run == nullptr) return object({{"there", false}});
   const Grade grade = grade_of(*run);
   const Check* here = shown == nullptr ? nullptr : find_check(*run, *shown);
   const bool not_computed = grade == Grade::cannot || grade == Grade::not_exported;
-  data.set("status_class", mark(grade).first);
-  data.set("sign", mark(grade).second);
-  data.set("status_text", status_text(*run, grade, here));
-  set_text(data, "difference", here == nullptr ? "" : difference_text(*here));
-  set_text(data, "reason", is_failure(grade) || not_computed ? run->reason : std::string());
-  set_text(data, "time", not_computed ? "" : duration(run->cost.wall_s));
-  set_flag(data, "nearest", nearest);
-  return data;
+  return object({{"there", true},
+                 {"status_class", mark(grade).first},
+                 {"sign", mark(grade).second},
+                 {"status_text", status_text(*run, grade, here)},
+                 {"difference", here == nullptr ? "" : difference_text(*here)},
+                 {"reason", is_failure(grade) || not_computed ? run->reason : std::string()},
+                 {"time", not_computed ? "" : duration(run->cost.wall_s)},
+                 {"nearest", nearest}});
 }
 
 /// The codes whose numbers lie nearest to the expected one; none where all are as near.
@@ -144,7 +139,7 @@ std::vector<bool> nearest_of(const Row& row, const Check* shown) {
     away.push_back(has ? std::abs(*check->computed - *check->expected)
                        : std::numeric_limits<double>::infinity());
   }
-  const double least = *std::min_element(away.begin(), away.end());
+  const double least = *std::ranges::min_element(away);
   std::vector<bool> nearest;
   std::size_t farther = 0;
   for (const double distance : away) {
@@ -159,55 +154,46 @@ std::size_t entries_of(const Row& row, const Check& shown) {
   std::ptrdiff_t most = 0;
   for (const Run* run : row.runs)
     if (run != nullptr)
-      most =
-          std::max(most, std::count_if(run->checks.begin(), run->checks.end(), [&](const Check& c) {
-                     return c.name == shown.name && c.quantity == shown.quantity;
-                   }));
+      most = std::max(most, std::ranges::count_if(run->checks, [&](const Check& c) {
+                        return c.name == shown.name && c.quantity == shown.quantity;
+                      }));
   return static_cast<std::size_t>(most);
 }
 
 Data row_data(const Row& row, std::vector<Code>& codes) {
-  Data data = object();
   const Check* shown = shown_check(row);
-  data.set("title", row.info->title);
-  set_text(data, "variant", row.variant == "base" ? "" : row.info->variant_title(row.variant));
-  data.set("run", row.info->id + (row.variant == "base" ? "" : ":" + row.variant));
-  set_flag(data, "other_case", row.other_case);
-  set_text(data, "quantity",
-           shown == nullptr
-               ? ""
-               : quantity_text(*shown) + " " + entry_text(*shown, entries_of(row, *shown)));
-  set_text(data, "expected", shown == nullptr ? "" : target_text(*shown));
   const std::vector<bool> nearest = nearest_of(row, shown);
   Data cells = list();
   for (std::size_t i = 0; i < row.runs.size(); ++i) {
     if (nearest[i]) ++codes[i].nearest;
     cells.push_back(cell(row.runs[i], shown, nearest[i]));
   }
-  data.set("cells", cells);
-  return data;
+  return object({{"title", row.info->title},
+                 {"variant", row.variant == "base" ? "" : row.info->variant_title(row.variant)},
+                 {"run", row.info->id + (row.variant == "base" ? "" : ":" + row.variant)},
+                 {"other_case", row.other_case},
+                 {"quantity", shown == nullptr ? ""
+                                               : quantity_text(*shown) + " " +
+                                                     entry_text(*shown, entries_of(row, *shown))},
+                 {"expected", shown == nullptr ? "" : target_text(*shown)},
+                 {"cells", cells}});
 }
 
 Data code_data(const Code& code, const std::vector<Grade>& grades) {
-  Data data = object();
-  data.set("name", code.name);
-  set_text(data, "version", code.version);
-  set_text(data, "command", code.results.solver ? code.results.solver->command : "");
-  const Environment& environment = code.results.environment;
-  data.set("catalogue", environment.trammel + " (" + environment.commit + ")");
-  data.set("date", environment.date);
-  data.set("runs", std::to_string(code.results.runs.size()));
-  Data counts = list();
-  for (const Grade grade : grades) {
-    Data count = object();
+  const auto number_of = [&](Grade grade) {
     const auto found = code.counts.find(grade);
-    set_text(count, "n", found == code.counts.end() ? "" : std::to_string(found->second));
-    counts.push_back(count);
-  }
-  data.set("counts", counts);
-  data.set("nearest", std::to_string(code.nearest));
-  data.set("time", duration(code.wall_s));
-  return data;
+    return object({{"n", found == code.counts.end() ? "" : std::to_string(found->second)}});
+  };
+  const Environment& environment = code.results.environment;
+  return object({{"name", code.name},
+                 {"version", code.version},
+                 {"command", code.results.solver ? code.results.solver->command : ""},
+                 {"catalogue", environment.trammel + " (" + environment.commit + ")"},
+                 {"date", environment.date},
+                 {"runs", std::to_string(code.results.runs.size())},
+                 {"counts", list_of(grades, number_of)},
+                 {"nearest", std::to_string(code.nearest)},
+                 {"time", duration(code.wall_s)}});
 }
 
 }  // namespace
@@ -216,28 +202,22 @@ std::filesystem::path write_codes(const std::vector<std::filesystem::path>& resu
                                   const std::filesystem::path& out) {
   std::vector<Code> codes;
   for (const auto& file : results_json) codes.push_back(read_code(file));
-  Data page = object();
-  page.set("style", template_text("style.css"));
-  Data rows = list(), columns = list(), heads = list();
   const std::vector<Row> planned = plan_rows(codes);
-  for (const Row& row : planned) rows.push_back(row_data(row, codes));
+  // The rows first: they count for the codes how often each is nearest.
+  const Data rows = list_of(planned, [&](const Row& row) { return row_data(row, codes); });
   std::vector<Grade> grades;
-  for (const Grade grade : kAllGrades) {
-    if (std::none_of(codes.begin(), codes.end(),
-                     [&](const Code& code) { return code.counts.count(grade) > 0; }))
-      continue;
-    grades.push_back(grade);
-    Data head = object();
-    head.set("grade", to_string(grade));
-    heads.push_back(head);
-  }
-  for (const Code& code : codes) columns.push_back(code_data(code, grades));
-  page.set("codes", columns);
-  page.set("grades", heads);
-  page.set("rows", rows);
-  set_flag(page, "several", codes.size() > 1);
-  page.set("extent",
-           count(planned.size(), "run") + " of the catalogue, " + count(codes.size(), "code"));
+  for (const Grade grade : kAllGrades)
+    if (std::ranges::any_of(codes, [&](const Code& code) { return code.counts.contains(grade); }))
+      grades.push_back(grade);
+  const auto column = [&](const Code& code) { return code_data(code, grades); };
+  const auto head = [](Grade grade) { return object({{"grade", to_string(grade)}}); };
+  const Data page = object({{"style", template_text("style.css")},
+                            {"codes", list_of(codes, column)},
+                            {"grades", list_of(grades, head)},
+                            {"rows", rows},
+                            {"several", codes.size() > 1},
+                            {"extent", count(planned.size(), "run") + " of the catalogue, " +
+                                           count(codes.size(), "code")}});
   write_file(out / "index.html", render("codes.mustache", page));
   return out / "index.html";
 }

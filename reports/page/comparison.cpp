@@ -13,12 +13,12 @@
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 #include "reports/text/templates.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
 namespace {
 
-using namespace reports;
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFigures = 12;  ///< of a run
@@ -30,28 +30,13 @@ struct PlainTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-Data texts(const std::vector<std::string>& all) {
-  Data out = list();
-  for (const std::string& text : all) {
-    Data data = object();
-    data.set("text", text);
-    out.push_back(data);
-  }
-  return out;
-}
-
 Data table_data(const PlainTable& table) {
-  Data data = object(), rows = list();
-  data.set("title", table.title);
-  data.set("heads", texts(table.heads));
-  for (const auto& cells : table.rows) {
-    Data row = object();
-    row.set("head", cells.front());
-    row.set("cells", texts({cells.begin() + 1, cells.end()}));
-    rows.push_back(row);
-  }
-  data.set("rows", rows);
-  return data;
+  const auto row = [](const std::vector<std::string>& cells) {
+    return object({{"head", cells.front()},
+                   {"cells", texts(std::vector<std::string>(cells.begin() + 1, cells.end()))}});
+  };
+  return object(
+      {{"title", table.title}, {"heads", texts(table.heads)}, {"rows", list_of(table.rows, row)}});
 }
 
 std::string percent_text(const Number& percent) {
@@ -64,8 +49,7 @@ std::string side_text(const SideComparison& comparison, const ComparedSide& side
   for (const auto member : {&ComparedSide::solver, &ComparedSide::commit, &ComparedSide::date,
                             &ComparedSide::processor}) {
     const auto same = [&](const ComparedSide& other) { return other.*member == side.*member; };
-    if (!std::all_of(comparison.sides.begin(), comparison.sides.end(), same) &&
-        !(side.*member).empty())
+    if (!std::ranges::all_of(comparison.sides, same) && !(side.*member).empty())
       text += ", " + side.*member;
   }
   return text;
@@ -109,7 +93,7 @@ PlainTable value_table(const std::string& title, const std::string& what,
 
 std::string numbers_text(const std::vector<std::size_t>& set) {
   std::string text;
-  for (const std::size_t number : set) text += (text.empty() ? "" : ", ") + std::to_string(number);
+  for (const std::size_t number : set) add_item(text, std::to_string(number));
   return text;
 }
 
@@ -162,8 +146,7 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
     if (!number.changed || number.entries < 7 || !drawn.insert(number.quantity).second) continue;
     PlotRequest request;
     request.id = number.quantity;
-    request.title = to_text(parse_quantity(number.quantity));
-    if (request.title[0] >= 'a' && request.title[0] <= 'z') request.title[0] -= 'a' - 'A';
+    request.title = capitalized(to_text(parse_quantity(number.quantity)));
     request.y = {number.quantity};
     if (time && time->size() == number.entries) request.x = "time_s";
     requests.push_back(std::move(request));
@@ -206,33 +189,28 @@ void write_comparison(const SideComparison& comparison, const fs::path& file) {
   const fs::path part = file.parent_path() / kUnfinishedFolder;
   draw(page.front(), part);
   fs::remove_all(part);
-  Data data = object(), runs = list();
-  for (const char* name : {"figure", "table"})
-    data.set(std::string(name) + "_partial",
-             kainjow::mustache::partial(
-                 [file = std::string(name) + ".mustache"] { return template_text(file); }));
-  data.set("style", template_text("figure.css") + template_text("style.css"));
-  data.set("script", template_text("page.js"));
-  set_flag(data, "single", true);
-  data.set("conclusion", comparison.conclusion);
-  data.set("sides", table_data(sides_table(comparison)));
+  Data runs = list();
   for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
     const ComparedRun& run = comparison.runs[i];
     if (!run.changed && figures[i].empty()) continue;
-    Data entry = object(), tables = list(), drawings = list();
     const bool variants = run.name == comparison.sides.front().label;
-    entry.set("name", run.info.title.empty() ? run.name
-                      : variants             ? run.info.title
-                                             : run.info.title + " (" + run.name + ")");
-    entry.set("remarks", texts(run.remarks));
+    Data tables = list();
     for (const PlainTable& table : {modes_table(run, comparison), numbers_table(run, comparison)})
       if (!table.rows.empty()) tables.push_back(table_data(table));
-    entry.set("tables", tables);
-    for (const Figure& figure : figures[i]) drawings.push_back(figure_data(figure));
-    entry.set("figures", drawings);
-    runs.push_back(entry);
+    runs.push_back(object({{"name", run.info.title.empty() ? run.name
+                                    : variants             ? run.info.title
+                                               : run.info.title + " (" + run.name + ")"},
+                           {"remarks", texts(run.remarks)},
+                           {"tables", tables},
+                           {"figures", list_of(figures[i], figure_data)}}));
   }
-  data.set("runs", runs);
+  Data data = object({{"style", template_text("figure.css") + template_text("style.css")},
+                      {"script", template_text("page.js")},
+                      {"single", true},
+                      {"conclusion", comparison.conclusion},
+                      {"sides", table_data(sides_table(comparison))},
+                      {"runs", runs}});
+  set_partials(data, {"figure", "table"});
   if (!file.parent_path().empty()) fs::create_directories(file.parent_path());
   write_file(file, render("comparison.mustache", data));
 }

@@ -17,16 +17,15 @@ Data calls_of(const History& history) {
   Data rows = list();
   const auto& calls = history.calls;
   for (std::size_t i = calls.size(); i-- > 0 && calls.size() - i <= kShownCalls;) {
-    Data row = object();
-    row.set("call", std::to_string(calls[i].id));
-    row.set("date", calls[i].date);
-    row.set("commit", calls[i].commit);
-    row.set("machine", calls[i].machine);
-    row.set("checks", std::to_string(calls[i].checks));
-    row.set("failures", std::to_string(calls[i].failures));
-    row.set("time", calls[i].cpu_s > 0 ? trimmed(calls[i].cpu_s, 3) + "\u202fs" : "–");
-    row.set("work", std::to_string(calls[i].work));
-    rows.push_back(row);
+    rows.push_back(
+        object({{"call", std::to_string(calls[i].id)},
+                {"date", calls[i].date},
+                {"commit", calls[i].commit},
+                {"machine", calls[i].machine},
+                {"checks", std::to_string(calls[i].checks)},
+                {"failures", std::to_string(calls[i].failures)},
+                {"time", calls[i].cpu_s > 0 ? trimmed(calls[i].cpu_s, 3) + "\u202fs" : "–"},
+                {"work", std::to_string(calls[i].work)}}));
   }
   return rows;
 }
@@ -36,14 +35,13 @@ Data changes_of(const History& history) {
   for (const auto* changes : {&history.changes, &history.work})
     for (std::size_t i = 0; i < changes->size() && i < kShownChanges; ++i) {
       const HistoryChange& change = (*changes)[i];
-      Data row = object();
-      row.set("name", change.name + (changes == &history.work ? ", counted work" : ""));
-      row.set("verdict", change.of_verdict() ? change.verdict_before + " to " + change.verdict
-                                             : change.verdict);
-      row.set("before", text_of(change.before));
-      row.set("after", text_of(change.after));
-      row.set("commit", change.commit);
-      rows.push_back(row);
+      rows.push_back(
+          object({{"name", change.name + (changes == &history.work ? ", counted work" : "")},
+                  {"verdict", change.of_verdict() ? change.verdict_before + " to " + change.verdict
+                                                  : change.verdict},
+                  {"before", text_of(change.before)},
+                  {"after", text_of(change.after)},
+                  {"commit", change.commit}}));
     }
   return rows;
 }
@@ -51,10 +49,7 @@ Data changes_of(const History& history) {
 }  // namespace
 
 Data history_section(const Results& results, const std::optional<Figure>& figure) {
-  Data section = object();
-  const bool any = results.history && !results.history->calls.empty();
-  set_flag(section, "has_rows", any);
-  if (!any) return section;
+  if (!results.history || results.history->calls.empty()) return object({{"has_rows", false}});
   const History& history = *results.history;
   const std::size_t changes = history.changes.size() + history.work.size();
   std::string words = count(history.calls.size(), "call") + "; ";
@@ -64,21 +59,18 @@ Data history_section(const Results& results, const std::optional<Figure>& figure
                                : count(changes, "value") + (changes == 1 ? " has" : " have")) +
                      " changed since call " + std::to_string(history.since) +
                      ", the last green one.";
-  section.set("words", words);
-  section.set("figure", figure ? figure_data(*figure) : Data(Data::type::bool_false));
-  section.set("calls", calls_of(history));
-  section.set("changes", changes_of(history));
-  set_flag(section, "has_changes", changes > 0);
-  Data drifts = list();
-  for (const HistoryDrift& drift : history.drifts) {
-    Data row = object();
-    row.set("name", drift.name);
-    row.set("course", trimmed(drift.first, 9) + " to " + trimmed(drift.last, 9) + " in " +
-                          count(drift.steps, "step"));
-    drifts.push_back(row);
-  }
-  section.set("drifts", drifts);
-  return section;
+  const auto drift_data = [](const HistoryDrift& drift) {
+    return object({{"name", drift.name},
+                   {"course", trimmed(drift.first, 9) + " to " + trimmed(drift.last, 9) + " in " +
+                                  count(drift.steps, "step")}});
+  };
+  return object({{"has_rows", true},
+                 {"words", words},
+                 {"figure", figure ? figure_data(*figure) : Data(false)},
+                 {"calls", calls_of(history)},
+                 {"changes", changes_of(history)},
+                 {"has_changes", changes > 0},
+                 {"drifts", list_of(history.drifts, drift_data)}});
 }
 
 }  // namespace trammel::reports

@@ -1,19 +1,16 @@
 #include "reports/page/junit.h"
 
-#include <sstream>
-
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
 #include "reports/drawing/svg.h"
 #include "reports/text/files.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
 namespace {
-
-using namespace reports;
 
 struct Tally {
   std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
@@ -81,9 +78,10 @@ std::string check_name(const Check& check) {
 std::string check_message(const Check& check) {
   std::string text = check.message;
   if (check.computed)
-    text += (text.empty() ? "" : "; ") + std::string("computed ") + computed_text(check) +
-            ", target " + target_text(check) + ", difference " + difference_text(check) +
-            ", tolerance " + tolerance_text(check);
+    add_item(text,
+             "computed " + computed_text(check) + ", target " + target_text(check) +
+                 ", difference " + difference_text(check) + ", tolerance " + tolerance_text(check),
+             "; ");
   return text;
 }
 

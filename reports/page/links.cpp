@@ -23,7 +23,7 @@ std::string with_attribute(const std::string& html, const std::string& attribute
 }
 
 bool is_outside(const std::string& target) {
-  return target.rfind("https:", 0) == 0;
+  return target.starts_with("https:");
 }
 
 /// "cases/a.html" stands under "case-a", "families/b.html" under "family-b".
@@ -31,7 +31,7 @@ std::string anchor_of(const std::string& page) {
   const std::size_t slash = page.find('/');
   if (slash == std::string::npos) return "";
   const std::string name = page.substr(slash + 1, page.rfind('.') - slash - 1);
-  return (page.rfind("cases/", 0) == 0 ? "case-" : "family-") + name;
+  return (page.starts_with("cases/") ? "case-" : "family-") + name;
 }
 
 /// In one file the parts of index.html and references.html keep their names.
@@ -49,7 +49,7 @@ std::string linked_from(const std::string& html, const std::string& page,
     const auto elsewhere = moved.find(sought);
     const std::string& target = elsewhere == moved.end() ? sought : elsewhere->second;
     if (target.empty() || target[0] == '#' || is_outside(target)) return target;
-    if (target.rfind(page + "#", 0) == 0) return target.substr(page.size());
+    if (target.starts_with(page + "#")) return target.substr(page.size());
     return (page.find('/') == std::string::npos ? "" : "../") + target;
   };
   return with_attribute(with_attribute(html, "href", change), "src", change);

@@ -12,7 +12,7 @@ namespace trammel::reports {
 /// As these links read on the page at `page` ("cases/a.html").
 /// @param moved  where targets stand instead
 [[nodiscard]] std::string linked_from(const std::string& html, const std::string& page,
-                                      const std::map<std::string, std::string>& moved = {});
+                                      const std::map<std::string, std::string>& moved);
 
 /// As they read where one file holds all pages: ids of the page's own get its anchor before them.
 [[nodiscard]] std::string linked_within(const std::string& html, const std::string& page);

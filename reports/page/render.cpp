@@ -31,13 +31,18 @@ std::string with_powers_in_text(const std::string& html) {
 
 }  // namespace
 
+void set_partials(Data& data, std::initializer_list<const char*> names) {
+  for (const std::string name : names)
+    data.set(name + "_partial", kainjow::mustache::partial(
+                                    [file = name + ".mustache"] { return template_text(file); }));
+}
+
 std::string render(const std::string& template_name, const Data& data) {
   kainjow::mustache::mustache page(template_text(template_name));
   std::string html = page.render(data);
   if (!page.is_valid()) throw std::logic_error(template_name + ": " + page.error_message());
-  std::replace_if(
-      html.begin(), html.end(), [](char c) { return is_control(c) && c != '\n' && c != '\t'; },
-      ' ');
+  std::ranges::replace_if(
+      html, [](char c) { return is_control(c) && c != '\n' && c != '\t'; }, ' ');
   return with_powers_in_text(html);
 }
 

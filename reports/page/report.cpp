@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <set>
-#include <stdexcept>
 
 #include "harness/results/unfinished_folder.h"
 #include "reports/figures/gallery.h"
@@ -17,7 +16,6 @@ namespace trammel::reports {
 
 namespace {
 
-using namespace reports;
 namespace fs = std::filesystem;
 
 constexpr const char* kGenerator = R"(<meta name="generator" content="trammel">)";

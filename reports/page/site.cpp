@@ -56,56 +56,50 @@ constexpr std::array<IndexSection, 10> kIndexSections = {{
 
 /// What every template finds; headings below a page's title start with h`level`.
 Data page_data(bool single, int level) {
-  Data data = object();
-  for (const char* name : {"summary",      "claims", "variants", "figure",
-                           "checks",       "matrix", "cost",     "stress_suite",
-                           "targets",      "orders", "coverage", "validation_uncertainty",
-                           "counts",       "rows",   "head",     "matrix_row",
-                           "cell",         "find",   "history",  "detection",
-                           "certification"})
-    data.set(std::string(name) + "_partial",
-             kainjow::mustache::partial(
-                 [file = std::string(name) + ".mustache"] { return template_text(file); }));
-  set_flag(data, "single", single);
-  data.set("level", std::to_string(level));
-  data.set("sublevel", std::to_string(level + 1));
+  Data data = object({{"single", single},
+                      {"level", std::to_string(level)},
+                      {"sublevel", std::to_string(level + 1)}});
+  set_partials(data, {"summary",      "claims", "variants", "figure",
+                      "checks",       "matrix", "cost",     "stress_suite",
+                      "targets",      "orders", "coverage", "validation_uncertainty",
+                      "counts",       "rows",   "head",     "matrix_row",
+                      "cell",         "find",   "history",  "detection",
+                      "certification"});
   return data;
 }
 
-const IndexSection* section_there(const Data& index, const IndexSection& section) {
+bool is_there(const Data& index, const IndexSection& section) {
   const Data& data = *index.get(section.key);
   const Data* words = data.get(section.summary);
   const Data* rows = data.get("has_rows");
-  const bool there = words != nullptr && words->is_string() && (!rows || rows->is_true());
-  return there ? &section : nullptr;
+  return words != nullptr && words->is_string() && (!rows || rows->is_true());
 }
 
 Data index_data(const Results& results, const std::vector<Family>& families,
                 const CostPanels& panels, const std::optional<Figure>& over_time, bool single) {
   Data index = page_data(single, 2);
-  index.set("environment", environment_section(results));
-  index.set("claims", claims_section(results));
-  index.set("cost", cost_section(results, families, panels));
-  index.set("stress_suite", stress_suite_section(families));
-  index.set("targets", targets_section(results, families));
-  index.set("orders", orders_section(results, families));
-  index.set("validation_uncertainty", validation_uncertainty_section(results, families));
-  index.set("coverage", coverage_section(results, false));
-  for (const auto& [key, words] :
-       {std::pair{"detection", "Faults seeded into the program, by the family that notices them."},
-        std::pair{"certification",
-                  "Verdicts and digits when the solver rounds one way or is built another way."}}) {
-    Data section = object();
-    section.set("words", words);
-    index.set(key, section);
-  }
-  index.set("history", history_section(results, over_time));
-  set_text(index, "missing", results.missing);
-  set_flag(index, "has_claims", results.claims.has_value());
-  set_flag(index, "has_runs", !results.runs.empty() || panels.empty());
+  set(index,
+      {{"environment", environment_section(results)},
+       {"claims", claims_section(results)},
+       {"cost", cost_section(results, families, panels)},
+       {"stress_suite", stress_suite_section(families)},
+       {"targets", targets_section(results, families)},
+       {"orders", orders_section(results, families)},
+       {"validation_uncertainty", validation_uncertainty_section(results, families)},
+       {"coverage", coverage_section(results, false)},
+       {"detection",
+        object({{"words", "Faults seeded into the program, by the family that notices them."}})},
+       {"certification",
+        object({{"words",
+                 "Verdicts and digits when the solver rounds one way or is built another "
+                 "way."}})},
+       {"history", history_section(results, over_time)},
+       {"missing", results.missing},
+       {"has_claims", results.claims.has_value()},
+       {"has_runs", !results.runs.empty() || panels.empty()}});
   std::vector<SectionSummary> summaries;
   for (const IndexSection& section : kIndexSections)
-    if (section_there(index, section))
+    if (is_there(index, section))
       summaries.push_back({section.title, section.anchor,
                            index.get(section.key)->get(section.summary)->string_value()});
   index.set("summary", summary_section(results, families, summaries));
@@ -116,48 +110,43 @@ Data index_data(const Results& results, const std::vector<Family>& families,
 Data index_contents(const Data& index) {
   Data out = list();
   const auto add = [&](const char* title, const std::string& anchor) {
-    Data entry = object();
-    entry.set("title", title);
-    entry.set("link", "index.html#" + anchor);
-    out.push_back(entry);
+    out.push_back(object({{"title", title}, {"link", "index.html#" + anchor}}));
   };
   if (index.get("has_runs")->is_true()) add("Summary", "summary");
   for (const IndexSection& section : kIndexSections)
-    if (section_there(index, section) || section.anchor == std::string("cost"))
+    if (is_there(index, section) || section.anchor == std::string("cost"))
       add(section.title, section.anchor);
   return out;
 }
 
+void copy(const Data& from, Data& to, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) to.set(key, *from.get(key));
+}
+
 /// The families for the contents; on a page of its own, a family has its cases open.
 Data family_contents(const std::vector<Data>& sections, const std::string& path) {
-  Data out = list();
-  for (const Data& section : sections) {
+  return list_of(sections, [&](const Data& section) {
     Data family = object();
-    for (const char* key :
-         {"family_link", "family_title", "cases_count", "status_text", "status_class", "sign"})
-      family.set(key, *section.get(key));
+    copy(section, family,
+         {"family_link", "family_title", "cases_count", "status_text", "status_class", "sign"});
     const auto& entries = section.get("cases")->list_value();
     const auto stands_here = [&](const Data& entry) {
       return entry.get("case_link")->string_value() == path;
     };
     const bool is_here = section.get("family_link")->string_value() == path;
-    const bool open = is_here || std::any_of(entries.begin(), entries.end(), stands_here);
+    const bool open = is_here || std::ranges::any_of(entries, stands_here);
     const bool has_cases = open || path == "index.html";
-    set_flag(family, "is_here", is_here);
-    Data cases = list();
-    for (std::size_t i = 0; has_cases && i < entries.size(); ++i) {
-      Data entry = object();
-      for (const char* key : {"case_link", "short_title", "status_text", "status_class", "sign"})
-        entry.set(key, *entries[i].get(key));
-      set_flag(entry, "is_here", stands_here(entries[i]));
-      cases.push_back(entry);
-    }
-    set_flag(family, "open", open);
-    set_flag(family, "has_cases", has_cases);
-    family.set("cases", cases);
-    out.push_back(family);
-  }
-  return out;
+    const auto case_contents = [&](const Data& entry) {
+      Data contents = object({{"is_here", stands_here(entry)}});
+      copy(entry, contents, {"case_link", "short_title", "status_text", "status_class", "sign"});
+      return contents;
+    };
+    set(family, {{"is_here", is_here},
+                 {"open", open},
+                 {"has_cases", has_cases},
+                 {"cases", has_cases ? list_of(entries, case_contents) : list()}});
+    return family;
+  });
 }
 
 /// All checks for the search of the index, as a script, which a page opened from a file can load: a
@@ -199,27 +188,27 @@ struct Frame {
   /// @param own  title, subtitle, way up and status of the page
   [[nodiscard]] std::string around(const std::string& path, Data own,
                                    const std::string& body) const {
-    own.set("environment", environment_section(results));
-    own.set("sections", contents);
-    own.set("families", family_contents(families, path));
-    set_flag(own, "is_index", path == "index.html");
-    set_flag(own, "at_references", path == "references.html");
-    set_flag(own, "has_references", !results.references.empty());
-    set_flag(own, "single", single);
-    own.set("style", template_text("figure.css") + template_text("style.css"));
-    own.set("script", template_text("page.js"));
-    own.set("body", body);
-    own.set("left_out", kLeftOut);
+    set(own, {{"environment", environment_section(results)},
+              {"sections", contents},
+              {"families", family_contents(families, path)},
+              {"is_index", path == "index.html"},
+              {"at_references", path == "references.html"},
+              {"has_references", !results.references.empty()},
+              {"single", single},
+              {"style", template_text("figure.css") + template_text("style.css")},
+              {"script", template_text("page.js")},
+              {"body", body},
+              {"left_out", kLeftOut}});
     return render("page.mustache", own);
   }
 };
 
 Data titled(const std::string& title) {
-  Data data = object();
-  data.set("heading", title);
-  data.set("page_title", title);
-  for (const char* key : {"subtitle", "above", "status_class"}) set_text(data, key, "");
-  return data;
+  return object({{"heading", title},
+                 {"page_title", title},
+                 {"subtitle", ""},
+                 {"above", ""},
+                 {"status_class", ""}});
 }
 
 Data titled_index(const Data& index) {
@@ -232,32 +221,26 @@ Data titled_index(const Data& index) {
 
 Data titled_by(const Data& section, const char* title) {
   Data data = titled(section.get(title)->string_value());
-  for (const char* key : {"status_class", "status_text", "sign"}) data.set(key, *section.get(key));
+  copy(section, data, {"status_class", "status_text", "sign"});
   return data;
 }
 
+/// The template of this name, filled in with what it finds under the same.
+/// @param level  of its headings where one file holds all
+std::string body_of(const std::string& name, const Data& section, bool single, int level) {
+  Data data = page_data(single, single ? level : 2);
+  data.set(name, section);
+  return render(name + ".mustache", data);
+}
+
 std::string family_body(const Data& section, bool single) {
-  Data data = page_data(single, single ? 3 : 2);
-  data.set("family", section);
-  return render("family.mustache", data);
+  return body_of("family", section, single, 3);
 }
-
 std::string case_body(const Data& section, bool single) {
-  Data data = page_data(single, single ? 4 : 2);
-  data.set("case", section);
-  return render("case.mustache", data);
+  return body_of("case", section, single, 4);
 }
-
-std::string coverage_body(const Results& results) {
-  Data data = page_data(false, 2);
-  data.set("coverage", coverage_section(results, true));
-  return render("coverage.mustache", data);
-}
-
 std::string references_body(const Data& references, bool single) {
-  Data data = page_data(single, single ? 3 : 2);
-  data.set("references", references);
-  return render("references.mustache", data);
+  return body_of("references", references, single, 3);
 }
 
 /// References that a family is the first to use, or that only analyses use.
@@ -283,22 +266,17 @@ std::vector<ReferencePage> reference_pages(const Results& results,
     pages[first].references.push_back(entry);
   }
   const auto is_empty = [](const auto& page) { return page.references.list_value().empty(); };
-  pages.erase(std::remove_if(pages.begin(), pages.end(), is_empty), pages.end());
+  std::erase_if(pages, is_empty);
   return pages;
 }
 
 /// All references by their pages, at the addresses that links name.
 std::string reference_list(const std::vector<ReferencePage>& pages) {
-  Data data = object(), all = list();
-  for (const ReferencePage& page : pages) {
-    Data group = object();
-    group.set("page_title", page.title);
-    group.set("page_link", page.path);
-    group.set("references", page.references);
-    all.push_back(group);
-  }
-  data.set("pages", all);
-  return render("reference_list.mustache", data);
+  const auto group = [](const ReferencePage& page) {
+    return object(
+        {{"page_title", page.title}, {"page_link", page.path}, {"references", page.references}});
+  };
+  return render("reference_list.mustache", object({{"pages", list_of(pages, group)}}));
 }
 
 /// Marks and drawings, by the page that they stand on.
@@ -360,20 +338,19 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
     for (const CaseInfo* info : families[f].cases) {
       const Data data = case_section(*info, families[f], results);
       Data title = titled_by(data, "case_title");
-      title.set("above", families[f].title);
-      title.set("above_link", family_link(families[f].id));
+      set(title, {{"above", families[f].title}, {"above_link", family_link(families[f].id)}});
       add(case_link(info->id), title, case_body(data, false));
     }
   }
   for (const ReferencePage& page : references) {
     Data title = titled(page.title);
-    title.set("above", "References");
-    title.set("above_link", "references.html");
+    set(title, {{"above", "References"}, {"above_link", "references.html"}});
     add(page.path, title, references_body(page.references, false));
   }
   if (!references.empty()) add("references.html", titled("References"), reference_list(references));
   if (index.get("coverage")->get("has_rows")->is_true())
-    add("coverage.html", titled("What is verified, and by what"), coverage_body(results));
+    add("coverage.html", titled("What is verified, and by what"),
+        body_of("coverage", coverage_section(results, true), false, 2));
   add("index.html", titled_index(index), render("index.mustache", index));
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});

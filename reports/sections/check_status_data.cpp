@@ -5,10 +5,12 @@
 
 namespace trammel::reports {
 
-void set_check_status(Data& data, CheckStatus status) {
-  data.set("status_text", to_text(status));
-  data.set("status_class", css_class(status));
-  data.set("sign", sign(status));
+Data with_status(CheckStatus status, std::initializer_list<Entry> entries) {
+  Data data = object(entries);
+  set(data, {{"status_text", to_text(status)},
+             {"status_class", css_class(status)},
+             {"sign", sign(status)}});
+  return data;
 }
 
 Data counts_list(const Counts& counts) {
@@ -17,11 +19,9 @@ Data counts_list(const Counts& counts) {
   for (const CheckStatus which : kAllCheckStatuses) {
     const std::size_t n = count_of(counts, which);
     if (n == 0) continue;
-    Data entry = object();
-    set_check_status(entry, which);
-    entry.set("n", std::to_string(n));
-    entry.set("percent", shortest(100.0 * static_cast<double>(n) / all));
-    out.push_back(entry);
+    out.push_back(with_status(
+        which,
+        {{"n", std::to_string(n)}, {"percent", shortest(100.0 * static_cast<double>(n) / all)}}));
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 
 #include "reports/data/check_status.h"
@@ -7,8 +8,8 @@
 
 namespace trammel::reports {
 
-/// Text, class name and sign of a status: keys status_text, status_class, sign.
-void set_check_status(Data& data, CheckStatus status);
+/// With text, class name and sign of a status: keys status_text, status_class, sign.
+[[nodiscard]] Data with_status(CheckStatus status, std::initializer_list<Entry> entries = {});
 
 /// Counts as a list of {n, status_text, status_class, sign, percent} without the zeros.
 [[nodiscard]] Data counts_list(const Counts& counts);

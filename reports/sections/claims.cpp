@@ -7,6 +7,7 @@
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -30,13 +31,14 @@ constexpr std::array<VerdictStyle, 10> kVerdictStyles = {{
     {"", "not-run", "–"},
 }};
 
-void set_verdict(Data& data, const std::string& verdict) {
+/// With words, class name and sign of a verdict.
+Data with_verdict(const std::string& verdict, std::initializer_list<Entry> entries) {
   const auto* found =
       std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
                    [&](const VerdictStyle& style) { return verdict == style.verdict; });
-  data.set("verdict", verdict);
-  data.set("status_class", found->css_class);
-  data.set("sign", found->sign);
+  Data data = object(entries);
+  set(data, {{"verdict", verdict}, {"status_class", found->css_class}, {"sign", found->sign}});
+  return data;
 }
 
 std::string number_text(const ClaimInterpretation& interpretation, double value) {
@@ -49,52 +51,42 @@ std::string number_text(const ClaimInterpretation& interpretation, double value)
 /// The value, or the least and the most of several.
 std::string measured(const ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
-  const auto [lowest, highest] = std::minmax_element(
-      interpretation.entries.begin(), interpretation.entries.end(),
-      [](const ClaimEntry& a, const ClaimEntry& b) { return a.value < b.value; });
-  const std::string low = number_text(interpretation, lowest->value);
-  const std::string high = number_text(interpretation, highest->value);
-  return low == high ? low : low + " to " + high;
+  const auto [lowest, highest] =
+      std::ranges::minmax_element(interpretation.entries, {}, &ClaimEntry::value);
+  return low_to_high(number_text(interpretation, lowest->value),
+                     number_text(interpretation, highest->value));
 }
 
 Data interpretation_data(const ClaimInterpretation& interpretation, const Results& results) {
-  Data data = object();
-  set_verdict(data, interpretation.verdict);
-  data.set("description", interpretation.description);
-  set_text(data, "measured", measured(interpretation));
   Data cases = list();
   std::vector<std::string> seen;
   for (const ClaimEntry& entry : interpretation.entries) {
-    const bool listed = std::any_of(results.runs.begin(), results.runs.end(),
-                                    [&](const Run& run) { return run.case_id == entry.case_id; });
-    if (!listed || std::find(seen.begin(), seen.end(), entry.case_id) != seen.end()) continue;
+    const bool listed = std::ranges::any_of(
+        results.runs, [&](const Run& run) { return run.case_id == entry.case_id; });
+    if (!listed || std::ranges::find(seen, entry.case_id) != seen.end()) continue;
     seen.push_back(entry.case_id);
-    Data data_of_case = object();
-    data_of_case.set("case_id", entry.case_id);
-    data_of_case.set("case_link", case_link(entry.case_id));
-    cases.push_back(data_of_case);
+    cases.push_back(object({{"case_id", entry.case_id}, {"case_link", case_link(entry.case_id)}}));
   }
-  data.set("cases", cases);
-  return data;
+  return with_verdict(interpretation.verdict, {{"description", interpretation.description},
+                                               {"measured", measured(interpretation)},
+                                               {"cases", cases}});
 }
 
 Data claim_data(const Claim& claim, const Results& results) {
-  Data data = object();
-  data.set("id", claim.id);
-  data.set("claim", claim.claim);
-  data.set("place", claim.place);
-  data.set("conclusion", claim.verdict == "not measured" ? "No case of these results measures it."
-                                                         : claim.conclusion);
-  set_text(data, "undecidable", claim.undecidable);
-  set_verdict(data, claim.verdict);
-  set_text(
-      data, "differs",
-      claim.verdict == claim.expected || claim.verdict == "not measured" ? "" : claim.expected);
-  Data interpretations = list();
-  for (const ClaimInterpretation& interpretation : claim.interpretations)
-    interpretations.push_back(interpretation_data(interpretation, results));
-  data.set("interpretations", interpretations);
-  return data;
+  const auto interpretation = [&](const ClaimInterpretation& read) {
+    return interpretation_data(read, results);
+  };
+  return with_verdict(
+      claim.verdict,
+      {{"id", claim.id},
+       {"claim", claim.claim},
+       {"place", claim.place},
+       {"conclusion", claim.verdict == "not measured" ? "No case of these results measures it."
+                                                      : claim.conclusion},
+       {"undecidable", claim.undecidable},
+       {"differs",
+        claim.verdict == claim.expected || claim.verdict == "not measured" ? "" : claim.expected},
+       {"interpretations", list_of(claim.interpretations, interpretation)}});
 }
 
 /// "Eq. 14", "Table 2", "Figure 7", "Statement".
@@ -106,43 +98,34 @@ std::string item_title(const std::string& id) {
 }
 
 Data item_data(const PaperItem& item, const Claims& claims) {
-  Data data = object();
-  data.set("title", item_title(item.id));
-  data.set("section", item.section);
-  data.set("what", item.what);
-  Data shown = list();
-  for (const auto& one : item.shown_by) {
-    Data entry = object();
-    entry.set("case_id", one.case_id);
-    entry.set("case_link", case_link(one.case_id));
-    set_text(entry, "variant", one.variant);
-    set_text(entry, "quantity", one.quantity);
-    set_text(entry, "verdict", one.verdict);
-    shown.push_back(entry);
-  }
-  data.set("shown", shown);
+  const auto shown = [](const PaperItem::Counterpart& counterpart) {
+    return object({{"case_id", counterpart.case_id},
+                   {"case_link", case_link(counterpart.case_id)},
+                   {"variant", counterpart.variant},
+                   {"quantity", counterpart.quantity},
+                   {"verdict", counterpart.verdict}});
+  };
   Data verdicts = list();
   for (const Claim& claim : claims.claims) {
-    if (std::find(item.claims.begin(), item.claims.end(), claim.id) == item.claims.end()) continue;
-    Data entry = object();
-    entry.set("claim_id", claim.id);
-    set_verdict(entry, claim.verdict);
-    verdicts.push_back(entry);
+    if (std::ranges::find(item.claims, claim.id) == item.claims.end()) continue;
+    verdicts.push_back(with_verdict(claim.verdict, {{"claim_id", claim.id}}));
   }
-  data.set("verdicts", verdicts);
-  set_text(data, "reason", item.reason);
-  set_text(data, "note", item.note);
-  return data;
+  return object({{"title", item_title(item.id)},
+                 {"section", item.section},
+                 {"what", item.what},
+                 {"shown", list_of(item.shown_by, shown)},
+                 {"verdicts", verdicts},
+                 {"reason", item.reason},
+                 {"note", item.note}});
 }
 
 /// "2 confirmed, 4 contradicted, ..."
 std::string overview(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {
-    const auto n =
-        std::count_if(claims.claims.begin(), claims.claims.end(),
-                      [&](const Claim& claim) { return claim.verdict == style.verdict; });
-    if (n > 0) text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + style.verdict;
+    const auto n = std::ranges::count_if(
+        claims.claims, [&](const Claim& claim) { return claim.verdict == style.verdict; });
+    if (n > 0) add_item(text, std::to_string(n) + " " + style.verdict);
   }
   return count(claims.claims.size(), "claim") + ": " + text +
          ". Each verdict follows from the interpretations listed below it by a stated rule; a test "
@@ -152,19 +135,15 @@ std::string overview(const Claims& claims) {
 }  // namespace
 
 Data claims_section(const Results& results) {
-  Data section = object();
-  if (!results.claims) return section;
-  section.set("title", results.claims->title);
-  section.set("overview", overview(*results.claims));
-  Data claims = list();
-  for (const Claim& claim : results.claims->claims) claims.push_back(claim_data(claim, results));
-  Data items = list();
-  for (const PaperItem& item : results.claims->items)
-    items.push_back(item_data(item, *results.claims));
-  set_flag(section, "has_items", !results.claims->items.empty());
-  section.set("items", items);
-  section.set("list", claims);
-  return section;
+  if (!results.claims) return object();
+  const Claims& claims = *results.claims;
+  const auto item = [&](const PaperItem& shown) { return item_data(shown, claims); };
+  const auto verdict = [&](const Claim& claim) { return claim_data(claim, results); };
+  return object({{"title", claims.title},
+                 {"overview", overview(claims)},
+                 {"has_items", !claims.items.empty()},
+                 {"items", list_of(claims.items, item)},
+                 {"list", list_of(claims.claims, verdict)}});
 }
 
 }  // namespace trammel::reports

@@ -1,7 +1,9 @@
 #include "reports/sections/cost.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "harness/base/find_or_add.h"
 #include "reports/data/work_counters_text.h"
 #include "reports/figures/cost.h"
 #include "reports/figures/effect_scenes.h"
@@ -32,33 +34,25 @@ std::vector<CaseCost> costs(const std::vector<Family>& families) {
         cost.wall_s += run->cost.wall_s;
         cost.cpu_s += run->cost.cpu_s;
         for (const auto& [name, n] : run->cost.counters) {
-          auto known = std::find_if(cost.counters.begin(), cost.counters.end(),
-                                    [&, key = name](const auto& c) { return c.first == key; });
-          if (known == cost.counters.end()) {
-            cost.counters.emplace_back(name, n);
-          } else {
-            known->second += n;
-          }
+          const auto same = [&, key = name](const auto& known) { return known.first == key; };
+          harness::find_or_add(cost.counters, same, {name, 0}).second += n;
         }
       }
       out.push_back(std::move(cost));
     }
   }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const CaseCost& a, const CaseCost& b) { return a.wall_s > b.wall_s; });
+  std::ranges::stable_sort(out, std::ranges::greater(), &CaseCost::wall_s);
   return out;
 }
 
 Data row_of(const CaseCost& cost, double longest) {
-  Data row = object();
-  row.set("case_title", cost.info->title);
-  row.set("case_link", case_link(cost.info->id));
-  row.set("runs", std::to_string(cost.runs));
-  row.set("wall", duration(cost.wall_s));
-  row.set("cpu", duration(cost.cpu_s));
-  row.set("percent", trimmed(longest > 0 ? 100 * cost.wall_s / longest : 0, 3));
-  set_text(row, "counters", work_counters_text(cost.counters));
-  return row;
+  return object({{"case_title", cost.info->title},
+                 {"case_link", case_link(cost.info->id)},
+                 {"runs", std::to_string(cost.runs)},
+                 {"wall", duration(cost.wall_s)},
+                 {"cpu", duration(cost.cpu_s)},
+                 {"percent", trimmed(longest > 0 ? 100 * cost.wall_s / longest : 0, 3)},
+                 {"counters", work_counters_text(cost.counters)}});
 }
 
 /// Where the time of the runs went.
@@ -71,11 +65,9 @@ void set_runs(Data& section, const std::vector<Family>& families) {
   if (!all.empty() && wall > 0)
     words += "; the longest case, " + all.front().info->title + ", has " +
              relative(all.front().wall_s / wall, 2, false) + " of it";
-  section.set("runs_words", words + ".");
-  Data rows = list();
-  for (const CaseCost& cost : all) rows.push_back(row_of(cost, all.front().wall_s));
-  section.set("rows", rows);
-  set_flag(section, "has_runs", !all.empty());
+  const auto row = [&](const CaseCost& cost) { return row_of(cost, all.front().wall_s); };
+  set(section,
+      {{"runs_words", words + "."}, {"rows", list_of(all, row)}, {"has_runs", !all.empty()}});
 }
 
 /// "2.4 ×".
@@ -88,10 +80,7 @@ std::string within(double error) {
 }
 
 Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
-  Data row = object();
-  row.set("within", within(cheapest.error));
-  set_flag(row, "found", cheapest.setting.has_value());
-  if (!cheapest.setting) return row;
+  if (!cheapest.setting) return object({{"within", within(cheapest.error)}, {"found", false}});
   const CostSetting& setting = study.settings[*cheapest.setting];
   const Number error_of = study.error(setting);
   std::string settings = setting.title;
@@ -100,12 +89,13 @@ Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
     settings += " or " + study.settings[cheapest.tied[i]].title;
   if (cheapest.tied.size() > named)
     settings += " or one of " + std::to_string(cheapest.tied.size() - named) + " more";
-  row.set("setting", settings);
-  row.set("error", error_of ? relative(*error_of, 2, false) : "–");
-  row.set("times", times(setting.relative));
-  row.set("cpu", duration(setting.cpu_s));
-  row.set("work", work_counters_text(setting.counters));
-  return row;
+  return object({{"within", within(cheapest.error)},
+                 {"found", true},
+                 {"setting", settings},
+                 {"error", error_of ? relative(*error_of, 2, false) : "–"},
+                 {"times", times(setting.relative)},
+                 {"cpu", duration(setting.cpu_s)},
+                 {"work", work_counters_text(setting.counters)}});
 }
 
 std::string status_text(const CostSetting& setting) {
@@ -117,11 +107,9 @@ Data left_out(const CostStudy& study) {
   Data rows = list();
   for (const CostSetting& setting : study.settings) {
     if (!setting.without_result()) continue;
-    Data row = object();
-    row.set("setting", setting.title);
-    row.set("status_text", status_text(setting));
-    set_text(row, "reason", setting.reason);
-    rows.push_back(row);
+    rows.push_back(object({{"setting", setting.title},
+                           {"status_text", status_text(setting)},
+                           {"reason", setting.reason}}));
   }
   return rows;
 }
@@ -147,89 +135,70 @@ std::string study_anchor(const CostStudy& study) {
 
 /// The targets as heads of a table's columns.
 Data heads_of(const std::vector<CheapestSetting>& cheapest) {
-  Data heads = list();
-  for (const CheapestSetting& target : cheapest) {
-    Data head = object();
-    head.set("within", within(target.error));
-    heads.push_back(head);
-  }
-  return heads;
+  return list_of(cheapest, [](const CheapestSetting& target) {
+    return object({{"within", within(target.error)}});
+  });
 }
 
 Data cells_of(const CostStudy& study, const std::vector<CheapestSetting>& cheapest) {
-  Data cells = list();
-  for (const CheapestSetting& target : cheapest) cells.push_back(cheapest_row(study, target));
-  return cells;
+  return list_of(cheapest,
+                 [&](const CheapestSetting& target) { return cheapest_row(study, target); });
 }
 
 /// The cheapest settings for each of several outputs, and for all at once.
 void set_outputs(Data& data, const CostStudy& study) {
-  set_flag(data, "has_outputs", !study.outputs.empty());
+  set(data, {{"has_outputs", !study.outputs.empty()}});
   if (study.outputs.empty()) return;
-  data.set("output_heads", heads_of(study.cheapest));
-  Data rows = list();
-  for (const CostOutput& output : study.outputs) {
-    Data row = object();
-    row.set("output", output.title);
-    set_text(row, "scale", output.scale);
-    row.set("cells", cells_of(study, output.cheapest));
-    rows.push_back(row);
-  }
-  data.set("outputs", rows);
+  const auto row = [&](const CostOutput& output) {
+    return object({{"output", output.title},
+                   {"scale", output.scale},
+                   {"cells", cells_of(study, output.cheapest)}});
+  };
+  set(data, {{"output_heads", heads_of(study.cheapest)}, {"outputs", list_of(study.outputs, row)}});
 }
 
 Data study_data(const CostPanel& panel) {
   const CostStudy& study = *panel.study;
-  Data data = object();
-  data.set("anchor", study_anchor(study));
-  data.set("study_title", study.title);
-  set_text(data, "description", study.description);
-  data.set("measured", measured_text(study));
-  data.set("figure", figure_data(panel.figure));
-  Data rows = list();
-  for (const CheapestSetting& cheapest : study.cheapest)
-    rows.push_back(cheapest_row(study, cheapest));
-  data.set("cheapest", rows);
-  set_outputs(data, study);
   const Data lost = left_out(study);
-  set_flag(data, "has_left_out", lost.is_non_empty_list());
-  data.set("left_out", lost);
+  Data data = object({{"anchor", study_anchor(study)},
+                      {"study_title", study.title},
+                      {"description", study.description},
+                      {"measured", measured_text(study)},
+                      {"figure", figure_data(panel.figure)},
+                      {"cheapest", cells_of(study, study.cheapest)},
+                      {"has_left_out", lost.is_non_empty_list()},
+                      {"left_out", lost}});
+  set_outputs(data, study);
   return data;
 }
 
 /// Loops beside the machine: rates, and shares of the lower of what its core and memory allow.
 void set_roofline(Data& section, const Roofline& roofline) {
-  Data rows = list();
-  for (const LoopRate& loop : roofline.loops) {
+  const auto row = [&](const LoopRate& loop) {
     const double flops = loop.operations / loop.cpu_s, bytes = loop.bytes / loop.cpu_s;
     const double allowed = std::min(roofline.peak_flop_per_s,
                                     loop.operations / loop.bytes * roofline.bandwidth_B_per_s);
-    Data row = object();
-    row.set("loop", loop.title);
-    row.set("flops", trimmed(flops / 1e9, 3));
-    row.set("peak_share", trimmed(100 * flops / roofline.peak_flop_per_s, 2));
-    row.set("bytes", trimmed(bytes / 1e9, 3));
-    row.set("bandwidth_share", trimmed(100 * bytes / roofline.bandwidth_B_per_s, 2));
-    row.set("allowed_share", trimmed(100 * flops / allowed, 2));
-    rows.push_back(row);
-  }
-  section.set("peak", trimmed(roofline.peak_flop_per_s / 1e9, 3));
-  section.set("bandwidth", trimmed(roofline.bandwidth_B_per_s / 1e9, 3));
-  section.set("loops", rows);
+    return object({{"loop", loop.title},
+                   {"flops", trimmed(flops / 1e9, 3)},
+                   {"peak_share", trimmed(100 * flops / roofline.peak_flop_per_s, 2)},
+                   {"bytes", trimmed(bytes / 1e9, 3)},
+                   {"bandwidth_share", trimmed(100 * bytes / roofline.bandwidth_B_per_s, 2)},
+                   {"allowed_share", trimmed(100 * flops / allowed, 2)}});
+  };
+  set(section, {{"peak", trimmed(roofline.peak_flop_per_s / 1e9, 3)},
+                {"bandwidth", trimmed(roofline.bandwidth_B_per_s / 1e9, 3)},
+                {"loops", list_of(roofline.loops, row)}});
 }
 
 /// All studies in one table: the cheapest setting for each accuracy.
 void set_overview(Data& section, const std::vector<CostPanel>& panels) {
-  Data rows = list();
-  for (const CostPanel& panel : panels) {
-    Data row = object();
-    row.set("anchor", study_anchor(*panel.study));
-    row.set("study_title", panel.study->title);
-    row.set("cells", cells_of(*panel.study, panel.study->cheapest));
-    rows.push_back(row);
-  }
-  section.set("overview_heads", heads_of(panels.front().study->cheapest));
-  section.set("overview_rows", rows);
+  const auto row = [](const CostPanel& panel) {
+    return object({{"anchor", study_anchor(*panel.study)},
+                   {"study_title", panel.study->title},
+                   {"cells", cells_of(*panel.study, panel.study->cheapest)}});
+  };
+  set(section, {{"overview_heads", heads_of(panels.front().study->cheapest)},
+                {"overview_rows", list_of(panels, row)}});
 }
 
 }  // namespace
@@ -253,28 +222,23 @@ CostPanels plan_cost(const Results& results) {
 
 Data cost_section(const Results& results, const std::vector<Family>& families,
                   const CostPanels& all) {
-  Data section = object();
-  set_runs(section, families);
-  Data effects = list();
-  for (const Figure& figure : all.effects) effects.push_back(figure_data(figure));
-  section.set("effects", effects);
-  set_flag(section, "has_effects", !all.effects.empty());
   const std::vector<CostPanel>& panels = all.studies;
-  set_flag(section, "has_studies", !panels.empty());
+  Data section = object({{"effects", list_of(all.effects, figure_data)},
+                         {"has_effects", !all.effects.empty()},
+                         {"has_studies", !panels.empty()}});
+  set_runs(section, families);
   if (panels.empty()) return section;
   const CostStudies& cost = *results.cost;
-  section.set("sweep", cost.is_quick() ? "the quick sweep" : "the full sweep");
-  set_flag(section, "quick", cost.is_quick());
-  section.set("repeats", std::to_string(cost.repeats));
-  Data studies = list();
-  for (const CostPanel& panel : panels) studies.push_back(study_data(panel));
   const std::string studies_count = count(panels.size(), "study", "studies");
-  section.set("studies_count", studies_count);
   const CostStudy& first = *panels.front().study;
-  section.set("words", studies_count + ". " + first.title + ": " + first.conclusion);
+  set(section, {{"sweep", cost.is_quick() ? "the quick sweep" : "the full sweep"},
+                {"quick", cost.is_quick()},
+                {"repeats", std::to_string(cost.repeats)},
+                {"studies_count", studies_count},
+                {"words", studies_count + ". " + first.title + ": " + first.conclusion},
+                {"studies", list_of(panels, study_data)},
+                {"has_roofline", cost.roofline.has_value()}});
   set_overview(section, panels);
-  section.set("studies", studies);
-  set_flag(section, "has_roofline", cost.roofline.has_value());
   if (cost.roofline) set_roofline(section, *cost.roofline);
   return section;
 }

@@ -4,27 +4,22 @@
 
 #include "reports/text/html.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
 namespace {
 
 bool chose_effects(const Run* run) {
-  return std::any_of(run->effects.begin(), run->effects.end(),
-                     [](const EffectRow& effect) { return effect.estimated_change.has_value(); });
-}
-
-/// "axial-flexibility" -> "axial flexibility"
-std::string text_of(std::string name) {
-  std::replace(name.begin(), name.end(), '-', ' ');
-  return name;
+  return std::ranges::any_of(
+      run->effects, [](const EffectRow& effect) { return effect.estimated_change.has_value(); });
 }
 
 std::string title_of(const Run& run) {
   std::string on;
   std::size_t off = 0;
   for (const EffectRow& effect : run.effects) {
-    if (effect.active) on += (on.empty() ? "" : ", ") + text_of(effect.name);
+    if (effect.active) add_item(on, spaced(effect.name));
     if (effect.applicable && !effect.active) ++off;
   }
   return "Computed with " + (on.empty() ? "bending alone" : on) + "; " +
@@ -32,30 +27,25 @@ std::string title_of(const Run& run) {
 }
 
 Data row_of(const EffectRow& effect) {
-  Data row = object();
-  row.set("effect", text_of(effect.name));
-  row.set("state", effect.active ? "on" : "off");
-  set_text(row, "dimensionless_number",
-           effect.dimensionless_number ? trimmed(*effect.dimensionless_number, 3) : "");
-  set_text(row, "number_definition", effect.number_definition);
-  set_text(row, "estimated_change",
-           effect.estimated_change ? relative(*effect.estimated_change, 3, false) : "");
-  row.set("why", effect.why);
-  return row;
+  return object({{"effect", spaced(effect.name)},
+                 {"state", effect.active ? "on" : "off"},
+                 {"dimensionless_number",
+                  effect.dimensionless_number ? trimmed(*effect.dimensionless_number, 3) : ""},
+                 {"number_definition", effect.number_definition},
+                 {"estimated_change",
+                  effect.estimated_change ? relative(*effect.estimated_change, 3, false) : ""},
+                 {"why", effect.why}});
 }
 
 }  // namespace
 
 void set_effects(Data& data, const std::vector<const Run*>& runs) {
-  const auto found = std::find_if(runs.begin(), runs.end(), chose_effects);
-  set_text(data, "effects_title", found == runs.end() ? "" : title_of(**found));
+  const auto found = std::ranges::find_if(runs, chose_effects);
   Data rows = list();
-  if (found != runs.end()) {
-    for (const EffectRow& effect : (*found)->effects) {
+  if (found != runs.end())
+    for (const EffectRow& effect : (*found)->effects)
       if (effect.applicable) rows.push_back(row_of(effect));
-    }
-  }
-  data.set("effects", rows);
+  set(data, {{"effects_title", found == runs.end() ? "" : title_of(**found)}, {"effects", rows}});
 }
 
 }  // namespace trammel::reports

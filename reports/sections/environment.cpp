@@ -15,13 +15,10 @@ Data environment_section(const Results& results) {
   Data data = object();
   Data rows = list();
   const auto add = [&](const std::string& key, const std::string& value) {
-    Data row = object();
-    row.set("key", key);
-    row.set("value", value);
-    rows.push_back(row);
+    rows.push_back(object({{"key", key}, {"value", value}}));
   };
   for (const auto& [key, value] : entries) {
-    set_text(data, key, value);
+    set(data, {{key, value}});
     if (!value.empty()) add(key, value);
   }
   for (const auto& [name, version] : from.libraries) add(name, version);

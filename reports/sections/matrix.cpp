@@ -4,8 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "harness/base/find_or_add.h"
 #include "reports/data/check_status.h"
-#include "reports/data/check_text.h"
+#include "reports/data/variant_rows.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
@@ -47,17 +48,16 @@ std::vector<MatrixSubject> subjects(const Family& family) {
   for (const Run* run : family.runs) {
     for (const Check& check : run->checks) {
       if (!belongs(check)) continue;
-      auto subject = std::find_if(out.begin(), out.end(), [&](const MatrixSubject& s) {
-        return s.reference == check.reference && s.quantity == check.quantity &&
-               s.check == check.name;
-      });
-      if (subject == out.end())
-        subject = out.insert(out.end(),
-                             MatrixSubject{check.reference, check.quantity, check.name, {}, {}});
-      if (subject->rows.empty() || subject->rows.back().run != run)
-        subject->rows.push_back({run, {}, 0});
-      subject->rows.back().checks[*check.index] = &check;
-      subject->targets.emplace(*check.index, *check.expected);
+      const auto same = [&](const MatrixSubject& known) {
+        return known.reference == check.reference && known.quantity == check.quantity &&
+               known.check == check.name;
+      };
+      auto& subject =
+          harness::find_or_add(out, same, {check.reference, check.quantity, check.name, {}, {}});
+      if (subject.rows.empty() || subject.rows.back().run != run)
+        subject.rows.push_back({run, {}, 0});
+      subject.rows.back().checks[*check.index] = &check;
+      subject.targets.emplace(*check.index, *check.expected);
     }
   }
   return out;
@@ -70,12 +70,10 @@ void sort_rows(MatrixSubject& subject) {
     for (const auto& [_, check] : row.checks) sum += *check->difference * *check->difference;
     row.distance = std::sqrt(sum / static_cast<double>(row.checks.size()));
   }
-  std::stable_sort(subject.rows.begin(), subject.rows.end(),
-                   [](const MatrixRow& a, const MatrixRow& b) {
-                     if (a.checks.size() != b.checks.size())
-                       return a.checks.size() > b.checks.size();
-                     return a.distance < b.distance;
-                   });
+  std::ranges::stable_sort(subject.rows, [](const MatrixRow& a, const MatrixRow& b) {
+    if (a.checks.size() != b.checks.size()) return a.checks.size() > b.checks.size();
+    return a.distance < b.distance;
+  });
 }
 
 std::string row_title(const Family& family, const Results& results, const MatrixRow& row) {
@@ -85,37 +83,34 @@ std::string row_title(const Family& family, const Results& results, const Matrix
 }
 
 Data cell_of(const Check* check) {
-  Data cell = object();
-  set_flag(cell, "filled", check != nullptr);
-  if (!check) return cell;
+  if (!check) return object({{"filled", false}});
   const double d = *check->difference;
-  cell.set("value", significant(*check->computed, 4));
-  cell.set("difference", relative(d, std::abs(d) >= 0.1 ? 2 : 1, true));
-  cell.set("side", d < 0 ? "below" : "above");
-  cell.set("depth", trimmed(std::min(1.0, std::abs(d) / kFullColourDifference), 2));
-  set_check_status(cell, check_status(*check));
-  return cell;
+  return with_status(check_status(*check),
+                     {{"filled", true},
+                      {"value", significant(*check->computed, 4)},
+                      {"difference", relative(d, std::abs(d) >= 0.1 ? 2 : 1, true)},
+                      {"side", d < 0 ? "below" : "above"},
+                      {"depth", trimmed(std::min(1.0, std::abs(d) / kFullColourDifference), 2)}});
 }
 
 std::string entry_word(const MatrixSubject& subject) {
-  return subject.quantity.rfind("frequency", 0) == 0 ? "mode" : "entry";
+  return subject.quantity.starts_with("frequency") ? "mode" : "entry";
 }
 
 struct Nearest {
   int entry;
   const Check* check;
-  const MatrixRow* row;
 };
 
 std::vector<Nearest> nearest_of(const MatrixSubject& subject) {
   std::vector<Nearest> out;
   for (const auto& [entry, _] : subject.targets) {
-    Nearest best{entry, nullptr, nullptr};
+    Nearest best{entry, nullptr};
     for (const MatrixRow& row : subject.rows) {
       const auto found = row.checks.find(entry);
       if (found == row.checks.end()) continue;
       if (!best.check || std::abs(*found->second->difference) < std::abs(*best.check->difference))
-        best.check = found->second, best.row = &row;
+        best.check = found->second;
     }
     out.push_back(best);
   }
@@ -165,55 +160,26 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
 Data matrix_of(const MatrixSubject& subject, const Family& family, const Results& results) {
   const Reference* reference = results.reference(subject.reference);
   const QuantityLabel quantity = parse_quantity(subject.quantity);
-  Data matrix = object();
-  matrix.set("title", reference ? reference->title : subject.reference);
-  set_text(matrix, "reference_link", reference ? reference_link(reference->id) : "");
-  matrix.set("quantity", axis_label(to_text(quantity), quantity.unit));
-  matrix.set("conclusion", conclusion(subject, family, results));
-  matrix.set("entry_word", entry_word(subject));
-
-  Data columns = list();
-  for (const auto& [entry, target] : subject.targets) {
-    Data column = object();
-    column.set("entry", std::to_string(entry + 1));
-    column.set("target", trimmed(target, 6));
-    columns.push_back(column);
-  }
-  matrix.set("columns", columns);
-
-  Data rows = list();
-  Data folded = list();
-  const std::size_t shown = subject.rows.size() > kMaxUnfoldedMatrixRows + 3
-                                ? kMaxUnfoldedMatrixRows
-                                : subject.rows.size();
+  const auto nearest_cell = [](const Nearest& nearest) { return cell_of(nearest.check); };
+  Data matrix = object({{"title", reference ? reference->title : subject.reference},
+                        {"reference_link", reference ? reference_link(reference->id) : ""},
+                        {"quantity", axis_label(to_text(quantity), quantity.unit)},
+                        {"conclusion", conclusion(subject, family, results)},
+                        {"entry_word", entry_word(subject)},
+                        {"columns", target_columns(subject.targets, "")},
+                        {"nearest", list_of(nearest_of(subject), nearest_cell)}});
   const std::size_t whole = subject.rows.front().checks.size();
-  for (const MatrixRow& row : subject.rows) {
-    Data data = object();
-    data.set("title", row_title(family, results, row));
-    data.set("distance", relative(row.distance, 2, false));
-    set_flag(data, "best", &row == &subject.rows.front());
-    set_text(data, "partial",
-             row.checks.size() == whole ? ""
-                                        : count(row.checks.size(), entry_word(subject)) +
-                                              " only: not ranked with the rest");
-    Data cells = list();
-    for (const auto& [entry, _] : subject.targets) {
-      const auto found = row.checks.find(entry);
-      cells.push_back(cell_of(found == row.checks.end() ? nullptr : found->second));
-    }
-    data.set("cells", cells);
-    (static_cast<std::size_t>(&row - subject.rows.data()) < shown ? rows : folded).push_back(data);
-  }
-  matrix.set("rows", rows);
-  matrix.set("folded", folded);
-  set_text(
-      matrix, "folded_title",
-      shown == subject.rows.size() ? "" : count(subject.rows.size() - shown, "further variant"));
-
-  Data nearest_cells = list();
-  for (const Nearest& nearest : nearest_of(subject))
-    nearest_cells.push_back(cell_of(nearest.check));
-  matrix.set("nearest", nearest_cells);
+  set_variant_rows(matrix, subject.rows.size(), kMaxUnfoldedMatrixRows, [&](std::size_t i) {
+    const MatrixRow& row = subject.rows[i];
+    return object(
+        {{"title", row_title(family, results, row)},
+         {"distance", relative(row.distance, 2, false)},
+         {"best", i == 0},
+         {"partial", row.checks.size() == whole ? ""
+                                                : count(row.checks.size(), entry_word(subject)) +
+                                                      " only: not ranked with the rest"},
+         {"cells", target_cells(subject.targets, row.checks, cell_of)}});
+  });
   return matrix;
 }
 
@@ -232,10 +198,8 @@ std::vector<MatrixSubject> compared(const Family& family) {
 }  // namespace
 
 Data comparison_matrices(const Family& family, const Results& results) {
-  Data matrices = list();
-  for (const MatrixSubject& subject : compared(family))
-    matrices.push_back(matrix_of(subject, family, results));
-  return matrices;
+  return list_of(compared(family),
+                 [&](const MatrixSubject& subject) { return matrix_of(subject, family, results); });
 }
 
 std::string comparison_conclusion(const Family& family, const Results& results,

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "harness/base/find_or_add.h"
+#include "reports/drawing/interval.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -46,22 +48,9 @@ struct GciCoverage {
   }
 };
 
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-
-  void add(const Number& x) {
-    if (!x || !std::isfinite(*x)) return;
-    low = std::min(low, *x);
-    high = std::max(high, *x);
-  }
-  [[nodiscard]] bool empty() const { return low > high; }
-  [[nodiscard]] std::string text(int digits) const {
-    if (empty()) return "–";
-    const std::string from = trimmed(low, digits), to = trimmed(high, digits);
-    return from == to ? from : from + " to " + to;
-  }
-};
+Number finite(const Number& x) {
+  return x && std::isfinite(*x) ? x : std::nullopt;
+}
 
 /// Entries of one quantity along one sweep of one run.
 struct OrderRow {
@@ -74,14 +63,10 @@ struct OrderRow {
 std::vector<OrderRow> rows_of(const Run& run) {
   std::vector<OrderRow> rows;
   for (const Convergence& c : run.convergence) {
-    const auto same = std::find_if(rows.begin(), rows.end(), [&](const OrderRow& row) {
+    const auto same = [&](const OrderRow& row) {
       return row.front().sweep == c.sweep && row.front().quantity == c.quantity;
-    });
-    if (same == rows.end()) {
-      rows.push_back({&run, {&c}});
-    } else {
-      same->entries.push_back(&c);
-    }
+    };
+    harness::find_or_add(rows, same, {&run, {}}).entries.push_back(&c);
   }
   return rows;
 }
@@ -98,7 +83,7 @@ double largest_finite(const Numbers& numbers, bool first) {
 
 /// What a row has to say, over its entries.
 struct Findings {
-  Range order, law;
+  Interval order, law;
   double first = 0, last = 0;
   double off = -1;  ///< of the extrapolated value from the exact one; below 0: not known
   std::size_t fitted = 0, near = 0;  ///< entries with a fitted order, and with one near theory
@@ -108,8 +93,8 @@ struct Findings {
 Findings summarise(const OrderRow& row) {
   Findings found;
   for (const Convergence* c : row.entries) {
-    found.order.add(c->lower_order ? std::nullopt : c->fitted_order);
-    if (c->two_term) found.law.add(c->two_term->max_relative_misfit);
+    if (!c->lower_order) found.order.cover(finite(c->fitted_order));
+    if (c->two_term) found.law.cover(finite(c->two_term->max_relative_misfit));
     found.first = std::max(found.first, largest_finite(c->error, true));
     found.last = std::max(found.last, largest_finite(c->error, false));
     if (c->exact && *c->exact != 0 && c->richardson)
@@ -132,26 +117,25 @@ std::string theory_text(const Convergence& c) {
 
 std::string observed_text(const Findings& found) {
   if (!found.law.empty()) return "law within " + relative(found.law.high, 2, false);
-  return found.order.text(3);
+  if (found.order.empty()) return "–";
+  return low_to_high(trimmed(found.order.low, 3), trimmed(found.order.high, 3));
 }
 
 Data data_of(const OrderRow& row, const Findings& found, const CaseInfo& info) {
   const QuantityLabel quantity = parse_quantity(row.front().quantity);
-  Data data = object();
-  data.set("quantity", to_text(quantity));
-  set_text(data, "entries",
-           row.entries.size() > 1 ? count(row.entries.size(), "entry", "entries") : "");
-  set_text(data, "variant", row.run->variant == "base" ? "" : info.variant_title(row.run->variant));
-  data.set("theory", theory_text(row.front()));
-  data.set("observed", observed_text(found));
-  data.set("error", significant(found.first, 2) + " to " + significant(found.last, 2));
-  data.set("off", found.off < 0 ? "–" : significant(found.off, 2));
   const bool counted = found.coverage.levels > 0;
-  data.set("covered", counted ? std::to_string(found.coverage.hits) + " of " +
-                                    std::to_string(found.coverage.levels)
-                              : "–");
-  data.set("ratio", or_dash(found.coverage.median(), 3));
-  return data;
+  return object(
+      {{"quantity", to_text(quantity)},
+       {"entries", row.entries.size() > 1 ? count(row.entries.size(), "entry", "entries") : ""},
+       {"variant", row.run->variant == "base" ? "" : info.variant_title(row.run->variant)},
+       {"theory", theory_text(row.front())},
+       {"observed", observed_text(found)},
+       {"error", significant(found.first, 2) + " to " + significant(found.last, 2)},
+       {"off", found.off < 0 ? "–" : significant(found.off, 2)},
+       {"covered", counted ? std::to_string(found.coverage.hits) + " of " +
+                                 std::to_string(found.coverage.levels)
+                           : "–"},
+       {"ratio", or_dash(found.coverage.median(), 3)}});
 }
 
 std::string coverage_text(const GciCoverage& coverage) {
@@ -181,16 +165,13 @@ std::string orders_text(const Totals& totals) {
 }
 
 Data family_of(const Family& family, Totals& totals) {
-  Data data = object();
   Data cases = list();
   for (const CaseInfo* info : family.cases) {
     Data rows = list();
-    bool any = false;
     for (const Run* run : family.runs_of(info->id)) {
       for (const OrderRow& row : rows_of(*run)) {
         const Findings found = summarise(row);
         rows.push_back(data_of(row, found, *info));
-        any = true;
         ++totals.rows;
         totals.series += row.entries.size();
         totals.fitted += found.fitted;
@@ -199,45 +180,37 @@ Data family_of(const Family& family, Totals& totals) {
         totals.coverage.add(found.coverage);
       }
     }
-    if (!any) continue;
-    Data case_data = object();
-    case_data.set("case_title", family.short_title(*info));
-    case_data.set("case_link", case_link(info->id));
-    case_data.set("rows", rows);
-    cases.push_back(case_data);
+    if (rows.is_empty_list()) continue;
+    cases.push_back(object({{"case_title", family.short_title(*info)},
+                            {"case_link", case_link(info->id)},
+                            {"rows", rows}}));
   }
-  data.set("family_title", family.title);
-  data.set("cases", cases);
-  data.set("words", orders_text(totals) + " " + coverage_text(totals.coverage));
-  data.set("folded_title", count(totals.rows, "row"));
-  set_flag(data, "open", totals.rows <= kMaxUnfoldedOrders);
-  return data;
+  return object({{"family_title", family.title},
+                 {"cases", cases},
+                 {"words", orders_text(totals) + " " + coverage_text(totals.coverage)},
+                 {"folded_title", count(totals.rows, "row")},
+                 {"open", totals.rows <= kMaxUnfoldedOrders}});
 }
 
 }  // namespace
 
 Data orders_section(const Results& results, const std::vector<Family>& families) {
-  Data section = object();
-  Data list_of_families = list();
+  Data shown = list();
   std::size_t series = 0;
   for (const Family& family : families) {
     Totals totals;
     const Data data = family_of(family, totals);
     if (totals.rows == 0) continue;
     series += totals.series;
-    list_of_families.push_back(data);
+    shown.push_back(data);
   }
-  set_flag(section, "has_rows", series > 0);
-  section.set("words", count(series, "quantity", "quantities") +
-                           " refined; the theoretical and the observed order of each.");
   std::string text;
   if (results.uncertainty_coverage && results.uncertainty_coverage->levels > 0) {
     const UncertaintyCoverage& found = *results.uncertainty_coverage;
     const double rate = static_cast<double>(found.covered) / found.levels;
     text =
         "The numerical uncertainty (GCI), estimated from the computed values alone, covers the "
-        "exact "
-        "value on " +
+        "exact value on " +
         std::to_string(found.covered) + " of " + std::to_string(found.levels) + " levels (" +
         relative(rate, 3, false) + ")";
     if (found.min_coverage) text += "; " + relative(*found.min_coverage, 3, false) + " is required";
@@ -248,9 +221,11 @@ Data orders_section(const Results& results, const std::vector<Family>& families)
               " times the true error counts as too conservative";
     text += ".";
   }
-  set_text(section, "coverage", text);
-  section.set("families", list_of_families);
-  return section;
+  return object({{"has_rows", series > 0},
+                 {"words", count(series, "quantity", "quantities") +
+                               " refined; the theoretical and the observed order of each."},
+                 {"coverage", text},
+                 {"families", shown}});
 }
 
 }  // namespace trammel::reports

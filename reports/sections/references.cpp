@@ -1,6 +1,5 @@
 #include "reports/sections/references.h"
 
-#include <algorithm>
 #include <array>
 #include <set>
 
@@ -48,11 +47,9 @@ std::string uncertainty_text(const Reference& reference, std::size_t i) {
 Data values_of(const Reference& reference) {
   Data out = list();
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
-    Data value = object();
-    set_text(value, "i", reference.values.size() > 1 ? std::to_string(i + 1) : "");
-    value.set("value", value_text(reference, i));
-    set_text(value, "uncertainty", uncertainty_text(reference, i));
-    out.push_back(value);
+    out.push_back(object({{"i", reference.values.size() > 1 ? std::to_string(i + 1) : ""},
+                          {"value", value_text(reference, i)},
+                          {"uncertainty", uncertainty_text(reference, i)}}));
   }
   return out;
 }
@@ -62,10 +59,8 @@ Data used_by(const Results& results, const std::string& id) {
   Data out = list();
   const auto use = [&](const std::string& case_id, const std::string& reference) {
     if (reference != id || !seen.insert(case_id).second) return;
-    Data data = object();
-    data.set("case_title", results.case_info(case_id).title);
-    data.set("case_link", case_link(case_id));
-    out.push_back(data);
+    out.push_back(object(
+        {{"case_title", results.case_info(case_id).title}, {"case_link", case_link(case_id)}}));
   };
   for (const Run& run : results.runs) {
     for (const Check& check : run.checks) use(run.case_id, check.reference);
@@ -75,40 +70,30 @@ Data used_by(const Results& results, const std::string& id) {
 }
 
 Data provenance(const Reference& reference, const Results& results) {
-  Data data = object();
-  data.set("anchor", "ref-" + slug(reference.id));
-  data.set("reference_id", reference.id);
-  data.set("reference_title", reference.title);
-  data.set("kind", kind_meaning(reference.kind));
-  set_text(data, "unit", display_unit(reference.unit));
-  set_text(data, "citation", reference.citation);
-  set_text(data, "doi", reference.doi);
-  set_text(data, "place", reference.place);
-  set_text(data, "derivation", reference.derivation);
-  set_text(data, "notes", reference.notes);
-  Data errata = list();
-  for (const std::string& text : reference.errata) {
-    Data erratum = object();
-    erratum.set("text", text);
-    errata.push_back(erratum);
-  }
-  set_flag(data, "has_errata", !reference.errata.empty());
-  data.set("errata", errata);
   const bool few = reference.values.size() <= kMaxUnfoldedValues;
-  set_flag(data, "few_values", few && !reference.values.empty());
-  set_text(data, "many_values", few ? "" : count(reference.values.size(), "value"));
-  data.set("values", values_of(reference));
-  data.set("used_by", used_by(results, reference.id));
-  return data;
+  return object({{"anchor", "ref-" + slug(reference.id)},
+                 {"reference_id", reference.id},
+                 {"reference_title", reference.title},
+                 {"kind", kind_meaning(reference.kind)},
+                 {"unit", display_unit(reference.unit)},
+                 {"citation", reference.citation},
+                 {"doi", reference.doi},
+                 {"place", reference.place},
+                 {"derivation", reference.derivation},
+                 {"notes", reference.notes},
+                 {"has_errata", !reference.errata.empty()},
+                 {"errata", texts(reference.errata)},
+                 {"few_values", few && !reference.values.empty()},
+                 {"many_values", few ? "" : count(reference.values.size(), "value")},
+                 {"values", values_of(reference)},
+                 {"used_by", used_by(results, reference.id)}});
 }
 
 }  // namespace
 
 Data references_section(const Results& results) {
-  Data out = list();
-  for (const Reference& reference : results.references)
-    out.push_back(provenance(reference, results));
-  return out;
+  return list_of(results.references,
+                 [&](const Reference& reference) { return provenance(reference, results); });
 }
 
 }  // namespace trammel::reports

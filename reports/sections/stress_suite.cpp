@@ -9,6 +9,7 @@
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -41,7 +42,7 @@ std::string scope_text(const Indicator& indicator, const CaseInfo& info) {
   std::string text =
       indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
   if (indicator.entries > 1) {
-    text += (text.empty() ? "" : "; ") + ("worst of " + std::to_string(indicator.entries));
+    add_item(text, "worst of " + std::to_string(indicator.entries), "; ");
   }
   return text;
 }
@@ -59,39 +60,32 @@ std::string value_of(const Check& check) {
 
 Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const Check& check = *indicator.worst;
-  Data row = object();
-  row.set("quantity", check.title.empty() ? quantity_text(check) : check.title);
-  set_text(row, "of_what", scope_text(indicator, info));
-  row.set("value", value_of(check));
-  row.set("bound", bound_of(check));
-  set_text(row, "why", check.why);
-  set_check_status(row, check_status(check));
-  return row;
+  return with_status(check_status(check),
+                     {{"quantity", check.title.empty() ? quantity_text(check) : check.title},
+                      {"of_what", scope_text(indicator, info)},
+                      {"value", value_of(check)},
+                      {"bound", bound_of(check)},
+                      {"why", check.why}});
 }
 
 Data missing_row(const std::string& check) {
-  Data row = object();
-  row.set("quantity", check);
-  set_text(row, "of_what", "no run has it");
-  row.set("value", "–");
-  row.set("bound", "–");
-  set_text(row, "why", "");
-  set_check_status(row, CheckStatus::not_run);
-  return row;
+  return with_status(CheckStatus::not_run, {{"quantity", check},
+                                            {"of_what", "no run has it"},
+                                            {"value", "–"},
+                                            {"bound", "–"},
+                                            {"why", ""}});
 }
 
 /// Links to the figures that the case asks for.
 Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
   Data pictures = list();
   for (const PlotRequest& request : info.figures) {
-    const auto figure = std::find_if(
-        gallery.shown.begin(), gallery.shown.end(),
-        [&](const Figure& drawn) { return drawn.id == slug(info.id + "-" + request.id); });
+    const auto figure = std::ranges::find_if(gallery.shown, [&](const Figure& drawn) {
+      return drawn.id == slug(info.id + "-" + request.id);
+    });
     if (figure == gallery.shown.end()) continue;
-    Data picture = object();
-    picture.set("link", case_link(info.id) + "#fig-" + figure->id);
-    picture.set("number", std::to_string(figure->number));
-    pictures.push_back(picture);
+    pictures.push_back(object({{"link", case_link(info.id) + "#fig-" + figure->id},
+                               {"number", std::to_string(figure->number)}}));
   }
   return pictures;
 }
@@ -99,26 +93,22 @@ Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
 /// "Stress case 7: from 1 to 10,000 elements" is listed under item 7 without its first words.
 std::string title_of(const CaseInfo& info) {
   const std::string prefix = "Stress case " + std::to_string(info.stress_suite->item) + ": ";
-  if (info.title.rfind(prefix, 0) != 0) return info.title;
-  std::string title = info.title.substr(prefix.size());
-  if (title[0] >= 'a' && title[0] <= 'z') title[0] = static_cast<char>(title[0] - 'a' + 'A');
-  return title;
+  if (!info.title.starts_with(prefix)) return info.title;
+  return capitalized(info.title.substr(prefix.size()));
 }
 
 Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
-  Data data = object();
-  data.set("item", std::to_string(info.stress_suite->item));
-  data.set("case_title", title_of(info));
-  data.set("case_link", case_link(info.id));
-  data.set("pictures", pictures_of(info, family.galleries.at(info.id)));
   Data rows = list();
   for (const std::string& check : info.stress_suite->indicators) {
     const Indicator indicator = worst_of(check, family.runs_of(info.id));
     ++counts[indicator.worst ? check_status(*indicator.worst) : CheckStatus::not_run];
     rows.push_back(indicator.worst ? row_of(indicator, info) : missing_row(check));
   }
-  data.set("rows", rows);
-  return data;
+  return object({{"item", std::to_string(info.stress_suite->item)},
+                 {"case_title", title_of(info)},
+                 {"case_link", case_link(info.id)},
+                 {"pictures", pictures_of(info, family.galleries.at(info.id))},
+                 {"rows", rows}});
 }
 
 std::string text_of(const Counts& counts, std::size_t items, std::size_t cases) {
@@ -146,19 +136,16 @@ Data stress_suite_section(const std::vector<Family>& families) {
       items.insert(info->stress_suite->item);
     }
   }
-  Data section = object();
   Data in_order = list();
   for (const auto& [item, data] : cases) in_order.push_back(data);
-  set_flag(section, "has_rows", !cases.empty());
-  section.set("cases", in_order);
-  section.set("words", text_of(counts, items.size(), cases.size()));
   std::string missing_items;
   for (int item = 1; !items.empty() && item < *items.rbegin(); ++item) {
-    if (!items.contains(item))
-      missing_items += (missing_items.empty() ? "" : ", ") + std::to_string(item);
+    if (!items.contains(item)) add_item(missing_items, std::to_string(item));
   }
-  set_text(section, "missing_items", missing_items);
-  return section;
+  return object({{"has_rows", !cases.empty()},
+                 {"cases", in_order},
+                 {"words", text_of(counts, items.size(), cases.size())},
+                 {"missing_items", missing_items}});
 }
 
 }  // namespace trammel::reports

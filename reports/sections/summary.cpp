@@ -11,6 +11,7 @@
 #include "reports/sections/matrix.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -47,20 +48,14 @@ std::vector<CheckStatus> role_columns(const Counts& all) {
 
 Data role_row(const std::string& name, const std::string& meaning, const Counts& counts,
               const std::vector<CheckStatus>& columns) {
-  Data row = object();
-  row.set("role", name);
-  set_text(row, "meaning", meaning);
-  Data cells = list();
-  for (const CheckStatus which : columns) {
-    Data cell = object();
+  const auto cell = [&](CheckStatus which) {
     const std::size_t n = count_of(counts, which);
-    set_check_status(cell, which);
-    set_text(cell, "n", n ? std::to_string(n) : "");
-    cells.push_back(cell);
-  }
-  row.set("cells", cells);
-  row.set("total", std::to_string(total(counts)));
-  return row;
+    return with_status(which, {{"n", n ? std::to_string(n) : ""}});
+  };
+  return object({{"role", name},
+                 {"meaning", meaning},
+                 {"cells", list_of(columns, cell)},
+                 {"total", std::to_string(total(counts))}});
 }
 
 Data role_table(const Results& results) {
@@ -75,14 +70,18 @@ Data role_table(const Results& results) {
   return rows;
 }
 
-Data item(const CaseInfo& info, const Run& run, const std::string& what, const std::string& text) {
-  Data data = object();
-  data.set("case_title", info.title);
-  data.set("case_link", case_link(info.id));
-  set_text(data, "variant_title", info.variants.size() > 1 ? info.variant_title(run.variant) : "");
-  set_text(data, "what", what);
-  set_text(data, "text", text);
-  return data;
+Data item(const CaseInfo& info, const Run& run, CheckStatus status, const std::string& what,
+          const std::string& text) {
+  return with_status(
+      status, {{"case_title", info.title},
+               {"case_link", case_link(info.id)},
+               {"variant_title", info.variants.size() > 1 ? info.variant_title(run.variant) : ""},
+               {"what", what},
+               {"text", text}});
+}
+
+bool is_failure(CheckStatus status) {
+  return status == CheckStatus::fails || status == CheckStatus::error;
 }
 
 /// Runs that did not end as their case expects, and checks that fail or could not be judged.
@@ -91,18 +90,14 @@ Data failures(const Results& results, std::size_t& unexpected_endings) {
   for (const Run& run : results.runs) {
     const CaseInfo& info = results.case_info(run.case_id);
     const CheckStatus ending = check_status(run);
-    if (ending == CheckStatus::fails || ending == CheckStatus::error) {
+    if (is_failure(ending)) {
       ++unexpected_endings;
-      Data data = item(info, run, to_string(run.status), run.reason);
-      set_check_status(data, ending);
-      out.push_back(data);
+      out.push_back(item(info, run, ending, to_string(run.status), run.reason));
     }
     for (const CheckGroup& group : group_checks(run)) {
       const CheckStatus worst = check_status(group.worst());
-      if (worst != CheckStatus::fails && worst != CheckStatus::error) continue;
-      Data data = item(info, run, check_title(group.front()), failure_text(group));
-      set_check_status(data, worst);
-      out.push_back(data);
+      if (is_failure(worst))
+        out.push_back(item(info, run, worst, check_title(group.front()), failure_text(group)));
     }
   }
   return out;
@@ -120,8 +115,7 @@ struct Targets {
       stated.insert({run.case_id, check.name, check.quantity, check.index.value_or(-1)});
       return;
     }
-    const bool equal =
-        std::count(reference->values.begin(), reference->values.end(), check.expected) > 1;
+    const bool equal = std::ranges::count(reference->values, check.expected) > 1;
     printed.insert({check.reference, *check.expected, equal ? check.index.value_or(-1) : -1});
   }
   [[nodiscard]] std::string text() const {
@@ -193,9 +187,8 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Results& results,
 
 std::string span_text(const Check& lowest, const Check& highest) {
   if (!lowest.difference || !highest.difference) return "";
-  const std::string low = difference_text(lowest, *lowest.difference);
-  const std::string high = difference_text(highest, *highest.difference);
-  return low == high ? low : low + " to " + high;
+  return low_to_high(difference_text(lowest, *lowest.difference),
+                     difference_text(highest, *highest.difference));
 }
 
 std::string span_text(const KnownDiscrepancy& known) {
@@ -218,51 +211,41 @@ std::string run_names(const Reason& reason, const KnownDiscrepancy& known, const
   std::string text;
   for (const Run* run : reason.runs) {
     const CaseInfo& info = results.case_info(run->case_id);
-    text += (text.empty() ? "" : "; ") + info.variant_title(run->variant);
+    add_item(text, info.variant_title(run->variant), "; ");
     if (known.cases.size() > 1) text += " (" + known.family->short_title(info) + ")";
   }
   return text;
 }
 
 Data reasons_data(const KnownDiscrepancy& known, const Results& results) {
-  Data out = list();
-  for (const Reason& reason : known.reasons) {
-    Data data = object();
-    set_text(data, "span", span_text(*reason.lowest, *reason.highest));
-    set_text(data, "text", reason.text);
-    data.set("variants", run_names(reason, known, results));
-    out.push_back(data);
-  }
-  return out;
+  return list_of(known.reasons, [&](const Reason& reason) {
+    return object({{"span", span_text(*reason.lowest, *reason.highest)},
+                   {"text", reason.text},
+                   {"variants", run_names(reason, known, results)}});
+  });
 }
 
 /// One reason stands as it is; many stand folded, under what they come to.
 Data known_data(const KnownDiscrepancy& known, const Results& results) {
-  Data data = object();
   const Reference* reference = results.reference(known.first->reference);
-  Data cases = list();
   std::size_t variants = 0;
   for (const Reason& reason : known.reasons) variants += reason.runs.size();
-  for (const CaseInfo* info : known.cases) {
-    Data entry = object();
-    entry.set("case_title", info->title);
-    entry.set("case_link", case_link(info->id));
-    cases.push_back(entry);
-  }
-  data.set("cases", cases);
-  data.set("what", known_title(*known.first, reference));
-  set_text(data, "reference_link", reference ? reference_link(reference->id) : "");
-  set_text(data, "span", span_text(known));
   std::string extent = count(known.checks, "check");
   if (variants > 1) extent += " of " + count(variants, "variant");
-  data.set("extent", extent + " with " + known.targets.text());
   const bool single_reason = known.reasons.size() == 1;
-  set_text(data, "reason",
-           single_reason ? known.reasons.front().text
-                         : comparison_conclusion(*known.family, results, *known.first));
-  set_text(data, "reasons_title", single_reason ? "" : count(known.reasons.size(), "reason"));
-  data.set("reasons", single_reason ? list() : reasons_data(known, results));
-  return data;
+  const auto entry = [](const CaseInfo* info) {
+    return object({{"case_title", info->title}, {"case_link", case_link(info->id)}});
+  };
+  return object(
+      {{"cases", list_of(known.cases, entry)},
+       {"what", known_title(*known.first, reference)},
+       {"reference_link", reference ? reference_link(reference->id) : ""},
+       {"span", span_text(known)},
+       {"extent", extent + " with " + known.targets.text()},
+       {"reason", single_reason ? known.reasons.front().text
+                                : comparison_conclusion(*known.family, results, *known.first)},
+       {"reasons_title", single_reason ? "" : count(known.reasons.size(), "reason")},
+       {"reasons", single_reason ? list() : reasons_data(known, results)}});
 }
 
 /// Families with known discrepancies, each with its list.
@@ -279,23 +262,9 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
       targets.stated.insert(all[to].targets.stated.begin(), all[to].targets.stated.end());
       entries.push_back(known_data(all[to], results));
     }
-    Data family = object();
-    family.set("family_title", all[from].family->title);
-    family.set("extent", targets.text() + " in " + count(checks, "check"));
-    family.set("known", entries);
-    out.push_back(family);
-  }
-  return out;
-}
-
-Data section_summaries(const std::vector<SectionSummary>& summaries) {
-  Data out = list();
-  for (const SectionSummary& summary : summaries) {
-    Data data = object();
-    data.set("title", summary.title);
-    data.set("anchor", summary.anchor);
-    data.set("words", summary.text);
-    out.push_back(data);
+    out.push_back(object({{"family_title", all[from].family->title},
+                          {"extent", targets.text() + " in " + count(checks, "check")},
+                          {"known", entries}}));
   }
   return out;
 }
@@ -306,12 +275,11 @@ std::string verdict_text(const Counts& counts, std::size_t unexpected_endings,
   const std::size_t errors = count_of(counts, CheckStatus::error);
   if (total(counts) == 0) return "No checks were made.";
   std::string text;
-  const auto add_part = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-  if (fails > 0) add_part(count(fails, "check fails", "checks fail"));
-  if (errors > 0) add_part(std::to_string(errors) + " could not be evaluated");
+  if (fails > 0) add_item(text, count(fails, "check fails", "checks fail"));
+  if (errors > 0) add_item(text, std::to_string(errors) + " could not be evaluated");
   if (unexpected_endings > 0)
-    add_part(
-        count(unexpected_endings, "run did not end as expected", "runs did not end as expected"));
+    add_item(text, count(unexpected_endings, "run did not end as expected",
+                         "runs did not end as expected"));
   if (!text.empty()) return text + ".";
   const std::size_t known = count_of(counts, CheckStatus::known_discrepancy);
   if (count_of(counts, CheckStatus::not_given) > 0 && known == 0)
@@ -350,32 +318,28 @@ Data summary_section(const Results& results, const std::vector<Family>& families
                      const std::vector<SectionSummary>& summaries) {
   const Counts counts = counts_of(results, "");
   std::size_t unexpected_endings = 0;
-  Data summary = object();
   const Data failure_list = failures(results, unexpected_endings);
   const bool good = all_checks_pass(counts) && unexpected_endings == 0 && total(counts) > 0;
-  summary.set("verdict", verdict_text(counts, unexpected_endings, targets_of(results)));
   const bool all_agree = count_of(counts, CheckStatus::known_discrepancy) == 0;
-  summary.set("verdict_class", css_class(!good       ? CheckStatus::fails
-                                         : all_agree ? CheckStatus::passes
-                                                     : CheckStatus::known_discrepancy));
-  summary.set("overview", overview_text(results, families, counts));
-  summary.set("bar", counts_list(counts));
-  summary.set("roles", role_table(results));
-  set_flag(summary, "has_troubles", failure_list.is_non_empty_list());
-  summary.set("troubles", failure_list);
-  set_flag(summary, "has_answers", !summaries.empty());
-  summary.set("answers", section_summaries(summaries));
   const Data known = known_by_family(results, families);
-  set_flag(summary, "has_known", known.is_non_empty_list());
-  summary.set("known_families", known);
-  Data heads = list();
-  for (const CheckStatus which : role_columns(counts)) {
-    Data head = object();
-    set_check_status(head, which);
-    heads.push_back(head);
-  }
-  summary.set("heads", heads);
-  return summary;
+  const auto answer = [](const SectionSummary& summary) {
+    return object({{"title", summary.title}, {"anchor", summary.anchor}, {"words", summary.text}});
+  };
+  const auto head = [](CheckStatus which) { return with_status(which); };
+  return object({{"verdict", verdict_text(counts, unexpected_endings, targets_of(results))},
+                 {"verdict_class", css_class(!good       ? CheckStatus::fails
+                                             : all_agree ? CheckStatus::passes
+                                                         : CheckStatus::known_discrepancy)},
+                 {"overview", overview_text(results, families, counts)},
+                 {"bar", counts_list(counts)},
+                 {"roles", role_table(results)},
+                 {"has_troubles", failure_list.is_non_empty_list()},
+                 {"troubles", failure_list},
+                 {"has_answers", !summaries.empty()},
+                 {"answers", list_of(summaries, answer)},
+                 {"has_known", known.is_non_empty_list()},
+                 {"known_families", known},
+                 {"heads", list_of(role_columns(counts), head)}});
 }
 
 }  // namespace trammel::reports

@@ -1,9 +1,8 @@
 #include "reports/sections/tables.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
+#include "harness/base/find_or_add.h"
 #include "harness/results/quantity_definitions.h"
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
@@ -11,6 +10,7 @@
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -21,18 +21,15 @@ constexpr std::size_t kMaxEntries = 12;         ///< entries of one check shown 
 
 /// The cells of one check; the first of its group carries what the group has in common.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
-  Data row = object();
-  set_text(row, "entry", entry);
-  set_flag(row, "long_entry", entry.size() > 24);
-  row.set("target", target_text(check));
-  row.set("computed", computed_text(check));
-  row.set("difference", difference_text(check));
-  set_check_status(row, check_status(check));
   const bool telling = check.verdict != Verdict::pass || check.measure == "status";
-  set_text(row, "message", telling ? check.message : "");
-  set_text(row, "own_range", "");
-  set_flag(row, "first", first);
-  return row;
+  return with_status(check_status(check), {{"entry", entry},
+                                           {"long_entry", entry.size() > 24},
+                                           {"target", target_text(check)},
+                                           {"computed", computed_text(check)},
+                                           {"difference", difference_text(check)},
+                                           {"message", telling ? check.message : ""},
+                                           {"own_range", ""},
+                                           {"first", first}});
 }
 
 /// A bound is its own target and need not be said twice.
@@ -50,31 +47,36 @@ struct Rows {
 
 /// One check with all its entries: name, reference and reason stand once for all of them, and so
 /// does the tolerance if they share it.
-Data group_of(const Check& check, Rows& table, const Data& rows, std::size_t n) {
-  Data group = object();
+Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
   const bool first = table.is_linked && table.named.insert(check.name).second;
-  set_text(group, "check_anchor", first ? slug(check.name) : "");
-  group.set("rows", rows);
+  std::size_t n = rows.list_value().size();
   for (const Data& row : rows.list_value()) n += row.get("message")->is_string() ? 1 : 0;
-  group.set("rowspan", std::to_string(n));
-  group.set("name", check_title(check));
-  group.set("quantity", quantity_text(check));
   const QuantityDefinition* definition = find_quantity_definition(check.quantity, "");
-  set_text(group, "meaning", definition == nullptr ? "" : definition->meaning);
-  group.set("role", check.role);
-  set_flag(group, "shared", true);
-  set_text(group, "range", range_text(check));
-  set_text(group, "why", check.why);
   const Reference* reference = table.results.reference(check.reference);
-  set_text(group, "reference", reference ? reference->title : check.reference);
-  set_text(group, "reference_link", reference ? reference_link(reference->id) : "");
-  return group;
+  return object({{"check_anchor", first ? slug(check.name) : ""},
+                 {"rows", rows},
+                 {"rowspan", std::to_string(n)},
+                 {"name", check_title(check)},
+                 {"quantity", quantity_text(check)},
+                 {"meaning", definition == nullptr ? "" : definition->meaning},
+                 {"role", check.role},
+                 {"shared", shared},
+                 {"range", range_text(check)},
+                 {"why", check.why},
+                 {"reference", reference ? reference->title : check.reference},
+                 {"reference_link", reference ? reference_link(reference->id) : ""}});
 }
 
-/// "631 points, 629 hold": for a group of which only the worst is shown.
-std::string worst_entry(const CheckGroup& group) {
-  const std::string entry = entry_text(group.worst(), group.checks.size());
-  return "worst of " + std::to_string(group.checks.size()) + (entry.empty() ? "" : ": " + entry);
+/// "worst of 631: point 12": for a check of which only the worst entry is shown.
+std::string worst_entry(const Check& worst, std::size_t entries) {
+  const std::string entry = entry_text(worst, entries);
+  return "worst of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
+}
+
+Data group_of_worst(const Check& worst, const std::string& entry, Rows& table) {
+  Data rows = list();
+  rows.push_back(row_of(worst, entry));
+  return group_of(worst, table, rows, true);
 }
 
 bool same_reason(const Check& a, const Check& b) {
@@ -84,9 +86,8 @@ bool same_reason(const Check& a, const Check& b) {
 /// Every entry, or the worst of many. Entries with reasons of their own stand apart.
 void add_group(Data& groups, const CheckGroup& group, Rows& table) {
   if (group.checks.size() > kMaxEntries) {
-    Data rows = list();
-    rows.push_back(row_of(group.worst(), worst_entry(group)));
-    groups.push_back(group_of(group.worst(), table, rows, 1));
+    const Check& worst = group.worst();
+    groups.push_back(group_of_worst(worst, worst_entry(worst, group.checks.size()), table));
     return;
   }
   for (std::size_t from = 0, to = 0; from < group.checks.size(); from = to) {
@@ -98,24 +99,21 @@ void add_group(Data& groups, const CheckGroup& group, Rows& table) {
     for (std::size_t i = from; i < to; ++i) {
       const Check& check = *group.checks[i];
       Data row = row_of(check, entry_text(check, group.checks.size()), i == from);
-      set_text(row, "own_range", shared ? "" : range_text(check));
+      set(row, {{"own_range", shared ? "" : range_text(check)}});
       rows.push_back(row);
     }
-    Data data = group_of(first, table, rows, to - from);
-    set_flag(data, "shared", shared);
-    groups.push_back(data);
+    groups.push_back(group_of(first, table, rows, shared));
   }
 }
 
 Data run_data(const CaseInfo& info, const Run& run, bool many) {
-  Data data = object();
-  set_text(data, "variant", many ? info.variant_title(run.variant) : "");
-  data.set("variant_anchor", slug(run.variant));
-  data.set("run_words", info.id + (run.variant == "base" ? "" : " --variant " + run.variant));
-  set_text(data, "ending", run.status == Status::solved ? "" : to_string(run.status));
-  set_text(data, "reason", run.reason);
-  set_check_status(data, check_status(run));
-  return data;
+  return with_status(
+      check_status(run),
+      {{"variant", many ? info.variant_title(run.variant) : ""},
+       {"variant_anchor", slug(run.variant)},
+       {"run_words", info.id + (run.variant == "base" ? "" : " --variant " + run.variant)},
+       {"ending", run.status == Status::solved ? "" : to_string(run.status)},
+       {"reason", run.reason}});
 }
 
 /// Rows that `add_group` makes.
@@ -153,32 +151,23 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
   for (const Run* run : runs) {
     for (const CheckGroup& group : group_checks(*run)) {
       const Check& check = group.worst();
-      const auto same = std::find_if(worst.begin(), worst.end(), [&](const Worst& known) {
+      const auto same = [&](const Worst& known) {
         return known.check->name == check.name && known.check->quantity == check.quantity;
-      });
-      if (same == worst.end()) {
-        worst.push_back({&check, run, group.checks.size()});
-        continue;
-      }
-      same->entries += group.checks.size();
-      if (worse(check, *same->check)) same->check = &check, same->run = run;
+      };
+      Worst& known = harness::find_or_add(worst, same, {&check, run, 0});
+      known.entries += group.checks.size();
+      if (worse(check, *known.check)) known.check = &check, known.run = run;
     }
   }
   Data groups = list();
   for (const Worst& w : worst) {
-    std::string entry = entry_text(*w.check, w.entries);
-    if (w.entries > 1)
-      entry = "worst of " + std::to_string(w.entries) + (entry.empty() ? "" : ": " + entry);
-    if (runs.size() > 1) entry += (entry.empty() ? "" : ", ") + info.variant_title(w.run->variant);
-    Data rows = list();
-    rows.push_back(row_of(*w.check, entry));
-    groups.push_back(group_of(*w.check, linked, rows, 1));
+    std::string entry =
+        w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
+    if (runs.size() > 1) add_item(entry, info.variant_title(w.run->variant));
+    groups.push_back(group_of_worst(*w.check, entry, linked));
   }
-  Data run = object();
-  for (const char* key : {"variant", "ending", "reason"}) set_text(run, key, "");
-  run.set("groups", groups);
   Data table = list();
-  table.push_back(run);
+  table.push_back(object({{"variant", ""}, {"ending", ""}, {"reason", ""}, {"groups", groups}}));
   return table;
 }
 
@@ -186,28 +175,25 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
 
 Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                  const Results& results) {
-  Data tables = object();
   std::size_t checks = 0;
   for (const Run* run : runs) checks += run->checks.size();
-  set_flag(tables, "has_checks", checks > 0);
   const bool few = rows_in(runs) <= kMaxUnfoldedChecks;
-  tables.set("runs", few ? full_table(info, runs, {results, true})
-                         : worst_table(info, runs, {results, true}));
-  set_flag(tables, "has_folded", !few);
+  Data tables = object({{"has_checks", checks > 0},
+                        {"runs", few ? full_table(info, runs, {results, true})
+                                     : worst_table(info, runs, {results, true})},
+                        {"has_folded", !few}});
   if (few) return tables;
   std::string title = "All " + count(checks, "check");
   if (runs.size() > 1) title += " of " + count(runs.size(), "variant");
-  tables.set("folded_title", title);
-  tables.set("folded_runs", full_table(info, runs, {results}));
+  set(tables, {{"folded_title", title}, {"folded_runs", full_table(info, runs, {results})}});
   return tables;
 }
 
 Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
   Table table;
-  table.heads = {"case",      "variant",    "status",        "check",          "role",
-                 "quantity",  "index",      "unit",          "target",         "computed",
-                 "measure",   "difference", "tolerance_low", "tolerance_high", "expectation",
-                 "reference", "verdict",    "reason",        "message"};
+  table.heads = words_in(
+      "case variant status check role quantity index unit target computed measure difference "
+      "tolerance_low tolerance_high expectation reference verdict reason message");
   for (const Run* run : runs)
     for (const Check& c : run->checks)
       table.rows.push_back(

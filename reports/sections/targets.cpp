@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/find_or_add.h"
 #include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/sections/check_status_data.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -19,7 +21,7 @@ struct Target {
   const Run* run;
   const Check* check;
   const Check* better = nullptr;
-  std::size_t entries = 1;
+  std::size_t entries = 0;
 
   [[nodiscard]] double ratio() const { return *check->computed / *check->expected; }
 };
@@ -46,17 +48,14 @@ const Check* find_better(const Run& run, const Check& target, const Results& res
 
 /// Of the entries of one check the one farthest from its target.
 void keep_farthest(std::vector<Target>& targets, const Target& candidate) {
-  const auto same = std::find_if(targets.begin(), targets.end(), [&](const Target& other) {
+  const auto same = [&](const Target& other) {
     return other.run == candidate.run && other.check->name == candidate.check->name &&
            other.check->quantity == candidate.check->quantity;
-  });
-  if (same == targets.end()) {
-    targets.push_back(candidate);
-    return;
-  }
-  const std::size_t entries = same->entries + 1;
-  if (std::abs(candidate.ratio() - 1) > std::abs(same->ratio() - 1)) *same = candidate;
-  same->entries = entries;
+  };
+  Target& farthest = harness::find_or_add(targets, same, candidate);
+  const std::size_t entries = farthest.entries + 1;
+  if (std::abs(candidate.ratio() - 1) > std::abs(farthest.ratio() - 1)) farthest = candidate;
+  farthest.entries = entries;
 }
 
 std::vector<Target> targets_of(const Run& run, const Results& results) {
@@ -92,45 +91,40 @@ std::string printed_text(const Target& target, const Results& results) {
 
 Data row_of(const Target& target, const CaseInfo& info, const Results& results) {
   const Check& check = *target.check;
-  Data row = object();
   const QuantityLabel quantity = parse_quantity(check.quantity);
-  row.set("quantity", axis_label(to_text(quantity), quantity.unit));
   std::string of_what =
       target.run->variant == "base" ? "" : info.variant_title(target.run->variant);
   if (target.entries > 1) {
-    of_what += (of_what.empty() ? "" : ", ") + entry_text(check, target.entries) +
-               " (farthest of " + std::to_string(target.entries) + ")";
+    add_item(of_what, entry_text(check, target.entries) + " (farthest of " +
+                          std::to_string(target.entries) + ")");
   }
-  set_text(row, "of_what", of_what);
-  row.set("target", printed_text(target, results));
-  row.set("better", target.better ? significant(*target.better->expected, 7) : "–");
-  row.set("computed", significant(*check.computed, 7));
-  row.set("ratio", significant(target.ratio(), 5));
-  row.set("better_ratio",
-          target.better ? significant(*check.computed / *target.better->expected, 7) : "–");
-  set_check_status(row, check_status(check));
-  return row;
+  return with_status(
+      check_status(check),
+      {{"quantity", axis_label(to_text(quantity), quantity.unit)},
+       {"of_what", of_what},
+       {"target", printed_text(target, results)},
+       {"better", target.better ? significant(*target.better->expected, 7) : "–"},
+       {"computed", significant(*check.computed, 7)},
+       {"ratio", significant(target.ratio(), 5)},
+       {"better_ratio",
+        target.better ? significant(*check.computed / *target.better->expected, 7) : "–"}});
 }
 
 /// Of one case: its base and, in their order, its variants.
 Data case_of(const CaseInfo& info, const std::vector<Target>& targets, const Results& results) {
-  Data data = object();
-  data.set("case_title", info.title);
-  data.set("case_link", case_link(info.id));
-  Data rows = list();
-  for (const Target& target : targets) rows.push_back(row_of(target, info, results));
-  data.set("rows", rows);
-  return data;
+  const auto row = [&](const Target& target) { return row_of(target, info, results); };
+  return object({{"case_title", info.title},
+                 {"case_link", case_link(info.id)},
+                 {"rows", list_of(targets, row)}});
 }
 
 bool is_benchmark(const CaseInfo& info) {
-  return std::find(info.labels.begin(), info.labels.end(), "benchmark") != info.labels.end();
+  return std::ranges::find(info.labels, "benchmark") != info.labels.end();
 }
 
 }  // namespace
 
 Data targets_section(const Results& results, const std::vector<Family>& families) {
-  Data section = object();
   Data cases = list();
   std::size_t n = 0, rows = 0, wrong = 0, without = 0;
   for (const Family& family : families) {
@@ -143,7 +137,7 @@ Data targets_section(const Results& results, const std::vector<Family>& families
         targets.insert(targets.end(), more.begin(), more.end());
       }
       share_better_values(targets);
-      const bool known = std::any_of(targets.begin(), targets.end(), [](const Target& target) {
+      const bool known = std::ranges::any_of(targets, [](const Target& target) {
         return target.run->variant == "base" && target.check->known_discrepancy();
       });
       wrong += known ? 1 : 0;
@@ -152,7 +146,6 @@ Data targets_section(const Results& results, const std::vector<Family>& families
       if (!targets.empty()) cases.push_back(case_of(*info, targets, results));
     }
   }
-  set_flag(section, "has_rows", rows > 0);
   std::string words = count(n, "published benchmark") + ".";
   if (wrong > 0)
     words += " Of " + std::to_string(wrong) +
@@ -161,9 +154,7 @@ Data targets_section(const Results& results, const std::vector<Family>& families
   if (without > 0)
     words += " " + std::to_string(without) + (without == 1 ? " is" : " are") +
              " judged by closed forms alone and not listed here.";
-  section.set("words", words);
-  section.set("cases", cases);
-  return section;
+  return object({{"has_rows", rows > 0}, {"words", words}, {"cases", cases}});
 }
 
 }  // namespace trammel::reports

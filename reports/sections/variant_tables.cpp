@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "harness/base/statistic.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 
@@ -18,23 +18,8 @@ Number statistic(const std::string& name, const Numbers& numbers) {
     if (!number) return std::nullopt;
     values.push_back(*number);
   }
-  if (values.empty()) return std::nullopt;
-  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  const auto n = static_cast<double>(values.size());
-  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-  if (name.empty() || name == "first") return values.front();
-  if (name == "last") return values.back();
-  if (name == "max") return *highest;
-  if (name == "min") return *lowest;
-  if (name == "range") return *highest - *lowest;
-  if (name == "max_abs") return std::abs(*std::max_element(values.begin(), values.end(), smaller));
-  if (name == "min_abs") return std::abs(*std::min_element(values.begin(), values.end(), smaller));
-  if (name == "sum") return sum;
-  if (name == "mean") return sum / n;
-  if (name == "rms")
-    return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / n);
-  return std::nullopt;
+  const double value = harness::statistic_of(name.empty() ? "first" : name, values);
+  return std::isfinite(value) ? Number(value) : std::nullopt;
 }
 
 Number timing_of(const Run& run, const std::string& name) {
@@ -57,44 +42,29 @@ std::string cell_text(const ColumnRequest& column, const Run& run) {
 }
 
 Data row_of(const TableRequest& table, const CaseInfo& info, const Run& run) {
-  Data row = object();
-  row.set("variant", info.variant_title(run.variant));
-  Data cells = list();
-  for (const ColumnRequest& column : table.columns) {
-    Data cell = object();
-    cell.set("value", cell_text(column, run));
-    cells.push_back(cell);
-  }
-  row.set("cells", cells);
-  return row;
+  const auto cell = [&](const ColumnRequest& column) {
+    return object({{"value", cell_text(column, run)}});
+  };
+  return object(
+      {{"variant", info.variant_title(run.variant)}, {"cells", list_of(table.columns, cell)}});
 }
 
 }  // namespace
 
 Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs) {
-  Data out = list();
-  for (const TableRequest& table : info.tables) {
-    Data data = object();
-    data.set("title", table.title);
-    data.set("caption", table.caption);
-    Data heads = list();
-    for (const ColumnRequest& column : table.columns) {
-      Data head = object();
-      head.set("head", column.title);
-      heads.push_back(head);
-    }
-    data.set("heads", heads);
+  const auto head = [](const ColumnRequest& column) { return object({{"head", column.title}}); };
+  return list_of(info.tables, [&](const TableRequest& table) {
     Data rows = list();
     for (const Run* run : runs) {
       const bool wanted = table.variants.empty() ||
-                          std::find(table.variants.begin(), table.variants.end(), run->variant) !=
-                              table.variants.end();
+                          std::ranges::find(table.variants, run->variant) != table.variants.end();
       if (wanted) rows.push_back(row_of(table, info, *run));
     }
-    data.set("rows", rows);
-    out.push_back(data);
-  }
-  return out;
+    return object({{"title", table.title},
+                   {"caption", table.caption},
+                   {"heads", list_of(table.columns, head)},
+                   {"rows", rows}});
+  });
 }
 
 }  // namespace trammel::reports

@@ -8,7 +8,6 @@
 #include <csignal>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -65,7 +64,7 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(from))
     if (!entry.is_directory()) files.push_back(entry.path().lexically_relative(from));
-  std::sort(files.begin(), files.end(), [&](const fs::path& a, const fs::path& b) {
+  std::ranges::sort(files, [&](const fs::path& a, const fs::path& b) {
     return std::pair(a == last, a) < std::pair(b == last, b);
   });
   for (const fs::path& file : files) {
@@ -86,7 +85,7 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
   }
   std::error_code ignored;
   for (const fs::path& file : obsolete)
-    if (std::find(files.begin(), files.end(), file) == files.end()) fs::remove(to / file, ignored);
+    if (std::ranges::find(files, file) == files.end()) fs::remove(to / file, ignored);
   fs::remove_all(from);
 }
 

@@ -5,58 +5,18 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/quantity.h"
 #include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
 namespace {
 
-/// Longest first, so that N_m is not read as m.
-constexpr std::array<std::pair<const char*, const char*>, 33> kUnits = {{
-    {"Hz_m3_per_kg", "Hz·m³/kg"},
-    {"N_m_per_rad", "N·m/rad"},
-    {"rad_per_s2", "rad/s²"},
-    {"rad_per_s", "rad/s"},
-    {"N_per_m2", "N/m²"},
-    {"N_per_m", "N/m"},
-    {"m_per_s2", "m/s²"},
-    {"m_per_s", "m/s"},
-    {"m_per_N", "m/N"},
-    {"Hz_rad_per_N_m", "Hz·rad/(N·m)"},
-    {"Hz_per_kg_m2", "Hz/(kg·m²)"},
-    {"Hz_per_rad", "Hz/rad"},
-    {"Hz_per_kg", "Hz/kg"},
-    {"Hz_per_Pa", "Hz/Pa"},
-    {"Hz_per_m", "Hz/m"},
-    {"kg_per_m3", "kg/m³"},
-    {"rad_s", "rad/s"},
-    {"per_s", "1/s"},
-    {"kg_m2", "kg·m²"},
-    {"percent", "%"},
-    {"N_m", "N·m"},
-    {"Hz", "Hz"},
-    {"Pa", "Pa"},
-    {"rad", "rad"},
-    {"kg", "kg"},
-    {"m2", "m²"},
-    {"m4", "m⁴"},
-    {"deg", "°"},
-    {"N", "N"},
-    {"s", "s"},
-    {"m", "m"},
-    {"J", "J"},
-    {"W", "W"},
-}};
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-std::string words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  std::replace(name.begin(), name.end(), '-', ' ');
+std::string words(const std::string& key) {
+  std::string name = spaced(key);
   for (const char* direction : {" x", " y"})
-    if (ends_with(name, direction))
+    if (name.ends_with(direction))
       return std::string(direction + 1) + " " + name.substr(0, name.size() - 2);
   return name;
 }
@@ -65,7 +25,7 @@ std::string words(std::string name) {
 bool takes_prefix(const std::string& unit) {
   static const std::array<const char*, 10> plain = {"m",   "N",  "Pa", "s", "Hz",
                                                     "N·m", "kg", "J",  "W", "rad"};
-  return std::find(plain.begin(), plain.end(), unit) != plain.end();
+  return std::ranges::find(plain, unit) != plain.end();
 }
 
 /// Whether what follows the colon is the name of a quantity in turn, be it of the whole model:
@@ -73,15 +33,14 @@ bool takes_prefix(const std::string& unit) {
 bool is_of_a_quantity(const std::string& base) {
   static const std::array<const char*, 4> names = {"relative_error", "roundoff",
                                                    "error_over_roundoff", "min_error_at"};
-  return std::find(names.begin(), names.end(), base) != names.end();
+  return std::ranges::find(names, base) != names.end();
 }
 
 }  // namespace
 
 std::string display_unit(const std::string& unit) {
   if (unit == "1") return "";
-  for (const auto& [key, people] : kUnits)
-    if (unit == key) return people;
+  if (unit == "deg") return "°";
   std::string people;
   for (std::size_t i = 0; i < unit.size(); ++i) {
     if (unit[i] == ' ') {
@@ -99,7 +58,8 @@ std::string display_unit(const std::string& unit) {
 QuantityLabel parse_quantity(const std::string& name) {
   QuantityLabel quantity;
   const std::size_t colon = name.find(':');
-  std::string base = name.substr(0, colon);
+  const auto [base, unit] = harness::split_unit(name);
+  quantity.unit = display_unit(unit);
   if (colon != std::string::npos) quantity.subject = name.substr(colon + 1);
   // frequency_Hz:1 along a path or over a range of speeds.
   if (quantity.subject.find_first_not_of("0123456789") == std::string::npos &&
@@ -107,12 +67,6 @@ QuantityLabel parse_quantity(const std::string& name) {
     quantity.subject.insert(0, "mode ");
   } else if (quantity.subject.find(':') != std::string::npos || is_of_a_quantity(base)) {
     quantity.subject = to_text(parse_quantity(quantity.subject));
-  }
-  for (const auto& [key, people] : kUnits) {
-    if (!ends_with(base, std::string("_") + key)) continue;
-    quantity.unit = people;
-    base.resize(base.size() - std::string(key).size() - 1);
-    break;
   }
   quantity.label = base == "error_over_roundoff" ? "error over promised round-off" : words(base);
   return quantity;

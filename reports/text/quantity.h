@@ -16,7 +16,7 @@ struct QuantityLabel {
 /// "x displacement of P".
 [[nodiscard]] std::string to_text(const QuantityLabel& quantity);
 
-/// A unit as written in key names (N_m, kg_m2, rad_per_s) for people (N·m, kg·m², rad/s).
+/// A unit as references write it (N m, kg m^2, rad/s) for people (N·m, kg·m², rad/s).
 [[nodiscard]] std::string display_unit(const std::string& unit);
 
 /// The factor that brings values of up to `largest` near 1 ... 1000, and the unit that goes with

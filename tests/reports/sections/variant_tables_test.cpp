@@ -27,6 +27,7 @@ BOOST_AUTO_TEST_CASE(a_column_shows_its_statistic_and_the_first_entry_where_it_n
   BOOST_TEST(cell("frequency_Hz", "last") == "\u22124");
   BOOST_TEST(cell("frequency_Hz", "max_abs") == "4");
   BOOST_TEST(cell("frequency_Hz", "rms") == "3.54");
+  BOOST_TEST(cell("frequency_Hz", "median") == "\u22120.5");
 }
 
 BOOST_AUTO_TEST_CASE(what_there_is_not_is_a_dash) {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace trammel::reports {
+
+/// From the lowest to the highest of the numbers that it covers.
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void cover(const std::optional<double>& x) {
+    if (!x) return;
+    low = std::min(low, *x);
+    high = std::max(high, *x);
+  }
+  /// A positive number and what lies up to a factor from it.
+  void cover_around(double x, double factor) {
+    cover(x / factor);
+    cover(x * factor);
+  }
+  void widen(double by) {
+    low -= by;
+    high += by;
+  }
+  [[nodiscard]] bool empty() const { return low > high; }
+  [[nodiscard]] double length() const { return high - low; }
+};
+
+}  // namespace trammel::reports
