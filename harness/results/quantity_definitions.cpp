@@ -1,8 +1,8 @@
 #include "harness/results/quantity_definitions.h"
 
-#include <algorithm>
 #include <sstream>
 
+#include "harness/base/contains.h"
 #include "harness/base/embedded_text.h"
 
 namespace trammel::results {
@@ -44,7 +44,7 @@ const std::vector<QuantityDefinition>& quantity_definitions() {
 }
 
 bool QuantityDefinition::is_of(const std::string& analysis) const {
-  return std::find(analyses.begin(), analyses.end(), analysis) != analyses.end();
+  return harness::contains(analyses, analysis);
 }
 
 const QuantityDefinition* find_quantity_definition(const std::string& name,
