@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/base/json.h"
 #include "harness/cli/command_line.h"
 #include "harness/input/reference_library.h"
 #include "harness/results/cost_results.h"

@@ -89,8 +89,8 @@ class CommandLine {
   static const Command kCommands[21];
 
   static bool is_command(const std::string& name) {
-    return std::any_of(std::begin(kCommands), std::end(kCommands),
-                       [&](const Command& command) { return name == command.name; });
+    return std::ranges::any_of(kCommands,
+                               [&](const Command& command) { return name == command.name; });
   }
 
   std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
