@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/find_or_add.h"
 #include "harness/base/numbers.h"
 #include "harness/readers/manipulator_reader.h"
 #include "solver/poses/pose_modes.h"
@@ -201,12 +202,8 @@ Unknowns read_unknowns(const Document& document, const JsonView& place,
 
 void exclude(const std::string& reason, const std::string& title,
              std::vector<results::ExcludedReadings>& excluded) {
-  const auto known = std::find_if(excluded.begin(), excluded.end(),
-                                  [&](const auto& some) { return some.reason == reason; });
-  if (known == excluded.end())
-    excluded.push_back({reason, title, 1});
-  else
-    ++known->readings;
+  const auto is_known = [&](const auto& some) { return some.reason == reason; };
+  ++find_or_add(excluded, is_known, {reason, title, 0}).readings;
 }
 
 /// Computed elsewhere at some values of their unknowns, each as probable as the others.
@@ -249,10 +246,9 @@ results::RowProbabilities results_of(const ModelReadings& all, const PrintedRow&
   out.credible_classes = static_cast<int>(found.credible_count(kCredible));
   for (std::size_t k = 0; k < std::min(kListed, found.classes.size()); ++k) {
     const ReadingClass& some = found.classes[k];
-    const auto best =
-        std::find_if(found.cells.begin(), found.cells.end(), [&](const CellPosterior& cell) {
-          return std::count(some.readings.begin(), some.readings.end(), cell.reading) > 0;
-        });
+    const auto best = std::ranges::find_if(found.cells, [&](const CellPosterior& cell) {
+      return std::ranges::count(some.readings, cell.reading) > 0;
+    });
     results::ReadingClass listed{all.readings[some.readings.front()].title,
                                  static_cast<int>(some.readings.size()),
                                  some.probability,
@@ -270,10 +266,9 @@ results::RowProbabilities results_of(const ModelReadings& all, const PrintedRow&
   add_further("the first frequency with the platform turned", kTurned,
               std::hypot(discrepancy, digits));
   add_further("two further digits of the links' thickness", kThickness, digits);
-  std::stable_sort(out.further_numbers.begin(), out.further_numbers.end(),
-                   [](const auto& a, const auto& b) {
-                     return a.expected_information_bits > b.expected_information_bits;
-                   });
+  std::ranges::stable_sort(out.further_numbers, [](const auto& a, const auto& b) {
+    return a.expected_information_bits > b.expected_information_bits;
+  });
   return out;
 }
 

@@ -77,17 +77,15 @@ double max_relative_difference(const Quantities& a, const Quantities& b) {
 }
 
 bool all_finite(const Quantities& quantities) {
-  return std::all_of(quantities.begin(), quantities.end(), [](const auto& item) {
-    return std::all_of(item.second.values.begin(), item.second.values.end(),
-                       [](double x) { return std::isfinite(x); });
+  return std::ranges::all_of(quantities, [](const auto& item) {
+    return std::ranges::all_of(item.second.values, [](double x) { return std::isfinite(x); });
   });
 }
 
 bool contains_all(const std::string& reason, const std::vector<std::string>& required_terms) {
-  return !reason.empty() &&
-         std::all_of(required_terms.begin(), required_terms.end(), [&](const std::string& word) {
-           return reason.find(word) != std::string::npos;
-         });
+  return !reason.empty() && std::ranges::all_of(required_terms, [&](const std::string& word) {
+    return reason.find(word) != std::string::npos;
+  });
 }
 
 void count(const AnalysisResult& result, const std::vector<std::string>& required_terms,

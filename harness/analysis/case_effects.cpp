@@ -11,6 +11,9 @@
 namespace trammel::harness {
 namespace {
 
+using solver::Effect;
+using solver::Effects;
+
 const EffectRules* effects_of(const Document& document) {
   return find_analysis(analysis_kind(document)).effects;
 }
@@ -29,10 +32,10 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
 }
 
 /// Without "effects": the parts' own words, and the analysis's.
-solver::Effects stated_effects(const Document& document, const EffectScope& scope) {
-  solver::Effects stated = scope.applicable;
-  if (!scope.required.has(solver::Effect::large_displacement))
-    stated = stated.without(solver::Effect::large_displacement);
+Effects stated_effects(const Document& document, const EffectScope& scope) {
+  Effects stated = scope.applicable;
+  if (!scope.required.has(Effect::large_displacement))
+    stated = stated.without(Effect::large_displacement);
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
     const auto specified = find_key(document, effect_key);
     if (specified ? specified->get<bool>() : effect_key.otherwise) continue;
@@ -41,19 +44,16 @@ solver::Effects stated_effects(const Document& document, const EffectScope& scop
   return stated;
 }
 
-const char* describe_missing(solver::Effect effect, const EffectScope& scope,
-                             const EffectRules& rules) {
-  const bool known =
-      effect == solver::Effect::large_displacement && scope.no_large_displacement != nullptr;
+const char* describe_missing(Effect effect, const EffectScope& scope, const EffectRules& rules) {
+  const bool known = effect == Effect::large_displacement && scope.no_large_displacement != nullptr;
   return known ? scope.no_large_displacement : rules.describe_missing(effect);
 }
 
-std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope,
-                                                    solver::Effects chosen,
+std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope, Effects chosen,
                                                     const EffectRules& rules,
                                                     const std::string& effect_key) {
   std::vector<EffectReason> reasons;
-  for (const solver::Effect effect : solver::Effects::all().list()) {
+  for (const Effect effect : Effects::all().list()) {
     EffectReason one;
     one.effect = effect;
     one.applicable = scope.applicable.has(effect);
@@ -68,9 +68,8 @@ std::vector<EffectReason> reasons_without_estimates(const EffectScope& scope,
 }
 
 /// Names, which the schema has checked.
-solver::Effects read_names(const JsonView& names, const EffectScope& scope,
-                           const EffectRules& rules) {
-  solver::Effects chosen = scope.required;
+Effects read_names(const JsonView& names, const EffectScope& scope, const EffectRules& rules) {
+  Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
     const auto effect = solver::effect_named(place.get<std::string>());
     if (!scope.applicable.has(*effect)) {
@@ -80,8 +79,8 @@ solver::Effects read_names(const JsonView& names, const EffectScope& scope,
     }
     chosen = chosen.with(*effect);
   }
-  for (const solver::Effect effect : chosen.list()) {
-    for (const solver::Effect carrier : scope.applicable.list()) {
+  for (const Effect effect : chosen.list()) {
+    for (const Effect carrier : scope.applicable.list()) {
       const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
       if (carried && !chosen.has(carrier)) {
         throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' beside '" +
@@ -104,17 +103,16 @@ std::string describe_decision(const EffectReason& one, const EffectScope& scope,
            std::string(estimated ? "at most " : "") + percent(*one.change) +
            (one.active ? ", more than " : ", within ") + percent(tolerance);
   }
-  for (const solver::Effect carried :
-       scope.dependents[static_cast<std::size_t>(one.effect)].list()) {
+  for (const Effect carried : scope.dependents[static_cast<std::size_t>(one.effect)].list()) {
     if (found.chosen.has(carried)) return std::string(solver::name_of(carried)) + " needs it";
   }
   return "decided";
 }
 
 /// Without the effects that cost most, as far as they are not chosen.
-solver::Effects without_costly(const EffectScope& scope, solver::Effects chosen) {
-  solver::Effects whole = scope.applicable;
-  for (const solver::Effect effect : {solver::Effect::large_displacement, solver::Effect::inertia})
+Effects without_costly(const EffectScope& scope, Effects chosen) {
+  Effects whole = scope.applicable;
+  for (const Effect effect : {Effect::large_displacement, Effect::inertia})
     if (!chosen.has(effect)) whole = scope.without(whole, effect);
   return whole;
 }
@@ -128,18 +126,18 @@ Elimination eliminate_by_estimates(const Document& document, const CaseModel& ca
   constexpr double kBeyondFirstOrder = 1.25;
   /// Estimates are bounds: what is worth more than the tolerance is seldom put higher than this.
   constexpr double kNear = 3;
-  std::stable_sort(estimates.effects.begin(), estimates.effects.end(),
-                   [](const auto& a, const auto& b) { return a.change < b.change; });
-  std::vector<solver::Effect> order;
+  std::ranges::stable_sort(estimates.effects,
+                           [](const auto& a, const auto& b) { return a.change < b.change; });
+  std::vector<Effect> order;
   for (const solver::EffectEstimate& one : estimates.effects) {
     order.push_back(one.effect);
     reasons[static_cast<std::size_t>(one.effect)].number = one.number;
   }
-  const ChangeWith at_most = [&](solver::Effects active) {
-    const bool large = active.has(solver::Effect::large_displacement);
+  const ChangeWith at_most = [&](Effects active) {
+    const bool large = active.has(Effect::large_displacement);
     double change = 0;
     for (const solver::EffectEstimate& one : estimates.effects) {
-      const bool kept = large && one.effect == solver::Effect::gyroscopic;  // a part of that theory
+      const bool kept = large && one.effect == Effect::gyroscopic;  // a part of that theory
       if (!active.has(one.effect) && !kept) change += one.change;
     }
     return kBeyondFirstOrder * change;
@@ -149,10 +147,10 @@ Elimination eliminate_by_estimates(const Document& document, const CaseModel& ca
   found.outcome = estimates.outcome;
   found.counters = estimates.counters;
   // What is saved pays for runs without it.
-  const solver::Effects cheap = without_costly(scope, found.chosen);
-  const bool has_tier = scope.applicable.has(solver::Effect::large_displacement);
+  const Effects cheap = without_costly(scope, found.chosen);
+  const bool has_tier = scope.applicable.has(Effect::large_displacement);
   if (!found.outcome.solved() || !has_tier || cheap == scope.applicable) return found;
-  std::vector<solver::Effect> near;
+  std::vector<Effect> near;
   for (const solver::EffectEstimate& one : estimates.effects) {
     const bool removable = found.chosen.has(one.effect) && !scope.required.has(one.effect);
     if (removable && one.change <= kNear * tolerance) near.push_back(one.effect);
@@ -181,22 +179,21 @@ void estimate_large_displacement(const JsonView& analysis, const CaseModel& case
     for (solver::EffectEstimate& one : estimates.effects)
       one.change = std::numeric_limits<double>::infinity();
   }
-  estimates.effects.push_back({solver::Effect::large_displacement, change, of_motion()});
+  estimates.effects.push_back({Effect::large_displacement, change, of_motion()});
 }
 
 /// Estimates of loads that set in at once know what vibrates, not how it begins.
 void add_changes_at_start(const JsonView& analysis, const CaseModel& case_model,
                           const EffectScope& scope, solver::EffectEstimates& estimates) {
   if (analysis.text("initial_state") == "quasi-static") return;
-  std::vector<solver::Effect> effects;
-  for (const solver::Effect effect :
-       {solver::Effect::shear, solver::Effect::rotary_inertia, solver::Effect::platform_flexibility,
-        solver::Effect::joint_compliance, solver::Effect::link_mass}) {
+  std::vector<Effect> effects;
+  for (const Effect effect : {Effect::shear, Effect::rotary_inertia, Effect::platform_flexibility,
+                              Effect::joint_compliance, Effect::link_mass}) {
     if (scope.applicable.has(effect)) effects.push_back(effect);
   }
   const std::vector<double> changes = changes_at_start(analysis, case_model, scope, effects);
   for (solver::EffectEstimate& one : estimates.effects) {
-    const auto found = std::find(effects.begin(), effects.end(), one.effect);
+    const auto found = std::ranges::find(effects, one.effect);
     if (found != effects.end())
       one.change = std::max(one.change, changes[static_cast<std::size_t>(found - effects.begin())]);
   }
@@ -204,9 +201,9 @@ void add_changes_at_start(const JsonView& analysis, const CaseModel& case_model,
 
 /// What no analysis of this scene has.
 void add_beyond_tier(const EffectScope& scope, double bound, EffectChoice& choice) {
-  if (scope.applicable.has(solver::Effect::large_displacement)) return;
+  if (scope.applicable.has(Effect::large_displacement)) return;
   choice.beyond_tier = bound;
-  EffectReason& one = choice.reasons[static_cast<std::size_t>(solver::Effect::large_displacement)];
+  EffectReason& one = choice.reasons[static_cast<std::size_t>(Effect::large_displacement)];
   one.change = bound;
   one.why += "; it would change at most " + percent(bound) + ", by rotation and buckling load";
 }
@@ -223,7 +220,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
   if (rules.estimate != nullptr) {
     estimates = rules.estimate(analysis, case_model, scope);
     if (estimates.outcome.solved()) add_changes_at_start(analysis, case_model, scope, estimates);
-    if (estimates.outcome.solved() && scope.applicable.has(solver::Effect::large_displacement))
+    if (estimates.outcome.solved() && scope.applicable.has(Effect::large_displacement))
       estimate_large_displacement(analysis, case_model, tolerance, estimates);
   }
   const Elimination found =
@@ -260,10 +257,10 @@ EffectScope effect_scope(const Document& document, const CaseModel& case_model) 
   const solver::Model model = first_model(case_model);
   EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
   if (!model.triangles.empty()) {
-    scope.applicable = scope.applicable.with(solver::Effect::platform_flexibility);
+    scope.applicable = scope.applicable.with(Effect::platform_flexibility);
     // Plates that are no platform are what there is.
     if (!case_model.manipulator || !case_model.structure.triangles.empty())
-      scope.required = scope.required.with(solver::Effect::platform_flexibility);
+      scope.required = scope.required.with(Effect::platform_flexibility);
   }
   return scope;
 }
@@ -298,15 +295,14 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   return choice;
 }
 
-std::string describe_effect_number(solver::Effect effect, const std::string& analysis) {
+std::string describe_effect_number(Effect effect, const std::string& analysis) {
   return find_analysis(analysis).effects->describe_number(effect);
 }
 
-Document with_effects(const Document& document, solver::Effects effects) {
+Document with_effects(const Document& document, Effects effects) {
   Document changed = document;
   Json names = Json::array();
-  for (const solver::Effect effect : effects.list())
-    names.push_back(std::string(solver::name_of(effect)));
+  for (const Effect effect : effects.list()) names.push_back(std::string(solver::name_of(effect)));
   Json patch = {{"effects", names}};
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
     std::string pointer = "/analysis/" + analysis_kind(document);

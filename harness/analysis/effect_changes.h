@@ -5,7 +5,6 @@
 
 #include "harness/base/quantity.h"
 #include "harness/base/statistic.h"
-#include "solver/model/model.h"
 
 namespace trammel::harness {
 

@@ -9,6 +9,7 @@
 
 #include "harness/analysis/effect_changes.h"
 #include "harness/base/errors.h"
+#include "harness/base/find_or_add.h"
 #include "harness/motion/analyse_elastodynamics.h"
 #include "harness/statics_modes/analyse_statics.h"
 #include "solver/large_motion/manipulator/large_elastodynamics.h"
@@ -121,10 +122,8 @@ class MeshedScene {
   using ByStep = std::map<std::size_t, std::optional<Quantities>>;
 
   ByStep& of(Effects effects) {
-    auto run = std::find_if(runs_.begin(), runs_.end(),
-                            [&](const auto& one) { return one.first == effects; });
-    if (run == runs_.end()) run = runs_.insert(runs_.end(), {effects, {}});
-    return run->second;
+    const auto is_its = [&](const auto& run) { return run.first == effects; };
+    return find_or_add(runs_, is_its, {effects, {}}).second;
   }
 
   void compute_missing(Effects effects, const std::set<std::size_t>& steps) {
@@ -250,7 +249,7 @@ class Measurement {
     coarsen_platform(coarsest);
     coarsest.estimates_large_displacement = true;
     is_linear_exact_ = &kind == &find_analysis("statics") && !has_coarser_platform &&
-                       std::all_of(model.members.begin(), model.members.end(), is_prismatic);
+                       std::ranges::all_of(model.members, is_prismatic);
     coarsest_.emplace(kind, analysis, std::move(coarsest), scope.applicable, size_);
     coarse_.emplace(kind, analysis, std::move(coarse), scope.applicable, size_);
     own_.emplace(kind, analysis, scene, scope.applicable, size_);

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "harness/motion/analyse_elastodynamics.h"
 #include "harness/readers/time_reader.h"
-#include "harness/statics_modes/rotating_state.h"
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/effects/dynamic_effect_estimates.h"
 #include "solver/elements/frame_element.h"
@@ -14,6 +12,9 @@
 
 namespace trammel::harness {
 namespace {
+
+using solver::Effect;
+using solver::Effects;
 
 /// Of one effect, by analysis: statics, modes, elastodynamics, other motion.
 using Texts = std::array<const char*, 4>;
@@ -42,7 +43,7 @@ constexpr Texts in_motion(const char* text) {
   return {"", "", text, ""};
 }
 
-const EffectWords& words_of(solver::Effect effect) {
+const EffectWords& words_of(Effect effect) {
   static const std::array<EffectWords, solver::kEffectCount> table = {{
       /* axial flexibility */
       {{kSlenderness, kSlenderness, kStrain, kSlenderness},
@@ -79,117 +80,106 @@ const EffectWords& words_of(solver::Effect effect) {
 
 EffectScope statics_scope(const JsonView&, const solver::Model& model) {
   EffectScope scope;
-  scope.applicable = solver::applicable_effects(model).without(solver::Effect::rotary_inertia);
-  if (!scope.applicable.has(solver::Effect::gravity)) {
-    scope.applicable = scope.applicable.without(solver::Effect::link_mass);
+  scope.applicable = solver::applicable_effects(model).without(Effect::rotary_inertia);
+  if (!scope.applicable.has(Effect::gravity)) {
+    scope.applicable = scope.applicable.without(Effect::link_mass);
   }
-  scope.applicable = scope.applicable.with(solver::Effect::geometric_stiffening)
-                         .with(solver::Effect::large_displacement);
-  dependents_of(scope, solver::Effect::gravity) = solver::Effects().with(solver::Effect::link_mass);
-  const solver::Effects large = solver::Effects().with(solver::Effect::large_displacement);
-  dependents_of(scope, solver::Effect::geometric_stiffening) = large;
+  scope.applicable =
+      scope.applicable.with(Effect::geometric_stiffening).with(Effect::large_displacement);
+  dependents_of(scope, Effect::gravity) = Effects().with(Effect::link_mass);
+  const Effects large = Effects().with(Effect::large_displacement);
+  dependents_of(scope, Effect::geometric_stiffening) = large;
   if (solver::is_axially_overconstrained(model))
-    dependents_of(scope, solver::Effect::axial_flexibility) = large;
+    dependents_of(scope, Effect::axial_flexibility) = large;
   return scope;
 }
 
 bool is_loaded(const solver::Model& model) {
-  const bool on_members = std::any_of(model.members.begin(), model.members.end(),
-                                      [](const solver::Member& m) { return !m.load.isZero(0); });
+  const bool on_members =
+      std::ranges::any_of(model.members, [](const solver::Member& m) { return !m.load.isZero(0); });
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
 EffectScope modes_at_rest_scope(const solver::Model& model) {
   EffectScope scope;
-  scope.applicable = solver::applicable_effects(model).with(solver::Effect::inertia);
-  scope.required = solver::Effects().with(solver::Effect::inertia);
-  if (is_loaded(model) || scope.applicable.has(solver::Effect::gravity)) {
-    scope.applicable = scope.applicable.with(solver::Effect::geometric_stiffening);
+  scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
+  scope.required = Effects().with(Effect::inertia);
+  if (is_loaded(model) || scope.applicable.has(Effect::gravity)) {
+    scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   }
-  dependents_of(scope, solver::Effect::link_mass) =
-      solver::Effects().with(solver::Effect::rotary_inertia);
-  dependents_of(scope, solver::Effect::geometric_stiffening) =
-      solver::Effects().with(solver::Effect::gravity);
+  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  dependents_of(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
   return scope;
 }
 
 /// Whatever the frame holds as it turns stays.
 EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
   EffectScope scope;
-  scope.applicable = solver::applicable_effects(model)
-                         .with(solver::Effect::inertia)
-                         .with(solver::Effect::geometric_stiffening);
-  scope.required = solver::Effects().with(solver::Effect::inertia);
-  if (scope.applicable.has(solver::Effect::gravity))
-    scope.required = scope.required.with(solver::Effect::gravity);
+  scope.applicable =
+      solver::applicable_effects(model).with(Effect::inertia).with(Effect::geometric_stiffening);
+  scope.required = Effects().with(Effect::inertia);
+  if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
   // Coriolis forces point out of the plane where the axis lies in it.
   if (rotating.get<std::string>("axis", "normal") == "normal") {
-    scope.applicable = scope.applicable.with(solver::Effect::gyroscopic);
+    scope.applicable = scope.applicable.with(Effect::gyroscopic);
   }
-  dependents_of(scope, solver::Effect::link_mass) =
-      solver::Effects().with(solver::Effect::rotary_inertia);
+  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
 }
 
 EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope;
-  scope.applicable = solver::applicable_effects(model)
-                         .with(solver::Effect::inertia)
-                         .with(solver::Effect::gyroscopic);
+  scope.applicable =
+      solver::applicable_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
   const solver::RayleighDamping damping = read_rayleigh(analysis.find("damping"));
-  const solver::Effects with_velocity =
-      solver::Effects().with(solver::Effect::damping).with(solver::Effect::gyroscopic);
+  const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
   if (damping.mass != 0 || damping.stiffness != 0) {
-    scope.applicable = scope.applicable.with(solver::Effect::damping);
+    scope.applicable = scope.applicable.with(Effect::damping);
   }
   // Inextensible links turn, and constraints that turn with them cost more than stretch does.
-  if (scope.applicable.has(solver::Effect::axial_flexibility)) {
-    scope.required = solver::Effects().with(solver::Effect::axial_flexibility);
+  if (scope.applicable.has(Effect::axial_flexibility)) {
+    scope.required = Effects().with(Effect::axial_flexibility);
   }
   scope.no_large_displacement =
       solver::beyond_large_displacement(read_motion_options(analysis), model);
   if (scope.no_large_displacement == nullptr)
-    scope.applicable = scope.applicable.with(solver::Effect::large_displacement);
-  dependents_of(scope, solver::Effect::inertia) = with_velocity;
-  dependents_of(scope, solver::Effect::link_mass) =
-      solver::Effects().with(solver::Effect::rotary_inertia);
+    scope.applicable = scope.applicable.with(Effect::large_displacement);
+  dependents_of(scope, Effect::inertia) = with_velocity;
+  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
 }
 
 /// Where members alone have mass, nothing vibrates without theirs.
 bool has_mass_beside_members(const solver::Model& model) {
-  return std::any_of(model.masses.begin(), model.masses.end(),
-                     [](const solver::PointMass& one) { return one.mass > 0; }) ||
-         std::any_of(model.plates.begin(), model.plates.end(),
-                     [](const solver::Plate& one) { return one.material.rho > 0; });
+  return std::ranges::any_of(model.masses,
+                             [](const solver::PointMass& one) { return one.mass > 0; }) ||
+         std::ranges::any_of(model.plates,
+                             [](const solver::Plate& one) { return one.material.rho > 0; });
 }
 
 EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope;
-  scope.applicable = solver::applicable_effects(model).with(solver::Effect::inertia);
-  scope.required = solver::Effects().with(solver::Effect::inertia);
-  if (scope.applicable.has(solver::Effect::link_mass) && !has_mass_beside_members(model))
-    scope.required = scope.required.with(solver::Effect::link_mass);
-  if (analysis.has("damping")) scope.applicable = scope.applicable.with(solver::Effect::damping);
-  dependents_of(scope, solver::Effect::link_mass) =
-      solver::Effects().with(solver::Effect::rotary_inertia);
+  scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
+  scope.required = Effects().with(Effect::inertia);
+  if (scope.applicable.has(Effect::link_mass) && !has_mass_beside_members(model))
+    scope.required = scope.required.with(Effect::link_mass);
+  if (analysis.has("damping")) scope.applicable = scope.applicable.with(Effect::damping);
+  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
 }
 
 /// Points beside a resonance say nothing of its peak, which damping alone bounds.
 EffectScope harmonic_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope = vibration_scope(analysis, model);
-  if (scope.applicable.has(solver::Effect::damping))
-    scope.required = scope.required.with(solver::Effect::damping);
+  if (scope.applicable.has(Effect::damping)) scope.required = scope.required.with(Effect::damping);
   return scope;
 }
 
 EffectScope large_motion_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope = vibration_scope(analysis, model);
   if (analysis.has("mass_damping_per_s") || analysis.has("strain_rate_damping_s"))
-    scope.applicable = scope.applicable.with(solver::Effect::damping);
-  for (const solver::Effect effect :
-       {solver::Effect::geometric_stiffening, solver::Effect::large_displacement}) {
+    scope.applicable = scope.applicable.with(Effect::damping);
+  for (const Effect effect : {Effect::geometric_stiffening, Effect::large_displacement}) {
     scope.applicable = scope.applicable.with(effect);
     scope.required = scope.required.with(effect);
   }
@@ -202,9 +192,9 @@ std::vector<EffectKey> no_keys(const JsonView&) {
 
 std::vector<EffectKey> modes_keys(const JsonView& analysis) {
   if (analysis.has("rotating")) {
-    return {{solver::Effect::gyroscopic, {"rotating", "coriolis"}, true}};
+    return {{Effect::gyroscopic, {"rotating", "coriolis"}, true}};
   }
-  return {{solver::Effect::geometric_stiffening, {"prestressed"}, false}};
+  return {{Effect::geometric_stiffening, {"prestressed"}, false}};
 }
 
 EffectScope modes_scope(const JsonView& analysis, const solver::Model& model) {
@@ -221,32 +211,31 @@ double span(const solver::Model& model, const solver::Member& member) {
 
 }  // namespace
 
-solver::Effects EffectScope::completed(solver::Effects set) const {
-  const bool contains = applicable.has(solver::Effect::gyroscopic) &&
-                        set.has(solver::Effect::large_displacement) &&
-                        set.has(solver::Effect::inertia);
-  return contains ? set.with(solver::Effect::gyroscopic) : set;
+Effects EffectScope::completed(Effects set) const {
+  const bool contains = applicable.has(Effect::gyroscopic) && set.has(Effect::large_displacement) &&
+                        set.has(Effect::inertia);
+  return contains ? set.with(Effect::gyroscopic) : set;
 }
 
-solver::Effects EffectScope::without(solver::Effects set, solver::Effect effect) const {
+Effects EffectScope::without(Effects set, Effect effect) const {
   set = set.without(effect);
-  for (const solver::Effect dependent : dependents[static_cast<std::size_t>(effect)].list()) {
+  for (const Effect dependent : dependents[static_cast<std::size_t>(effect)].list()) {
     if (set.has(dependent)) set = without(set, dependent);
   }
   return set;
 }
 
-std::optional<double> slenderness_number(solver::Effect effect, const solver::Model& model) {
+std::optional<double> slenderness_number(Effect effect, const solver::Model& model) {
   double largest = 0;
   for (const solver::Member& member : model.members) {
     if (!(member.section.EI > 0)) continue;
     const double length = span(model, member);
     const solver::Section& section = member.section;
-    if (effect == solver::Effect::axial_flexibility) {
+    if (effect == Effect::axial_flexibility) {
       largest = std::max(largest, section.EI / (section.EA * length * length));
-    } else if (effect == solver::Effect::shear) {
+    } else if (effect == Effect::shear) {
       largest = std::max(largest, solver::shear_ratio(section, member.theory, length));
-    } else if (effect == solver::Effect::rotary_inertia) {
+    } else if (effect == Effect::rotary_inertia) {
       if (section.mass_per_length > 0)
         largest = std::max(
             largest, section.inertia_per_length / (section.mass_per_length * length * length));
@@ -257,29 +246,29 @@ std::optional<double> slenderness_number(solver::Effect effect, const solver::Mo
   return largest;
 }
 
-const char* EffectRules::describe_missing(solver::Effect effect) const {
+const char* EffectRules::describe_missing(Effect effect) const {
   return words_of(effect).missing[column];
 }
 
-const char* EffectRules::describe_number(solver::Effect effect) const {
+const char* EffectRules::describe_number(Effect effect) const {
   return words_of(effect).number[column];
 }
 
-const char* EffectRules::describe_required(solver::Effect effect) const {
-  if (effect == solver::Effect::damping) return "kept, for nothing else bounds a resonance";
-  return effect == solver::Effect::axial_flexibility && estimate != nullptr
+const char* EffectRules::describe_required(Effect effect) const {
+  if (effect == Effect::damping) return "kept, for nothing else bounds a resonance";
+  return effect == Effect::axial_flexibility && estimate != nullptr
              ? "kept, for constraints that turn with the links cost more than it does"
              : "the analysis is of it";
 }
 
-solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect) {
+Effects& dependents_of(EffectScope& scope, Effect effect) {
   return scope.dependents[static_cast<std::size_t>(effect)];
 }
 
 const EffectRules& statics_effects() {
   static const EffectRules rules = {
       [](const JsonView&) -> std::vector<EffectKey> {
-        return {{solver::Effect::geometric_stiffening, {"second_order"}, false}};
+        return {{Effect::geometric_stiffening, {"second_order"}, false}};
       },
       statics_scope, nullptr, 0};
   return rules;
@@ -293,8 +282,8 @@ const EffectRules& modes_effects() {
 const EffectRules& elastodynamics_effects() {
   static const EffectRules rules = {
       [](const JsonView&) -> std::vector<EffectKey> {
-        return {{solver::Effect::inertia, {"effects", "elastic_inertia"}, true},
-                {solver::Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
+        return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
+                {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
       },
       motion_scope,
       [](const JsonView& analysis, const CaseModel& case_model, const EffectScope& scope) {

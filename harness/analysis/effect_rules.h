@@ -2,10 +2,8 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "harness/input/document.h"
 #include "harness/scene/case_model.h"
 #include "solver/effects/effect_estimates.h"
 

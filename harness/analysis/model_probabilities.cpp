@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "harness/base/find_or_add.h"
+
 namespace trammel::harness {
 namespace {
 
@@ -130,22 +132,22 @@ std::vector<ReadingClass> classes_of(const std::vector<ModelReading>& readings,
                                      double discrepancy) {
   std::vector<std::size_t> order(readings.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return probability[a] > probability[b]; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return probability[a] > probability[b]; });
   std::vector<ReadingClass> classes;
   for (const std::size_t r : order) {
-    const auto home = std::find_if(classes.begin(), classes.end(), [&](const ReadingClass& some) {
+    const auto is_alike = [&](const ReadingClass& some) {
       const ModelReading& leader = readings[some.readings.front()];
       return same_within_noise(leader, readings[r], row.log_numbers.size(),
                                variance_of(leader, row, discrepancy));
-    });
-    ReadingClass& joined = home == classes.end() ? classes.emplace_back() : *home;
+    };
+    ReadingClass& joined = find_or_add(classes, is_alike, {});
     joined.readings.push_back(r);
     joined.probability += probability[r];
   }
-  std::stable_sort(
-      classes.begin(), classes.end(),
-      [](const ReadingClass& a, const ReadingClass& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(classes, [](const ReadingClass& a, const ReadingClass& b) {
+    return a.probability > b.probability;
+  });
   return classes;
 }
 
@@ -174,7 +176,7 @@ double remaining_entropy(const std::vector<NumberGivenRow>& terms, std::size_t c
   double sum = 0, total = 0;
   std::vector<double> density(classes);
   for (int i = 0; i <= points; ++i) {
-    std::fill(density.begin(), density.end(), 0);
+    std::ranges::fill(density, 0);
     for (const NumberGivenRow& term : terms) {
       const double z = (low + i * step - term.mean) / term.deviation;
       if (std::abs(z) < 8)
@@ -212,13 +214,11 @@ ModelProbabilities model_probabilities(const std::vector<ModelReading>& readings
   found.cells = cell_posteriors(readings, row, candidates, discrepancy);
   found.log_evidence = normalize(found.cells);
   for (const CellPosterior& cell : found.cells) found.probability[cell.reading] += cell.probability;
-  found.cells.erase(
-      std::remove_if(found.cells.begin(), found.cells.end(),
-                     [](const CellPosterior& cell) { return cell.probability < kNegligible; }),
-      found.cells.end());
-  std::stable_sort(
-      found.cells.begin(), found.cells.end(),
-      [](const CellPosterior& a, const CellPosterior& b) { return a.probability > b.probability; });
+  std::erase_if(found.cells,
+                [](const CellPosterior& cell) { return cell.probability < kNegligible; });
+  std::ranges::stable_sort(found.cells, [](const CellPosterior& a, const CellPosterior& b) {
+    return a.probability > b.probability;
+  });
   found.classes = classes_of(readings, found.probability, row, discrepancy);
   return found;
 }
@@ -279,7 +279,7 @@ PrintedRow draw_row(const ModelReading& reading, const PrintedRow& like, Index c
   row.log_numbers = VectorXd(cell.log_numbers(chosen)) + cell.spread(chosen, Eigen::all) * unknown;
   const VectorXd deviation = variance_of(reading, like, discrepancy).cwiseSqrt();
   for (Index i = 0; i < deviation.size(); ++i) row.log_numbers(i) += deviation(i) * normal(random);
-  std::sort(row.log_numbers.begin(), row.log_numbers.end());
+  std::ranges::sort(row.log_numbers);
   return row;
 }
 

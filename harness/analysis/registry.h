@@ -29,7 +29,7 @@ struct PointAnalysis {
 
 struct AnalysisKind {
   const char* name;  ///< the key below "analysis"
-  std::variant<std::monostate, StepAnalysis, PathAnalysis> of_scene;
+  std::variant<std::monostate, StepAnalysis, PathAnalysis> of_scene = {};
   bool needs_manipulator = false;
   const EffectRules* effects = nullptr;  ///< null: knows none
   /// In the place of `of_scene`, where that is empty or the case has no "model".

@@ -1,5 +1,7 @@
 #include "harness/base/environment.h"
 
+#include <fmt/chrono.h>
+
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
 #include <ctime>
@@ -11,15 +13,6 @@
 
 namespace trammel::harness {
 namespace {
-
-std::string date() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
 
 /// The value behind the first line of a file that starts with `key`.
 std::string line_of(const char* file, const std::string& key) {
@@ -35,30 +28,22 @@ std::string line_of(const char* file, const std::string& key) {
   return "unknown";
 }
 
-std::string eigen_version() {
-  return std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
-         std::to_string(EIGEN_MINOR_VERSION);
-}
-
-std::string nlohmann_version() {
-  return std::to_string(NLOHMANN_JSON_VERSION_MAJOR) + "." +
-         std::to_string(NLOHMANN_JSON_VERSION_MINOR) + "." +
-         std::to_string(NLOHMANN_JSON_VERSION_PATCH);
-}
-
 }  // namespace
 
 Json environment() {
-  Json libraries = {{"Eigen", eigen_version()},
-                    {"Spectra", TRAMMEL_SPECTRA_VERSION},
-                    {"nlohmann_json", nlohmann_version()},
-                    {"CLI11", CLI11_VERSION},
-                    {"Boost", TRAMMEL_BOOST_VERSION},
-                    {"GSL", TRAMMEL_GSL_VERSION},
-                    {"gnuplot", TRAMMEL_GNUPLOT_VERSION}};
+  Json libraries = {
+      {"Eigen",
+       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"Spectra", TRAMMEL_SPECTRA_VERSION},
+      {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
+                                    NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"CLI11", CLI11_VERSION},
+      {"Boost", TRAMMEL_BOOST_VERSION},
+      {"GSL", TRAMMEL_GSL_VERSION},
+      {"gnuplot", TRAMMEL_GNUPLOT_VERSION}};
   return {{"trammel", TRAMMEL_VERSION},
           {"commit", TRAMMEL_COMMIT},
-          {"date", date()},
+          {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
           {"compiler", TRAMMEL_COMPILER},
           {"flags", TRAMMEL_FLAGS},
           {"build_type", TRAMMEL_BUILD_TYPE},

@@ -180,9 +180,9 @@ void put_line(const Json& json, std::string& text) {
 
 void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
   const auto line = [&](std::size_t spaces) { text.append(1, '\n').append(spaces, ' '); };
-  const bool nested =
-      json.is_structured() &&
-      std::any_of(json.begin(), json.end(), [](const Json& item) { return item.is_structured(); });
+  const bool nested = json.is_structured() && std::ranges::any_of(json, [](const Json& item) {
+                        return item.is_structured();
+                      });
   const bool last = json.is_object() && depth + 1 == deepest;
   const bool expanded =
       !json.empty() && depth < deepest && !last && (nested || (json.is_object() && depth < 2));

@@ -98,10 +98,6 @@ struct Child {
   _exit(0);
 }
 
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 /// Awaits the end of a child that has closed its pipe.
 ProcessOutcome outcome_of(Child& child) {
   int status = 0;
@@ -113,8 +109,8 @@ ProcessOutcome outcome_of(Child& child) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory)
     return {Termination::out_of_memory, "more memory than there is"};
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  const double cpu_s = seconds(used.ru_utime) + seconds(used.ru_stime);
-  if (signal == SIGXCPU || signal == SIGALRM || (signal == SIGKILL && cpu_s >= child.cpu_limit_s))
+  if (signal == SIGXCPU || signal == SIGALRM ||
+      (signal == SIGKILL && cpu_time_s(used) >= child.cpu_limit_s))
     return {Termination::timed_out,
             "not done after " + std::to_string(child.cpu_limit_s) + " s of processor time"};
   if (signal == SIGKILL)
@@ -265,6 +261,13 @@ int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions
     if (const int signal = pool.wait(ended, options.waiting); signal != 0) return signal;
   }
   return 0;
+}
+
+double cpu_time_s(const rusage& used) {
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
 }  // namespace trammel::harness

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/resource.h>
+
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -43,6 +45,9 @@ void end_without_memory(int status, const char* line);
 [[nodiscard]] int run_in_processes(
     const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
     const std::function<void(std::size_t task, const ProcessOutcome& outcome)>& ended);
+
+/// Processor time of the system and of the program itself.
+[[nodiscard]] double cpu_time_s(const rusage& used);
 
 /// From now on SIGINT and SIGTERM, where `run_in_processes` does not read them, end the program
 /// with this line on standard error and exit status 128 + signal. Where they were ignored they

@@ -30,4 +30,8 @@ struct NameAndUnit {
 /// Whether a quantity counts things, so that it has no order of convergence.
 [[nodiscard]] bool is_count(const std::string& name);
 
+/// Whether a quantity says how well others were computed (round-off, residuals): smaller is better,
+/// and nothing converges to its limit.
+[[nodiscard]] bool is_diagnostic(const std::string& name);
+
 }  // namespace trammel::harness

@@ -10,23 +10,22 @@ namespace trammel::harness {
 double statistic_of(const std::string& name, const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const bool finite =
-      std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+      std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
   if (!finite) return std::numeric_limits<double>::quiet_NaN();
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const auto [least, most] = std::ranges::minmax_element(values);
   const auto count = static_cast<double>(values.size());
   if (name == "max") return *most;
   if (name == "min") return *least;
   if (name == "max_abs") return std::max(std::abs(*least), std::abs(*most));
   if (name == "min_abs") {
-    return std::abs(*std::min_element(values.begin(), values.end(), [](double a, double b) {
-      return std::abs(a) < std::abs(b);
-    }));
+    return std::abs(*std::ranges::min_element(
+        values, [](double a, double b) { return std::abs(a) < std::abs(b); }));
   }
   if (name == "sum") return std::accumulate(values.begin(), values.end(), 0.0);
   if (name == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / count;
   if (name == "median") {
     std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
   }
   if (name == "first") return values.front();

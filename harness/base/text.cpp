@@ -93,8 +93,8 @@ std::string csv_cell(std::string text) {
 
 std::string printable(std::string text, std::size_t length) {
   if (text.size() > length) text = text.substr(0, length - 3) + "...";
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 32 || c >= 127; }, '?');
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 32 || c >= 127; }, '?');
   return text;
 }
 

@@ -36,7 +36,7 @@ RelativeTime relative_time(const Timing& timing, const Timing& baseline, std::si
   std::vector<double> ratios;
   for (std::size_t i = first; i < timing.cpu_s.size(); i += step)
     ratios.push_back(timing.cpu_s[i] / baseline.cpu_s[i]);
-  std::sort(ratios.begin(), ratios.end());
+  std::ranges::sort(ratios);
   const std::size_t n = ratios.size();
   const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);
   std::size_t outside = 0;  // ratios on either side that the interval leaves out
@@ -49,7 +49,7 @@ double Timing::spread() const {
 }
 
 double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double at = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(at);
   const std::size_t above = std::min(below + 1, values.size() - 1);

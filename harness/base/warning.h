@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/find_or_add.h"
 #include "harness/base/text.h"
 
 namespace trammel::harness {
@@ -23,14 +24,11 @@ struct Warning {
 
 /// Of two of one quantity, as at two points of a path, the larger stays.
 inline void add_warning(std::vector<Warning>& all, const Warning& one) {
-  const auto same = std::find_if(all.begin(), all.end(), [&](const Warning& other) {
+  const auto is_same = [&](const Warning& other) {
     return other.quantity == one.quantity && other.meaning == one.meaning;
-  });
-  if (same == all.end()) {
-    all.push_back(one);
-  } else {
-    same->value = std::max(same->value, one.value);
-  }
+  };
+  Warning& same = find_or_add(all, is_same, one);
+  same.value = std::max(same.value, one.value);
 }
 
 inline void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more) {

@@ -9,13 +9,25 @@
 #include "harness/analysis/analysis.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
+#include "harness/results/fields.h"
 #include "harness/run/certification.h"
 #include "harness/run/results.h"
 #include "harness/run/run.h"
 #include "harness/run/stored_results.h"
+
+namespace trammel::results {
+
+TRAMMEL_FIELDS(harness::ConfigurationRow, required("configuration", &S::name),
+               TRAMMEL_REQUIRED(checks, missing, median_digits, fewest_digits),
+               required("fewest_of", &S::least_certain));
+TRAMMEL_FIELDS(harness::VerdictFlip, TRAMMEL_REQUIRED(check, configuration, from, to));
+TRAMMEL_FIELDS(harness::TightTolerance, TRAMMEL_REQUIRED(check, configuration, tolerance, noise));
+TRAMMEL_FIELDS(harness::Certification, required("configurations", &S::rows),
+               TRAMMEL_REQUIRED(flips), required("tight_tolerances", &S::tight));
+
+}  // namespace trammel::results
 
 namespace trammel::harness {
 namespace {
@@ -30,15 +42,13 @@ std::vector<Configuration> computed(const RunCommand& command) {
   const References references;
   std::vector<Configuration> configurations;
   for (const auto& [name, mode] : kRounding) {
-    Progress progress(std::string("runs rounded ") + name);
     RunOptions options;
     options.jobs = command.jobs;
     options.memory_bytes = command.memory_bytes;
-    options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
     set_solver_rounding(mode);
-    const std::vector<Run> runs = run_cases(cases, references, options);
+    const std::vector<Run> runs =
+        run_shown(cases, references, options, std::string("runs rounded ") + name);
     set_solver_rounding(FE_TONEAREST);
-    require_complete(runs);
     configurations.push_back({name, results_of(runs, cases, references)});
   }
   return configurations;
@@ -73,28 +83,6 @@ void print(const Certification& certificate) {
   flips.print(std::cout, "  ");
 }
 
-Json to_json(const Certification& certificate) {
-  Json rows = Json::array(), flips = Json::array(), tight = Json::array();
-  for (const ConfigurationRow& row : certificate.rows)
-    rows.push_back({{"configuration", row.name},
-                    {"checks", row.checks},
-                    {"missing", row.missing},
-                    {"median_digits", row.median_digits},
-                    {"fewest_digits", row.fewest_digits},
-                    {"fewest_of", row.least_certain}});
-  for (const VerdictFlip& flip : certificate.flips)
-    flips.push_back({{"check", flip.check},
-                     {"configuration", flip.configuration},
-                     {"from", flip.from},
-                     {"to", flip.to}});
-  for (const TightTolerance& one : certificate.tight)
-    tight.push_back({{"check", one.check},
-                     {"configuration", one.configuration},
-                     {"tolerance", one.tolerance},
-                     {"noise", one.noise}});
-  return {{"configurations", rows}, {"flips", flips}, {"tight_tolerances", tight}};
-}
-
 }  // namespace
 
 int certify_command(const RunCommand& command, const std::vector<std::string>& builds) {
@@ -109,11 +97,11 @@ int certify_command(const RunCommand& command, const std::vector<std::string>& b
   configurations = computed(command);
   for (Configuration& build : stored) configurations.push_back(std::move(build));
   const Certification certificate = certify(configurations);
-  const bool any = std::any_of(certificate.rows.begin(), certificate.rows.end(),
-                               [](const ConfigurationRow& row) { return row.checks > 0; });
+  const bool any = std::ranges::any_of(certificate.rows,
+                                       [](const ConfigurationRow& row) { return row.checks > 0; });
   if (!any) throw InputError("expected cases with checks, for there is nothing to certify");
   if (command.json) {
-    std::cout << pretty(to_json(certificate), 2);
+    std::cout << pretty(results::to_json(certificate), 2);
   } else {
     print(certificate);
   }

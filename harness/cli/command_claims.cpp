@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "harness/base/json_file.h"
-#include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
@@ -19,8 +18,8 @@ namespace {
 /// "0.99998 (circle-load)" or "0.0051 ... 0.0079 (circle-load)".
 std::string measured(const Interpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
-  const auto [smallest, greatest] = std::minmax_element(
-      interpretation.entries.begin(), interpretation.entries.end(),
+  const auto [smallest, greatest] = std::ranges::minmax_element(
+      interpretation.entries,
       [](const results::ClaimEntry& a, const results::ClaimEntry& b) { return a.value < b.value; });
   std::string text = rounded(smallest->value, 5);
   if (greatest->value != smallest->value) text += " ... " + rounded(greatest->value, 5);
@@ -46,13 +45,10 @@ void print_claim(const Claim& claim) {
 int claims_command(unsigned jobs, bool json) {
   const Document document = load_claims();
   const References references;
-  Progress progress("runs");
   RunOptions options;
   options.jobs = jobs;
-  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   const std::vector<Run> runs =
-      run_cases(cases_of(document, Catalogue().load()), references, options);
-  require_complete(runs);
+      run_shown(cases_of(document, Catalogue().load()), references, options);
   const ClaimSet claim_set = evaluate_claims(document, runs);
   if (json) {
     std::cout << pretty(results::claims_to_json(claim_results(claim_set)));

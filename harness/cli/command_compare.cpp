@@ -12,7 +12,6 @@
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
-#include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_line.h"
@@ -44,21 +43,15 @@ std::pair<std::string, std::string> parted(const std::string& name) {
 
 /// Computes one variant, without its refinements.
 Side side_of(const Case& given, const std::string& variant) {
-  Progress progress("runs");
   const References references;
   RunOptions options;
   options.variant = variant;
-  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   options.memory_bytes = memory_limit_bytes();
   options.studies = false;
-  const std::vector<Run> runs = run_cases({given}, references, options);
-  require_complete(runs);
-  const Run& run = runs.front();
-  const std::string name = given.id() + ":" + variant;
-  if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
-  if (run.error == Run::RunError::input) throw InputError(run.reason);
-  if (run.status != "solved") throw InputError(name + ": expected a solution (" + run.reason + ")");
-  return {name, results_of(runs, {given}, references), patched(given, variant)};
+  const std::vector<Run> runs = run_shown({given}, references, options);
+  require_solved(runs.front());
+  return {given.id() + ":" + variant, results_of(runs, {given}, references),
+          patched(given, variant)};
 }
 
 bool is_json_file(const fs::path& file) {
@@ -311,7 +304,7 @@ std::vector<CostPoint> named_points(const results::CostStudy& study,
   std::vector<CostPoint> points = cost_points(study);
   for (CostPoint& point : points) {
     const std::string& title = study.settings[point.setting].title;
-    const auto known = std::find(titles.begin(), titles.end(), title);
+    const auto known = std::ranges::find(titles, title);
     point.setting = static_cast<std::size_t>(known - titles.begin());
     if (known == titles.end()) titles.push_back(title);
   }
@@ -324,9 +317,9 @@ void print_costs(const results::Results& a, const results::Results& b) {
   Table table({"study", ">on both fronts", ">of", ">same cheapest", ">of", ">median", ">largest"});
   const results::CostStudies& others = *b.cost;
   for (const results::CostStudy& study : a.cost->studies) {
-    const auto other =
-        std::find_if(others.studies.begin(), others.studies.end(),
-                     [&](const results::CostStudy& candidate) { return candidate.id == study.id; });
+    const auto other = std::ranges::find_if(
+        others.studies,
+        [&](const results::CostStudy& candidate) { return candidate.id == study.id; });
     if (other == others.studies.end()) continue;
     std::vector<std::string> titles;
     const std::vector<CostPoint> points_a = named_points(study, titles);

@@ -67,7 +67,7 @@ std::vector<CostStudy> read_studies(const CostCommand& command, SweepExtent exte
   for (const std::string& word : command.what) {
     std::vector<std::string> known;
     const std::vector<fs::path> named = studies_named(word, known);
-    std::for_each(named.begin(), named.end(), add);
+    std::ranges::for_each(named, add);
     if (!named.empty()) continue;
     const fs::path file = find_one(word, known);
     if (is_cost_study(file)) {
@@ -97,9 +97,7 @@ void print_settings(const MeasuredStudy& measured) {
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
     const MeasuredSetting& measurement = measured.settings[i];
-    const bool on_pareto_front =
-        std::any_of(measured.pareto_front.begin(), measured.pareto_front.end(),
-                    [i](const CostPoint& point) { return point.setting == i; });
+    const bool on_pareto_front = has_setting(measured.pareto_front, i);
     const std::string& title = measured.study.settings[i].title;
     table.add(
         {title, measurement.error ? rounded(measurement.error->get(measured.study.norm), 3) : "-",
@@ -295,9 +293,8 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   } else if (command.accuracy == 0) {
     std::cout << read_text(file);
   }
-  const bool any_lost =
-      std::any_of(measured.begin(), measured.end(),
-                  [](const MeasuredStudy& study) { return study.points.empty(); });
+  const bool any_lost = std::ranges::any_of(
+      measured, [](const MeasuredStudy& study) { return study.points.empty(); });
   return any_lost ? 1 : 0;
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "harness/base/json.h"
 #include "harness/cli/command_line.h"
 #include "harness/input/reference_library.h"
 #include "harness/results/cost_results.h"
@@ -20,11 +19,11 @@ struct CostCommand {
   bool quick = false;
   int repeats = 7;
   std::uint64_t seed = 1;
-  std::string out;
+  std::string out = "trammel-cost";
   double accuracy = 0;  ///< the settings are searched for this error; 0: they are not
-  std::vector<std::string> quantities = {};  ///< that the search looks at
-  double time_limit_s = 120;                 ///< of the search
-  std::string store = {};                    ///< folder; empty: in `out`
+  std::vector<std::string> quantities;  ///< that the search looks at
+  double time_limit_s = 120;            ///< of the search
+  std::string store;                    ///< folder; empty: in `out`
   bool resume = false;
   bool json = false;  ///< results.json instead of tables; of a search what it chose
 };

@@ -7,6 +7,7 @@
 #include "harness/base/table.h"
 #include "harness/base/text.h"
 #include "harness/coverage/evidence_coverage.h"
+#include "harness/input/catalogue.h"
 #include "harness/run/stored_results.h"
 
 namespace trammel::harness {
@@ -49,9 +50,8 @@ int coverage_command(const CoverageCommand& command) {
   } else {
     for (const char* group : {"key", "pair", "quantity"}) print_group(rows, group, command.gaps);
   }
-  const bool complete = std::all_of(rows.begin(), rows.end(), [](const CoverageRow& row) {
-    return row.is_verified() || !row.reason.empty();
-  });
+  const bool complete = std::ranges::all_of(
+      rows, [](const CoverageRow& row) { return row.is_verified() || !row.reason.empty(); });
   return complete ? 0 : 1;
 }
 

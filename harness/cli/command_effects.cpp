@@ -352,7 +352,7 @@ std::vector<results::EffectScene> catalogue_effect_scenes(const std::filesystem:
   std::vector<results::EffectScene> scenes;
   for (const EffectCase& scene : catalogue_effect_cases()) {
     EffectScenes found = scenes_of(scene, store, resume);
-    std::move(found.begin(), found.end(), std::back_inserter(scenes));
+    std::ranges::move(found, std::back_inserter(scenes));
   }
   return scenes;
 }

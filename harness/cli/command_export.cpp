@@ -25,8 +25,8 @@ Json quantities_json(const Case& given, const Quantities& quantities) {
   Json found = Json::object();
   for (const auto& [name, quantity] : quantities) {
     if (!asked.empty() && asked.count(name) == 0) continue;
-    const bool has_gap = !std::all_of(quantity.values.begin(), quantity.values.end(),
-                                      [](double value) { return std::isfinite(value); });
+    const bool has_gap =
+        !std::ranges::all_of(quantity.values, [](double value) { return std::isfinite(value); });
     if (!has_gap) found[name] = {{"unit", unit_of(name)}, {"values", quantity.values}};
   }
   return found;
@@ -60,8 +60,7 @@ int solve_command(const std::string& case_file, const std::string& result_file) 
   const std::vector<Run> runs = run_cases({given}, References(), options);
   require_complete(runs);
   const Run& run = runs.front();
-  if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
-  if (run.error == Run::RunError::input) throw InputError(run.reason);
+  require_no_error(run);
   if (run.result.outcome.solved()) {
     for (const Warning& warning : run.result.warnings)
       std::cerr << "trammel: " << given.id() << ": warning: " << warning.text() << '\n';

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 
+#include "harness/base/contains.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
@@ -44,7 +45,7 @@ int digits_to_tell(double difference) {
 /// Watches over the judging itself and says nothing of a code.
 bool is_control(const Case& one) {
   const std::vector<std::string> labels = one.labels();
-  return std::find(labels.begin(), labels.end(), "control") != labels.end();
+  return contains(labels, "control");
 }
 
 /// "1e-09", "[0.62, 0.65]"; an end that is open stays empty.
@@ -60,9 +61,9 @@ std::string explained(const results::Run& run, Grade grade) {
   if (grade == Grade::not_given) return run.checks.empty() ? "" : run.checks.front().message;
   if (grade != Grade::agrees && grade != Grade::off && grade != Grade::not_judged) {
     if (!run.reason.empty()) return run.reason;
-    const auto broken = std::find_if(
-        run.checks.begin(), run.checks.end(),
-        [](const results::Check& candidate) { return candidate.verdict == Verdict::error; });
+    const auto broken = std::ranges::find_if(run.checks, [](const results::Check& candidate) {
+      return candidate.verdict == Verdict::error;
+    });
     return broken == run.checks.end() ? "" : broken->name + ": " + broken->message;
   }
   if (check == nullptr) return run.reason;
@@ -85,7 +86,7 @@ void print_grades(const std::vector<results::Run>& runs) {
   for (const results::Run& run : runs) {
     const Grade grade = results::grade_of(run);
     ++counts[grade];
-    const auto missing = std::count_if(run.checks.begin(), run.checks.end(), [](const auto& check) {
+    const auto missing = std::ranges::count_if(run.checks, [](const auto& check) {
       return check.verdict == Verdict::not_given || check.verdict == Verdict::error;
     });
     const auto all = static_cast<std::ptrdiff_t>(run.checks.size());
@@ -120,8 +121,7 @@ int grade_command(const GradeCommand& grade, const RunCommand& run, const Render
   adapter.limits.memory_bytes = run.memory_bytes;
   const bool all = run.cases.empty() && run.labels.empty();
   std::vector<Case> cases = all ? Catalogue().load() : select_cases(run);
-  if (run.cases.empty())
-    cases.erase(std::remove_if(cases.begin(), cases.end(), is_control), cases.end());
+  if (run.cases.empty()) std::erase_if(cases, is_control);
   const OutputLock lock(grade.out);
   end_on_signals(kInterrupted);
   const References references;
@@ -146,9 +146,8 @@ int grade_command(const GradeCommand& grade, const RunCommand& run, const Render
     std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
   }
   require_complete(runs);
-  const bool failure =
-      std::any_of(found.runs.begin(), found.runs.end(),
-                  [](const results::Run& one) { return is_failure(results::grade_of(one)); });
+  const bool failure = std::ranges::any_of(
+      found.runs, [](const results::Run& one) { return is_failure(results::grade_of(one)); });
   return failure ? 1 : 0;
 }
 

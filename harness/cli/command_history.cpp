@@ -12,6 +12,7 @@
 #include "harness/base/data_root.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
+#include "harness/base/processes.h"
 #include "harness/base/progress.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
@@ -102,10 +103,7 @@ double time_of(const std::string& program, const std::string& file, const std::s
   if (WEXITSTATUS(status) > 1)
     throw InputError(program + ": expected a program that runs " + file + " (it ends with " +
                      std::to_string(WEXITSTATUS(status)) + ")");
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
+  return cpu_time_s(used);
 }
 
 /// Repeat by repeat all cases, by both programs one after the other, which first is drawn by lot.

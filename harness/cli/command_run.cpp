@@ -6,11 +6,13 @@
 #include <iostream>
 #include <map>
 
-#include "harness/base/diagnostic.h"
+#include "harness/base/contains.h"
 #include "harness/base/errors.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
+#include "harness/base/quantity.h"
 #include "harness/base/statistic.h"
 #include "harness/base/table.h"
 #include "harness/base/text.h"
@@ -20,7 +22,6 @@
 #include "harness/export/vtk_files.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
-#include "harness/judge/evaluate_check.h"
 #include "harness/printing/print_uncertainty.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
@@ -104,11 +105,10 @@ struct CheckSummary {
 std::vector<CheckSummary> summarise_checks(const Run& run) {
   std::vector<CheckSummary> told;
   for (const CheckResult& check_result : run.check_results) {
-    auto same = std::find_if(told.begin(), told.end(), [&](const CheckSummary& check) {
-      return check.worst->name == check_result.name;
-    });
-    if (same == told.end()) same = told.insert(told.end(), {&check_result, 0});
-    CheckSummary& check = *same;
+    const auto is_same = [&](const CheckSummary& one) {
+      return one.worst->name == check_result.name;
+    };
+    CheckSummary& check = find_or_add(told, is_same, {&check_result, 0});
     ++check.entries;
     const auto rank = [](const CheckResult& judged) {
       return std::pair(fails_gate(judged.verdict), severity(judged));
@@ -220,8 +220,7 @@ void print_summary(const std::vector<Run>& runs) {
     for (const CheckResult& check_result : run.check_results)
       ++verdicts[verdict_text(check_result)];
   }
-  const auto stored =
-      std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.was_stored; });
+  const auto stored = std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; });
   std::cout << runs.size() << (runs.size() == 1 ? " run" : " runs");
   if (stored > 0) std::cout << " (" << stored << " of them stored by an earlier call)";
   std::cout << ", " << checks << (checks == 1 ? " check: " : " checks: ") << verdicts["pass"]
@@ -263,7 +262,7 @@ void print_run_errors(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.error == Run::RunError::none) continue;
     // Variants of one case often have one and the same fault.
-    if (std::find(told.begin(), told.end(), run.reason) != told.end()) continue;
+    if (contains(told, run.reason)) continue;
     told.push_back(run.reason);
     std::cerr << run.reason << '\n';
   }
@@ -287,9 +286,8 @@ Selection select(const RunCommand& command) {
   Selection selection = load(files, catalogue);
   if (!command.labels.empty()) {
     for (Case& test_case : catalogue.load(command.labels)) {
-      const bool there =
-          std::any_of(selection.cases.begin(), selection.cases.end(),
-                      [&](const Case& other) { return other.id() == test_case.id(); });
+      const bool there = std::ranges::any_of(
+          selection.cases, [&](const Case& other) { return other.id() == test_case.id(); });
       if (!there) selection.cases.push_back(std::move(test_case));
     }
   }
@@ -300,10 +298,7 @@ Selection select(const RunCommand& command) {
 
 void print_failed_runs(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
-    const bool broken = std::any_of(
-        run.check_results.begin(), run.check_results.end(),
-        [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
-    if (broken && run.error == Run::RunError::none) print_run(run);
+    if (fails_gate(run) && run.error == Run::RunError::none) print_run(run);
   }
 }
 
@@ -471,8 +466,7 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
 }
 
 int report_command(const RunCommand& command, const Renderers& renderers) {
-  const std::size_t stored =
-      std::count_if(command.cases.begin(), command.cases.end(), is_results_file);
+  const std::size_t stored = std::ranges::count_if(command.cases, is_results_file);
   if (stored > 0) {
     if (stored < command.cases.size() || !command.labels.empty())
       throw InputError("expected cases, or results files alone; each file has to be there");

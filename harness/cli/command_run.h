@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "harness/base/processes.h"
 #include "harness/cli/command_line.h"
 #include "harness/input/case.h"
 
@@ -12,19 +15,19 @@ struct RunCommand {
   std::vector<std::string> cases;   ///< names or files
   std::vector<std::string> labels;  ///< beside them
   std::string variant;
-  unsigned jobs = 1;
-  std::string out;
-  std::string store = {};  ///< folder; empty: in `out`
+  unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+  std::string out = "trammel-results";
+  std::string store;  ///< folder; empty: in `out`
   bool resume = false;
-  std::size_t memory_bytes = 0;  ///< of one run; 0: no limit
-  std::string shard = {};        ///< "K/N": only that part, for `trammel merge`
-  std::string costs = {};        ///< results.json that shards are balanced by
-  bool any_machine = false;      ///< resumes also with times of another machine
-  std::string history = {};      ///< SQLite file that the call is added to; empty: none
-  bool single_file = false;      ///< of a report, beside its pages
-  bool json = false;             ///< results.json instead of tables
-  bool measurements = false;     ///< also as lines that ctest sends to CDash
-  bool vtk = false;              ///< drawings also as files of VTK
+  std::size_t memory_bytes = memory_limit_bytes();  ///< of one run; 0: no limit
+  std::string shard;                                ///< "K/N": only that part, for `trammel merge`
+  std::string costs;                                ///< results.json that shards are balanced by
+  bool any_machine = false;                         ///< resumes also with times of another machine
+  std::string history;        ///< SQLite file that the call is added to; empty: none
+  bool single_file = false;   ///< of a report, beside its pages
+  bool json = false;          ///< results.json instead of tables
+  bool measurements = false;  ///< also as lines that ctest sends to CDash
+  bool vtk = false;           ///< drawings also as files of VTK
 };
 
 /// The cases that are named, and those with the labels; the whole catalogue where there are

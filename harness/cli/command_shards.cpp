@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "harness/base/embedded_text.h"
 #include "harness/base/text.h"
 #include "harness/cli/command_cost.h"
 #include "harness/run/output_lock.h"
@@ -22,32 +23,6 @@ std::string words_of(const RunCommand& command) {
   for (const std::string& label : command.labels) words += " -L " + shell_quoted(label);
   return words;
 }
-
-constexpr const char* kScript = R"(#!/bin/sh
-# Sends {count} shards of 'trammel run' to Slurm as a job array, and a job that merges them and makes
-# the page when all are done. Sent again, it computes only what is missing.
-# Every node must see the program, the cases and OUT under these names. A node that dies costs the
-# runs under way: Slurm requeues its shard, which takes the rest from its store. Further options
-# for both jobs: SBATCH_OPTIONS.
-set -e
-TRAMMEL={program}
-OUT={out}
-export TRAMMEL OUT
-mkdir -p "$OUT"
-shards=$(sbatch --parsable --job-name=trammel --array=1-{count} --requeue --cpus-per-task={jobs} {time}\
-  --open-mode=append --output="$OUT/shard-%a.log" $SBATCH_OPTIONS <<'END'
-#!/bin/sh
-exec "$TRAMMEL" run{words}{variant}{costs} --shard "$SLURM_ARRAY_TASK_ID/{count}" --resume --jobs {jobs} \
-  --out "$OUT/shard-$SLURM_ARRAY_TASK_ID"
-END
-)
-sbatch --job-name=trammel-merge --dependency="afterok:$shards" --kill-on-invalid-dep=yes \
-  --cpus-per-task={jobs} {time}--output="$OUT/merge.log" $SBATCH_OPTIONS <<'END'
-#!/bin/sh
-"$TRAMMEL" merge "$OUT"/shard-*/ --jobs {jobs} --out "$OUT" && \
-  exec "$TRAMMEL" report{words} --jobs {jobs} --out "$OUT"
-END
-)";
 
 }  // namespace
 
@@ -72,7 +47,8 @@ int slurm_command(const SlurmCommand& slurm, const RunCommand& command) {
   const std::string costs =
       command.costs.empty() ? "" : fs::absolute(command.costs).lexically_normal().string();
   std::cout << fmt::format(
-      kScript, fmt::arg("count", slurm.shards), fmt::arg("jobs", command.jobs),
+      fmt::runtime(embedded_text("slurm.sh.in")), fmt::arg("count", slurm.shards),
+      fmt::arg("jobs", command.jobs),
       fmt::arg("program", shell_quoted(fs::read_symlink("/proc/self/exe").string())),
       fmt::arg("out", shell_quoted(fs::absolute(command.out).lexically_normal().string())),
       fmt::arg("words", words_of(command)),

@@ -103,7 +103,7 @@ CaseFeatures parts_of(const CaseFeatures& features) {
       "platform_joint = ",    "member.ends = hinged"};
   CaseFeatures found;
   for (const std::string& feature : features) {
-    const bool is_part = std::any_of(parts.begin(), parts.end(), [&](std::string_view part) {
+    const bool is_part = std::ranges::any_of(parts, [&](std::string_view part) {
       return part.back() == ' ' ? feature.rfind(part, 0) == 0 : feature == part;
     });
     if (is_part) found.insert(feature);

@@ -1,6 +1,5 @@
 #include "harness/coverage/evidence_coverage.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "harness/input/catalogue.h"
+#include "harness/input/case.h"
 #include "harness/input/reference_library.h"
 #include "harness/results/results.h"
 

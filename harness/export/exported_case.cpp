@@ -1,11 +1,11 @@
 #include "harness/export/exported_case.h"
 
-#include <algorithm>
 #include <array>
 #include <set>
 
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/registry.h"
+#include "harness/base/contains.h"
 #include "harness/base/content_hash.h"
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
@@ -43,7 +43,7 @@ void require_exportable(const Document& document) {
   constexpr std::array kinds = {"statics",      "buckling", "modes",    "large-statics",
                                 "large-motion", "harmonic", "transient"};
   const JsonView place = analysis_place(document);
-  if (std::find(kinds.begin(), kinds.end(), analysis_kind(document)) == kinds.end())
+  if (!contains(kinds, analysis_kind(document)))
     throw place.error(analysis_kind(document) + " is not exported");
   const JsonView root(document);
   if (root.has("model") && root["model"].has("trajectory"))
@@ -184,7 +184,7 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
   if (sweeps)
     for (const auto& sweep : sweeps->entries()) names.push_back(sweep.first);
   const std::string name = choice.sweep.empty() && names.size() == 1 ? names[0] : choice.sweep;
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
+  if (!contains(names, name)) {
     throw document.error("/sweeps", "expected the name of a sweep (got '" + printable(name) +
                                         "'; it has " +
                                         (names.empty() ? "none" : join(names, "and")) + ")");

@@ -276,9 +276,8 @@ bool is_tapered(const solver::Member& member) {
         s.EA, s.EI, s.kappa_GA, s.mass_per_length, s.inertia_per_length, s.area, s.section_modulus};
   };
   const auto a = numbers(member.section), b = numbers(member.end_section);
-  return !std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
-    return x == y || std::abs(x - y) <= 1e-14 * std::abs(x);
-  });
+  return !std::ranges::equal(
+      a, b, [](double x, double y) { return x == y || std::abs(x - y) <= 1e-14 * std::abs(x); });
 }
 
 Json model_json(Model model, const solver::large_motion::LargeMotionModel& joints,

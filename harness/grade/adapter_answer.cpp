@@ -17,7 +17,7 @@ constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{64} << 20;
 Json asked_quantity(const Json& asked, const std::string& name, const InputError& unknown) {
   const Json& all = asked.at("quantities");
   const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Json& one) { return one.at("name") == name; });
+      std::ranges::find_if(all, [&](const Json& one) { return one.at("name") == name; });
   if (found != all.end()) return *found;
   if (results::find_quantity_definition(name, "") == nullptr) throw unknown;
   return {{"unit", unit_of(name)}};
@@ -54,7 +54,7 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked,
   if (const auto fault = find_schema_fault(json, "adapter_result"))
     throw InputError(name, fault->pointer, fault->message);
   computation.status = json.at("status").get<std::string>();
-  std::replace(computation.status.begin(), computation.status.end(), '_', '-');
+  std::ranges::replace(computation.status, '_', '-');
   computation.reason = one_line(json.value("reason", ""));
   if (json.contains("solver")) {
     const Json& solver = json.at("solver");

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "harness/base/processes.h"
 #include "harness/base/stopwatch.h"
 
 namespace trammel::harness {
@@ -101,13 +102,6 @@ pid_t parent_of(const fs::path& process) {
   return parent;
 }
 
-double cpu_s(const rusage& used) {
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
-
 }  // namespace
 
 void adopt_descendants() {
@@ -170,7 +164,7 @@ ProgramOutcome run_limited(const std::vector<std::string>& words, const fs::path
     while (wait4(child, &status, 0, &used) < 0 && errno == EINTR) {
     }
     outcome.wall_s = watch.wall_s();
-    outcome.cpu_s = cpu_s(used);
+    outcome.cpu_s = cpu_time_s(used);
     end_descendants();
     errno = 0;
     while (drain(ends[0], outcome.output) && errno == 0) {

@@ -1,7 +1,7 @@
 #include "harness/input/case.h"
 
-#include <algorithm>
 
+#include "harness/base/contains.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
@@ -41,7 +41,7 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
       throw InputError(file.string(), "/extends", "expected the name or the file of a case");
     }
     const fs::path base = catalogue.find_base_case(extends->get<std::string>(), file);
-    if (std::find(seen.begin(), seen.end(), fs::weakly_canonical(base)) != seen.end()) {
+    if (contains(seen, fs::weakly_canonical(base))) {
       throw InputError(file.string(), "/extends", "expected a case that does not extend this one");
     }
     apply_with_bases(document, base, catalogue, seen);
@@ -75,7 +75,7 @@ void check_indicators(const Case& given) {
   }
   for (const auto& [number, place] : root["stress_suite"]["indicators"].entries()) {
     const auto name = place.get<std::string>();
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (contains(names, name)) continue;
     throw place.error("expected the name of a check of the case (got '" + printable(name) + "')" +
                       did_you_mean(name, names));
   }
@@ -163,7 +163,7 @@ Document patched(const Case& given, const std::string& variant) {
   document.apply_patch(file, "", Json{{"description", nullptr}, {"variants", nullptr}});
   if (variant != kBaseVariant) {
     const std::vector<std::string> names = given.variants();
-    if (std::find(names.begin(), names.end(), variant) == names.end()) {
+    if (!contains(names, variant)) {
       throw InputError(file, "/variants",
                        "expected the name of a variant (got '" + printable(variant) + "')" +
                            did_you_mean(variant, names));

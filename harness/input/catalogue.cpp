@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "harness/base/contains.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
@@ -17,8 +18,8 @@ constexpr std::string_view kOtherRooms[] = {"/schema/", "/cost/", "/claims/"};
 
 /// Whether a file below the catalogue's folder lies in a room that holds something else than cases.
 bool is_no_case(std::string_view path_below) {
-  return std::any_of(std::begin(kOtherRooms), std::end(kOtherRooms),
-                     [&](std::string_view room) { return path_below.starts_with(room); });
+  return std::ranges::any_of(kOtherRooms,
+                             [&](std::string_view room) { return path_below.starts_with(room); });
 }
 
 /// Nothing a user types as a name may leave the catalogue's folder.
@@ -35,10 +36,9 @@ Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(fol
   std::erase_if(files_, [&](const auto& item) {
     return is_no_case(std::string_view(item.second).substr(above));
   });
-  std::sort(files_.begin(), files_.end());
-  const auto twice =
-      std::adjacent_find(files_.begin(), files_.end(),
-                         [](const auto& a, const auto& b) { return a.first == b.first; });
+  std::ranges::sort(files_);
+  const auto twice = std::ranges::adjacent_find(
+      files_, [](const auto& a, const auto& b) { return a.first == b.first; });
   if (twice == files_.end()) return;
   throw InputError(twice[1].second, "/id",
                    "expected a name that no other case has (got that of " + twice->second + ")");
@@ -56,7 +56,7 @@ fs::path Catalogue::by_name(const std::string& name) const {
   if (!is_name(name)) return {};
   const fs::path wanted(name);
   const std::string id = (wanted.extension() == ".json" ? wanted.stem() : wanted).string();
-  const auto found = std::lower_bound(files_.begin(), files_.end(), std::pair(id, std::string()));
+  const auto found = std::ranges::lower_bound(files_, std::pair(id, std::string()));
   return found == files_.end() || found->first != id ? fs::path() : fs::path(found->second);
 }
 
@@ -105,8 +105,8 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels) const 
     const std::vector<std::string> case_labels = loaded.labels();
     known.insert(case_labels.begin(), case_labels.end());
     const bool wanted =
-        labels.empty() || std::any_of(labels.begin(), labels.end(), [&](const std::string& label) {
-          return std::find(case_labels.begin(), case_labels.end(), label) != case_labels.end();
+        labels.empty() || std::ranges::any_of(labels, [&](const std::string& label) {
+          return contains(case_labels, label);
         });
     if (wanted) chosen.push_back(std::move(loaded));
   }

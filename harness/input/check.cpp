@@ -1,11 +1,12 @@
 #include "harness/input/check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <map>
 
+#include "harness/base/contains.h"
 #include "harness/base/text.h"
 
 namespace trammel::harness {
@@ -13,16 +14,9 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-std::vector<std::size_t> read_indices(const JsonView& place, const char* key) {
-  const auto stated = place.find(key);
-  if (!stated) return {};
-  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
-  return {stated->get<std::size_t>()};
-}
-
 void require_variant(const JsonView& place, const std::vector<std::string>& variants) {
   const auto name = place.get<std::string>();
-  if (std::find(variants.begin(), variants.end(), name) != variants.end()) return;
+  if (contains(variants, name)) return;
   throw place.error("expected a variant of the case (got '" + printable(name) + "')" +
                     did_you_mean(name, variants));
 }
@@ -96,7 +90,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   }
   order.meshes = place.get("min_meshes", std::size_t{3});
   if (const auto wave = place.find("wave_number")) {
-    order.wave_number = {wave->text("reference"), read_indices(*wave, "reference_index"),
+    order.wave_number = {wave->text("reference"), wave->indices("reference_index"),
                          wave->number("at_most"), wave->pointer()};
   }
   if (const auto term = place.find("leading_term")) {
@@ -127,8 +121,8 @@ void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
       check.measure == Measure::relative || check.measure == Measure::absolute;
   if (!is_difference || check.expectation != Expectation::known_discrepancy) return;
-  const bool everywhere = std::all_of(check.windows.begin(), check.windows.end(),
-                                      [](const Window& window) { return window.contains(0); });
+  const bool everywhere =
+      std::ranges::all_of(check.windows, [](const Window& window) { return window.contains(0); });
   if (everywhere) {
     throw place.error(
         "expected a window without 0: a known discrepancy that allows none can never "
@@ -251,10 +245,10 @@ Check read_check(const std::string& name, const JsonView& place, const Document&
   check.pointer = place.pointer();
   check.title = place.get<std::string>("title", "");
   check.quantity = place.text("quantity");
-  check.index = read_indices(place, "index");
+  check.index = place.indices("index");
   check.statistic = place.get<std::string>("statistic", "");
   check.reference = place.get<std::string>("reference", "");
-  check.reference_index = read_indices(place, "reference_index");
+  check.reference_index = place.indices("reference_index");
   check.against_variant = place.get<std::string>("against_variant", "");
   check.against_quantity = place.get<std::string>("against_quantity", "");
   check.role = read_role(place.text("role"));
@@ -309,18 +303,13 @@ std::vector<Check> read_checks(const Document& document, const std::string& vari
 }
 
 const char* to_string(Role role) {
-  static const std::map<Role, const char*> names = {{Role::verification, "verification"},
-                                                    {Role::validation, "validation"},
-                                                    {Role::regression, "regression"}};
-  return names.at(role);
+  constexpr std::array names = {"verification", "validation", "regression"};
+  return names[static_cast<std::size_t>(role)];
 }
 
 const char* to_string(Measure measure) {
-  static const std::map<Measure, const char*> names = {{Measure::relative, "relative"},
-                                                       {Measure::absolute, "absolute"},
-                                                       {Measure::ratio, "ratio"},
-                                                       {Measure::value, "bound"}};
-  return names.at(measure);
+  constexpr std::array names = {"relative", "absolute", "ratio", "bound"};
+  return names[static_cast<std::size_t>(measure)];
 }
 
 }  // namespace trammel::harness

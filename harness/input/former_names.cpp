@@ -25,7 +25,7 @@ std::vector<std::string> split(const std::string& text, char at) {
 bool fits(const std::string& part, const std::string& key) {
   if (part == "*" || part == key) return true;
   const auto& keys = renamed("keys").items();
-  return std::any_of(keys.begin(), keys.end(), [&](const auto& entry) {
+  return std::ranges::any_of(keys, [&](const auto& entry) {
     return split(entry.key(), '/').back() == part && entry.value() == key;
   });
 }

@@ -44,4 +44,11 @@ std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
   return found;
 }
 
+std::vector<std::size_t> JsonView::indices(const std::string& key) const {
+  const auto stated = find(key);
+  if (!stated) return {};
+  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
+  return {stated->get<std::size_t>()};
+}
+
 }  // namespace trammel::harness

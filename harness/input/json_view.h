@@ -36,6 +36,9 @@ class JsonView {
     return (*this)[key].get<std::string>();
   }
 
+  /// One or several; none where the key is missing.
+  [[nodiscard]] std::vector<std::size_t> indices(const std::string& key) const;
+
   [[nodiscard]] const Json& json() const { return *json_; }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
   [[nodiscard]] const Document& document() const { return *document_; }

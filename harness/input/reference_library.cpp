@@ -1,7 +1,5 @@
 #include "harness/input/reference_library.h"
 
-#include <algorithm>
-
 #include "harness/base/content_hash.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"

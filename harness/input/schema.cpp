@@ -19,7 +19,7 @@ bool equals(const Json& value, const SchemaRule& choice) {
 /// std::regex takes seven million instructions.
 bool matches_name_pattern(const std::string& text) {
   const auto plain = [](unsigned char c) { return c < 128 && std::isalnum(c) != 0; };
-  return !text.empty() && plain(text.front()) && std::all_of(text.begin(), text.end(), [&](char c) {
+  return !text.empty() && plain(text.front()) && std::ranges::all_of(text, [&](char c) {
     return plain(c) || c == '.' || c == '_' || c == '-';
   });
 }

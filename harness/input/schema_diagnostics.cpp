@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "harness/base/contains.h"
 #include "harness/base/text.h"
 #include "harness/input/former_names.h"
 
@@ -107,7 +108,7 @@ std::vector<std::string> allowed_keys(const Rules& rules) {
       for (const auto& item : properties->GetObject()) keys.push_back(text_of(item.name));
     }
   }
-  std::sort(keys.begin(), keys.end());
+  std::ranges::sort(keys);
   return keys;
 }
 
@@ -120,7 +121,7 @@ std::string all_quoted(std::vector<std::string> names, const char* last) {
 std::string got_keys(const Json& object) {
   std::vector<std::string> keys;
   for (const auto& item : object.items()) keys.push_back(item.key());
-  std::sort(keys.begin(), keys.end());
+  std::ranges::sort(keys);
   return " (got " + (keys.empty() ? "none" : all_quoted(keys, "and")) + ")";
 }
 
@@ -148,7 +149,7 @@ std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule)
 SchemaFault explain_object(const Json& object, std::vector<std::string> path, const Rules& rules) {
   const std::vector<std::string> allowed = allowed_keys(rules);
   for (const auto& item : object.items()) {
-    const bool known = std::find(allowed.begin(), allowed.end(), item.key()) != allowed.end();
+    const bool known = contains(allowed, item.key());
     if (allowed.empty() || known) continue;
     path.push_back(item.key());
     const std::string guess = did_you_mean(current_key(path), allowed);
@@ -182,7 +183,7 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
   std::string suffix;
   for (const SchemaRule* rule : broken.rules) {
     const std::string text = describe_rule(root, *rule);
-    if (std::find(wanted.begin(), wanted.end(), text) == wanted.end()) wanted.push_back(text);
+    if (!contains(wanted, text)) wanted.push_back(text);
     if (const SchemaRule* stated = keyword(*rule, "enum")) {
       for (const SchemaRule& choice : stated->GetArray()) {
         if (choice.IsString()) choices.push_back(text_of(choice));
@@ -201,8 +202,8 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
 
 SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken) {
   Rules of_objects;
-  std::copy_if(broken.rules.begin(), broken.rules.end(), std::back_inserter(of_objects),
-               [](const SchemaRule* rule) { return wants(*rule, "object"); });
+  std::ranges::copy_if(broken.rules, std::back_inserter(of_objects),
+                       [](const SchemaRule* rule) { return wants(*rule, "object"); });
   if (!broken.value->is_object() || of_objects.empty()) return explain_value(schema, broken);
   return explain_object(*broken.value, broken.path, of_objects);
 }

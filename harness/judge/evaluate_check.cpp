@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
@@ -205,8 +203,8 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
 }
 
 std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
-  const auto worst = std::max_element(
-      entries.begin(), entries.end(),
+  const auto worst = std::ranges::max_element(
+      entries,
       [](const CheckResult& a, const CheckResult& b) { return severity(a) < severity(b); });
   CheckResult worst_result = *worst;
   worst_result.message = "worst of " + std::to_string(entries.size()) +

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/base/contains.h"
 #include "harness/base/numbers.h"
 #include "harness/base/text.h"
 
@@ -33,7 +34,7 @@ class OrderCheckEvaluator {
         found_(entry.found),
         is_other_solver_(is_other_solver) {
     for (std::size_t k = 0; k < found_.error.size(); ++k) qualifies_.push_back(qualifies(k));
-    meshes_ = static_cast<std::size_t>(std::count(qualifies_.begin(), qualifies_.end(), true));
+    meshes_ = static_cast<std::size_t>(std::ranges::count(qualifies_, true));
   }
 
   /// The constants of trammel's elements say nothing of others.
@@ -205,8 +206,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
         series.statistic != check.statistic) {
       continue;
     }
-    const bool chosen = check.index.empty() || std::find(check.index.begin(), check.index.end(),
-                                                         series.index) != check.index.end();
+    const bool chosen = check.index.empty() || contains(check.index, series.index);
     if (!chosen) continue;
     if (!criterion.of_errors &&
         series.exact != entry_of(find_reference(context, check.pointer + "/reference"),
@@ -239,8 +239,8 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
         check, fmt::format("the sweep '{}' follows {} entries of {}, {} are judged",
                            criterion.sweep, position, check.quantity, wanted)));
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });
+  std::ranges::stable_sort(
+      all, [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });
   return all;
 }
 

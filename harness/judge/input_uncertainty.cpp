@@ -42,7 +42,7 @@ double quantile(const std::vector<double>& sorted, double p) {
 }
 
 void summarise(std::vector<double> values, SampledUncertainty& result) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const auto n = static_cast<double>(values.size());
   double mean = 0;
   for (const double value : values) mean += value / n;

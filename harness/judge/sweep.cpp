@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "harness/base/diagnostic.h"
 #include "harness/base/numbers.h"
+#include "harness/base/quantity.h"
 #include "harness/base/statistic.h"
 #include "harness/judge/tracked_quantity.h"
 
@@ -18,10 +17,10 @@ constexpr std::size_t kMaxTrackedEntries = 16;
 void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
   for (const auto& item : sweep.levels.back().quantities) {
     if (is_diagnostic(item.first)) continue;
-    const bool known = std::any_of(tracked_quantities.begin(), tracked_quantities.end(),
-                                   [&](const TrackedQuantity& tracked_quantity) {
-                                     return tracked_quantity.quantity == item.first;
-                                   });
+    const bool known =
+        std::ranges::any_of(tracked_quantities, [&](const TrackedQuantity& tracked_quantity) {
+          return tracked_quantity.quantity == item.first;
+        });
     if (!known) tracked_quantities.push_back({item.first, "", {}, {}});
   }
 }
@@ -102,7 +101,7 @@ Series track_entry(const Sweep& sweep, const JsonView& place,
 }
 
 bool changes(const Series& series) {
-  return std::adjacent_find(series.values.begin(), series.values.end(), [](double a, double b) {
+  return std::ranges::adjacent_find(series.values, [](double a, double b) {
            return a != b && !(std::isnan(a) && std::isnan(b));
          }) != series.values.end();
 }

@@ -4,13 +4,6 @@
 
 namespace trammel::harness {
 
-std::vector<std::size_t> indices(const JsonView& place, const char* key) {
-  const auto stated = place.find(key);
-  if (!stated) return {};
-  if (stated->json().is_array()) return stated->get<std::vector<std::size_t>>();
-  return {stated->get<std::size_t>()};
-}
-
 bool is_exact(const references::Reference& reference) {
   return reference.kind == references::ReferenceKind::proved ||
          reference.kind == references::ReferenceKind::exact ||
@@ -22,7 +15,7 @@ std::vector<TrackedQuantity> named_by_sweep(const JsonView& quantities,
   std::vector<TrackedQuantity> tracked_quantities;
   for (const auto& [name, entry] : quantities.entries()) {
     TrackedQuantity tracked_quantity{name, entry.get<std::string>("statistic", ""),
-                                     indices(entry, "index"), indices(entry, "reference_index")};
+                                     entry.indices("index"), entry.indices("reference_index")};
     tracked_quantity.is_error = entry.get("is_error", false);
     if (entry.has("theory_order")) tracked_quantity.theory = entry.number("theory_order");
     if (entry.has("reference")) tracked_quantity.reference = &references.get(entry["reference"]);
@@ -44,11 +37,10 @@ std::vector<TrackedQuantity> named_by_checks(const Document& document,
       const references::Reference& reference = references.get(places[check.name]["reference"]);
       if (is_exact(reference)) tracked_quantity.reference = &reference;
     }
-    const auto same = std::find_if(tracked_quantities.begin(), tracked_quantities.end(),
-                                   [&](const TrackedQuantity& other) {
-                                     return other.quantity == tracked_quantity.quantity &&
-                                            other.statistic == tracked_quantity.statistic;
-                                   });
+    const auto same = std::ranges::find_if(tracked_quantities, [&](const TrackedQuantity& other) {
+      return other.quantity == tracked_quantity.quantity &&
+             other.statistic == tracked_quantity.statistic;
+    });
     if (same == tracked_quantities.end()) {
       tracked_quantities.push_back(std::move(tracked_quantity));
     } else if (same->reference == nullptr && tracked_quantity.reference != nullptr) {

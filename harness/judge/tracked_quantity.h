@@ -30,7 +30,4 @@ struct TrackedQuantity {
 /// Whether a reference tells the discretisation error: of kind exact or computed.
 [[nodiscard]] bool is_exact(const references::Reference& reference);
 
-/// The entries that a place names under a key, one or a list; empty where it has none.
-[[nodiscard]] std::vector<std::size_t> indices(const JsonView& place, const char* key);
-
 }  // namespace trammel::harness

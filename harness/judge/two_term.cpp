@@ -56,10 +56,10 @@ std::optional<TwoTermFit> fit_two_terms(const std::vector<double>& h,
   }
   const Fit fit(h, error, law);
   std::optional<TwoTermFit> found;
-  while (std::count(levels.begin(), levels.end(), true) >= 3) {
+  while (std::ranges::count(levels, true) >= 3) {
     found = fit.over(levels);
     if (found && found->worst <= within) break;
-    *std::find(levels.begin(), levels.end(), true) = false;
+    *std::ranges::find(levels, true) = false;
   }
   return found;
 }

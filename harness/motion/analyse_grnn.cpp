@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
-#include <limits>
 
 #include "harness/motion/grnn_samples.h"
 #include "harness/scene/rigid_case_model.h"
 #include "solver/grnn/grnn_validation.h"
 #include "solver/manipulator/forward_dynamics.h"
+#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -108,7 +109,7 @@ void record_part(const std::string& part, const std::vector<solver::Index>& whic
   if (which.empty()) return;
   const Eigen::MatrixXd own = rows(error, which);
   for (solver::Index j = 0; j < own.cols(); ++j) {
-    const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
+    const GrnnOutput& column = samples.columns[solver::to_size(j)];
     for (solver::Index i = 0; i < own.rows(); ++i) {
       record.add(part + "_" + column.quantity + "_error" + column.unit, column.item, own(i, j));
     }
@@ -183,7 +184,7 @@ std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
 void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predicted,
                         const std::vector<bool>& trains, Recorder& record) {
   for (solver::Index j = 0; j < predicted.cols(); ++j) {
-    const GrnnOutput& column = samples.columns[static_cast<std::size_t>(j)];
+    const GrnnOutput& column = samples.columns[solver::to_size(j)];
     for (solver::Index k = 0; k < predicted.rows(); ++k) {
       record.add("active_" + column.quantity + column.unit, column.item, samples.outputs(k, j));
       record.add("predicted_" + column.quantity + column.unit, column.item, predicted(k, j));
@@ -213,14 +214,14 @@ Eigen::MatrixXd spline_over_time(const CaseModel& case_model, const Eigen::Matri
                                  const std::vector<solver::Index>& training) {
   std::vector<double> times;
   for (const solver::Index k : training)
-    times.push_back(case_model.motion[static_cast<std::size_t>(k)].time);
+    times.push_back(case_model.motion[solver::to_size(k)].time);
   Eigen::MatrixXd predicted(outputs.rows(), outputs.cols());
   for (solver::Index j = 0; j < outputs.cols(); ++j) {
     const Eigen::VectorXd values = outputs(training, j);
     const boost::math::interpolators::makima<std::vector<double>> spline(
         std::vector<double>(times), {values.begin(), values.end()});
     for (solver::Index k = 0; k < outputs.rows(); ++k) {
-      const double time = case_model.motion[static_cast<std::size_t>(k)].time;
+      const double time = case_model.motion[solver::to_size(k)].time;
       const double inside = std::clamp(time, times.front(), times.back());
       predicted(k, j) = spline(inside) + (time - inside) * spline.prime(inside);
     }
@@ -303,8 +304,7 @@ StepResult analyse_grnn_samples(const Document& document, const References&, boo
     const Eigen::MatrixXd predicted = solver::predict(network, queries);
     for (solver::Index k = 0; k < predicted.rows(); ++k) {
       for (solver::Index j = 0; j < predicted.cols(); ++j) {
-        record.add("prediction", samples.columns[static_cast<std::size_t>(j)].item,
-                   predicted(k, j));
+        record.add("prediction", samples.columns[solver::to_size(j)].item, predicted(k, j));
       }
     }
   } catch (const solver::ModelError& error) {

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "harness/scene/rigid_case_model.h"
+#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -25,8 +27,8 @@ const std::array<std::string, 7>& body_names() {
 
 void record_joints(const solver::InverseDynamics& found, Recorder& record) {
   for (solver::Index i = 0; i < 3; ++i) {
-    const std::string& active = active_names()[static_cast<std::size_t>(i)];
-    const std::string& elbow = elbow_names()[static_cast<std::size_t>(i)];
+    const std::string& active = active_names()[solver::to_size(i)];
+    const std::string& elbow = elbow_names()[solver::to_size(i)];
     record.add("torque_N_m", active, found.torque(i));
     record.add("active_angle_rad", active, found.q(i));
     record.add("active_velocity_rad_per_s", active, found.q_dot(i));

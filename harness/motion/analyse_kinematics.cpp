@@ -29,8 +29,8 @@ StepResult analyse_kinematics(const JsonView&, const CaseModel& case_model, std:
     record.add("holding_torque_N_m", active[i], holding.torque[row]);
     record.add("distal_tension_N", distal[i], holding.tension[row]);
   }
-  const double reach = *std::max_element(geometry.proximal.begin(), geometry.proximal.end()) +
-                       *std::max_element(geometry.distal.begin(), geometry.distal.end());
+  const double reach =
+      *std::ranges::max_element(geometry.proximal) + *std::ranges::max_element(geometry.distal);
   result.evidence.add(solver::Residual::constraints, posture.closure_error / reach);
   record.add("closure_error_m", "", posture.closure_error);
   record.add("parallel_singularity_distance", "", at.parallel_distance);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/text.h"
+#include "harness/base/contains.h"
 #include "harness/readers/joint_reader.h"
 #include "harness/readers/time_reader.h"
 #include "harness/scene/draw_large.h"
@@ -11,6 +11,7 @@
 #include "solver/large_motion/solve/integrate.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -35,7 +36,7 @@ struct OutputSelection {
 /// A node that turns: others are seen from it, or its angle is kept.
 solver::Index find_turning_node(const JsonView& name, const GeometricallyExactSystem& system) {
   const solver::Index node = find_node(name, system.model());
-  if (system.layout().node[static_cast<std::size_t>(node)][2] < 0)
+  if (system.layout().node[solver::to_size(node)][2] < 0)
     throw name.error("expected a node that has a rotation: only hinges meet there");
   return node;
 }
@@ -108,7 +109,7 @@ class MotionRecorder {
  private:
   void look_at(solver::Index node, const Eigen::MatrixX3d& motion,
                const Eigen::MatrixX3d& velocity) {
-    const solver::Node& named = system_.model().nodes[static_cast<std::size_t>(node)];
+    const solver::Node& named = system_.model().nodes[solver::to_size(node)];
     const Eigen::RowVector3d u = motion.row(node), v = velocity.row(node);
     record_.add("position_x_m", named.name, named.position.x() + u[0]);
     record_.add("position_y_m", named.name, named.position.y() + u[1]);
@@ -123,9 +124,9 @@ class MotionRecorder {
 
   void look_from(solver::Index node, const Eigen::MatrixX3d& motion) {
     const std::vector<solver::Node>& nodes = system_.model().nodes;
-    const solver::Node& named = nodes[static_cast<std::size_t>(node)];
+    const solver::Node& named = nodes[solver::to_size(node)];
     const solver::Index eye = selection_.seen_from;
-    const Eigen::Vector2d arm = named.position - nodes[static_cast<std::size_t>(eye)].position;
+    const Eigen::Vector2d arm = named.position - nodes[solver::to_size(eye)].position;
     const Eigen::Vector2d moved = (motion.row(node) - motion.row(eye)).head<2>().transpose();
     const double turn = motion(eye, 2);
     const double c = std::cos(turn), s = std::sin(turn);
@@ -153,8 +154,7 @@ class MotionRecorder {
     const Eigen::MatrixX3d reaction = reactions(system_, state);
     for (std::size_t i = 0; i < system_.model().supports.size(); ++i) {
       const solver::Support& support = system_.model().supports[i];
-      if (std::find(selection_.nodes.begin(), selection_.nodes.end(), support.node) ==
-          selection_.nodes.end()) {
+      if (!contains(selection_.nodes, support.node)) {
         continue;
       }
       const auto row = static_cast<solver::Index>(i);
@@ -205,8 +205,8 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
                        const solver::Path& path, Recorder& record) {
   const solver::Index p = system.model().find_node("P");
   const Eigen::MatrixX3d motion = node_motion(system, state.q);
-  const Eigen::Vector2d now = system.model().nodes[static_cast<std::size_t>(p)].position +
-                              motion.row(p).head<2>().transpose();
+  const Eigen::Vector2d now =
+      system.model().nodes[solver::to_size(p)].position + motion.row(p).head<2>().transpose();
   const solver::Pose pose = solver::at(path, state.t).pose;
   record.add("pose_x_m", "", pose.x);
   record.add("pose_y_m", "", pose.y);

@@ -8,6 +8,7 @@
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -25,7 +26,7 @@ MovingState state_of(const solver::System& system, const MotionHistory& motion,
   elastic.u = system.T * (motion.q.col(sample) + motion.damping.rayleigh.stiffness * v);
   elastic.acceleration =
       system.T * (motion.a.col(sample) + damping_acceleration(motion.damping, system.M, v));
-  elastic.load_factor = motion.load_factor[static_cast<std::size_t>(sample)];
+  elastic.load_factor = motion.load_factor[solver::to_size(sample)];
   elastic.constraint_forces = constraint_forces(system, elastic);  // which damping bears upon, too
   elastic.u = system.T * motion.q.col(sample);
   postprocess(system, elastic, state.forces);
@@ -91,8 +92,8 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
       reduced_system(analysis, solver::assemble(build_model(case_model, step), case_model.effects));
   if (!outcome.solved()) return {outcome, system.counters, std::nullopt};
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
-  const bool with_forces = std::any_of(outputs.begin(), outputs.end(),
-                                       [](const Output& one) { return one.needs_forces(); });
+  const bool with_forces =
+      std::ranges::any_of(outputs, [](const Output& one) { return one.needs_forces(); });
   if (with_forces && analysis.has("rotating_frame")) {
     throw analysis["outputs"].error(
         "expected motions alone beside 'rotating_frame': what the frame does to the inside of "
@@ -111,9 +112,9 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   EnergyDrift drift;
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {
     const MovingState state = state_of(system, motion, sample, with_forces);
-    record.add("time_s", "", motion.time[static_cast<std::size_t>(sample)]);
+    record.add("time_s", "", motion.time[solver::to_size(sample)]);
     for (solver::Index i = 0; i < values.rows(); ++i) {
-      const Output& output = outputs[static_cast<std::size_t>(i)];
+      const Output& output = outputs[solver::to_size(i)];
       values(i, sample) = value_of(output, system.model, state);
       record.add(output.name, "", values(i, sample));
     }

@@ -9,6 +9,8 @@
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/step_result.h"
 #include "solver/large_motion/solve/state_results.h"
+#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 
@@ -52,12 +54,11 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
     samples.columns.push_back({"velocity", "_rad_per_s", joint});
   }
   for (solver::Index k = 0; k < count; ++k) {
-    const solver::TrajectoryPoint& point = case_model.motion[static_cast<std::size_t>(k)];
+    const solver::TrajectoryPoint& point = case_model.motion[solver::to_size(k)];
     const solver::InverseDynamics found =
         solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
     if (!found.outcome.solved()) {
-      result.outcome =
-          outcome_at_path_point(case_model, static_cast<std::size_t>(k), found.outcome);
+      result.outcome = outcome_at_path_point(case_model, solver::to_size(k), found.outcome);
       return result;
     }
     samples.inputs.row(k) = found.torque.transpose();
@@ -88,9 +89,9 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
   solver::Index k = 0;
   path.outcome =
       integrate_tracking(case_model, system, options, [&](const solver::large_motion::State& now) {
-        const bool on_time = k < outputs.rows() &&
-                             std::abs(now.t - case_model.motion[static_cast<std::size_t>(k)].time) <
-                                 options.step / 2;
+        const bool on_time =
+            k < outputs.rows() &&
+            std::abs(now.t - case_model.motion[solver::to_size(k)].time) < options.step / 2;
         if (!on_time) throw place.error("expected a path with points evenly spaced in time");
         const Eigen::MatrixX3d q = node_motion(system, now.q), v = node_motion(system, now.v);
         outputs.row(k++) << start + q.col(2).head<3>().transpose(), v.col(2).head<3>().transpose();

@@ -11,6 +11,7 @@
 #include "harness/readers/material_reader.h"
 #include "harness/readers/time_reader.h"
 #include "solver/assembly/damping.h"
+#include "solver/model/numbers.h"
 #include "solver/modes/modes.h"
 #include "solver/time/modal_superposition.h"
 #include "solver/time/motion_evidence.h"
@@ -215,7 +216,7 @@ class Motion {
     const solver::HarmonicDamping damping = stated_damping(basis.omega.size());
     Eigen::VectorXd decay = solver::decay_rates(damping.rayleigh, basis.omega);
     for (solver::Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {
-      decay[i] += damping.modal_ratio[static_cast<std::size_t>(i)] * basis.omega[i];
+      decay[i] += damping.modal_ratio[solver::to_size(i)] * basis.omega[i];
     }
     solver::ModalResponse response =
         solver::superpose(basis, decay, system_.M, load_, history_.time, initial_.q0, initial_.v0);
@@ -235,7 +236,7 @@ class Motion {
     load_.apply_to(equation);
     solver::MotionEvidence evidence(equation);
     for (solver::Index i = 0; i < history_.q.cols(); ++i) {
-      const double time = history_.time[static_cast<std::size_t>(i)];
+      const double time = history_.time[solver::to_size(i)];
       evidence.add_equilibrium(time, time, history_.q.col(i), history_.v.col(i), history_.a.col(i),
                                transient_.number("step_s"));
     }
@@ -253,7 +254,7 @@ class Motion {
     if (!K.exists()) return;
     const VectorXd by_loads = K.solve(rest.col(0)), by_weight = K.solve(rest.col(1));
     for (solver::Index i = 0; i < history_.q.cols(); ++i) {
-      history_.q.col(i) += history_.load_factor[static_cast<std::size_t>(i)] * by_loads + by_weight;
+      history_.q.col(i) += history_.load_factor[solver::to_size(i)] * by_loads + by_weight;
     }
   }
 

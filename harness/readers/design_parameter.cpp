@@ -49,7 +49,7 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
         "expected the thickness, E, density or Poisson's ratio of the platform");
   }
   const auto any = [](const std::array<bool, 3>& selected) {
-    return std::count(selected.begin(), selected.end(), true) > 0;
+    return std::ranges::count(selected, true) > 0;
   };
   if (!any(read.proximal) && !any(read.distal) && !read.platform) {
     throw parameter.error("expected a link, or the platform");

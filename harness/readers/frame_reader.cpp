@@ -2,7 +2,6 @@
 
 #include <iterator>
 #include <limits>
-#include <map>
 #include <numbers>
 
 #include "harness/readers/material_reader.h"
@@ -10,6 +9,7 @@
 #include "harness/readers/plate_reader.h"
 #include "harness/readers/symbol_table.h"
 #include "solver/large_motion/elements/linear_joints.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -91,8 +91,8 @@ solver::Member read_member(const std::string& name, const JsonView& place,
   solver::Member member;
   member.name = name;
   member.nodes = {symbols.find_node(place["nodes"][0]), symbols.find_node(place["nodes"][1])};
-  const Eigen::Vector2d span = nodes[static_cast<std::size_t>(member.nodes[1])].position -
-                               nodes[static_cast<std::size_t>(member.nodes[0])].position;
+  const Eigen::Vector2d span = nodes[solver::to_size(member.nodes[1])].position -
+                               nodes[solver::to_size(member.nodes[0])].position;
   if (!(span.norm() > 0)) {
     throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
   }
@@ -144,7 +144,7 @@ void read_members(const JsonView& members, const SymbolTable& symbols, solver::I
       continue;
     }
     const auto at = [&](std::size_t end) -> Eigen::Vector2d {
-      return structure.nodes[static_cast<std::size_t>(member.nodes[end])].position;
+      return structure.nodes[solver::to_size(member.nodes[end])].position;
     };
     try {
       add_chain(member, chain, at(0), at(1), std::ssize(structure.nodes), structure);
@@ -193,8 +193,8 @@ void read_pin(const std::string& name, const JsonView& place, const SymbolTable&
               solver::Model& model) {
   std::array<solver::Index, 2> nodes{};
   for (std::size_t i = 0; i < 2; ++i) nodes[i] = symbols.find_node(place["nodes"][i]);
-  const double apart = (model.nodes[static_cast<std::size_t>(nodes[0])].position -
-                        model.nodes[static_cast<std::size_t>(nodes[1])].position)
+  const double apart = (model.nodes[solver::to_size(nodes[0])].position -
+                        model.nodes[solver::to_size(nodes[1])].position)
                            .norm();
   if (apart > 1e-12) {
     throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
@@ -252,10 +252,7 @@ void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model&
                            "' only");
   }
   if (on_edge) return read_edge_load(place, symbols, model);
-  solver::NodalLoad load{symbols.find_node(place["node"]), Eigen::Vector3d::Zero()};
-  if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
-  load.force.z() = place.get("moment_N_m", 0.0);
-  model.loads.push_back(load);
+  model.loads.push_back({symbols.find_node(place["node"]), read_force(place)});
 }
 
 SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {

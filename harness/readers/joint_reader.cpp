@@ -47,10 +47,7 @@ solver::large_motion::LineSpring read_line_spring(const std::string& name, const
 solver::large_motion::FollowerLoad read_follower(const JsonView& place,
                                                  const solver::Model& built) {
   if (!place.has("node")) throw place.error("expected 'node'");
-  solver::large_motion::FollowerLoad load{find_node(place["node"], built), Eigen::Vector3d::Zero()};
-  if (const auto force = place.find("force_N")) load.force.head<2>() = read_point(*force);
-  load.force.z() = place.get("moment_N_m", 0.0);
-  return load;
+  return {find_node(place["node"], built), read_force(place)};
 }
 
 solver::large_motion::TimeFunction spin_up(double speed, double duration) {

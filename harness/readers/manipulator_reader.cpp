@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "harness/base/text.h"
 #include "harness/readers/material_reader.h"
 #include "harness/readers/trajectory_reader.h"
 

@@ -6,6 +6,13 @@ Eigen::Vector2d read_point(const JsonView& point) {
   return {point[0].get<double>(), point[1].get<double>()};
 }
 
+Eigen::Vector3d read_force(const JsonView& load) {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  if (const auto given = load.find("force_N")) force.head<2>() = read_point(*given);
+  force.z() = load.get("moment_N_m", 0.0);
+  return force;
+}
+
 solver::Material read_material(const JsonView& material) {
   return {material.number("E_Pa"), material.number("rho_kg_m3"), material.number("nu")};
 }

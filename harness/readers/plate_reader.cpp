@@ -8,6 +8,7 @@
 
 #include "harness/readers/material_reader.h"
 #include "solver/mesh/block_mesh.h"
+#include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 
 namespace trammel::harness {
@@ -20,7 +21,7 @@ Ends ends_of(solver::Index a, solver::Index b) {
 }
 
 const Eigen::Vector2d& position(const solver::Model& structure, solver::Index node) {
-  return structure.nodes[static_cast<std::size_t>(node)].position;
+  return structure.nodes[solver::to_size(node)].position;
 }
 
 std::string describe_point(const Eigen::Vector2d& point) {
@@ -178,8 +179,7 @@ void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const std::vector<solver::Index>& of_mesh : mesh.sides[b]) {
       Edge::Piece piece{plate, {}, six_nodes};
-      for (const solver::Index node : of_mesh)
-        piece.nodes.push_back(nodes[static_cast<std::size_t>(node)]);
+      for (const solver::Index node : of_mesh) piece.nodes.push_back(nodes[solver::to_size(node)]);
       sides.add(places[b], std::move(piece));
     }
   }
@@ -264,9 +264,9 @@ void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::M
 void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::Model& structure) {
   std::vector<bool> held(structure.nodes.size(), false);
   const auto hold = [&](solver::Index node) {
-    if (node >= 0) held[static_cast<std::size_t>(node)] = true;
+    if (node >= 0) held[solver::to_size(node)] = true;
   };
-  const auto hold_all = [&](const auto& nodes) { std::for_each(nodes.begin(), nodes.end(), hold); };
+  const auto hold_all = [&](const auto& nodes) { std::ranges::for_each(nodes, hold); };
   for (const solver::Member& member : structure.members) hold_all(member.nodes);
   for (const solver::Triangle& triangle : structure.triangles) hold_all(triangle.nodes);
   for (const solver::Spring& spring : structure.springs) hold_all(spring.nodes);
@@ -275,13 +275,12 @@ void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::
     hold_all(body.attached);
   }
   const auto unnamed = [&](solver::Index node) {
-    return node >= 0 && structure.nodes[static_cast<std::size_t>(node)].name.empty();
+    return node >= 0 && structure.nodes[solver::to_size(node)].name.empty();
   };
   const bool meshed =
-      std::any_of(structure.triangles.begin(), structure.triangles.end(),
-                  [&](const solver::Triangle& triangle) {
-                    return std::any_of(triangle.nodes.begin(), triangle.nodes.end(), unnamed);
-                  });
+      std::ranges::any_of(structure.triangles, [&](const solver::Triangle& triangle) {
+        return std::ranges::any_of(triangle.nodes, unnamed);
+      });
   for (std::size_t i = first; meshed && i < structure.nodes.size(); ++i) {
     if (held[i]) continue;
     const Eigen::Vector2d& here = structure.nodes[i].position;

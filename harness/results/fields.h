@@ -4,13 +4,11 @@
 #include <boost/preprocessor/seq/transform.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -18,8 +16,7 @@
 
 /// A struct and its JSON object, both ways, from one list of keys and members:
 ///
-///   template <> inline constexpr auto kFields<Pose> =
-///       std::tuple{required("nodes_m", &Pose::nodes), TRAMMEL_REQUIRED(Pose, label)};
+///   TRAMMEL_FIELDS(Pose, required("nodes_m", &S::nodes), TRAMMEL_REQUIRED(label));
 namespace trammel::results {
 
 using Json = nlohmann::ordered_json;
@@ -66,14 +63,6 @@ constexpr UsualField<Struct> usual(const char* key, std::string Struct::*member,
   return {key, member, value};
 }
 
-/// Fields whose keys are the names of the members: TRAMMEL_REQUIRED(Check, name, quantity).
-#define TRAMMEL_REQUIRED(Struct, ...) TRAMMEL_EACH(TRAMMEL_ONE_REQUIRED, Struct, __VA_ARGS__)
-#define TRAMMEL_OPTIONAL(Struct, ...) TRAMMEL_EACH(TRAMMEL_ONE_OPTIONAL, Struct, __VA_ARGS__)
-#define TRAMMEL_EACH(one, Struct, ...) \
-  BOOST_PP_SEQ_ENUM(BOOST_PP_SEQ_TRANSFORM(one, Struct, BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
-#define TRAMMEL_ONE_REQUIRED(_, Struct, member) required(#member, &Struct::member)
-#define TRAMMEL_ONE_OPTIONAL(_, Struct, member) optional(#member, &Struct::member)
-
 struct None {};
 /// The fields of a struct, in the order of the document.
 template <class Struct>
@@ -84,6 +73,24 @@ inline constexpr None kNames{};
 /// The member that is the key of a struct where several stand in an object instead of an array.
 template <class Struct>
 inline constexpr None kKeyMember{};
+
+/// The fields of a struct, which is S among them. Those whose keys are the names of the members:
+/// TRAMMEL_REQUIRED(name, quantity).
+#define TRAMMEL_FIELDS(Struct, ...)            \
+  template <>                                  \
+  inline constexpr auto kFields<Struct> = [] { \
+    using S = Struct;                          \
+    return std::tuple{__VA_ARGS__};            \
+  }()
+#define TRAMMEL_REQUIRED(...) TRAMMEL_EACH(TRAMMEL_ONE_REQUIRED, __VA_ARGS__)
+#define TRAMMEL_OPTIONAL(...) TRAMMEL_EACH(TRAMMEL_ONE_OPTIONAL, __VA_ARGS__)
+#define TRAMMEL_EACH(one, ...) \
+  BOOST_PP_SEQ_ENUM(BOOST_PP_SEQ_TRANSFORM(one, , BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
+#define TRAMMEL_ONE_REQUIRED(_, none, member) required(#member, &S::member)
+#define TRAMMEL_ONE_OPTIONAL(_, none, member) optional(#member, &S::member)
+#define TRAMMEL_KEY(Struct, member) \
+  template <>                       \
+  inline constexpr auto kKeyMember<Struct> = &Struct::member
 
 namespace detail {
 

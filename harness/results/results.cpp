@@ -7,6 +7,7 @@
 #include <map>
 #include <system_error>
 
+#include "harness/base/contains.h"
 #include "harness/base/quantity.h"
 #include "harness/results/fields.h"
 
@@ -53,9 +54,7 @@ void from_json(const Json& json, const Place& place, Tolerance& tolerance) {
   tolerance = {ends[0], ends[1], false};
 }
 
-template <>
-inline constexpr auto kFields<TwoTermLaw> =
-    std::tuple{TRAMMEL_REQUIRED(TwoTermLaw, coefficients, max_relative_misfit, used)};
+TRAMMEL_FIELDS(TwoTermLaw, TRAMMEL_REQUIRED(coefficients, max_relative_misfit, used));
 std::string usual_unit(const Check& check) {
   return harness::unit_of(check.quantity);
 }
@@ -65,228 +64,124 @@ std::string usual_role(const Check&) {
 std::string usual_measure(const Check&) {
   return "relative";
 }
-template <>
-inline constexpr auto kFields<Check> =
-    std::tuple{TRAMMEL_REQUIRED(Check, name, quantity),
-               TRAMMEL_OPTIONAL(Check, index, computed, expected, difference),
-               TRAMMEL_REQUIRED(Check, tolerance, why, verdict),
-               usual("unit", &Check::unit, usual_unit),
-               usual("role", &Check::role, usual_role),
-               usual("measure", &Check::measure, usual_measure),
-               TRAMMEL_OPTIONAL(Check, title, expectation, message, statistic, reference,
-                                against_variant, against_quantity)};
-template <>
-inline constexpr auto kFields<Convergence> =
-    std::tuple{TRAMMEL_REQUIRED(Convergence, sweep, parameter, quantity, index, values, exact,
-                                error, roundoff, order, in_asymptotic_range, at_roundoff_floor,
-                                theory_order, fitted_order, richardson, gci, safety_factor),
-               TRAMMEL_OPTIONAL(Convergence, statistic, reference, lower_order, two_term)};
-template <>
-inline constexpr auto kFields<UncertainInput> =
-    std::tuple{TRAMMEL_REQUIRED(UncertainInput, name, pointers, half_width, nominal, why)};
-template <>
-inline constexpr auto kFields<NumericalEstimate> =
-    std::tuple{TRAMMEL_REQUIRED(NumericalEstimate, refinement, quantity, index, parameter, values,
-                                order, safety_factor, half_width)};
-template <>
-inline constexpr auto kFields<AllInputsComparison> = std::tuple{TRAMMEL_REQUIRED(
-    AllInputsComparison, u_input, u_input_sampled, u_val, interval, verdict, conclusion)};
-template <>
-inline constexpr auto kFields<Comparison> = std::tuple{TRAMMEL_REQUIRED(
-    Comparison, check, quantity, index, unit, reference, simulation, expected, u_num, u_input,
-    u_input_sampled, u_reference, contributions, dominant_input, dominant_share, spread, difference,
-    u_val, interval, verdict, conclusion, all_inputs)};
-template <>
-inline constexpr auto kFields<Uncertainty> =
-    std::tuple{TRAMMEL_REQUIRED(Uncertainty, inputs, samples, failed, samples_all_inputs,
-                                failed_all_inputs, numerical, comparisons)};
-template <>
-inline constexpr auto kFields<Joint> = std::tuple{TRAMMEL_REQUIRED(Joint, node, kind, name)};
-template <>
-inline constexpr auto kFields<Shape> =
-    std::tuple{required("displacement_m", &Shape::displacement), TRAMMEL_REQUIRED(Shape, label)};
-template <>
-inline constexpr auto kFields<Pose> =
-    std::tuple{required("nodes_m", &Pose::nodes), TRAMMEL_REQUIRED(Pose, label),
-               TRAMMEL_OPTIONAL(Pose, time_s), optional("displacement_m", &Pose::displacement)};
-template <>
-inline constexpr auto kFields<Drawing> =
-    std::tuple{required("nodes_m", &Drawing::nodes),
-               TRAMMEL_REQUIRED(Drawing, members, triangles, joints, shapes),
-               TRAMMEL_OPTIONAL(Drawing, poses)};
-template <>
-inline constexpr auto kKeyMember<EvaluationTiming> = &EvaluationTiming::name;
-template <>
-inline constexpr auto kFields<EvaluationTiming> =
-    std::tuple{TRAMMEL_REQUIRED(EvaluationTiming, per_evaluation_s, evaluations)};
-template <>
-inline constexpr auto kFields<Cost> =
-    std::tuple{TRAMMEL_REQUIRED(Cost, wall_s, cpu_s, counters),
-               TRAMMEL_OPTIONAL(Cost, uncertainty_wall_s, timings)};
-template <>
-inline constexpr auto kFields<EffectRow> = std::tuple{
-    required("effect", &EffectRow::name),
-    TRAMMEL_REQUIRED(EffectRow, applicable, active, why, evaluations),
-    TRAMMEL_OPTIONAL(EffectRow, dimensionless_number, number_definition, estimated_change)};
-template <>
-inline constexpr auto kFields<ReadingClass> =
-    std::tuple{TRAMMEL_REQUIRED(ReadingClass, title, readings, probability, values)};
-template <>
-inline constexpr auto kKeyMember<FurtherNumber> = &FurtherNumber::name;
-template <>
-inline constexpr auto kFields<FurtherNumber> =
-    std::tuple{TRAMMEL_REQUIRED(FurtherNumber, expected_information_bits)};
-template <>
-inline constexpr auto kFields<RowProbabilities> = std::tuple{TRAMMEL_REQUIRED(
-    RowProbabilities, row, reference, unit, discrepancy, log_evidence, entropy_bits, printed,
-    readings, classes, credible_classes, leading, further_numbers)};
-template <>
-inline constexpr auto kFields<ExcludedReadings> =
-    std::tuple{TRAMMEL_REQUIRED(ExcludedReadings, reason, first, readings)};
-template <>
-inline constexpr auto kFields<ModelProbabilities> =
-    std::tuple{TRAMMEL_REQUIRED(ModelProbabilities, rows, excluded)};
-template <>
-inline constexpr auto kFields<Run> =
-    std::tuple{required("case", &Run::case_id),
-               TRAMMEL_REQUIRED(Run, variant, status, quantities, checks, cost),
-               TRAMMEL_OPTIONAL(Run, reason, convergence, residuals, warnings, uncertainty, effects,
-                                model_probabilities, drawing, stored)};
-template <>
-inline constexpr auto kFields<ErrorNorms> =
-    std::tuple{TRAMMEL_REQUIRED(ErrorNorms, max, rms, mean)};
-template <>
-inline constexpr auto kFields<SettingTime> = std::tuple{TRAMMEL_REQUIRED(
-    SettingTime, cpu_s, relative_low, relative_high, wall_median_s, runs_per_measurement)};
-template <>
-inline constexpr auto kFields<CostSetting> = std::tuple{
-    required("error", &CostSetting::errors), required("relative_time", &CostSetting::relative),
-    TRAMMEL_REQUIRED(CostSetting, curve, curve_title, title, value, status, reason, cpu_s, time,
-                     counters, pareto_optimal)};
-template <>
-inline constexpr auto kFields<CheapestSetting> =
-    std::tuple{TRAMMEL_REQUIRED(CheapestSetting, error, setting, tied)};
-template <>
-inline constexpr auto kFields<Repeatability> =
-    std::tuple{TRAMMEL_REQUIRED(Repeatability, on_both_fronts, on_either_front, same_cheapest,
-                                target_errors, median_difference, largest_difference)};
-template <>
-inline constexpr auto kFields<CostOutput> =
-    std::tuple{TRAMMEL_REQUIRED(CostOutput, title, scale, errors, cheapest)};
-template <>
-inline constexpr auto kFields<CostStudy> =
-    std::tuple{TRAMMEL_REQUIRED(CostStudy, id, family, title, reference_solution, scale, norm,
-                                baseline, wall_s, settings, cheapest, repeatability, conclusion),
-               TRAMMEL_OPTIONAL(CostStudy, description, outputs)};
-template <>
-inline constexpr auto kFields<LoopRate> =
-    std::tuple{TRAMMEL_REQUIRED(LoopRate, title, operations, bytes, cpu_s)};
-template <>
-inline constexpr auto kFields<Roofline> =
-    std::tuple{TRAMMEL_REQUIRED(Roofline, peak_flop_per_s, bandwidth_B_per_s, loops)};
-template <>
-inline constexpr auto kFields<CostStudies> = std::tuple{
-    TRAMMEL_REQUIRED(CostStudies, sweep, seed, repeats, equal_within, diverged_above, studies),
-    TRAMMEL_OPTIONAL(CostStudies, roofline)};
-template <>
-inline constexpr auto kFields<Environment> =
-    std::tuple{TRAMMEL_REQUIRED(Environment, trammel, commit, date, compiler, flags, build_type,
-                                libraries, processor, cores, system),
-               TRAMMEL_OPTIONAL(Environment, stored_runs)};
-template <>
-inline constexpr auto kKeyMember<PlotRequest::Line> = &PlotRequest::Line::title;
-template <>
-inline constexpr auto kFields<PlotRequest::Line> =
-    std::tuple{TRAMMEL_REQUIRED(PlotRequest::Line, x, y)};
-template <>
-inline constexpr auto kKeyMember<PlotRequest> = &PlotRequest::id;
-template <>
-inline constexpr auto kFields<PlotRequest> =
-    std::tuple{TRAMMEL_REQUIRED(PlotRequest, y),
-               TRAMMEL_OPTIONAL(PlotRequest, title, x, variants, log, value, lines, caption)};
-template <>
-inline constexpr auto kKeyMember<ColumnRequest> = &ColumnRequest::id;
-template <>
-inline constexpr auto kFields<ColumnRequest> =
-    std::tuple{TRAMMEL_REQUIRED(ColumnRequest, title),
-               TRAMMEL_OPTIONAL(ColumnRequest, quantity, statistic, timing, over_timing)};
-template <>
-inline constexpr auto kKeyMember<TableRequest> = &TableRequest::id;
-template <>
-inline constexpr auto kFields<TableRequest> =
-    std::tuple{TRAMMEL_REQUIRED(TableRequest, columns),
-               TRAMMEL_OPTIONAL(TableRequest, title, variants, caption)};
-template <>
-inline constexpr auto kFields<StressSuiteEntry> =
-    std::tuple{TRAMMEL_REQUIRED(StressSuiteEntry, item, indicators)};
-template <>
-inline constexpr auto kKeyMember<Variant> = &Variant::id;
-template <>
-inline constexpr auto kFields<Variant> = std::tuple{TRAMMEL_REQUIRED(Variant, title)};
-template <>
-inline constexpr auto kKeyMember<CaseInfo> = &CaseInfo::id;
-template <>
-inline constexpr auto kFields<CaseInfo> =
-    std::tuple{TRAMMEL_REQUIRED(CaseInfo, title, variants),
-               TRAMMEL_OPTIONAL(CaseInfo, description, family, labels, stress_suite, figures,
-                                tables, analysis, hash)};
-template <>
-inline constexpr auto kFields<Solver> =
-    std::tuple{TRAMMEL_REQUIRED(Solver, name, version, command)};
-template <>
-inline constexpr auto kKeyMember<Reference> = &Reference::id;
-template <>
-inline constexpr auto kFields<Reference> =
-    std::tuple{TRAMMEL_REQUIRED(Reference, title, kind, unit, values, uncertainty, citation, place),
-               TRAMMEL_OPTIONAL(Reference, doi, printed, derivation, errata, notes)};
-template <>
-inline constexpr auto kFields<UncertaintyCoverage> =
-    std::tuple{TRAMMEL_REQUIRED(UncertaintyCoverage, levels, covered, coverage, min_coverage,
-                                median_ratio, max_median_ratio, min_levels, passes)};
-template <>
-inline constexpr auto kFields<ClaimEntry> = std::tuple{
-    required("case", &ClaimEntry::case_id), TRAMMEL_REQUIRED(ClaimEntry, variant, name, value)};
-template <>
-inline constexpr auto kFields<ClaimInterpretation> =
-    std::tuple{TRAMMEL_REQUIRED(ClaimInterpretation, description, metric, unit, verdict, entries)};
-template <>
-inline constexpr auto kFields<Claim> = std::tuple{TRAMMEL_REQUIRED(
-    Claim, id, claim, place, verdict, expected, conclusion, undecidable, interpretations)};
-template <>
-inline constexpr auto kFields<PaperItem::Counterpart> =
-    std::tuple{required("case", &PaperItem::Counterpart::case_id),
-               TRAMMEL_OPTIONAL(PaperItem::Counterpart, variant, quantity, figure, verdict)};
-template <>
-inline constexpr auto kFields<PaperItem> =
-    std::tuple{TRAMMEL_REQUIRED(PaperItem, id, section, what),
-               TRAMMEL_OPTIONAL(PaperItem, shown_by, claims, reason, note)};
-template <>
-inline constexpr auto kFields<Claims> = std::tuple{
-    TRAMMEL_REQUIRED(Claims, title, as_recorded, claims), TRAMMEL_OPTIONAL(Claims, items)};
-template <>
-inline constexpr auto kFields<CoverageRow> =
-    std::tuple{TRAMMEL_REQUIRED(CoverageRow, group, feature, evidence),
-               TRAMMEL_OPTIONAL(CoverageRow, reason, series, judged)};
-template <>
-inline constexpr auto kFields<EffectScene> = std::tuple{TRAMMEL_REQUIRED(
-    EffectScene, scene, analysis, tolerance, change, minimal, whole_s, chosen_s, deciding_s)};
-template <>
-inline constexpr auto kFields<HistoryCall> = std::tuple{
-    TRAMMEL_REQUIRED(HistoryCall, id, date, commit, machine, runs, checks, failures, cpu_s, work)};
-template <>
-inline constexpr auto kFields<HistoryChange> = std::tuple{
-    TRAMMEL_REQUIRED(HistoryChange, name, verdict_before, verdict, before, after, commit, date)};
-template <>
-inline constexpr auto kFields<HistoryDrift> =
-    std::tuple{TRAMMEL_REQUIRED(HistoryDrift, name, steps, first, last)};
-template <>
-inline constexpr auto kFields<History> =
-    std::tuple{TRAMMEL_REQUIRED(History, calls, since, changes, work, drifts)};
-template <>
-inline constexpr auto kFields<Results> = std::tuple{
-    optional("numerical_uncertainty", &Results::uncertainty_coverage),
-    TRAMMEL_REQUIRED(Results, format, environment, cases, references, runs),
-    TRAMMEL_OPTIONAL(Results, solver, cost, claims, coverage, effect_scenes, history, store)};
+TRAMMEL_FIELDS(Check, TRAMMEL_REQUIRED(name, quantity),
+               TRAMMEL_OPTIONAL(index, computed, expected, difference),
+               TRAMMEL_REQUIRED(tolerance, why, verdict), usual("unit", &S::unit, usual_unit),
+               usual("role", &S::role, usual_role), usual("measure", &S::measure, usual_measure),
+               TRAMMEL_OPTIONAL(title, expectation, message, statistic, reference, against_variant,
+                                against_quantity));
+TRAMMEL_FIELDS(Convergence,
+               TRAMMEL_REQUIRED(sweep, parameter, quantity, index, values, exact, error, roundoff,
+                                order, in_asymptotic_range, at_roundoff_floor, theory_order,
+                                fitted_order, richardson, gci, safety_factor),
+               TRAMMEL_OPTIONAL(statistic, reference, lower_order, two_term));
+TRAMMEL_FIELDS(UncertainInput, TRAMMEL_REQUIRED(name, pointers, half_width, nominal, why));
+TRAMMEL_FIELDS(NumericalEstimate, TRAMMEL_REQUIRED(refinement, quantity, index, parameter, values,
+                                                   order, safety_factor, half_width));
+TRAMMEL_FIELDS(AllInputsComparison,
+               TRAMMEL_REQUIRED(u_input, u_input_sampled, u_val, interval, verdict, conclusion));
+TRAMMEL_FIELDS(Comparison,
+               TRAMMEL_REQUIRED(check, quantity, index, unit, reference, simulation, expected,
+                                u_num, u_input, u_input_sampled, u_reference, contributions,
+                                dominant_input, dominant_share, spread, difference, u_val, interval,
+                                verdict, conclusion, all_inputs));
+TRAMMEL_FIELDS(Uncertainty, TRAMMEL_REQUIRED(inputs, samples, failed, samples_all_inputs,
+                                             failed_all_inputs, numerical, comparisons));
+TRAMMEL_FIELDS(Joint, TRAMMEL_REQUIRED(node, kind, name));
+TRAMMEL_FIELDS(Shape, required("displacement_m", &S::displacement), TRAMMEL_REQUIRED(label));
+TRAMMEL_FIELDS(Pose, required("nodes_m", &S::nodes), TRAMMEL_REQUIRED(label),
+               TRAMMEL_OPTIONAL(time_s), optional("displacement_m", &S::displacement));
+TRAMMEL_FIELDS(Drawing, required("nodes_m", &S::nodes),
+               TRAMMEL_REQUIRED(members, triangles, joints, shapes), TRAMMEL_OPTIONAL(poses));
+TRAMMEL_KEY(EvaluationTiming, name);
+TRAMMEL_FIELDS(EvaluationTiming, TRAMMEL_REQUIRED(per_evaluation_s, evaluations));
+TRAMMEL_FIELDS(Cost, TRAMMEL_REQUIRED(wall_s, cpu_s, counters),
+               TRAMMEL_OPTIONAL(uncertainty_wall_s, timings));
+TRAMMEL_FIELDS(EffectRow, required("effect", &S::name),
+               TRAMMEL_REQUIRED(applicable, active, why, evaluations),
+               TRAMMEL_OPTIONAL(dimensionless_number, number_definition, estimated_change));
+TRAMMEL_FIELDS(ReadingClass, TRAMMEL_REQUIRED(title, readings, probability, values));
+TRAMMEL_KEY(FurtherNumber, name);
+TRAMMEL_FIELDS(FurtherNumber, TRAMMEL_REQUIRED(expected_information_bits));
+TRAMMEL_FIELDS(RowProbabilities, TRAMMEL_REQUIRED(row, reference, unit, discrepancy, log_evidence,
+                                                  entropy_bits, printed, readings, classes,
+                                                  credible_classes, leading, further_numbers));
+TRAMMEL_FIELDS(ExcludedReadings, TRAMMEL_REQUIRED(reason, first, readings));
+TRAMMEL_FIELDS(ModelProbabilities, TRAMMEL_REQUIRED(rows, excluded));
+TRAMMEL_FIELDS(Run, required("case", &S::case_id),
+               TRAMMEL_REQUIRED(variant, status, quantities, checks, cost),
+               TRAMMEL_OPTIONAL(reason, convergence, residuals, warnings, uncertainty, effects,
+                                model_probabilities, drawing, stored));
+TRAMMEL_FIELDS(ErrorNorms, TRAMMEL_REQUIRED(max, rms, mean));
+TRAMMEL_FIELDS(SettingTime, TRAMMEL_REQUIRED(cpu_s, relative_low, relative_high, wall_median_s,
+                                             runs_per_measurement));
+TRAMMEL_FIELDS(CostSetting, required("error", &S::errors), required("relative_time", &S::relative),
+               TRAMMEL_REQUIRED(curve, curve_title, title, value, status, reason, cpu_s, time,
+                                counters, pareto_optimal));
+TRAMMEL_FIELDS(CheapestSetting, TRAMMEL_REQUIRED(error, setting, tied));
+TRAMMEL_FIELDS(Repeatability,
+               TRAMMEL_REQUIRED(on_both_fronts, on_either_front, same_cheapest, target_errors,
+                                median_difference, largest_difference));
+TRAMMEL_FIELDS(CostOutput, TRAMMEL_REQUIRED(title, scale, errors, cheapest));
+TRAMMEL_FIELDS(CostStudy,
+               TRAMMEL_REQUIRED(id, family, title, reference_solution, scale, norm, baseline,
+                                wall_s, settings, cheapest, repeatability, conclusion),
+               TRAMMEL_OPTIONAL(description, outputs));
+TRAMMEL_FIELDS(LoopRate, TRAMMEL_REQUIRED(title, operations, bytes, cpu_s));
+TRAMMEL_FIELDS(Roofline, TRAMMEL_REQUIRED(peak_flop_per_s, bandwidth_B_per_s, loops));
+TRAMMEL_FIELDS(CostStudies,
+               TRAMMEL_REQUIRED(sweep, seed, repeats, equal_within, diverged_above, studies),
+               TRAMMEL_OPTIONAL(roofline));
+TRAMMEL_FIELDS(Environment,
+               TRAMMEL_REQUIRED(trammel, commit, date, compiler, flags, build_type, libraries,
+                                processor, cores, system),
+               TRAMMEL_OPTIONAL(stored_runs));
+TRAMMEL_KEY(PlotRequest::Line, title);
+TRAMMEL_FIELDS(PlotRequest::Line, TRAMMEL_REQUIRED(x, y));
+TRAMMEL_KEY(PlotRequest, id);
+TRAMMEL_FIELDS(PlotRequest, TRAMMEL_REQUIRED(y),
+               TRAMMEL_OPTIONAL(title, x, variants, log, value, lines, caption));
+TRAMMEL_KEY(ColumnRequest, id);
+TRAMMEL_FIELDS(ColumnRequest, TRAMMEL_REQUIRED(title),
+               TRAMMEL_OPTIONAL(quantity, statistic, timing, over_timing));
+TRAMMEL_KEY(TableRequest, id);
+TRAMMEL_FIELDS(TableRequest, TRAMMEL_REQUIRED(columns), TRAMMEL_OPTIONAL(title, variants, caption));
+TRAMMEL_FIELDS(StressSuiteEntry, TRAMMEL_REQUIRED(item, indicators));
+TRAMMEL_KEY(Variant, id);
+TRAMMEL_FIELDS(Variant, TRAMMEL_REQUIRED(title));
+TRAMMEL_KEY(CaseInfo, id);
+TRAMMEL_FIELDS(CaseInfo, TRAMMEL_REQUIRED(title, variants),
+               TRAMMEL_OPTIONAL(description, family, labels, stress_suite, figures, tables,
+                                analysis, hash));
+TRAMMEL_FIELDS(Solver, TRAMMEL_REQUIRED(name, version, command));
+TRAMMEL_KEY(Reference, id);
+TRAMMEL_FIELDS(Reference, TRAMMEL_REQUIRED(title, kind, unit, values, uncertainty, citation, place),
+               TRAMMEL_OPTIONAL(doi, printed, derivation, errata, notes));
+TRAMMEL_FIELDS(UncertaintyCoverage,
+               TRAMMEL_REQUIRED(levels, covered, coverage, min_coverage, median_ratio,
+                                max_median_ratio, min_levels, passes));
+TRAMMEL_FIELDS(ClaimEntry, required("case", &S::case_id), TRAMMEL_REQUIRED(variant, name, value));
+TRAMMEL_FIELDS(ClaimInterpretation, TRAMMEL_REQUIRED(description, metric, unit, verdict, entries));
+TRAMMEL_FIELDS(Claim, TRAMMEL_REQUIRED(id, claim, place, verdict, expected, conclusion, undecidable,
+                                       interpretations));
+TRAMMEL_FIELDS(PaperItem::Counterpart, required("case", &S::case_id),
+               TRAMMEL_OPTIONAL(variant, quantity, figure, verdict));
+TRAMMEL_FIELDS(PaperItem, TRAMMEL_REQUIRED(id, section, what),
+               TRAMMEL_OPTIONAL(shown_by, claims, reason, note));
+TRAMMEL_FIELDS(Claims, TRAMMEL_REQUIRED(title, as_recorded, claims), TRAMMEL_OPTIONAL(items));
+TRAMMEL_FIELDS(CoverageRow, TRAMMEL_REQUIRED(group, feature, evidence),
+               TRAMMEL_OPTIONAL(reason, series, judged));
+TRAMMEL_FIELDS(EffectScene, TRAMMEL_REQUIRED(scene, analysis, tolerance, change, minimal, whole_s,
+                                             chosen_s, deciding_s));
+TRAMMEL_FIELDS(HistoryCall,
+               TRAMMEL_REQUIRED(id, date, commit, machine, runs, checks, failures, cpu_s, work));
+TRAMMEL_FIELDS(HistoryChange,
+               TRAMMEL_REQUIRED(name, verdict_before, verdict, before, after, commit, date));
+TRAMMEL_FIELDS(HistoryDrift, TRAMMEL_REQUIRED(name, steps, first, last));
+TRAMMEL_FIELDS(History, TRAMMEL_REQUIRED(calls, since, changes, work, drifts));
+TRAMMEL_FIELDS(Results, optional("numerical_uncertainty", &S::uncertainty_coverage),
+               TRAMMEL_REQUIRED(format, environment, cases, references, runs),
+               TRAMMEL_OPTIONAL(solver, cost, claims, coverage, effect_scenes, history, store));
 
 namespace {
 
@@ -355,8 +250,7 @@ void require_consistent(const CostStudy& study, const Place& place) {
   const auto check = [&](const std::vector<CheapestSetting>& all, const Place& at) {
     for (const CheapestSetting& cheapest : all)
       if (cheapest.setting.value_or(0) >= count ||
-          std::any_of(cheapest.tied.begin(), cheapest.tied.end(),
-                      [count](std::size_t tied) { return tied >= count; }))
+          std::ranges::any_of(cheapest.tied, [count](std::size_t tied) { return tied >= count; }))
         Place{&at, "cheapest"}.fail(expected);
   };
   check(study.cheapest, place);
@@ -380,8 +274,8 @@ void complete(CaseInfo& info) {
 
 template <class Entry>
 const Entry* find_id(const std::vector<Entry>& entries, const std::string& id) {
-  const auto found = std::find_if(entries.begin(), entries.end(),
-                                  [&](const Entry& entry) { return entry.id == id; });
+  const auto found =
+      std::ranges::find_if(entries, [&](const Entry& entry) { return entry.id == id; });
   return found == entries.end() ? nullptr : &*found;
 }
 
@@ -389,17 +283,7 @@ const Entry* find_id(const std::vector<Entry>& entries, const std::string& id) {
 
 std::string Place::pointer() const {
   if (!parent) return "";
-  std::string escaped;
-  for (const char c : key) {
-    if (c == '~') {
-      escaped += "~0";
-    } else if (c == '/') {
-      escaped += "~1";
-    } else {
-      escaped += c;
-    }
-  }
-  return parent->pointer() + "/" + escaped;
+  return (Json::json_pointer(parent->pointer()) / key).to_string();
 }
 
 void Place::fail(const std::string& expected) const {
@@ -483,8 +367,8 @@ void complete(Results& results) {
     Run& run = results.runs[i];
     const Place place{&runs, std::to_string(i)};
     // The page could not name it otherwise.
-    if (std::none_of(results.cases.begin(), results.cases.end(),
-                     [&](const CaseInfo& info) { return info.id == run.case_id; }))
+    if (std::ranges::none_of(results.cases,
+                             [&](const CaseInfo& info) { return info.id == run.case_id; }))
       Place{&place, "case"}.fail("a case that stands under /cases");
     if (run.drawing) require_consistent(*run.drawing, Place{&place, "drawing"});
     const Place studies{&place, "convergence"};
@@ -543,8 +427,8 @@ CostStudies read_cost_studies(const Json& json) {
 }
 
 bool CoverageRow::is_verified() const {
-  return std::any_of(evidence.begin(), evidence.end(),
-                     [](const std::string& kind) { return kind != "self-consistency"; });
+  return std::ranges::any_of(evidence,
+                             [](const std::string& kind) { return kind != "self-consistency"; });
 }
 
 Results read_results(Json json) {
@@ -576,7 +460,7 @@ const Numbers* Run::quantity(const std::string& name) const {
 }
 
 bool PlotRequest::is_log(const std::string& axis) const {
-  return std::find(log.begin(), log.end(), axis) != log.end();
+  return harness::contains(log, axis);
 }
 
 std::string CaseInfo::variant_title(const std::string& variant) const {

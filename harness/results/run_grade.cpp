@@ -8,8 +8,8 @@ namespace trammel::results {
 
 Grade grade_of(const Run& run) {
   const auto has = [&](Verdict verdict) {
-    return std::any_of(run.checks.begin(), run.checks.end(),
-                       [&](const Check& check) { return check.verdict == verdict; });
+    return std::ranges::any_of(run.checks,
+                               [&](const Check& check) { return check.verdict == verdict; });
   };
   if (run.status == Status::error) return Grade::broken;
   if (run.status == Status::crashed) return Grade::crashed;

@@ -4,24 +4,18 @@
 
 namespace trammel::results {
 
-template <>
-inline constexpr auto kFields<ComparedNumber> = std::tuple{TRAMMEL_REQUIRED(
-    ComparedNumber, quantity, index, entries, values, percent, noise, share, changed)};
-template <>
-inline constexpr auto kFields<ComparedModes> = std::tuple{
-    TRAMMEL_REQUIRED(ComparedModes, modes, values, last, percent, alike, noise, share, changed)};
-template <>
-inline constexpr auto kFields<ComparedRun> =
-    std::tuple{TRAMMEL_REQUIRED(ComparedRun, name, changed, share, numbers),
-               TRAMMEL_OPTIONAL(ComparedRun, modes, remarks)};
-template <>
-inline constexpr auto kFields<ComparedSide> =
-    std::tuple{TRAMMEL_REQUIRED(ComparedSide, label, runs, cpu_s, relative_time, work, median_error,
+TRAMMEL_FIELDS(ComparedNumber,
+               TRAMMEL_REQUIRED(quantity, index, entries, values, percent, noise, share, changed));
+TRAMMEL_FIELDS(ComparedModes,
+               TRAMMEL_REQUIRED(modes, values, last, percent, alike, noise, share, changed));
+TRAMMEL_FIELDS(ComparedRun, TRAMMEL_REQUIRED(name, changed, share, numbers),
+               TRAMMEL_OPTIONAL(modes, remarks));
+TRAMMEL_FIELDS(ComparedSide,
+               TRAMMEL_REQUIRED(label, runs, cpu_s, relative_time, work, median_error,
                                 largest_error, error_ratio, rank),
-               TRAMMEL_OPTIONAL(ComparedSide, commit, date, processor, solver)};
-template <>
-inline constexpr auto kFields<SideComparison> = std::tuple{
-    TRAMMEL_REQUIRED(SideComparison, conclusion, sides, same, within_noise, changed, runs)};
+               TRAMMEL_OPTIONAL(commit, date, processor, solver));
+TRAMMEL_FIELDS(SideComparison,
+               TRAMMEL_REQUIRED(conclusion, sides, same, within_noise, changed, runs));
 
 Json to_json(const SideComparison& comparison) {
   return to_json<SideComparison>(comparison);

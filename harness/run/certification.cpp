@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "harness/base/text.h"
+#include "harness/base/find_or_add.h"
 
 namespace trammel::harness {
 namespace {
@@ -138,13 +138,10 @@ class Beside {
   /// The worst entry of a check stands for all.
   void note_noise(const std::string& entry, double tolerance, double noise) {
     const std::string name = entry.substr(0, entry.find('['));
-    const auto same = std::find_if(into_.tight.begin(), into_.tight.end(),
-                                   [&](const TightTolerance& one) { return one.check == name; });
-    if (same == into_.tight.end()) {
-      into_.tight.push_back({name, name_, tolerance, noise});
-    } else if (noise * same->tolerance > same->noise * tolerance) {
-      *same = {name, name_, tolerance, noise};
-    }
+    const TightTolerance noted{name, name_, tolerance, noise};
+    const auto is_same = [&](const TightTolerance& one) { return one.check == name; };
+    TightTolerance& worst = find_or_add(into_.tight, is_same, noted);
+    if (noise * worst.tolerance > worst.noise * tolerance) worst = noted;
   }
 
   std::string name_;
@@ -169,10 +166,9 @@ Certification certify(const std::vector<Configuration>& configurations) {
     for (const auto& [name, run] : first) beside.look_at(name, *run);
     beside.end();
   }
-  std::stable_sort(result.tight.begin(), result.tight.end(),
-                   [](const TightTolerance& a, const TightTolerance& b) {
-                     return a.tolerance * b.noise < b.tolerance * a.noise;
-                   });
+  std::ranges::stable_sort(result.tight, [](const TightTolerance& a, const TightTolerance& b) {
+    return a.tolerance * b.noise < b.tolerance * a.noise;
+  });
   return result;
 }
 

@@ -1,12 +1,12 @@
 #include "harness/run/claims.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <set>
 
+#include "harness/base/contains.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/base/statistic.h"
@@ -70,7 +70,7 @@ bool selects(const JsonView& interpretation, const Run& run) {
   if (interpretation.has("case") && interpretation.text("case") != run.case_id) return false;
   if (!interpretation.has("variants")) return true;
   const auto variants = interpretation["variants"].get<std::vector<std::string>>();
-  return std::find(variants.begin(), variants.end(), run.variant) != variants.end();
+  return contains(variants, run.variant);
 }
 
 std::optional<double> metric_of(const std::string& metric, const CheckResult& check_result) {
@@ -91,8 +91,7 @@ void add_checks(const JsonView& interpretation, const Run& run, Interpretation& 
     if (!named && !against) continue;
     if (interpretation.has("index")) {
       const auto index = interpretation["index"].get<std::vector<int>>();
-      const bool chosen = check_result.index &&
-                          std::find(index.begin(), index.end(), *check_result.index) != index.end();
+      const bool chosen = check_result.index && contains(index, *check_result.index);
       if (!chosen) continue;
     }
     const auto value = metric_of(found.metric, check_result);
@@ -270,8 +269,7 @@ bool rests_on(const JsonView& interpretation, const Case& test_case) {
 }  // namespace
 
 bool ClaimSet::as_expected() const {
-  return std::all_of(claims.begin(), claims.end(),
-                     [](const Claim& claim) { return claim.as_expected(); });
+  return std::ranges::all_of(claims, [](const Claim& claim) { return claim.as_expected(); });
 }
 
 int exit_status(const ClaimSet& claim_set) {
@@ -294,12 +292,11 @@ std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& c
       interpretations.push_back(interpretation);
   }
   std::vector<Case> cases;
-  std::copy_if(
-      catalogue.begin(), catalogue.end(), std::back_inserter(cases), [&](const Case& test_case) {
-        return std::any_of(
-            interpretations.begin(), interpretations.end(),
-            [&](const JsonView& interpretation) { return rests_on(interpretation, test_case); });
-      });
+  std::ranges::copy_if(catalogue, std::back_inserter(cases), [&](const Case& test_case) {
+    return std::ranges::any_of(interpretations, [&](const JsonView& interpretation) {
+      return rests_on(interpretation, test_case);
+    });
+  });
   return cases;
 }
 
@@ -313,23 +310,15 @@ ClaimSet evaluate_claims(const Document& document, const std::vector<Run>& runs)
 }
 
 std::string to_text(ClaimVerdict verdict) {
-  const std::map<ClaimVerdict, const char*> texts = {
-      {ClaimVerdict::confirmed, "confirmed"},
-      {ClaimVerdict::confirmed_in_part, "confirmed in part"},
-      {ClaimVerdict::contradicted, "contradicted"},
-      {ClaimVerdict::cannot_be_decided, "cannot be decided"},
-      {ClaimVerdict::not_measured, "not measured"}};
-  return texts.at(verdict);
+  constexpr std::array texts = {"confirmed", "confirmed in part", "contradicted",
+                                "cannot be decided", "not measured"};
+  return texts[static_cast<std::size_t>(verdict)];
 }
 
 std::string to_text(InterpretationVerdict verdict) {
-  const std::map<InterpretationVerdict, const char*> texts = {
-      {InterpretationVerdict::confirms, "confirms"},
-      {InterpretationVerdict::contradicts, "contradicts"},
-      {InterpretationVerdict::in_part, "confirms in part"},
-      {InterpretationVerdict::undecided, "inconclusive"},
-      {InterpretationVerdict::not_measured, "not measured"}};
-  return texts.at(verdict);
+  constexpr std::array texts = {"confirms", "contradicts", "confirms in part", "inconclusive",
+                                "not measured"};
+  return texts[static_cast<std::size_t>(verdict)];
 }
 
 results::Claims claim_results(const ClaimSet& claim_set) {

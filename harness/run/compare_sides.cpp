@@ -8,7 +8,6 @@
 #include <set>
 #include <tuple>
 
-#include "harness/base/diagnostic.h"
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
 #include "harness/base/timing.h"
@@ -272,11 +271,10 @@ void match_by_shape(const Runs& runs, const std::vector<const Document*>& docume
   const auto is_frequency = [](const ComparedNumber& number) {
     return number.quantity == "frequency_Hz";
   };
-  const bool there = std::all_of(runs.begin(), runs.end(), [](const results::Run* run) {
-    return run->quantity("frequency_Hz") != nullptr;
-  });
-  const bool changed = std::any_of(found.numbers.begin(), found.numbers.end(),
-                                   [&](const auto& n) { return is_frequency(n) && n.changed; });
+  const bool there = std::ranges::all_of(
+      runs, [](const results::Run* run) { return run->quantity("frequency_Hz") != nullptr; });
+  const bool changed = std::ranges::any_of(
+      found.numbers, [&](const auto& n) { return is_frequency(n) && n.changed; });
   const bool computed = documents.front() != nullptr;
   if (!there || (!changed && !computed)) return;
   if (computed && found.info.analysis != "modes") return;
@@ -285,8 +283,7 @@ void match_by_shape(const Runs& runs, const std::vector<const Document*>& docume
   const auto by_number = [&](const ComparedNumber& number) {
     return is_frequency(number) || number.quantity == "frequency_gap";
   };
-  found.numbers.erase(std::remove_if(found.numbers.begin(), found.numbers.end(), by_number),
-                      found.numbers.end());
+  std::erase_if(found.numbers, by_number);
 }
 
 /// "deflection[2] passes, failed before", at most three of them.
@@ -312,7 +309,7 @@ void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, Comp
 }
 
 bool same_bits(const Runs& runs) {
-  return std::all_of(runs.begin(), runs.end(), [&](const results::Run* run) {
+  return std::ranges::all_of(runs, [&](const results::Run* run) {
     return run->quantities == runs.front()->quantities && run->status == runs.front()->status;
   });
 }
@@ -333,7 +330,7 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
   };
   for (const ComparedNumber& number : found.numbers) count(number);
   for (const ComparedModes& modes : found.modes) count(modes);
-  std::stable_sort(found.numbers.begin(), found.numbers.end(), [](const auto& a, const auto& b) {
+  std::ranges::stable_sort(found.numbers, [](const auto& a, const auto& b) {
     return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
   });
   return found;
@@ -369,8 +366,8 @@ class Totals {
   void put(std::vector<ComparedSide>& sides) const {
     std::vector<Timing> common(sides.size());  // errors in place of times
     for (const auto& item : errors_.front())
-      if (std::all_of(errors_.begin(), errors_.end(),
-                      [&](const auto& other) { return other.count(item.first) > 0; }))
+      if (std::ranges::all_of(errors_,
+                              [&](const auto& other) { return other.count(item.first) > 0; }))
         for (std::size_t s = 0; s < sides.size(); ++s)
           common[s].cpu_s.push_back(std::max(errors_[s].at(item.first), 1e-16));
     for (std::size_t s = 0; s < sides.size(); ++s) {
@@ -390,7 +387,7 @@ class Totals {
     constexpr std::size_t kFewest = 7;  // that an interval can be told from
     std::vector<std::size_t> order(sides.size());
     for (std::size_t s = 0; s < order.size(); ++s) order[s] = s;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
       return sides[a].median_error < sides[b].median_error;
     });
     std::size_t head = order.front();  // of those that share a rank
@@ -487,7 +484,7 @@ std::string conclusion_of_variants(const SideComparison& comparison) {
       sides.size() == 2 ? sides.back().label : std::to_string(sides.size() - 1) + " others";
   const ComparedRun& run = comparison.runs.front();
   const auto changed = [](const auto& values) {
-    return std::count_if(values.begin(), values.end(), [](const auto& v) { return v.changed; });
+    return std::ranges::count_if(values, [](const auto& v) { return v.changed; });
   };
   const auto count = changed(run.numbers) + changed(run.modes);
   const std::size_t all = run.numbers.size() + run.modes.size();
@@ -533,18 +530,15 @@ std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>
   if (!same_bits(loaded)) take(take_stored_studies);  // where round-off matters
   if (lost > 0)
     for (results::Run& run : runs)
-      run.quantities.erase(
-          std::remove_if(run.quantities.begin(), run.quantities.end(),
-                         [](const auto& q) { return q.second.size() > kSummaryEntries; }),
-          run.quantities.end());
+      std::erase_if(run.quantities,
+                    [](const auto& q) { return q.second.size() > kSummaryEntries; });
   return lost;
 }
 
 void sort_and_drop(SideComparison& comparison) {
-  std::stable_sort(comparison.runs.begin(), comparison.runs.end(),
-                   [](const auto& a, const auto& b) {
-                     return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
-                   });
+  std::ranges::stable_sort(comparison.runs, [](const auto& a, const auto& b) {
+    return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
+  });
   for (std::size_t i = kDrawnRuns; i < comparison.runs.size(); ++i) comparison.runs[i].runs.clear();
 }
 

@@ -1,7 +1,6 @@
 #include "harness/run/cost_results.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "harness/run/results.h"
 
@@ -69,11 +68,8 @@ results::CostStudy study_results(const MeasuredStudy& measured) {
   out.baseline = study.baseline;
   out.wall_s = measured.wall_s;
   for (std::size_t i = 0; i < study.settings.size(); ++i) {
-    const bool pareto_optimal =
-        std::any_of(measured.pareto_front.begin(), measured.pareto_front.end(),
-                    [i](const CostPoint& point) { return point.setting == i; });
-    out.settings.push_back(
-        setting_results(study.settings[i], measured.settings[i], pareto_optimal));
+    out.settings.push_back(setting_results(study.settings[i], measured.settings[i],
+                                           has_setting(measured.pareto_front, i)));
   }
   out.cheapest = cheapest_settings(measured.points);
   if (study.outputs.size() > 1) {

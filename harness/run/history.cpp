@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
-#include "harness/base/diagnostic.h"
 #include "harness/base/errors.h"
+#include "harness/base/quantity.h"
 
 namespace trammel::harness {
 namespace {
@@ -210,13 +209,12 @@ void add_call(Database& database, const results::Results& results) {
   double cpu_s = 0;
   for (const results::Run& run : results.runs) {
     checks += run.checks.size();
-    failures +=
-        static_cast<std::size_t>(std::count_if(run.checks.begin(), run.checks.end(), is_failure));
+    failures += static_cast<std::size_t>(std::ranges::count_if(run.checks, is_failure));
     work += work_of(run);
     cpu_s += run.cost.cpu_s;
   }
-  const bool all_new = std::none_of(results.runs.begin(), results.runs.end(),
-                                    [](const results::Run& run) { return run.was_stored; });
+  const bool all_new =
+      std::ranges::none_of(results.runs, [](const results::Run& run) { return run.was_stored; });
   const results::Environment& from = results.environment;
   Statement(database, "INSERT INTO call VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .run(from.date, from.commit, from.processor, from.trammel, results.runs.size(), checks,
@@ -278,8 +276,8 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::vector<HistoryCall>& calls) {
   std::vector<HistoryChange> changes;
   for (const auto& [name, course] : courses) {
-    const auto later = std::find_if(course.begin(), course.end(),
-                                    [&](const auto& step) { return step.first > since; });
+    const auto later =
+        std::ranges::find_if(course, [&](const auto& step) { return step.first > since; });
     if (later == course.begin() || later == course.end()) continue;  // new, or as it was
     const State& before = std::prev(later)->second;
     const State& now = course.back().second;
@@ -287,13 +285,13 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
     auto first = later;  // since when it has been other than before without a break
     for (auto step = later; step != course.end(); ++step)
       if (!step->second.differs(before)) first = std::next(step);
-    const auto call = std::find_if(calls.begin(), calls.end(),
-                                   [&](const HistoryCall& c) { return c.id == first->first; });
+    const auto call =
+        std::ranges::find_if(calls, [&](const HistoryCall& c) { return c.id == first->first; });
     changes.push_back(
         {name, before.verdict, now.verdict, before.value, now.value, call->commit, call->date});
   }
-  std::stable_sort(changes.begin(), changes.end(),
-                   [](const auto& a, const auto& b) { return a.of_verdict() && !b.of_verdict(); });
+  std::ranges::stable_sort(
+      changes, [](const auto& a, const auto& b) { return a.of_verdict() && !b.of_verdict(); });
   return changes;
 }
 
@@ -318,7 +316,7 @@ std::vector<HistoryDrift> drifts_of(const std::map<std::string, Course>& courses
     }
     if (slow) drifts.push_back({name, values.size() - 1, values.front(), values.back()});
   }
-  std::stable_sort(drifts.begin(), drifts.end(), [](const auto& a, const auto& b) {
+  std::ranges::stable_sort(drifts, [](const auto& a, const auto& b) {
     return std::abs(a.last / a.first - 1) > std::abs(b.last / b.first - 1);
   });
   return drifts;

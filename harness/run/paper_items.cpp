@@ -1,7 +1,5 @@
 #include "harness/run/paper_items.h"
 
-#include <algorithm>
-
 #include "harness/analysis/analysis.h"
 #include "harness/base/text.h"
 #include "harness/results/quantity_definitions.h"

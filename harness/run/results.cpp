@@ -280,16 +280,15 @@ results::Results results_of(const std::vector<Run>& runs, const std::vector<Case
                             const References& references, bool with_series) {
   results::Results out;
   out.environment = results::read_environment(environment());
-  out.environment.stored_runs = static_cast<int>(
-      std::count_if(runs.begin(), runs.end(), [](const Run& run) { return run.was_stored; }));
+  out.environment.stored_runs =
+      static_cast<int>(std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; }));
   for (const Case& test_case : cases) out.cases.push_back(case_info(test_case));
   for (const auto& [id, cited] : references.used()) out.references.push_back(reference(id, cited));
   const NumericalUncertaintySummary summary = numerical_uncertainty_of(runs);
   if (summary.levels > 0) out.uncertainty_coverage = coverage(summary);
   for (const Run& run : runs) {
-    const bool is_known =
-        std::any_of(out.cases.begin(), out.cases.end(),
-                    [&](const results::CaseInfo& info) { return info.id == run.case_id; });
+    const bool is_known = std::ranges::any_of(
+        out.cases, [&](const results::CaseInfo& info) { return info.id == run.case_id; });
     // A case that could not be read is reported all the same.
     if (!is_known) {
       results::CaseInfo unread;

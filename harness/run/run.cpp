@@ -11,6 +11,7 @@
 #include "harness/base/progress.h"
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
+#include "harness/judge/evaluate_check.h"
 #include "harness/run/run_store.h"
 #include "harness/run/shards.h"
 #include "harness/studies/run_sweeps.h"
@@ -94,8 +95,8 @@ std::vector<Task> prepare_case(const Case& owner, const std::string& chosen) {
     }
   }
   for (const std::string& variant : looked_at) {
-    const bool there = std::any_of(tasks.begin(), tasks.end(),
-                                   [&](const Task& task) { return task.run.variant == variant; });
+    const bool there =
+        std::ranges::any_of(tasks, [&](const Task& task) { return task.run.variant == variant; });
     if (!there) tasks.push_back(prepare(owner, variant, false));
   }
   return tasks;
@@ -105,7 +106,7 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
   std::vector<Task> tasks;
   for (const Case& owner : cases) {
     std::vector<Task> case_tasks = prepare_case(owner, chosen);
-    std::move(case_tasks.begin(), case_tasks.end(), std::back_inserter(tasks));
+    std::ranges::move(case_tasks, std::back_inserter(tasks));
   }
   return tasks;
 }
@@ -140,13 +141,12 @@ std::string answer_of(Task task, const OtherSolver& solver) {
       solver.compute(*task.owner, task.run.variant, task.document, task.checks, task.requested,
                      task.run);
     });
-    if (!task.run.result.timings.empty()) task.run.machine = machine_name();
-    return to_bytes(task.run);
+  } else {
+    const References references;
+    compute(task, references);
+    compare_for_validation(task, references);
+    task.run.references = references.hashes();
   }
-  const References references;
-  compute(task, references);
-  compare_for_validation(task, references);
-  task.run.references = references.hashes();
   if (!task.run.result.timings.empty()) task.run.machine = machine_name();
   return to_bytes(task.run);
 }
@@ -209,7 +209,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   if (!options.store.empty()) std::filesystem::create_directories(options.store, error);
   if (!options.store.empty()) drop_unused(options.store);
   if (options.resume)
-    std::stable_sort(open.begin(), open.end(), [](const auto& a, const auto& b) {
+    std::ranges::stable_sort(open, [](const auto& a, const auto& b) {
       return unfinished_starts(a.second) < unfinished_starts(b.second);
     });
   std::vector<ProcessTask> work;
@@ -293,7 +293,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   for (const Sweep& sweep : run.sweeps) {
     auto found = study_sweep(sweep, task.document, task.checks, references, options.tracked,
                              run.solver.element_order);
-    std::move(found.begin(), found.end(), std::back_inserter(run.convergence));
+    std::ranges::move(found, std::back_inserter(run.convergence));
   }
   const auto quantities_of = [&](const std::string& variant) -> const Quantities* {
     for (const Task& other : tasks) {
@@ -317,13 +317,13 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
       if (options.solver.compute && check.role == Role::regression &&
           result.verdict == Verdict::fail)
         result.verdict = Verdict::recorded;
-    std::move(judged.begin(), judged.end(), std::back_inserter(run.check_results));
+    std::ranges::move(judged, std::back_inserter(run.check_results));
   }
   if (!options.solver.compute && run.status == "solved")
     for (const Check& check : task.checks) evaluate_validation_verdicts(check, run);
   // Orders that are wrong on purpose say nothing of the method.
-  if (std::any_of(task.checks.begin(), task.checks.end(),
-                  [](const Check& check) { return check.negative_control.has_value(); }))
+  if (std::ranges::any_of(task.checks,
+                          [](const Check& check) { return check.negative_control.has_value(); }))
     run.convergence.clear();
 }
 
@@ -345,6 +345,15 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   for (Task& task : tasks) {
     if (task.requested) runs.push_back(std::move(task.run));
   }
+  return runs;
+}
+
+std::vector<Run> run_shown(const std::vector<Case>& cases, const References& references,
+                           RunOptions options, const std::string& items) {
+  Progress progress(items);
+  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  std::vector<Run> runs = run_cases(cases, references, options);
+  require_complete(runs);
   return runs;
 }
 
@@ -379,11 +388,26 @@ AnalysisResult solution_of(const Case& owner, const std::string& variant) {
   std::vector<Task> tasks(1, prepare(owner, variant, false));
   if (const int signal = compute_all(tasks, options); signal != 0) throw Interrupted(signal);
   Run& run = tasks.front().run;
+  require_solved(run);
+  return std::move(run.result);
+}
+
+void require_no_error(const Run& run) {
   if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
   if (run.error == Run::RunError::input) throw InputError(run.reason);
+}
+
+void require_solved(const Run& run) {
+  require_no_error(run);
   if (run.status != "solved")
-    throw InputError(owner.id() + ":" + variant + ": expected a solution (" + run.reason + ")");
-  return std::move(run.result);
+    throw InputError(run.case_id + ":" + run.variant + ": expected a solution (" + run.reason +
+                     ")");
+}
+
+bool fails_gate(const Run& run) {
+  return std::ranges::any_of(run.check_results, [](const CheckResult& check_result) {
+    return fails_gate(check_result.verdict);
+  });
 }
 
 void require_complete(const std::vector<Run>& runs) {
@@ -404,10 +428,7 @@ int exit_status(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.error == Run::RunError::internal) worst = std::max(worst, 3);
     if (run.error == Run::RunError::input) worst = std::max(worst, 2);
-    const bool broken = std::any_of(
-        run.check_results.begin(), run.check_results.end(),
-        [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
-    if (broken) worst = std::max(worst, 1);
+    if (fails_gate(run)) worst = std::max(worst, 1);
   }
   return worst;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/input/case.h"
-#include "harness/judge/evaluate_check.h"
+#include "harness/judge/check_result.h"
 #include "harness/judge/sweep.h"
 #include "harness/judge/uncertainty_summary.h"
 #include "harness/studies/validation_uncertainty.h"
@@ -82,6 +82,13 @@ struct Run : Computation {
 [[nodiscard]] std::vector<Run> run_cases(const std::vector<Case>& cases,
                                          const References& references, const RunOptions& options);
 
+/// As `run_cases`, with how far it is on standard error.
+/// @param items  what is counted, in the plural
+/// @throws Interrupted  where a signal came.
+[[nodiscard]] std::vector<Run> run_shown(const std::vector<Case>& cases,
+                                         const References& references, RunOptions options,
+                                         const std::string& items = "runs");
+
 /// What a shard of `run_cases` came to, computations that only other runs' checks look at included.
 struct ShardRuns {
   std::vector<Run> runs;           ///< not judged; in the store
@@ -94,6 +101,13 @@ struct ShardRuns {
 /// What a variant comes to, in a process of its own, without sweeps and checks.
 /// @throws InputError  where it has no solution, as `Interrupted` where a signal comes.
 [[nodiscard]] AnalysisResult solution_of(const Case& owner, const std::string& variant);
+
+/// @throws InputError  where its input is to blame for an error, std::runtime_error where we are.
+void require_no_error(const Run& run);
+/// @throws InputError  also where there is no solution.
+void require_solved(const Run& run);
+/// Whether one of its checks does.
+[[nodiscard]] bool fails_gate(const Run& run);
 
 /// @throws Interrupted  where one of the runs was.
 void require_complete(const std::vector<Run>& runs);

@@ -279,8 +279,8 @@ Kept stored_from(std::string_view bytes) {
 }
 
 bool stand(const std::map<std::string, std::string>& references) {
-  return std::all_of(references.begin(), references.end(),
-                     [](const auto& item) { return file_hash(item.first) == item.second; });
+  return std::ranges::all_of(references,
+                             [](const auto& item) { return file_hash(item.first) == item.second; });
 }
 
 void mark_used(const std::filesystem::path& file) {

@@ -113,7 +113,7 @@ std::vector<std::size_t> balanced(const std::vector<std::string>& names,
     cost.push_back(costs.count(name) > 0 ? costs.at(name) : usual);
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
     return std::tie(cost[b], names[a]) < std::tie(cost[a], names[b]);
   });
   std::set<std::pair<double, std::size_t>> load;  // of each shard

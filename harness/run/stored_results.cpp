@@ -97,11 +97,10 @@ results::Results read_summary(const fs::path& file, Json json) {
 bool take_stored_series(results::Run& run, const fs::path& store) {
   try {
     results::Run series = stored_series(computation_from(read_text(store / run.stored)));
-    const bool same =
-        std::all_of(run.quantities.begin(), run.quantities.end(), [&](const auto& own) {
-          const results::Numbers* other = series.quantity(own.first);
-          return other != nullptr && *other == own.second;
-        });
+    const bool same = std::ranges::all_of(run.quantities, [&](const auto& own) {
+      const results::Numbers* other = series.quantity(own.first);
+      return other != nullptr && *other == own.second;
+    });
     if (!same) return false;  // it is of another run
     run.quantities = std::move(series.quantities);
     run.drawing = std::move(series.drawing);

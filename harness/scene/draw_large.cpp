@@ -1,6 +1,7 @@
 #include "harness/scene/draw_large.h"
 
 #include "solver/large_motion/solve/state_results.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -35,12 +36,12 @@ std::optional<Drawing> draw_large_model(
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const solver::Index points =
         member_node_positions(system, reference, static_cast<solver::Index>(m)).rows();
-    auto before = static_cast<std::size_t>(model.members[m].nodes[0]);
+    auto before = solver::to_size(model.members[m].nodes[0]);
     for (solver::Index i = 1; i + 1 < points; ++i, ++inner) {
       drawing.members.push_back({before, inner});
       before = inner;
     }
-    drawing.members.push_back({before, static_cast<std::size_t>(model.members[m].nodes[1])});
+    drawing.members.push_back({before, solver::to_size(model.members[m].nodes[1])});
   }
   draw_parts(model, is_manipulator, drawing);
   return drawing;

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "harness/base/text.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
@@ -83,7 +84,7 @@ double end_force(const Output& output, const solver::Model& model, const Eigen::
                  const Eigen::MatrixX3d& end) {
   const double force = (output.end == 0 ? start : end)(output.item, output.component);
   if (output.kind == Output::Kind::resultant) return force;
-  const solver::Member& member = model.members[static_cast<std::size_t>(output.item)];
+  const solver::Member& member = model.members[solver::to_size(output.item)];
   return force / (output.end == 0 ? member.section : member.end_section).section_modulus;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 
 namespace trammel::harness {
@@ -42,7 +43,7 @@ Eigen::Vector3d wrench_on_platform(const CaseModel& case_model, const solver::Po
     if (load.node < first_C || load.node > P) continue;
     wrench += load.force;
     if (load.node == P) continue;
-    const auto corner = static_cast<std::size_t>(load.node - first_C);
+    const auto corner = solver::to_size(load.node - first_C);
     wrench.z() +=
         solver::cross(solver::rotated(case_model.manipulator->geometry.platform[corner], pose.phi),
                       load.force.head<2>());
@@ -51,8 +52,8 @@ Eigen::Vector3d wrench_on_platform(const CaseModel& case_model, const solver::Po
 }
 
 bool loads_at_P_only(const CaseModel& case_model) {
-  return std::all_of(case_model.structure.loads.begin(), case_model.structure.loads.end(),
-                     [](const solver::NodalLoad& load) { return load.node == P; });
+  return std::ranges::all_of(case_model.structure.loads,
+                             [](const solver::NodalLoad& load) { return load.node == P; });
 }
 
 }  // namespace trammel::harness

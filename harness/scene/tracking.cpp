@@ -1,13 +1,13 @@
 #include "harness/scene/tracking.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "harness/scene/rigid_case_model.h"
 #include "solver/large_motion/manipulator/joint_law.h"
 #include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/inverse_dynamics.h"
+#include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 
 namespace trammel::harness {
@@ -58,7 +58,7 @@ solver::large_motion::PrescribedVelocities tracking_start(
   const Eigen::Vector2d center(start.pose.x, start.pose.y);
   for (solver::Index k = 0; k < node.rows(); ++k) {
     // The platform's nodes; those of the limbs follow below.
-    const Eigen::Vector2d& place = model.nodes[static_cast<std::size_t>(k)].position;
+    const Eigen::Vector2d& place = model.nodes[solver::to_size(k)].position;
     node.row(k) << (start.velocity.head<2>() +
                     start.velocity[2] * solver::perpendicular(place - center))
                        .transpose(),
@@ -68,8 +68,8 @@ solver::large_motion::PrescribedVelocities tracking_start(
   for (solver::Index i = 0; i < 3; ++i) {
     const std::string limb = std::to_string(i + 1);
     const solver::Index a = model.find_node("A" + limb), b = model.find_node("B" + limb);
-    const Eigen::Vector2d arm = model.nodes[static_cast<std::size_t>(b)].position -
-                                model.nodes[static_cast<std::size_t>(a)].position;
+    const Eigen::Vector2d arm =
+        model.nodes[solver::to_size(b)].position - model.nodes[solver::to_size(a)].position;
     node.row(a) << 0, 0, motion.q_dot[i];
     node.row(b) << motion.q_dot[i] * solver::perpendicular(arm).transpose(), motion.q_dot[i];
     member[member_between(model, a, b)] = motion.q_dot[i];
@@ -119,7 +119,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
   for (const solver::large_motion::Drive& drive : large_motion.drives) {
     // The builder's first three supports and nodes are those of the actuators, in their order.
     if (!case_model.manipulator || drive.direction != 2 || drive.node > 2) continue;
-    const auto limb = static_cast<std::size_t>(drive.node);
+    const auto limb = solver::to_size(drive.node);
     if (case_model.manipulator->active[limb].kind == solver::ActiveKind::free) {
       throw analysis["drives"][drive.name].error(
           "expected an actuator that is locked or sprung: the link turns freely about a free one");
@@ -127,7 +127,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
     model.supports[limb].fixed[2] = false;
   }
   for (const solver::large_motion::Torque& torque : large_motion.torques)
-    model.supports[static_cast<std::size_t>(torque.node)].fixed[2] = false;
+    model.supports[solver::to_size(torque.node)].fixed[2] = false;
 }
 
 solver::large_motion::IntegrationSummary integrate_tracking(

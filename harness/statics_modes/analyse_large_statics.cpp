@@ -8,6 +8,7 @@
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/analyse_statics.h"
 #include "harness/statics_modes/range_warnings.h"
+#include "harness/statics_modes/rotating_state.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/small_vibration.h"
 #include "solver/large_motion/solve/state_results.h"
@@ -55,11 +56,7 @@ void record_vibration(const GeometricallyExactSystem& system, const PathPoint& p
   const auto found = solver::large_motion::small_vibration(system, point.state, count);
   result.outcome = found.outcome;
   result.evidence.add(found.evidence);
-  for (solver::Index i = 0; i < found.frequency.size(); ++i) {
-    const std::string item = several ? std::to_string(i + 1) : "";
-    record.add("frequency_Hz", item, found.frequency[i]);
-    record.add("growth_rate_per_s", item, found.growth_rate[i]);
-  }
+  record_frequencies(found.frequency, found.growth_rate, several, record);
 }
 
 void record_events(const std::vector<PathEvent>& events, Recorder& record) {
@@ -88,7 +85,7 @@ void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPo
     drawing.poses.push_back(
         draw_large_pose(system, state.q, "load factor " + rounded(state.load, 3)));
   }
-  std::reverse(drawing.poses.begin(), drawing.poses.end());
+  std::ranges::reverse(drawing.poses);
 }
 
 }  // namespace

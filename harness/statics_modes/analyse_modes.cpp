@@ -6,6 +6,7 @@
 #include "harness/readers/eigen_method.h"
 #include "harness/statics_modes/reduced_system.h"
 #include "harness/statics_modes/rotating_state.h"
+#include "solver/model/numbers.h"
 #include "solver/modes/modes.h"
 #include "solver/modes/prestressed_modes.h"
 #include "solver/poses/pose_modes.h"
@@ -77,8 +78,7 @@ Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::Mat
   Eigen::MatrixXd translations(2 * std::ssize(nodes), u.cols());
   for (solver::Index i = 0; i < std::ssize(nodes); ++i) {
     for (std::size_t c = 0; c < 2; ++c) {
-      translations.row(2 * i + static_cast<solver::Index>(c)) =
-          u.row(nodes[static_cast<std::size_t>(i)][c]);
+      translations.row(2 * i + static_cast<solver::Index>(c)) = u.row(nodes[solver::to_size(i)][c]);
     }
   }
   return translations.colwise().normalized();

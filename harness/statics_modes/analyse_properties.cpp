@@ -1,10 +1,10 @@
 #include "harness/statics_modes/analyse_properties.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_interpolation.h"
+#include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 #include "solver/model/quadrature.h"
 
@@ -31,8 +31,8 @@ Body join(const Body& a, const Body& b) {
 /// The uniform elements that the member is cut into; the rotary inertia of the cross-section where
 /// the theory has it.
 Body body_of(const solver::Model& model, const solver::Member& member) {
-  const Eigen::Vector2d start = model.nodes[static_cast<std::size_t>(member.nodes[0])].position;
-  const Eigen::Vector2d end = model.nodes[static_cast<std::size_t>(member.nodes[1])].position;
+  const Eigen::Vector2d start = model.nodes[solver::to_size(member.nodes[0])].position;
+  const Eigen::Vector2d end = model.nodes[solver::to_size(member.nodes[1])].position;
   const auto count = static_cast<double>(member.elements);
   const double length = (end - start).norm() / count;
   const bool rotary = solver::has_rotary_inertia(member.theory);
@@ -50,7 +50,7 @@ Body body_of(const solver::Model& model, const solver::Member& member) {
 
 /// Sides may be curved.
 Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& triangle) {
-  const solver::Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
+  const solver::Plate& plate = model.plates[solver::to_size(triangle.plate)];
   Body whole;
   for (const solver::TriangleQuadraturePoint& point : solver::triangle_quadrature()) {
     const auto here = solver::interpolate(model, triangle, point.area_coordinates);
@@ -63,10 +63,10 @@ Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& trian
 Body body_of(const solver::Model& model, const solver::Triangle& triangle) {
   if (triangle.quadratic()) return body_of_six_nodes(model, triangle);
   const auto corner = [&](std::size_t i) {
-    return model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
+    return model.nodes[solver::to_size(triangle.nodes[i])].position;
   };
   const Eigen::Vector2d a = corner(1) - corner(0), b = corner(2) - corner(0), c = b - a;
-  const solver::Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
+  const solver::Plate& plate = model.plates[solver::to_size(triangle.plate)];
   const double area = std::abs(solver::cross(a, b)) / 2;
   const double mass = plate.material.rho * plate.thickness * area;
   return {mass, (corner(0) + corner(1) + corner(2)) / 3,
@@ -86,15 +86,15 @@ StepResult analyse_properties(const JsonView&, const CaseModel& case_model, std:
   Body total;
   for (const solver::Member& member : model.members) {
     const Body body = body_of(model, member);
-    const Eigen::Vector2d span = model.nodes[static_cast<std::size_t>(member.nodes[1])].position -
-                                 model.nodes[static_cast<std::size_t>(member.nodes[0])].position;
+    const Eigen::Vector2d span = model.nodes[solver::to_size(member.nodes[1])].position -
+                                 model.nodes[solver::to_size(member.nodes[0])].position;
     record.add("length_m", member.name, span.norm());
     record_body(member.name, body, record);
     total = join(total, body);
   }
   std::vector<Body> plates(model.plates.size());
   for (const solver::Triangle& triangle : model.triangles) {
-    Body& plate = plates[static_cast<std::size_t>(triangle.plate)];
+    Body& plate = plates[solver::to_size(triangle.plate)];
     plate = join(plate, body_of(model, triangle));
   }
   for (std::size_t p = 0; p < plates.size(); ++p) {
@@ -102,7 +102,7 @@ StepResult analyse_properties(const JsonView&, const CaseModel& case_model, std:
     total = join(total, plates[p]);
   }
   for (const solver::PointMass& mass : model.masses) {
-    const solver::Node& node = model.nodes[static_cast<std::size_t>(mass.node)];
+    const solver::Node& node = model.nodes[solver::to_size(mass.node)];
     const Body body{mass.mass, node.position + mass.offset, mass.inertia};
     const bool is_platform = case_model.manipulator && model.plates.empty() && node.name == "P" &&
                              &mass == &model.masses.front();

@@ -113,7 +113,7 @@ void record_plates(const solver::Model& model, const solver::StaticSolution& sol
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
     const Eigen::RowVector3d s = solution.triangle_stress.row(static_cast<solver::Index>(i));
     const double von_mises = std::sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]);
-    double& plate = largest[static_cast<std::size_t>(model.triangles[i].plate)];
+    double& plate = largest[solver::to_size(model.triangles[i].plate)];
     plate = solver::nan_max(plate, von_mises);
   }
   for (std::size_t p = 0; p < largest.size(); ++p) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 
 namespace trammel::harness {
@@ -16,7 +17,7 @@ double rotation_of(const solver::System& system, const solver::Triangle& triangl
   Vector2d center = Vector2d::Zero(), shift = Vector2d::Zero();
   std::array<Vector2d, 3> place, motion;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto node = static_cast<std::size_t>(triangle.nodes[i]);
+    const auto node = solver::to_size(triangle.nodes[i]);
     place[i] = system.mesh.positions[node];
     motion[i] = {u[system.coordinates.node[node][0]], u[system.coordinates.node[node][1]]};
     center += place[i] / 3;
@@ -35,7 +36,7 @@ double rotation_of(const solver::System& system, const solver::Triangle& triangl
 double largest_rotation(const solver::System& system, const Eigen::VectorXd& u) {
   double largest = 0;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
-    if (system.coordinates.is_rotation[static_cast<std::size_t>(i)])
+    if (system.coordinates.is_rotation[solver::to_size(i)])
       largest = std::max(largest, std::abs(u[i]));
   }
   for (const solver::FrameElement& e : system.mesh.frame) {
@@ -96,7 +97,7 @@ void warn_of_amplification(const solver::StaticSolution& solution, std::vector<W
 
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings) {
   const std::vector<solver::Index>& pivot = system.constraints.pivot;
-  const auto redundant = std::count(pivot.begin(), pivot.end(), -1);
+  const auto redundant = std::ranges::count(pivot, -1);
   if (redundant == 0) return;
   add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
                          "statics does not determine the forces among them: those that are given "

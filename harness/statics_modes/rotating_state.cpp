@@ -23,15 +23,6 @@ Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
   return (turn * shape).real();
 }
 
-void record_modes(const solver::RotatingModes& modes, bool several, Recorder& record) {
-  for (solver::Index i = 0; i < modes.frequency.size(); ++i) {
-    const std::string item = several ? std::to_string(i + 1) : "";
-    record.add("frequency_Hz", item, modes.frequency[i]);
-    record.add("growth_rate_per_s", item, modes.growth_rate[i]);
-  }
-  record.add("stable", "", modes.stable ? 1 : 0);
-}
-
 void record_state(const solver::System& system, const solver::RotatingModes& modes,
                   Recorder& record) {
   const Eigen::MatrixX3d motion = solver::node_motion(system, modes.q);
@@ -44,6 +35,15 @@ void record_state(const solver::System& system, const solver::RotatingModes& mod
 }
 
 }  // namespace
+
+void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
+                        bool several, Recorder& record) {
+  for (solver::Index i = 0; i < frequency.size(); ++i) {
+    const std::string item = several ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", item, frequency[i]);
+    record.add("growth_rate_per_s", item, growth_rate[i]);
+  }
+}
 
 solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   const JsonView rotating = modes["rotating"];
@@ -84,7 +84,8 @@ StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
     result.evidence.add(found.evidence);
     if (!found.outcome.solved()) return result;
     record.add("angular_speed_rad_s", "", speed);
-    record_modes(found, several, record);
+    record_frequencies(found.frequency, found.growth_rate, several, record);
+    record.add("stable", "", found.stable ? 1 : 0);
     record_state(system, found, record);
     if (!result.drawing || several) continue;
     for (solver::Index i = 0; i < std::min(found.frequency.size(), kMaxDrawnShapes); ++i) {

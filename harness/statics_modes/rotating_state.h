@@ -11,6 +11,10 @@ namespace trammel::harness {
 [[nodiscard]] StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
                                           solver::Effects effects, bool draw, Recorder& record);
 
+/// Frequencies and growth rates of modes about a state; of several states with the mode.
+void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
+                        bool several, Recorder& record);
+
 /// All that the case says but for the effects and the speed.
 [[nodiscard]] solver::RotatingOptions read_rotating_options(const JsonView& modes);
 [[nodiscard]] std::vector<double> read_speeds(const JsonView& modes);

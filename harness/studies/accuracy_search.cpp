@@ -98,7 +98,7 @@ class Search {
       for (const auto& [name, values] : result.quantities) {
         if (name != wanted && name.substr(0, name.find(':')) != wanted) continue;
         any = true;
-        if (std::any_of(values.begin(), values.end(), [](double value) { return value != 0; }))
+        if (std::ranges::any_of(values, [](double value) { return value != 0; }))
           observed.push_back({name, "", "", {}, false, {}});
       }
       if (asked && !any) {

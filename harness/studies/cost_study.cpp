@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "harness/base/contains.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/base/statistic.h"
@@ -25,7 +25,7 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
     throw id.error("expected a reference in " + unit_of(quantity) + " (got " + reference.unit +
                    ")");
   }
-  const std::vector<std::size_t> chosen = indices(place, "reference_index");
+  const std::vector<std::size_t> chosen = place.indices("reference_index");
   if (chosen.empty()) return reference.values;
   std::vector<double> values;
   for (const std::size_t i : chosen) {
@@ -59,7 +59,7 @@ std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonVie
     entry.quantity = name;
     entry.addend = place.get<std::string>("plus_quantity", "");
     entry.statistic = place.get<std::string>("statistic", "");
-    entry.index = indices(place, "index");
+    entry.index = place.indices("index");
     entry.is_error = place.get("is_error", false);
     entry.output = output_number(study, place);
     if (place.has("reference")) entry.exact = exact_values(place, name, references);
@@ -154,14 +154,14 @@ void check_curve(const JsonView& curve) {
 bool is_swept(const JsonView& curve, double value, SweepExtent extent) {
   if (extent == SweepExtent::full || !curve.has("quick_values")) return true;
   const auto quick = curve["quick_values"].get<std::vector<double>>();
-  return std::find(quick.begin(), quick.end(), value) != quick.end();
+  return contains(quick, value);
 }
 
 void check_quick(const JsonView& curve) {
   if (!curve.has("quick_values") || !curve.has("values")) return;
   const auto values = curve["values"].get<std::vector<double>>();
   for (const auto& entry : curve["quick_values"].entries()) {
-    if (std::find(values.begin(), values.end(), entry.second.get<double>()) == values.end()) {
+    if (!contains(values, entry.second.get<double>())) {
       throw entry.second.error("expected one of the curve's values");
     }
   }
@@ -201,7 +201,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
 }
 
 std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& settings) {
-  const auto found = std::find_if(settings.begin(), settings.end(), [&](const Setting& setting) {
+  const auto found = std::ranges::find_if(settings, [&](const Setting& setting) {
     const bool same_value = setting.value.has_value() == place.has("value") &&
                             (!setting.value.has_value() || *setting.value == place.number("value"));
     return setting.curve == place.text("curve") && same_value;
@@ -271,16 +271,15 @@ std::string references_of(const JsonView& quantities) {
   for (const auto& entry : quantities.entries()) {
     if (!entry.second.has("reference")) continue;
     const auto name = entry.second.text("reference");
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (!contains(names, name)) names.push_back(name);
   }
   return join(names, "and");
 }
 
 void read_reference_solution(const JsonView& root, CostStudy& study, const References& references) {
   const std::vector<ObservedQuantity>& wanted = study.settings.front().observed;
-  const bool needed = std::any_of(wanted.begin(), wanted.end(), [](const ObservedQuantity& entry) {
-    return entry.needs_reference_solution();
-  });
+  const bool needed = std::ranges::any_of(
+      wanted, [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); });
   if (needed != root.has("reference_solution")) {
     throw root.error(needed ? "expected 'reference_solution', or a reference for each quantity"
                             : "expected either 'reference_solution' or references, not both");
@@ -302,9 +301,8 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
 }
 
 std::size_t count_of(const Setting& setting, std::size_t output) {
-  return static_cast<std::size_t>(
-      std::count_if(setting.observed.begin(), setting.observed.end(),
-                    [output](const ObservedQuantity& one) { return one.output == output; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      setting.observed, [output](const ObservedQuantity& one) { return one.output == output; }));
 }
 
 void check_counts(const JsonView& root, const CostStudy& study) {
@@ -383,7 +381,7 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
   study.description = root.get<std::string>("description", "");
   for (const auto& [name, curve] : root["curves"].entries()) {
     std::vector<Setting> curve_settings = read_curve(root, name, curve, extent, references);
-    std::move(curve_settings.begin(), curve_settings.end(), std::back_inserter(study.settings));
+    std::ranges::move(curve_settings, std::back_inserter(study.settings));
   }
   study.baseline = find_baseline(root["baseline"], study.settings);
   read_reference_solution(root, study, references);
@@ -415,7 +413,7 @@ std::vector<fs::path> cost_study_files() {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".json") files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

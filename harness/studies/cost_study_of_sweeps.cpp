@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/base/contains.h"
 #include "harness/base/text.h"
 #include "harness/judge/tracked_quantity.h"
 
@@ -45,8 +46,8 @@ std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuant
 /// Only what has exact values, where anything has: an error is measured one way.
 bool keep_exact(std::vector<ObservedQuantity>& observed) {
   const auto lacks = [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); };
-  if (std::all_of(observed.begin(), observed.end(), lacks)) return false;
-  observed.erase(std::remove_if(observed.begin(), observed.end(), lacks), observed.end());
+  if (std::ranges::all_of(observed, lacks)) return false;
+  std::erase_if(observed, lacks);
   return true;
 }
 
@@ -61,7 +62,7 @@ std::vector<std::string> sweeps_wanted(const JsonView& sweeps,
   std::vector<std::string> there;
   for (const auto& entry : sweeps.entries()) there.push_back(entry.first);
   for (const std::string& name : asked) {
-    if (std::find(there.begin(), there.end(), name) != there.end()) continue;
+    if (contains(there, name)) continue;
     throw sweeps.error("expected the name of a sweep (got '" + printable(name) + "')" +
                        did_you_mean(name, there));
   }

@@ -16,6 +16,9 @@
 namespace trammel::harness {
 namespace {
 
+using solver::Effect;
+using solver::Effects;
+
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 class Study {
@@ -39,20 +42,20 @@ class Study {
 
   EffectStudy run() {
     decide();
-    const solver::Effects all = study_.scope.applicable;
+    const Effects all = study_.scope.applicable;
     study_.full = compute(all);
     if (!study_.full.outcome.solved()) return std::move(study_);
     study_.chosen = compute(study_.choice.chosen);
-    const std::vector<solver::Effect> able = removable(all);
-    for (const solver::Effect effect : options_.pairs ? able : std::vector<solver::Effect>())
+    const std::vector<Effect> able = removable(all);
+    for (const Effect effect : options_.pairs ? able : std::vector<Effect>())
       study_.singles.push_back(leave_out(all, {effect}));
     for (std::size_t i = 0; options_.pairs && i < able.size(); ++i) {
       for (std::size_t j = i + 1; j < able.size(); ++j) {
         study_.pairs.push_back(leave_out(all, {able[i], able[j]}));
       }
     }
-    const solver::Effects chosen = study_.choice.chosen;
-    for (const solver::Effect effect : removable(chosen)) {
+    const Effects chosen = study_.choice.chosen;
+    for (const Effect effect : removable(chosen)) {
       study_.from_chosen.push_back(leave_out(chosen, {effect}));
     }
     if (options_.repeats > 0) measure_time();
@@ -61,7 +64,7 @@ class Study {
 
  private:
   void decide() {
-    automatic_ = with_effects(document_, solver::Effects());
+    automatic_ = with_effects(document_, Effects());
     automatic_.apply_patch(document_.origin("").file, "",
                            Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
     const CaseModel scene = read_case_model(automatic_);  // which a run reads in any case
@@ -70,7 +73,7 @@ class Study {
     study_.choice_cpu_s = watch.cpu_s();
   }
 
-  EffectRun compute(solver::Effects effects) const {
+  EffectRun compute(Effects effects) const {
     const Document given = with_effects(document_, effects);
     const Stopwatch watch;
     const AnalysisResult result = analyse(given, references_, {false});
@@ -85,16 +88,16 @@ class Study {
     return run;
   }
 
-  std::vector<solver::Effect> removable(solver::Effects from) const {
-    std::vector<solver::Effect> effects;
-    for (const solver::Effect effect : from.without(study_.scope.required).list())
+  std::vector<Effect> removable(Effects from) const {
+    std::vector<Effect> effects;
+    for (const Effect effect : from.without(study_.scope.required).list())
       if (!study_.scope.completed(from.without(effect)).has(effect)) effects.push_back(effect);
     return effects;
   }
 
-  Ablation leave_out(solver::Effects from, const std::vector<solver::Effect>& out) const {
-    solver::Effects left = from;
-    for (const solver::Effect effect : out) left = study_.scope.without(left, effect);
+  Ablation leave_out(Effects from, const std::vector<Effect>& out) const {
+    Effects left = from;
+    for (const Effect effect : out) left = study_.scope.without(left, effect);
     return {out, compute(study_.scope.completed(left))};
   }
 
@@ -134,7 +137,7 @@ bool EffectStudy::within_tolerance() const {
 }
 
 bool EffectStudy::is_minimal() const {
-  return std::all_of(from_chosen.begin(), from_chosen.end(), [this](const Ablation& ablation) {
+  return std::ranges::all_of(from_chosen, [this](const Ablation& ablation) {
     return !(max_change(ablation.run.changes).value <= tolerance);
   });
 }

@@ -134,8 +134,8 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
     }
   }
   // The most alike first; equal ones in the order of their frequencies.
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const auto& x, const auto& y) { return std::get<0>(x) > std::get<0>(y); });
+  std::ranges::stable_sort(
+      pairs, [](const auto& x, const auto& y) { return std::get<0>(x) > std::get<0>(y); });
   std::vector<ModeMatch> matches;
   // A set has room for as many modes as it has: two that symmetry no longer holds together look
   // like the set that they were.
@@ -153,7 +153,7 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
     ModeMatch& match = matches[i];
     match.overlap = match.b.empty() ? overlap : std::min(match.overlap, overlap);
     match.b.insert(match.b.end(), sets_b[j].begin(), sets_b[j].end());
-    std::sort(match.b.begin(), match.b.end());
+    std::ranges::sort(match.b);
   }
   return matches;
 }

@@ -77,17 +77,17 @@ std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points, dou
   return tied;
 }
 
+bool has_setting(const std::vector<CostPoint>& points, std::size_t setting) {
+  return std::ranges::any_of(points, [=](const CostPoint& p) { return p.setting == setting; });
+}
+
 std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points) {
   std::vector<CostPoint> front;
   for (const CostPoint& point : points) {
     const CostPoint best = *cheapest(points, (1 + kParetoTolerance) * point.error);
-    const bool known = std::any_of(front.begin(), front.end(), [&](const CostPoint& other) {
-      return other.setting == best.setting;
-    });
-    if (!known) front.push_back(best);
+    if (!has_setting(front, best.setting)) front.push_back(best);
   }
-  std::sort(front.begin(), front.end(),
-            [](const CostPoint& a, const CostPoint& b) { return a.time < b.time; });
+  std::ranges::sort(front, [](const CostPoint& a, const CostPoint& b) { return a.time < b.time; });
   return front;
 }
 

@@ -24,6 +24,9 @@ inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 /// equally accurate ones the first of the study.
 inline constexpr double kParetoTolerance = 0.05;
 
+/// Whether one of the points is of that setting.
+[[nodiscard]] bool has_setting(const std::vector<CostPoint>& points, std::size_t setting);
+
 /// The cheapest point with at most that error.
 [[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
 

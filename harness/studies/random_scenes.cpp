@@ -96,50 +96,63 @@ Json manipulator(bool modes, Draw& draw) {
   return model;
 }
 
+Json member(const char* from, const char* to) {
+  return {{"nodes", {from, to}}, {"section", "s"}, {"beam", "timoshenko"}};
+}
+/// @param joint  at its first node
+Json member(const char* from, const char* to, const Json& joint) {
+  Json jointed = member(from, to);
+  jointed["ends"] = {joint, "welded"};
+  return jointed;
+}
+
+/// Members of one section; clamped at A.
+Json frame(double thickness, double width, int elements, const Json& nodes) {
+  return {{"materials", {{"alloy", material()}}},
+          {"sections",
+           {{"s",
+             {{"material", "alloy"},
+              {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
+          {"elements", elements},
+          {"nodes", nodes},
+          {"members", Json::object()},
+          {"supports", {{"A", {"x", "y", "rotation"}}}}};
+}
+
+/// A lump at a node, and where there are loads a force there and gravity.
+/// @param mass  of the frame
+void add_lump_and_loads(Json& model, bool modes, const std::string& node, double mass,
+                        double thickness, double width, double length, Draw& draw) {
+  if (modes || draw.chance(0.5)) {
+    model["point_masses"] = {
+        {"lump", {{"node", node}, {"mass_kg", mass * draw.logarithmic(1e-4, 1e4)}}}};
+  }
+  const double load = bending_load(draw, thickness, width, length);
+  if (modes) return;
+  model["loads"] = {{"force", {{"node", node}, {"force_N", draw.direction(load)}}}};
+  if (draw.chance(0.5)) {
+    model["gravity_m_s2"] = draw.direction(draw.logarithmic(1e-4, 1) * load / mass);
+  }
+}
+
 /// A beam: a cantilever, or clamped at both ends, with a lump on it.
 Json beam(bool modes, Draw& draw) {
   const double length = draw.logarithmic(0.2, 5);
   const double thickness = length * draw.logarithmic(0.002, 0.3);
   const double width = thickness * draw.logarithmic(0.5, 5);
   const bool clamped = draw.chance(0.4);
-  Json model = {{"materials", {{"alloy", material()}}},
-                {"sections",
-                 {{"s",
-                   {{"material", "alloy"},
-                    {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
-                {"elements", 8},
-                {"nodes", {{"A", {0, 0}}, {"B", {length, 0}}}},
-                {"members", Json::object()},
-                {"supports", {{"A", {"x", "y", "rotation"}}}}};
+  Json model = frame(thickness, width, 8, {{"A", {0, 0}}, {"B", {length, 0}}});
   const Json root = joint(draw, "welded", thickness, width, length);
-  std::string loaded = "B";
   if (clamped) {
-    loaded = "C";
     model["nodes"]["C"] = {length * draw.uniform(0.3, 0.7), 0};
-    model["members"]["AC"] = {{"nodes", {"A", "C"}},
-                              {"section", "s"},
-                              {"beam", "timoshenko"},
-                              {"ends", {root, "welded"}}};
-    model["members"]["CB"] = {{"nodes", {"C", "B"}}, {"section", "s"}, {"beam", "timoshenko"}};
+    model["members"]["AC"] = member("A", "C", root);
+    model["members"]["CB"] = member("C", "B");
     model["supports"]["B"] = {"x", "y", "rotation"};
   } else {
-    model["members"]["AB"] = {{"nodes", {"A", "B"}},
-                              {"section", "s"},
-                              {"beam", "timoshenko"},
-                              {"ends", {root, "welded"}}};
+    model["members"]["AB"] = member("A", "B", root);
   }
-  const double mass = kDensity * thickness * width * length;
-  if (modes || draw.chance(0.5)) {
-    model["point_masses"] = {
-        {"lump", {{"node", loaded}, {"mass_kg", mass * draw.logarithmic(1e-4, 1e4)}}}};
-  }
-  const double load = bending_load(draw, thickness, width, length);
-  if (!modes) {
-    model["loads"] = {{"force", {{"node", loaded}, {"force_N", draw.direction(load)}}}};
-    if (draw.chance(0.5)) {
-      model["gravity_m_s2"] = draw.direction(draw.logarithmic(1e-4, 1) * load / mass);
-    }
-  }
+  add_lump_and_loads(model, modes, clamped ? "C" : "B", kDensity * thickness * width * length,
+                     thickness, width, length, draw);
   return model;
 }
 
@@ -147,35 +160,14 @@ Json portal(bool modes, Draw& draw) {
   const double height = draw.uniform(0.5, 2), span = draw.uniform(0.5, 3);
   const double thickness = height * draw.logarithmic(0.003, 0.2);
   const double width = thickness * draw.logarithmic(0.5, 3);
-  const auto member = [](const char* a, const char* b, const Json& first) {
-    return Json{
-        {"nodes", {a, b}}, {"section", "s"}, {"beam", "timoshenko"}, {"ends", {first, "welded"}}};
-  };
-  Json model = {
-      {"materials", {{"alloy", material()}}},
-      {"sections",
-       {{"s",
-         {{"material", "alloy"},
-          {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
-      {"elements", 4},
-      {"nodes", {{"A", {0, 0}}, {"B", {0, height}}, {"C", {span, height}}, {"D", {span, 0}}}},
-      {"members", Json::object()},
-      {"supports", {{"A", {"x", "y", "rotation"}}, {"D", {"x", "y", "rotation"}}}}};
+  Json model = frame(thickness, width, 4,
+                     {{"A", {0, 0}}, {"B", {0, height}}, {"C", {span, height}}, {"D", {span, 0}}});
+  model["supports"]["D"] = {"x", "y", "rotation"};
   model["members"]["AB"] = member("A", "B", joint(draw, "welded", thickness, width, height));
   model["members"]["BC"] = member("B", "C", joint(draw, "welded", thickness, width, height));
   model["members"]["DC"] = member("D", "C", joint(draw, "welded", thickness, width, height));
-  const double mass = kDensity * thickness * width * (2 * height + span);
-  if (modes || draw.chance(0.5)) {
-    model["point_masses"] = {
-        {"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(1e-4, 1e4)}}}};
-  }
-  const double load = bending_load(draw, thickness, width, height);
-  if (!modes) {
-    model["loads"] = {{"force", {{"node", "B"}, {"force_N", draw.direction(load)}}}};
-    if (draw.chance(0.5)) {
-      model["gravity_m_s2"] = draw.direction(draw.logarithmic(1e-4, 1) * load / mass);
-    }
-  }
+  add_lump_and_loads(model, modes, "B", kDensity * thickness * width * (2 * height + span),
+                     thickness, width, height, draw);
   return model;
 }
 
@@ -190,16 +182,8 @@ Json column(bool modes, Draw& draw) {
   const double effective = guided ? length : 2 * length;
   const double buckling = std::pow(std::numbers::pi / effective, 2) * bending;
   const double share = 1 - draw.logarithmic(0.01, 1);
-  Json model = {
-      {"materials", {{"alloy", material()}}},
-      {"sections",
-       {{"s",
-         {{"material", "alloy"},
-          {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
-      {"elements", 8},
-      {"nodes", {{"A", {0, 0}}, {"B", {length, 0}}}},
-      {"members", {{"AB", {{"nodes", {"A", "B"}}, {"section", "s"}, {"beam", "timoshenko"}}}}},
-      {"supports", {{"A", {"x", "y", "rotation"}}}}};
+  Json model = frame(thickness, width, 8, {{"A", {0, 0}}, {"B", {length, 0}}});
+  model["members"]["AB"] = member("A", "B");
   if (guided) model["supports"]["B"] = {"rotation"};
   const double across = modes ? 0 : draw.logarithmic(1e-5, 0.1) * bending / (length * length);
   model["loads"] = {
@@ -312,22 +296,11 @@ Json spinning_link(Draw& draw, Json& scene) {
       {"modes",
        {{"count", draw.chance(0.5) ? 1 : 3},
         {"rotating", {{"angular_speed_rad_s", own * draw.logarithmic(0.003, 0.6)}}}}}};
-  return {{"materials", {{"alloy", material()}}},
-          {"sections",
-           {{"s",
-             {{"material", "alloy"},
-              {"rectangle", {{"thickness_m", thickness}, {"width_m", width}}}}}}},
-          {"elements", 8},
-          {"nodes", {{"A", {hub, 0}}, {"B", {hub + length, 0}}}},
-          {"members",
-           {{"AB",
-             {{"nodes", {"A", "B"}},
-              {"section", "s"},
-              {"beam", "timoshenko"},
-              {"ends", {joint(draw, "welded", thickness, width, length), "welded"}}}}}},
-          {"supports", {{"A", {"x", "y", "rotation"}}}},
-          {"point_masses",
-           {{"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(0.01, 1e3)}}}}}};
+  Json model = frame(thickness, width, 8, {{"A", {hub, 0}}, {"B", {hub + length, 0}}});
+  model["members"]["AB"] = member("A", "B", joint(draw, "welded", thickness, width, length));
+  model["point_masses"] = {
+      {"lump", {{"node", "B"}, {"mass_kg", mass * draw.logarithmic(0.01, 1e3)}}}};
+  return model;
 }
 
 /// The response of a scene of modes to a force, from far below the first frequency of its bare beam

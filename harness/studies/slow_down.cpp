@@ -51,7 +51,7 @@ std::vector<RelativeSpeed> relative_speeds(const std::vector<InterleavedTimes>& 
     if (n > 0) speed.ratio = std::exp(quantile(averages, 0.5));
     const std::ptrdiff_t left_out = outside(n, tail);
     if (left_out >= 0 && n > 0) {
-      std::sort(averages.begin(), averages.end());
+      std::ranges::sort(averages);
       const auto place = static_cast<std::size_t>(left_out);
       speed.low = std::exp(averages[place]);
       speed.high = std::exp(averages[averages.size() - 1 - place]);

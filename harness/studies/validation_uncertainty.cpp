@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 
 #include "harness/base/numbers.h"
-#include "harness/base/text.h"
 #include "harness/input/case.h"
 #include "harness/judge/convergence.h"
 
@@ -206,11 +204,10 @@ class ValidationStudy {
       one.half_width = one.factor * std::abs(series.values[0] - found.richardson.value_or(kNaN));
       if (found.broken) one.half_width = kNaN;
       squares[i] += std::pow(one.half_width / kGciToStandard, 2);
-      const bool told = std::any_of(
-          study_.numerical.begin(), study_.numerical.end(), [&](const NumericalEstimate& other) {
-            return other.refinement == one.refinement && other.quantity == one.quantity &&
-                   other.index == one.index;
-          });
+      const bool told = std::ranges::any_of(study_.numerical, [&](const NumericalEstimate& other) {
+        return other.refinement == one.refinement && other.quantity == one.quantity &&
+               other.index == one.index;
+      });
       if (!told) study_.numerical.push_back(std::move(one));
     }
   }

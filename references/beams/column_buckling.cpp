@@ -110,10 +110,8 @@ std::vector<double> becks_column_program(const Json& json) {
   const std::string output =
       arguments.choice("output", "", {"flutter-load", "frequencies", "growth-rate"});
   const bool spread = arguments.choice("load", "tip", {"tip", "spread"}) == "spread";
-  const auto given = [&](const char* key) {
-    return arguments.has(key) ? arguments.positive(key) : Real(1);
-  };
-  const Real EI = given("EI_N_m2"), L = given("length_m"), mass = given("mass_kg_per_m");
+  const Real EI = arguments.positive("EI_N_m2", 1), L = arguments.positive("length_m", 1),
+             mass = arguments.positive("mass_kg_per_m", 1);
   if (output == "flutter-load")
     return to_doubles({flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))});
   const Real parameter = arguments.positive("load_parameter");
@@ -142,14 +140,10 @@ std::vector<double> column_buckling_program(const Json& json) {
   if (weight && ends != "clamped-free") {
     arguments.fail("ends", "only a clamped-free column under its own weight is known here");
   }
-  const Real L = arguments.has("length_m") ? arguments.positive("length_m") : Real(1);
-  const Real EI = arguments.has("EI_N_m2") ? arguments.positive("EI_N_m2") : Real(1);
-  const Real scale =
-      weight ? Real(9 * EI /
-                    (4 * L * L * L *
-                     (arguments.has("weight_N_per_m") ? arguments.positive("weight_N_per_m")
-                                                      : Real(1))))
-             : Real(EI / (L * L));
+  const Real L = arguments.positive("length_m", 1), EI = arguments.positive("EI_N_m2", 1);
+  const Real scale = weight
+                         ? Real(9 * EI / (4 * L * L * L * arguments.positive("weight_N_per_m", 1)))
+                         : Real(EI / (L * L));
   std::vector<Real> values = first_roots(weight ? self_weight_equation() : end_load_equation(ends),
                                          0.5, 0.1, arguments.count("count"));
   for (Real& value : values) value = scale * value * value;

@@ -137,9 +137,7 @@ void solve(const Arguments& arguments, const F& f, std::vector<Real>& unknown) {
     const Dense<Real> J = jacobian(f, unknown, correction.size());
     if (!solve_in_place(J, correction, Real(1e-60))) break;
     Real size = 0;
-    if (!std::all_of(correction.begin(), correction.end(),
-                     [](const Real& c) { return isfinite(c); }))
-      break;
+    if (!std::ranges::all_of(correction, [](const Real& c) { return isfinite(c); })) break;
     for (std::size_t i = 0; i < correction.size(); ++i) {
       unknown[i] -= correction[i];
       size = std::max(size, Real(abs(correction[i]) / (1 + abs(unknown[i]))));
@@ -170,8 +168,8 @@ Chain read_chain(const Arguments& arguments) {
   Chain chain;
   for (const Json& node : arguments["nodes_m"]) {
     const Arguments point({{"point", node}}, arguments.pointer("nodes_m"), {"point"});
-    const std::vector<Real> xy = point.numbers("point", 2);
-    chain.nodes.push_back({xy[0], xy[1]});
+    const auto [x, y] = point.point("point");
+    chain.nodes.push_back({x, y});
   }
   chain.EI = arguments.positive("EI_N_m2");
   if (arguments.has("EA_N")) chain.axial_compliance = 1 / arguments.positive("EA_N");
@@ -183,7 +181,7 @@ Chain read_chain(const Arguments& arguments) {
   }
   const std::vector<std::string> start = arguments.texts("start"), end = arguments.texts("end");
   const auto has = [](const std::vector<std::string>& words, const char* word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
+    return std::ranges::find(words, word) != words.end();
   };
   chain.start_turns = !has(start, "rotation");
   chain.end_held = {has(end, "x"), has(end, "y"), has(end, "rotation")};

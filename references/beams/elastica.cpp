@@ -39,8 +39,7 @@ std::vector<double> columns(const Arguments& arguments, const std::vector<Real>&
     if (arguments.has("length_m")) arguments.fail("length_m", "expected an output beside it");
     return to_doubles(table);
   }
-  const auto column =
-      static_cast<std::size_t>(std::find(names.begin(), names.end(), output) - names.begin());
+  const auto column = static_cast<std::size_t>(std::ranges::find(names, output) - names.begin());
   const Real unit = is_length.at(column) ? arguments.positive("length_m") : Real(1);
   std::vector<Real> chosen;
   for (std::size_t i = column; i < table.size(); i += 3) chosen.push_back(unit * table[i]);

@@ -1,6 +1,7 @@
 #include "references/data/reference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -13,6 +14,9 @@ namespace trammel::references {
 namespace {
 
 using Json = nlohmann::json;
+
+/// In the order of ReferenceKind.
+constexpr std::array kKinds = {"proved", "exact", "computed", "paper", "code"};
 
 [[noreturn]] void fail(const std::string& file, const std::string& pointer,
                        const std::string& expected) {
@@ -36,11 +40,8 @@ T optional(const Json& json, const std::string& file, const char* key, const cha
 }
 
 ReferenceKind parse_kind(const std::string& word, const std::string& file) {
-  if (word == "proved") return ReferenceKind::proved;
-  if (word == "exact") return ReferenceKind::exact;
-  if (word == "computed") return ReferenceKind::computed;
-  if (word == "paper") return ReferenceKind::paper;
-  if (word == "code") return ReferenceKind::code;
+  const auto* const found = std::ranges::find(kKinds, word);
+  if (found != kKinds.end()) return static_cast<ReferenceKind>(found - kKinds.begin());
   fail(file, "/kind", "'proved', 'exact', 'computed', 'paper' or 'code' (got '" + word + "')");
 }
 
@@ -107,12 +108,7 @@ std::string describe_derivation(const Json& derivation) {
 }  // namespace
 
 const char* to_string(ReferenceKind kind) {
-  static const std::map<ReferenceKind, const char*> names = {{ReferenceKind::proved, "proved"},
-                                                             {ReferenceKind::exact, "exact"},
-                                                             {ReferenceKind::computed, "computed"},
-                                                             {ReferenceKind::paper, "paper"},
-                                                             {ReferenceKind::code, "code"}};
-  return names.at(kind);
+  return kKinds.at(static_cast<std::size_t>(kind));
 }
 
 double half_unit_in_last_place(const std::string& printed) {

@@ -10,8 +10,8 @@ namespace {
 
 template <class Named>
 int find_name(const std::vector<Named>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const Named& item) { return item.name == name; });
+  const auto found =
+      std::ranges::find_if(items, [&](const Named& item) { return item.name == name; });
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 

@@ -12,11 +12,10 @@ void add_loads(const Arguments& arguments, Frame& frame) {
   if (!arguments.has("loads")) return;
   const Arguments loads(arguments["loads"], "/loads");
   for (const std::string& name : loads.keys()) {
-    const Arguments load(loads[name], loads.pointer(name), {"node", "force_N", "moment_N_m"});
+    const Arguments load = loads.object(name, {"node", "force_N", "moment_N_m"});
     const int node = frame.find_node(load.text("node"));
     if (node < 0) load.fail("node", "expected the name of a node");
-    const std::vector<Real> force =
-        load.has("force_N") ? load.numbers("force_N", 2) : std::vector<Real>(2, Real(0));
+    const auto force = load.point_or_origin("force_N");
     frame.loads.push_back({node, {force[0], force[1], load.number("moment_N_m", 0)}});
   }
 }
@@ -30,13 +29,10 @@ Frame frame_from_arguments(const Arguments& arguments) {
     }
     return read_frame(arguments["model"], "/model");
   }
-  const Arguments pose(arguments["pose"], "/pose", {"x_m", "y_m", "phi_rad"});
+  const Arguments pose = arguments.object("pose", {"x_m", "y_m", "phi_rad"});
   Frame frame = manipulator_frame(manipulator_arguments(arguments), pose);
   add_loads(arguments, frame);
-  if (arguments.has("gravity_m_s2")) {
-    const std::vector<Real> g = arguments.numbers("gravity_m_s2", 2);
-    frame.gravity = {g[0], g[1]};
-  }
+  if (arguments.has("gravity_m_s2")) frame.gravity = arguments.point("gravity_m_s2");
   return frame;
 }
 

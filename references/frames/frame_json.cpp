@@ -17,7 +17,7 @@ Arguments object_at(const Arguments& parent, const std::string& key) {
 FrameMaterial read_material(const Arguments& materials, const std::string& name,
                             const Arguments& section) {
   if (!materials.has(name)) section.fail("material", "there is no material '" + name + "'");
-  const Arguments material(materials[name], materials.pointer(name), {"E_Pa", "rho_kg_m3", "nu"});
+  const Arguments material = materials.object(name, {"E_Pa", "rho_kg_m3", "nu"});
   return {material.positive("E_Pa"), material.not_negative("rho_kg_m3", 0),
           material.number("nu", 0)};
 }
@@ -26,12 +26,10 @@ CrossSection read_section(const Arguments& materials, const Arguments& section) 
   const FrameMaterial material = read_material(materials, section.text("material"), section);
   CrossSection data{material, 0, 0, 0, 0};
   if (section.has("rectangle")) {
-    const Arguments r(section["rectangle"], section.pointer("rectangle"),
-                      {"thickness_m", "width_m"});
+    const Arguments r = section.object("rectangle", {"thickness_m", "width_m"});
     data = rectangle(material, r.positive("thickness_m"), r.positive("width_m"));
   } else if (section.has("circle")) {
-    const Arguments c(section["circle"], section.pointer("circle"), {"diameter_m"});
-    const Real diameter = c.positive("diameter_m");
+    const Real diameter = section.object("circle", {"diameter_m"}).positive("diameter_m");
     data.area = pi<Real>() * diameter * diameter / 4;
     data.second_moment = data.area * diameter * diameter / 16;
     data.half_depth = diameter / 2;
@@ -50,9 +48,9 @@ Sections read_sections(const Arguments& model) {
   Sections result;
   for (const std::string& name : sections.keys()) {
     result[name] = read_section(
-        materials, Arguments(sections[name], sections.pointer(name),
-                             {"material", "rectangle", "circle", "area_m2", "second_moment_m4",
-                              "half_depth_m", "shear_coefficient"}));
+        materials,
+        sections.object(name, {"material", "rectangle", "circle", "area_m2", "second_moment_m4",
+                               "half_depth_m", "shear_coefficient"}));
   }
   return result;
 }
@@ -72,12 +70,6 @@ FrameEnd read_end(const Json& end, const Arguments& member) {
   }
   const Arguments spring(end, member.pointer("ends"), {"spring_N_m_per_rad"});
   return {Fixity::sprung, spring.positive("spring_N_m_per_rad"), 0};
-}
-
-std::array<Real, 2> read_pair(const Arguments& object, const std::string& key) {
-  if (!object.has(key)) return {};
-  const std::vector<Real> values = object.numbers(key, 2);
-  return {values[0], values[1]};
 }
 
 FrameMember read_member(const Frame& frame, const Sections& sections, const std::string& name,
@@ -100,15 +92,14 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
     if (!ends.is_array() || ends.size() != 2) object.fail("ends", "expected two ends");
     for (std::size_t i = 0; i < 2; ++i) member.ends[i] = read_end(ends[i], object);
   }
-  member.load = read_pair(object, "load_N_per_m");
+  member.load = object.point_or_origin("load_N_per_m");
   return member;
 }
 
 void read_nodes(const Arguments& model, Frame& frame) {
   const Arguments nodes(model["nodes"], model.pointer("nodes"));
   for (const std::string& name : nodes.keys()) {
-    const std::vector<Real> at = nodes.numbers(name, 2);
-    frame.nodes.push_back({name, {at[0], at[1]}});
+    frame.nodes.push_back({name, nodes.point(name)});
   }
 }
 
@@ -116,9 +107,9 @@ void read_members(const Arguments& model, Frame& frame) {
   const Sections sections = read_sections(model);
   const Arguments members = object_at(model, "members");
   for (const std::string& name : members.keys()) {
-    const Arguments object(members[name], members.pointer(name),
-                           {"nodes", "section", "beam", "axial", "ends", "load_N_per_m",
-                            "axial_force_N", "elements", "mass_matrix"});
+    const Arguments object =
+        members.object(name, {"nodes", "section", "beam", "axial", "ends", "load_N_per_m",
+                              "axial_force_N", "elements", "mass_matrix"});
     frame.members.push_back(read_member(frame, sections, name, object));
   }
 }
@@ -126,7 +117,7 @@ void read_members(const Arguments& model, Frame& frame) {
 void read_bodies(const Arguments& model, Frame& frame) {
   const Arguments bodies = object_at(model, "rigid_bodies");
   for (const std::string& name : bodies.keys()) {
-    const Arguments object(bodies[name], bodies.pointer(name), {"reference", "nodes"});
+    const Arguments object = bodies.object(name, {"reference", "nodes"});
     FrameBody body;
     body.reference = node_named(frame, object["reference"], object, "reference");
     for (const std::string& node : object.texts("nodes")) {
@@ -139,26 +130,25 @@ void read_bodies(const Arguments& model, Frame& frame) {
 void read_masses(const Arguments& model, Frame& frame) {
   const Arguments masses = object_at(model, "point_masses");
   for (const std::string& name : masses.keys()) {
-    const Arguments object(masses[name], masses.pointer(name),
-                           {"node", "mass_kg", "inertia_kg_m2", "offset_m"});
+    const Arguments object = masses.object(name, {"node", "mass_kg", "inertia_kg_m2", "offset_m"});
     frame.masses.push_back(
         {node_named(frame, object["node"], object, "node"), object.not_negative("mass_kg", 0),
-         object.not_negative("inertia_kg_m2", 0), read_pair(object, "offset_m")});
+         object.not_negative("inertia_kg_m2", 0), object.point_or_origin("offset_m")});
   }
 }
 
 void read_springs(const Arguments& model, Frame& frame) {
   const Arguments springs = object_at(model, "springs");
   for (const std::string& name : springs.keys()) {
-    const Arguments object(springs[name], springs.pointer(name),
-                           {"nodes", "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad"});
+    const Arguments object =
+        springs.object(name, {"nodes", "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad"});
     FrameSpring spring;
     const std::vector<std::string> nodes = object.texts("nodes");
     if (nodes.size() > 2) object.fail("nodes", "expected one or two names of nodes");
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       spring.nodes[i] = node_named(frame, nodes[i], object, "nodes");
     }
-    const auto k = read_pair(object, "stiffness_N_per_m");
+    const auto k = object.point_or_origin("stiffness_N_per_m");
     spring.stiffness = {k[0], k[1], object.not_negative("rotational_stiffness_N_m_per_rad", 0)};
     frame.springs.push_back(spring);
   }
@@ -182,8 +172,8 @@ void read_supports(const Arguments& model, Frame& frame) {
 void read_loads(const Arguments& model, Frame& frame) {
   const Arguments loads = object_at(model, "loads");
   for (const std::string& name : loads.keys()) {
-    const Arguments object(loads[name], loads.pointer(name), {"node", "force_N", "moment_N_m"});
-    const auto force = read_pair(object, "force_N");
+    const Arguments object = loads.object(name, {"node", "force_N", "moment_N_m"});
+    const auto force = object.point_or_origin("force_N");
     frame.loads.push_back({node_named(frame, object["node"], object, "node"),
                            {force[0], force[1], object.number("moment_N_m", 0)}});
   }
@@ -204,7 +194,7 @@ Frame read_frame(const Json& json, const std::string& pointer) {
   read_springs(model, frame);
   read_supports(model, frame);
   read_loads(model, frame);
-  frame.gravity = read_pair(model, "gravity_m_s2");
+  frame.gravity = model.point_or_origin("gravity_m_s2");
   return frame;
 }
 

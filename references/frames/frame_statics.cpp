@@ -81,8 +81,7 @@ class Outputs {
 
   [[nodiscard]] Real reaction(const std::string& text, int node, int motion) const {
     for (const FrameBody& body : frame_.bodies) {
-      if (body.reference == node ||
-          std::find(body.attached.begin(), body.attached.end(), node) != body.attached.end()) {
+      if (body.reference == node || std::ranges::find(body.attached, node) != body.attached.end()) {
         throw DerivationError("/outputs: '" + text + "': this node belongs to a rigid body");
       }
     }

@@ -44,9 +44,7 @@ std::array<Point2<Real>, 3> vertices(const Arguments& object, const std::string&
   if (!rows.is_array() || rows.size() != 3) object.fail(key, "expected three points");
   std::array<Point2<Real>, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::vector<Real> point =
-        Arguments({{"at", rows[i]}}, object.pointer(key)).numbers("at", 2);
-    points[i] = {point[0], point[1]};
+    points[i] = Arguments({{"at", rows[i]}}, object.pointer(key)).point("at");
   }
   return points;
 }

@@ -15,16 +15,6 @@ namespace {
 using Motion = std::array<Jet<Real>, 3>;
 using PointJet = Point2<Jet<Real>>;
 
-/// Direction of the line from one point to another, with its derivatives.
-Jet<Real> direction(const PointJet& from, const PointJet& to) {
-  const Jet<Real> x = to[0] - from[0], y = to[1] - from[1];
-  const Real r2 = x.value * x.value + y.value * y.value;
-  const Real rate = (x.value * y.rate - y.value * x.rate) / r2;
-  const Real stretch = (x.value * x.rate + y.value * y.rate) / r2;
-  return {atan2(y.value, x.value), rate,
-          (x.value * y.acceleration - y.value * x.acceleration) / r2 - 2 * rate * stretch};
-}
-
 /// Smallest over largest singular value of a 3 x 3 matrix, from the roots of the characteristic
 /// equation of A^T A in their trigonometric form.
 Real reciprocal_condition(const Dense<Real>& A) {
@@ -286,8 +276,7 @@ std::vector<double> manipulator_motion_program(const Json& json) {
                              "gravity_m_s2", "outputs", "at_rest", "torque_N_m"});
   const PlanarManipulator manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
-  const Arguments trajectory(arguments["trajectory"], "/trajectory",
-                             {"circle", "line", "rest_to_rest", "spline"});
+  const Arguments trajectory = read_trajectory(arguments);
   const std::vector<std::string> outputs = arguments.texts("outputs");
   if (outputs.front() == "cycle_absolute_work_J")
     return to_doubles({absolute_work(manipulator, trajectory, wrench)});

@@ -31,22 +31,17 @@ PlanarManipulator read_planar_manipulator(const Arguments& arguments) {
   manipulator.platform_mass = numbers.platform_mass;
   manipulator.platform_inertia = numbers.platform_inertia;
   manipulator.platform_center = numbers.platform_center;
-  if (arguments.has("gravity_m_s2")) {
-    const std::vector<Real> g = arguments.numbers("gravity_m_s2", 2);
-    manipulator.gravity = {g[0], g[1]};
-  }
+  manipulator.gravity = arguments.point_or_origin("gravity_m_s2");
   return manipulator;
 }
 
 PlanarWrench read_wrench(const Arguments& arguments) {
-  PlanarWrench wrench;
-  if (arguments.has("force_N")) {
-    const std::vector<Real> force = arguments.numbers("force_N", 2);
-    wrench.x = force[0];
-    wrench.y = force[1];
-  }
-  wrench.moment = arguments.number("moment_N_m", 0);
-  return wrench;
+  const auto force = arguments.point_or_origin("force_N");
+  return {force[0], force[1], arguments.number("moment_N_m", 0)};
+}
+
+Arguments read_trajectory(const Arguments& arguments) {
+  return arguments.object("trajectory", {"circle", "line", "rest_to_rest", "spline"});
 }
 
 std::vector<double> manipulator_torques_program(const Json& json) {
@@ -54,8 +49,7 @@ std::vector<double> manipulator_torques_program(const Json& json) {
       json, "", {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m", "gravity_m_s2"});
   const PlanarManipulator manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
-  const Arguments trajectory(arguments["trajectory"], "/trajectory",
-                             {"circle", "line", "rest_to_rest", "spline"});
+  const Arguments trajectory = read_trajectory(arguments);
   const std::vector<Real> times = arguments.numbers("times_s");
   std::vector<Real> values(3 * times.size());
   for (std::size_t k = 0; k < times.size(); ++k) {

@@ -14,6 +14,9 @@ namespace trammel::references {
 /// "force_N" and "moment_N_m".
 [[nodiscard]] PlanarWrench read_wrench(const Arguments& arguments);
 
+/// "trajectory", for `platform_motion`.
+[[nodiscard]] Arguments read_trajectory(const Arguments& arguments);
+
 /// Arguments: manipulator (as a case file's; masses and inertias as numbers, or from density),
 /// trajectory (circle | line | rest_to_rest | spline), times_s, force_N and moment_N_m (on the
 /// platform at P; none by default), gravity_m_s2.

@@ -119,8 +119,7 @@ class Links {
   explicit Links(const Arguments& arguments)
       : numbers_(read_manipulator_numbers(manipulator_arguments(arguments))),
         bodies_(read_planar_manipulator(arguments)),
-        trajectory_(arguments["trajectory"], "/trajectory",
-                    {"circle", "line", "rest_to_rest", "spline"}),
+        trajectory_(read_trajectory(arguments)),
         wrench_(read_wrench(arguments)),
         damping_(arguments.number("mass_damping_per_s", 0)) {
     for (const LimbNumbers& limb : numbers_.limbs)
@@ -286,8 +285,8 @@ std::vector<SystemState> states(const Links& links, const std::vector<Real>& tim
   boost::numeric::odeint::runge_kutta_fehlberg78<SystemState, Real, SystemState, Real> stepper;
   const auto rate = [&](const SystemState& x, SystemState& dx, const Real& t) {
     const SystemMotion motion = links.solved(x, t);
-    std::copy(motion.v.begin(), motion.v.end(), dx.begin());
-    std::copy(motion.a.begin(), motion.a.end(), dx.begin() + kCoordinates);
+    std::ranges::copy(motion.v, dx.begin());
+    std::ranges::copy(motion.a, dx.begin() + kCoordinates);
   };
   SystemState x{};
   std::vector<SystemState> found = {x};
@@ -307,7 +306,7 @@ std::vector<double> moving_links_program(const Json& json) {
                              "mass_damping_per_s", "times_s", "outputs"});
   const Links links(arguments);
   const std::vector<Real> times = arguments.numbers("times_s");
-  if (!std::is_sorted(times.begin(), times.end())) arguments.fail("times_s", "times that ascend");
+  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
   const std::vector<SystemState> state = states(links, times);
   std::vector<Real> values;
   for (const std::string& name : arguments.texts("outputs")) {

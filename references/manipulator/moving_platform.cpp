@@ -27,8 +27,7 @@ class Platform {
  public:
   explicit Platform(const Arguments& arguments)
       : numbers_(read_manipulator_numbers(manipulator_arguments(arguments))),
-        trajectory_(arguments["trajectory"], "/trajectory",
-                    {"circle", "line", "rest_to_rest", "spline"}),
+        trajectory_(read_trajectory(arguments)),
         wrench_(read_wrench(arguments)),
         rates_(arguments.flag("rate_terms", false)) {}
 
@@ -112,7 +111,7 @@ struct History {
 
   /// By the straight line on which the factor lies at `within`.
   [[nodiscard]] Real at(const Real& t, const Real& within) const {
-    const auto next = std::upper_bound(time.begin(), time.end(), within);
+    const auto next = std::ranges::upper_bound(time, within);
     if (next == time.begin()) return factor.front();
     if (next == time.end()) return factor.back();
     const auto k = static_cast<std::size_t>(next - time.begin());
@@ -146,7 +145,7 @@ std::vector<double> moving_platform_program(const Json& json) {
     history.factor = given.numbers("factor", history.time.size());
   }
   const std::vector<Real> times = arguments.numbers("times_s");
-  if (!std::is_sorted(times.begin(), times.end())) arguments.fail("times_s", "times that ascend");
+  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
   State x{};
   Real now = times.front();
   std::vector<Real> values;

@@ -92,8 +92,7 @@ std::vector<double> manipulator_grnn_program(const Json& json) {
                              "step_s", "train", "sigma", "queries", "output"});
   const PlanarManipulator manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
-  const Arguments trajectory(arguments["trajectory"], "/trajectory",
-                             {"circle", "line", "rest_to_rest", "spline"});
+  const Arguments trajectory = read_trajectory(arguments);
   const Real step = arguments.positive("step_s");
   Rows inputs, outputs;
   for (int k = 0; k < arguments.count("train"); ++k) {

@@ -20,13 +20,6 @@ PointJet between(const PointJet& from, const PointJet& to, const Real& distance,
   return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
 }
 
-/// Angular acceleration of the line from one point to another, which keeps its length.
-Real angular_acceleration(const PointJet& from, const PointJet& to) {
-  const Jet<Real> x = to[0] - from[0], y = to[1] - from[1];
-  return (x.value * y.acceleration - y.value * x.acceleration) /
-         (x.value * x.value + y.value * y.value);
-}
-
 /// Unknowns: of each limb the forces of base on proximal link, of proximal on distal link, of
 /// distal link on platform, and the torque of the base on the proximal link.
 enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
@@ -67,6 +60,15 @@ class Body {
 
 }  // namespace
 
+Jet<Real> direction(const PointJet& from, const PointJet& to) {
+  const Jet<Real> x = to[0] - from[0], y = to[1] - from[1];
+  const Real r2 = x.value * x.value + y.value * y.value;
+  const Real rate = (x.value * y.rate - y.value * x.rate) / r2;
+  const Real stretch = (x.value * x.rate + y.value * y.rate) / r2;
+  return {atan2(y.value, x.value), rate,
+          (x.value * y.acceleration - y.value * x.acceleration) / r2 - 2 * rate * stretch};
+}
+
 std::array<PointJet, 3> limb_joints(const LimbBodies& limb,
                                     const std::array<Jet<Real>, 3>& motion) {
   const PointJet base_joint = {limb.base[0], limb.base[1]};
@@ -95,11 +97,11 @@ ManipulatorForces newton_euler_forces(const PlanarManipulator& m,
     proximal.add_joint_force(first + at_B, B, -1);
     proximal.add_torque(first + torque);
     proximal.add_inertia(limb.proximal.mass, limb.proximal.inertia,
-                         angular_acceleration(base_joint, B), m.gravity);
+                         direction(base_joint, B).acceleration, m.gravity);
     Body distal(A, b, 6 * i + 3, between(B, C, limb.distal.center, limb.distal_length));
     distal.add_joint_force(first + at_B, B, 1);
     distal.add_joint_force(first + at_C, C, -1);
-    distal.add_inertia(limb.distal.mass, limb.distal.inertia, angular_acceleration(B, C),
+    distal.add_inertia(limb.distal.mass, limb.distal.inertia, direction(B, C).acceleration,
                        m.gravity);
     platform.add_joint_force(first + at_C, C, 1);
   }

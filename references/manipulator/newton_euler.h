@@ -37,6 +37,9 @@ struct PlanarWrench {
   Real x = 0, y = 0, moment = 0;  ///< on the platform, at P
 };
 
+/// Direction of the line from one point to another, with its derivatives.
+[[nodiscard]] Jet<Real> direction(const Point2<Jet<Real>>& from, const Point2<Jet<Real>>& to);
+
 /// A_i, B_i and C_i of a limb.
 /// @param motion  of the platform: x, y of P and its orientation, with their derivatives
 /// @throws DerivationError  where the limb cannot reach.

@@ -30,7 +30,7 @@ Arguments::Arguments(const Json& object, std::string pointer,
                      std::initializer_list<const char*> known)
     : Arguments(object, std::move(pointer)) {
   for (const auto& item : object_.items()) {
-    if (std::find(known.begin(), known.end(), item.key()) == known.end()) {
+    if (std::ranges::find(known, item.key()) == known.end()) {
       fail(item.key(), "no such key; expected one of " + joined(known));
     }
   }
@@ -48,6 +48,11 @@ std::vector<std::string> Arguments::keys() const {
   std::vector<std::string> names;
   for (const auto& item : object_.items()) names.push_back(item.key());
   return names;
+}
+
+Arguments Arguments::object(const std::string& key,
+                            std::initializer_list<const char*> known) const {
+  return {(*this)[key], pointer(key), known};
 }
 
 const Json& Arguments::operator[](const std::string& key) const {
@@ -70,6 +75,10 @@ Real Arguments::positive(const std::string& key) const {
   Real value = number(key);
   if (!(value > 0)) fail(key, "expected a positive number");
   return value;
+}
+
+Real Arguments::positive(const std::string& key, const Real& default_value) const {
+  return has(key) ? positive(key) : default_value;
 }
 
 Real Arguments::not_negative(const std::string& key, const Real& default_value) const {
@@ -102,7 +111,7 @@ std::string Arguments::choice(const std::string& key, const std::string& default
   if (!has(key) && !default_value.empty()) return default_value;
   const Json& value = (*this)[key];
   const auto* const found =
-      std::find_if(choices.begin(), choices.end(), [&](const char* name) { return value == name; });
+      std::ranges::find_if(choices, [&](const char* name) { return value == name; });
   if (found == choices.end()) fail(key, "expected one of " + joined(choices));
   return *found;
 }
@@ -122,6 +131,15 @@ std::vector<Real> Arguments::numbers(const std::string& key, std::size_t size) c
   std::vector<Real> result = numbers(key);
   if (result.size() != size) fail(key, "expected " + std::to_string(size) + " numbers");
   return result;
+}
+
+std::array<Real, 2> Arguments::point(const std::string& key) const {
+  const std::vector<Real> values = numbers(key, 2);
+  return {values[0], values[1]};
+}
+
+std::array<Real, 2> Arguments::point_or_origin(const std::string& key) const {
+  return has(key) ? point(key) : std::array<Real, 2>{};
 }
 
 std::vector<std::string> Arguments::texts(const std::string& key) const {

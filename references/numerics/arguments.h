@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -32,11 +33,15 @@ class Arguments {
   [[nodiscard]] const Json& operator[](const std::string& key) const;
   [[nodiscard]] std::string pointer(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
+  /// The object at a key.
+  [[nodiscard]] Arguments object(const std::string& key,
+                                 std::initializer_list<const char*> known) const;
 
   // Numbers are the decimals that the reader sees: 0.0015 is 15/10000, not the nearest double.
   [[nodiscard]] Real number(const std::string& key) const;
   [[nodiscard]] Real number(const std::string& key, const Real& default_value) const;
   [[nodiscard]] Real positive(const std::string& key) const;
+  [[nodiscard]] Real positive(const std::string& key, const Real& default_value) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;
   [[nodiscard]] int count(const std::string& key) const;  ///< 1 ... 1000
   [[nodiscard]] bool flag(const std::string& key, bool default_value) const;
@@ -46,6 +51,9 @@ class Arguments {
                                    std::initializer_list<const char*> choices) const;
   [[nodiscard]] std::vector<Real> numbers(const std::string& key) const;
   [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size) const;
+  [[nodiscard]] std::array<Real, 2> point(const std::string& key) const;
+  /// The origin where the key is missing.
+  [[nodiscard]] std::array<Real, 2> point_or_origin(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
 
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const;

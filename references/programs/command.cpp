@@ -7,36 +7,17 @@
 #include <sstream>
 
 #include "references/programs/derivation_comparison.h"
+#include "references/programs/embedded_text.h"
 #include "references/programs/program.h"
 
 namespace trammel::references {
 
 namespace {
 
-const char* const kUsage =
-    "Usage: trammel_derive REFERENCE-FILE...\n"
-    "       trammel_derive --program NAME [--arguments JSON]\n"
-    "       trammel_derive --prove NAME [--arguments JSON]\n"
-    "       trammel_derive --list\n"
-    "\n"
-    "With reference files: prints every stored value, the derived one and their difference, each\n"
-    "against the stated uncertainty. With --program: prints the derived values alone; with "
-    "--prove\n"
-    "30 digits of each, proved in ball arithmetic.\n"
-    "Exit status: 0 everything holds, 1 a stored value is not what comes out, 2 bad usage or "
-    "input.\n";
-
 std::string in_column(double value, int width, int digits) {
   std::ostringstream text;
   text << std::setw(width) << std::setprecision(digits) << value;
   return text.str();
-}
-
-int list_programs(std::ostream& out) {
-  for (const auto& [name, program] : programs()) {
-    out << name << "\n    " << program.summary << "\n    arguments: " << program.arguments << "\n";
-  }
-  return 0;
 }
 
 int run_program(const std::string& name, const std::string& text, bool proving, std::ostream& out) {
@@ -81,14 +62,17 @@ bool print_comparison(const std::string& file, std::ostream& out) {
 
 int run(const std::vector<std::string>& command_line, std::ostream& out, std::ostream& err) {
   if (command_line.empty()) {
-    err << kUsage;
+    err << embedded_text("usage.txt");
     return 2;
   }
   if (command_line[0] == "--help" || command_line[0] == "-h") {
-    out << kUsage;
+    out << embedded_text("usage.txt");
     return 0;
   }
-  if (command_line[0] == "--list" && command_line.size() == 1) return list_programs(out);
+  if (command_line[0] == "--list" && command_line.size() == 1) {
+    out << embedded_text("programs.txt");
+    return 0;
+  }
   const bool proving = command_line[0] == "--prove";
   if ((proving || command_line[0] == "--program") &&
       (command_line.size() == 2 ||

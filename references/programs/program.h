@@ -12,14 +12,13 @@
 namespace trammel::references {
 
 struct Program {
-  std::string summary;    ///< what it derives, with its equation's source
-  std::string arguments;  ///< what it takes, in one line
   std::function<std::vector<double>(const Json&)> run;
   /// The same as proved enclosures: 30 digits each, the last uncertain by one; empty where there is
   /// no proof.
   std::function<std::vector<std::string>(const Json&)> prove = {};
 };
 
+/// What each derives, with its equation's source, and what it takes stands in programs.txt.
 [[nodiscard]] const std::map<std::string, Program>& programs();
 
 /// The values that a program gives, in SI.

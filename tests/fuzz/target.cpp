@@ -12,6 +12,7 @@
 #include "harness/cli/command_compare.h"
 #include "harness/cli/command_line.h"
 #include "harness/input/catalogue.h"
+#include "harness/judge/evaluate_check.h"
 #include "harness/run/claims.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"

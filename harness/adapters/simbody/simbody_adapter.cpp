@@ -7,7 +7,6 @@
 /// asks for to let its proximal links have the acceleration of the path.
 #include <Simbody.h>
 
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <map>

@@ -2,8 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "harness/base/diagnostic.h"
-
 BOOST_AUTO_TEST_SUITE(quantity)
 
 using namespace trammel::harness;

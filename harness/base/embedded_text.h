@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace trammel::harness {
+
+/// The text of a file that is built into the program, by its name. @throws std::logic_error  if
+/// there is no such file.
+[[nodiscard]] const std::string& embedded_text(const std::string& file);
+
+}  // namespace trammel::harness
