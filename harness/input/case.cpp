@@ -1,6 +1,5 @@
 #include "harness/input/case.h"
 
-
 #include "harness/base/contains.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
