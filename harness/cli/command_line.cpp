@@ -7,6 +7,7 @@
 #include <csignal>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -43,7 +44,9 @@ constexpr const char* kStoreHelp =
 std::string help_text(const std::string& section) {
   const std::string& all = embedded_text("help.txt");
   const std::string head = "[" + section + "]\n";
-  const std::size_t begin = all.find(head) + head.size();
+  const std::size_t place = all.find(head);
+  if (place == std::string::npos) throw std::logic_error("no help for " + section);
+  const std::size_t begin = place + head.size();
   const std::size_t end = std::min(all.find("\n\n[", begin), all.size() - 1);
   return all.substr(begin, end - begin);
 }
