@@ -100,8 +100,8 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   std::vector<SectionSummary> summaries;
   for (const IndexSection& section : kIndexSections)
     if (is_there(index, section))
-      summaries.push_back({section.title, section.anchor,
-                           index.get(section.key)->get(section.summary)->string_value()});
+      summaries.push_back(
+          {section.title, section.anchor, text_under(*index.get(section.key), section.summary)});
   index.set("summary", summary_section(results, families, summaries));
   return index;
 }
@@ -131,9 +131,9 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
          {"family_link", "family_title", "cases_count", "status_text", "status_class", "sign"});
     const auto& entries = section.get("cases")->list_value();
     const auto stands_here = [&](const Data& entry) {
-      return entry.get("case_link")->string_value() == path;
+      return text_under(entry, "case_link") == path;
     };
-    const bool is_here = section.get("family_link")->string_value() == path;
+    const bool is_here = text_under(section, "family_link") == path;
     const bool open = is_here || std::ranges::any_of(entries, stands_here);
     const bool has_cases = open || path == "index.html";
     const auto case_contents = [&](const Data& entry) {
@@ -220,7 +220,7 @@ Data titled_index(const Data& index) {
 }
 
 Data titled_by(const Data& section, const char* title) {
-  Data data = titled(section.get(title)->string_value());
+  Data data = titled(text_under(section, title));
   copy(section, data, {"status_class", "status_text", "sign"});
   return data;
 }
@@ -262,7 +262,7 @@ std::vector<ReferencePage> reference_pages(const Results& results,
   for (const Data& entry : all.list_value()) {
     std::size_t first = families.size();
     for (const Data& user : entry.get("used_by")->list_value())
-      first = std::min(first, family_of.at(user.get("case_link")->string_value()));
+      first = std::min(first, family_of.at(text_under(user, "case_link")));
     pages[first].references.push_back(entry);
   }
   const auto is_empty = [](const auto& page) { return page.references.list_value().empty(); };
@@ -325,7 +325,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   std::map<std::string, std::string> moved;
   for (const ReferencePage& page : references)
     for (const Data& entry : page.references.list_value()) {
-      const std::string anchor = "#" + entry.get("anchor")->string_value();
+      const std::string anchor = "#" + text_under(entry, "anchor");
       moved.emplace("references.html" + anchor, page.path + anchor);
     }
   const auto add = [&](const std::string& path, const Data& title, const std::string& body) {

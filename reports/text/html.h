@@ -27,6 +27,13 @@ struct Entry {
 inline void set(Data& data, std::initializer_list<Entry> entries) {
   for (const Entry& entry : entries) data.set(entry.name, entry.value);
 }
+
+/// A text that was set, an empty one too.
+[[nodiscard]] inline std::string text_under(const Data& data, const std::string& name) {
+  const Data* found = data.get(name);
+  return found != nullptr && found->is_string() ? found->string_value() : "";
+}
+
 [[nodiscard]] inline Data object(std::initializer_list<Entry> entries = {}) {
   Data data(Data::type::object);
   set(data, entries);
@@ -36,6 +43,7 @@ inline void set(Data& data, std::initializer_list<Entry> entries) {
 [[nodiscard]] inline Data list() {
   return Data(Data::type::list);
 }
+
 /// What `make` makes of each, in order.
 template <typename Range, typename Make>
 [[nodiscard]] Data list_of(const Range& range, Make make) {
