@@ -201,8 +201,12 @@ class ValidationStudy {
       one.values = series.values;
       one.order = found.order[2];
       one.factor = found.factor[2];
-      one.half_width = one.factor * std::abs(series.values[0] - found.richardson.value_or(kNaN));
-      if (found.broken) one.half_width = kNaN;
+      const auto [low, high] = std::ranges::minmax(series.values);
+      const double off = found.richardson ? std::abs(series.values[0] - *found.richardson)
+                                          : high - low;  // of what has no limit, its range
+      one.half_width = one.factor * off;
+      if (!std::ranges::all_of(series.values, [](double v) { return std::isfinite(v); }))
+        one.half_width = kNaN;
       squares[i] += std::pow(one.half_width / kGciToStandard, 2);
       const bool told = std::ranges::any_of(study_.numerical, [&](const NumericalEstimate& other) {
         return other.refinement == one.refinement && other.quantity == one.quantity &&
