@@ -10,7 +10,6 @@ namespace trammel::references {
 namespace {
 
 constexpr std::size_t kDegree = 30;
-constexpr int kParts = 4;  ///< equal increments from one load factor to the next
 using Series = std::array<Real, kDegree + 1>;
 
 /// The n-th coefficient of a product.

@@ -13,6 +13,7 @@
 #include "solver/assembly/equation_rows.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/sparse_lu.h"
+#include "solver/statics/describe_mechanism.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/statics/zero_energy_modes.h"
 
@@ -78,6 +79,7 @@ void HarmonicSolver::superpose(Index damped) {
   K.compute(system_.K);
   ++counters_.factorizations;
   const ZeroEnergyModes free = find_zero_energy_modes(system_, K, counters_);
+  held_ = free.count() == 0;
   if (damped > 0) {
     const Counters before = counters_;
     modes_ = solve_modes(system_, {std::max(damped, free.count()), EigenMethod::automatic});
@@ -92,7 +94,11 @@ void HarmonicSolver::superpose(Index damped) {
   } else if (free.count() > 0 && free.all_found) {
     const Eigen::MatrixXd mass = free.basis.transpose() * system_.M * free.basis;
     const Eigen::LLT<Eigen::MatrixXd> factor(mass);
-    if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) return;  // moves no mass
+    if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) {
+      outcome_ = {Status::singular,
+                  "a part without mass moves freely: " + describe_mechanism(system_, free)};
+      return;
+    }
     modes_.shape = factor.matrixU().solve<Eigen::OnTheRight>(free.basis);
     modes_.frequency.setZero(free.count());
   }
@@ -100,7 +106,7 @@ void HarmonicSolver::superpose(Index damped) {
 
 VectorXcd HarmonicSolver::at(double frequency) const {
   const double omega = kTwoPi * frequency;
-  if (omega == 0 && (modes_.frequency.array() == 0).any()) return {};
+  if (omega == 0 && !held_) return {};
   VectorXcd q = solve_direct(system_, damping_.rayleigh, omega, unsuperposed_load_);
   ++counters_.factorizations;
   counters_.solves += 2;

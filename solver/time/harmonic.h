@@ -71,6 +71,7 @@ class HarmonicSolver {
   Eigen::VectorXd participation_;      // Phi^T f
   Eigen::VectorXd unsuperposed_load_;  // f - M Phi Phi^T f
   Outcome outcome_;
+  bool held_ = true;  // nothing moves without deforming
   mutable Counters counters_;
 };
 

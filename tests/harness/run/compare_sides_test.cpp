@@ -76,6 +76,13 @@ BOOST_AUTO_TEST_CASE(a_difference_within_the_round_off_that_a_check_states_is_no
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 
+BOOST_AUTO_TEST_CASE(a_change_on_the_second_of_three_sides_is_one) {
+  const Side a = side("a", {{"mass_kg", {1.0}}}), b = side("b", {{"mass_kg", {2.0}}}),
+             c = side("c", {{"mass_kg", {1.0}}});
+  BOOST_TEST(harness::compare_sides({a, b, c}, false).changed == 1U);
+  BOOST_TEST(harness::compare_sides({a, c, b}, false).changed == 1U);
+}
+
 BOOST_AUTO_TEST_CASE(the_round_off_of_a_relative_check_is_of_what_it_expects) {
   Side a = side("a", {{"mass_kg", {10.0}}});
   const Side b = side("b", {{"mass_kg", {10 + 5e-8}}});

@@ -184,6 +184,10 @@ BOOST_AUTO_TEST_CASE(a_singular_model_holds_where_it_is_expected_and_fails_where
   BOOST_TEST((find(runs.at(0), "status").verdict == Verdict::pass));
   BOOST_TEST(runs[0].check_results.size() == 1);
   BOOST_TEST(exit_status(runs) == 0);
+  json["expect_status"] = "not-converged";
+  runs = run_all({testing::read(folder, json)});
+  BOOST_TEST((find(runs.at(0), "status").verdict == Verdict::fail));
+  json["expect_status"] = "singular";
   json["model"]["supports"]["A"] = {"x", "y", "rotation"};
   runs = run_all({testing::read(folder, json)});
   BOOST_TEST((find(runs.at(0), "status").verdict == Verdict::fail));

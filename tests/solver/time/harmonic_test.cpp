@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string>
 
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
@@ -133,6 +134,17 @@ BOOST_AUTO_TEST_CASE(a_free_body_moves_by_its_mass_however_slowly_it_is_shaken) 
                  tolerance(1e-9));
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_part_without_mass_that_nothing_holds_has_no_response) {
+  Model model = oscillator();
+  model.nodes.push_back({"loose", {1, 0}});
+  model.springs.push_back({"y", {1, -1}, {0, 1000, 0}});
+  model.loads = {{1, {3, 0, 0}}};
+  const System system = assemble(model);
+  const HarmonicSolver response(system, {});
+  BOOST_TEST((response.outcome().status == Status::singular));
+  BOOST_TEST(response.outcome().reason.find("without mass") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
