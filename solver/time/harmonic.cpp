@@ -94,7 +94,12 @@ void HarmonicSolver::superpose(Index damped) {
   } else if (free.count() > 0 && free.all_found) {
     const Eigen::MatrixXd mass = free.basis.transpose() * system_.M * free.basis;
     const Eigen::LLT<Eigen::MatrixXd> factor(mass);
-    if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) {
+    // Of a motion without mass the rounding of those that have some.
+    const double least = 1e-20 * system_.M.diagonal().maxCoeff();
+    const bool moves_mass =
+        (mass.diagonal().array() > least * free.basis.colwise().squaredNorm().transpose().array())
+            .all();
+    if (!moves_mass || factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) {
       outcome_ = {Status::singular,
                   "a part without mass moves freely: " + describe_mechanism(system_, free)};
       return;
