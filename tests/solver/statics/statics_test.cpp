@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/model/numbers.h"
+#include "solver/statics/linear_solution.h"
 #include "tests/support/solver/frames.h"
 
 BOOST_AUTO_TEST_SUITE(statics)
@@ -57,6 +58,12 @@ Vector2d joint_of_a_toggle(const Model& model) {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(an_error_that_is_no_number_is_no_solution) {
+  BOOST_TEST(outcome_by_error(0.09).solved());
+  BOOST_TEST(!outcome_by_error(0.11).solved());
+  BOOST_TEST(!outcome_by_error(std::nan("")).solved());
+}
 
 BOOST_AUTO_TEST_CASE(a_cantilever_is_exact_on_every_mesh_and_at_every_angle) {
   for (const Index elements : {1, 3, 64, 1000}) {
