@@ -26,8 +26,8 @@ struct NumericalEstimate {
   std::string refinement, quantity;
   std::size_t index = 0;
   std::vector<double> parameter, values;  ///< the run's own mesh and two finer ones
-  double order = 0;       ///< observed; NaN where the values do not approach a limit
-  double factor = 0;      ///< Roache's, 1.25 or 3
+  double order = 0;   ///< observed; NaN where the values do not approach a limit
+  double factor = 0;  ///< Roache's, 1.25 or 3
   /// factor * |value - extrapolated value|, or where the values diverge their range: about 95 %
   /// [unit] (L. Eca, M. Hoekstra, J. Comput. Phys. 262, 2014)
   double half_width = 0;
