@@ -34,7 +34,7 @@ template <class Range, class Position = std::identity>
   if (std::empty(range)) return 1;
   Vector2d low = position(*std::begin(range)), high = low;
   for (const auto& entry : range) {
-    const Vector2d point = position(entry);
+    const Vector2d& point = position(entry);
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }

@@ -222,18 +222,17 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
   // As near as lies lower on both sides: between two places there may be more than one peak.
   const double first = places[best > 0 ? best - 1 : 0],
                last = places[std::min(best + 1, places.size() - 1)];
-  double from = peak.frequency, to = peak.frequency;
-  for (double width = 1e-6 * std::max(peak.frequency, 1e-3 * high);; width *= 4) {
-    from = std::max(first, peak.frequency - width);
-    to = std::min(last, peak.frequency + width);
-    const bool lower =
-        (from == first || size(from) < peak.amplitude) && (to == last || size(to) < peak.amplitude);
-    if (lower) break;
-  }
+  const auto below = [&](double by) { return std::max(first, peak.frequency - by); };
+  const auto above = [&](double by) { return std::min(last, peak.frequency + by); };
+  const auto is_lower = [&](double f) {
+    return f == first || f == last || size(f) < peak.amplitude;
+  };
+  double width = 1e-6 * std::max(peak.frequency, 1e-3 * high);
+  while (!is_lower(below(width)) || !is_lower(above(width))) width *= 4;
   constexpr int kBits = 26;  // half of a double's: a maximum is flat
   std::uintmax_t evaluations = 100;
   const auto [frequency, negative] = boost::math::tools::brent_find_minima(
-      [&](double f) { return -size(f); }, from, to, kBits, evaluations);
+      [&](double f) { return -size(f); }, below(width), above(width), kBits, evaluations);
   if (-negative > peak.amplitude) peak = {frequency, -negative};
   return peak;
 }
