@@ -272,13 +272,14 @@ bool applies(const JsonView& place, const std::string& variant,
              const std::vector<std::string>& variants) {
   if (place.has("against_variant")) {
     require_variant(place["against_variant"], variants);
-    if (variants.size() == 1 && !place.has("against_quantity"))
-      throw place["against_variant"].error("expected a case with other variants to compare");
     // A variant is not judged against itself.
     const auto quantity = place.text("quantity");
     if (place.text("against_variant") == variant &&
-        place.get("against_quantity", quantity) == quantity)
+        place.get("against_quantity", quantity) == quantity) {
+      if (variants.size() == 1)
+        throw place["against_variant"].error("expected a case with other variants to compare");
       return false;
+    }
   }
   if (!place.has("variants")) return true;
   bool named = false;

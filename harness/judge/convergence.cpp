@@ -195,7 +195,7 @@ class ConvergenceStudy {
     at_floor_.assign(count(), false);
     for (std::size_t k = 0; k < count(); ++k) {
       const double clear = series_.is_error ? 1.0 : error_[k];  // roundoff_ is relative to v_
-      at_floor_[k] = !(clear > kRoundoffMargin * roundoff_[k]);
+      at_floor_[k] = clear <= kRoundoffMargin * roundoff_[k];
     }
     if (fit_two_orders()) return;
     for (std::size_t k = 1; k < count(); ++k) {

@@ -226,14 +226,11 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
   if (!result.outcome.solved()) return result;
   const std::size_t points = points_of(analysis);
   for (std::size_t point = 0; point < points; ++point) scene.record_at(point, true, record, result);
-  if (std::any_of(scene.outputs.begin(), scene.outputs.end(),
-                  [](const Output& one) { return one.needs_forces(); }))
-    warn_of_redundancy(scene.system, result.warnings);
+  if (needs_forces(scene.outputs)) warn_of_redundancy(scene.system, result.warnings);
   const double at = scene.record_peaks(record, result.warnings);
   if (result.drawing && !scene.outputs.empty()) response.draw_at(at, *result.drawing);
-  for (solver::Index i = 0; i < response.of_system().frequencies().size(); ++i) {
-    record.add("natural_frequency_Hz", "", response.of_system().frequencies()[i]);
-  }
+  for (const double frequency : response.of_system().frequencies())
+    record.add("natural_frequency_Hz", "", frequency);
   record.add("degrees_of_freedom", "", static_cast<double>(scene.system.K.rows()));
   result.counters += response.of_system().counters();
   return result;

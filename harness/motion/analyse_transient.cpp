@@ -92,8 +92,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
       reduced_system(analysis, solver::assemble(build_model(case_model, step), case_model.effects));
   if (!outcome.solved()) return {outcome, system.counters, std::nullopt};
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
-  const bool with_forces =
-      std::ranges::any_of(outputs, [](const Output& one) { return one.needs_forces(); });
+  const bool with_forces = needs_forces(outputs);
   if (with_forces && analysis.has("rotating_frame")) {
     throw analysis["outputs"].error(
         "expected motions alone beside 'rotating_frame': what the frame does to the inside of "

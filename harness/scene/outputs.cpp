@@ -1,5 +1,6 @@
 #include "harness/scene/outputs.h"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -89,6 +90,10 @@ double end_force(const Output& output, const solver::Model& model, const Eigen::
 }
 
 }  // namespace
+
+bool needs_forces(const std::vector<Output>& outputs) {
+  return std::ranges::any_of(outputs, &Output::needs_forces);
+}
 
 std::vector<Output> read_outputs(const JsonView& outputs, const solver::Model& model) {
   std::vector<Output> read;

@@ -22,6 +22,9 @@ struct Output {
   [[nodiscard]] std::string prefixed(const std::string& prefix) const { return prefix + name; }
 };
 
+/// Whether any of them does.
+[[nodiscard]] bool needs_forces(const std::vector<Output>& outputs);
+
 /// @throws InputError  where a name is none, or names a part that the model does not have.
 [[nodiscard]] std::vector<Output> read_outputs(const JsonView& outputs, const solver::Model& model);
 

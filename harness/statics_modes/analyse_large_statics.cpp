@@ -109,6 +109,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   std::vector<PathPoint> recorded_points;
   std::vector<PathEvent> events;  // of the longest path
+  const double longest = *std::ranges::max_element(factors);
   for (const double factor : factors) {
     options.target = factor;
     StaticPath path = follow_static_path(system, options);
@@ -120,7 +121,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     result.evidence.add(path.evidence);
     if (!path.outcome.solved()) return result;
     recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
-    if (factor == *std::max_element(factors.begin(), factors.end())) events = path.events;
+    if (factor == longest) events = std::move(path.events);
   }
   const auto vibrations = analysis.get("vibration_modes", solver::Index{0});
   if (!large_motion.follower_loads.empty() && vibrations == 0)

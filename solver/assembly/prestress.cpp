@@ -96,8 +96,9 @@ void visit_rail(const System& system, const LinearConstraint::Rail& rail, double
   const auto& node = system.coordinates.node[to_size(rail.node)];
   const auto& slider = system.coordinates.node[to_size(rail.slider)];
   if (node[2] < 0) return;
-  const Vector2d &t = rail.direction, d = system.mesh.positions[to_size(rail.slider)] -
-                                          system.mesh.positions[to_size(rail.node)];
+  const Vector2d& t = rail.direction;
+  const Vector2d d =
+      system.mesh.positions[to_size(rail.slider)] - system.mesh.positions[to_size(rail.node)];
   Eigen::Matrix<double, 2, 5> B;
   B << 1, 0, 0, 0, 0, 0, t.x(), t.y(), -t.x(), -t.y();
   Eigen::Matrix2d H;

@@ -57,39 +57,35 @@ void add_geometric(const System& system, const ElasticState& state, VectorXd& su
 
 /// What the rounding of a constraint's force is a share of: a constraint carries the terms at each
 /// of its coordinates to all of them, as a chain of inextensible elements does to its loose end.
-class CarriedTerms {
- public:
-  CarriedTerms(const std::vector<ConstraintRow>& rows, const VectorXd& force, const VectorXd& terms)
-      : terms_(terms), row_(force.cwiseAbs()) {
-    for (Index i = 0; i < row_.size(); ++i) carry(rows[to_size(i)], row_[i]);
-    for (Index i = row_.size(); i-- > 0;) carry(rows[to_size(i)], row_[i]);
-  }
-
-  [[nodiscard]] double of_row(std::size_t i) const { return row_[static_cast<Index>(i)]; }
-
- private:
-  void carry(const ConstraintRow& row, double& size) {
+/// @returns  constraint row
+VectorXd carried_terms(const std::vector<ConstraintRow>& rows, const VectorXd& force,
+                       VectorXd terms) {
+  VectorXd carried = force.cwiseAbs();
+  const auto carry = [&](Index i) {
+    const ConstraintRow& row = rows[to_size(i)];
     if (row.source == ConstraintRow::Source::support) return;
+    double& size = carried[i];
     for (const auto& [coordinate, coefficient] : row.terms) {
-      if (coefficient != 0) size = std::max(size, terms_[coordinate] / std::abs(coefficient));
+      if (coefficient != 0) size = std::max(size, terms[coordinate] / std::abs(coefficient));
     }
     for (const auto& [coordinate, coefficient] : row.terms)
-      terms_[coordinate] = std::max(terms_[coordinate], std::abs(coefficient) * size);
-  }
-
-  VectorXd terms_, row_;
-};
+      terms[coordinate] = std::max(terms[coordinate], std::abs(coefficient) * size);
+  };
+  for (Index i = 0; i < carried.size(); ++i) carry(i);
+  for (Index i = carried.size(); i-- > 0;) carry(i);
+  return carried;
+}
 
 /// Adds what supports and other constraints exert, with its magnitudes.
 void add_constraints(const System& system, const ElasticState& state,
                      const StaticSolution& solution, VectorXd& sum, VectorXd& magnitudes) {
   const VectorXd multipliers = constraint_forces(system, state);
-  const CarriedTerms carried(system.constraints.rows, multipliers, magnitudes);
+  const VectorXd carried = carried_terms(system.constraints.rows, multipliers, magnitudes);
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[i];
     double force = multipliers[static_cast<Index>(i)];
     for (const auto& [coordinate, coefficient] : row.terms)
-      magnitudes[coordinate] += std::abs(coefficient) * carried.of_row(i);
+      magnitudes[coordinate] += std::abs(coefficient) * carried[static_cast<Index>(i)];
     if (row.source == ConstraintRow::Source::inextensible) continue;  // the members have it
     if (row.source == ConstraintRow::Source::support) {
       const Index u = row.terms.front().first;

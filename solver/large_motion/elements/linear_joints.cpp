@@ -15,7 +15,8 @@ void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& 
 }
 
 void add_linear_slider(Model& model, const large_motion::Slider& slider) {
-  const Vector2d normal(-std::sin(slider.direction), std::cos(slider.direction));
+  const Vector2d direction(std::cos(slider.direction), std::sin(slider.direction));
+  const Vector2d normal = perpendicular(direction);
   using Kind = Coordinate::Kind;
   LinearConstraint no_normal_displacement{
       slider.name,
@@ -25,7 +26,7 @@ void add_linear_slider(Model& model, const large_motion::Slider& slider) {
     const Vector2d offset =
         model.nodes[to_size(slider.node)].position - model.nodes[to_size(slider.rail)].position;
     const double lever = normal.dot(perpendicular(offset));
-    no_normal_displacement.rail = {slider.rail, slider.node, -perpendicular(normal)};
+    no_normal_displacement.rail = {slider.rail, slider.node, direction};
     no_normal_displacement.terms.push_back({{Kind::x, slider.rail, -1, 0}, -normal.x()});
     no_normal_displacement.terms.push_back({{Kind::y, slider.rail, -1, 0}, -normal.y()});
     if (lever != 0)
