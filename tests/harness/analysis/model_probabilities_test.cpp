@@ -101,6 +101,14 @@ BOOST_AUTO_TEST_CASE(a_row_may_leave_out_one_of_the_lowest_numbers) {
   BOOST_TEST((found.cells.front().chosen == std::vector<Eigen::Index>{0, 2}));
 }
 
+BOOST_AUTO_TEST_CASE(a_reading_shares_its_prior_among_the_rows_that_it_could_be) {
+  // Only one of the three pairs of the second reading is the row.
+  const auto found =
+      harness::model_probabilities({reading_of(numbers({1, 3})), reading_of(numbers({1, 2, 3}))},
+                                   row_of(numbers({1, 3})), 3, 0.01);
+  BOOST_TEST(found.probability[0] == 0.75, boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(an_unknown_that_the_row_does_not_need_costs_evidence) {
   const auto found =
       harness::model_probabilities({reading_of(numbers({1, 2})), reading_of(numbers({1, 2}), 1)},

@@ -100,6 +100,10 @@ BOOST_AUTO_TEST_CASE(round_off_that_a_refinement_states_counts_and_what_is_no_nu
   study.roundoff = {1e-9, 1e-8};
   b.results.runs[0].convergence = {study};
   BOOST_TEST(compared(a, b).changed == 0U);
+  // More than a millionth is no round-off, whoever says so.
+  b.results.runs[0].convergence[0].roundoff = {1e-3, 1e-3};
+  BOOST_TEST(compared(a, b).changed == 1U);
+  b.results.runs[0].convergence = {study};
   b.results.runs[0].quantities[0].second = {1.0, std::nullopt};
   BOOST_TEST(compared(a, b).changed == 1U);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/input/schema.h"
+#include "harness/judge/evaluate_order_check.h"
 #include "harness/judge/sweep.h"
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
@@ -128,6 +129,23 @@ BOOST_AUTO_TEST_CASE(an_order_from_too_few_meshes_is_no_order) {
   const auto runs = run_all({testing::read(folder, json)});
   BOOST_TEST((find(runs.at(0), "order").verdict == Verdict::error));
   BOOST_TEST(contains(find(runs.at(0), "order").message, "only 2 meshes qualify, 3 are needed"));
+}
+
+BOOST_AUTO_TEST_CASE(an_order_of_a_sweep_with_a_level_that_has_no_value_is_no_order) {
+  const Folder folder;
+  const Case beams = testing::read(folder, beam(folder));
+  const References references;
+  std::vector<Run> runs = run_all({beams});
+  Convergence study = runs.at(0).convergence.at(0);
+  study.broken = true;
+  const Document document = patched(beams, "base");
+  const std::vector<Check> checks = read_checks(document, "base", beams.variants());
+  const std::vector<Convergence> convergence = {study};
+  const CheckContext context{document, runs[0].result.quantities, convergence, references,
+                             [](const auto&) { return nullptr; }};
+  const CheckResult judged = evaluate_order_check(checks.at(0), context).at(0);
+  BOOST_TEST((judged.verdict == Verdict::error));
+  BOOST_TEST(judged.message == "a refined level has no finite value");
 }
 
 BOOST_AUTO_TEST_CASE(the_numbers_do_not_depend_on_the_jobs) {

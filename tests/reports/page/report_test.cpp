@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(summary_counts_what_the_results_hold) {
   BOOST_TEST(says("<strong>" + std::to_string(known) + "</strong> does not agree (known)"));
   BOOST_TEST(says("<strong>" + std::to_string(recorded) + "</strong> not judged"));
   BOOST_TEST(says("1 check fails, 1 could not be evaluated, 1 run did not end as expected."));
-  BOOST_TEST(says("platform_inertia_kg_m2[0] is not finite"));
+  BOOST_TEST(says("<p class=\"reason\">platform_inertia_kg_m2[0] is not finite"));
   BOOST_TEST(says("/model/nodes/B: a member of length 0"));
 }
 
