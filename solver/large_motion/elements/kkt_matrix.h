@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -24,7 +25,8 @@ using Eigen::VectorXd;
 ///
 /// whose upper left block is positive definite where the structure is stable. Each row is
 /// eliminated after its coordinates, so LDL^T needs no pivoting, and its negative pivots count the
-/// unstable directions. A relative 1e-11 on the rows' diagonal keeps redundant constraints regular.
+/// unstable directions. At least a relative 1e-11 on the rows' diagonal keeps redundant constraints
+/// regular.
 /// The pattern is set once; assembling, factoring and solving reuse its memory.
 class KktMatrix {
  public:
@@ -64,8 +66,8 @@ class KktMatrix {
     scatter_rows(block, D, G, E);
     const Index n = S.rows();
     for (Index i = 0; i < G.rows(); ++i) {
-      add_row_diagonal(block, n + i, n + G.rows(), -c[i] * E[i] - 1e-11 / penalty[i],
-                       penalty[i] / E[i]);
+      const double compliance = std::max(c[i] * E[i], 1e-11 / penalty[i]);
+      add_row_diagonal(block, n + i, n + G.rows(), -compliance, penalty[i] / E[i]);
     }
   }
 

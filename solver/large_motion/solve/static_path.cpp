@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -21,35 +22,34 @@ struct Direction {
   double load = 0;
 };
 
+/// A point between two others of the path: how far from the first, what is to vanish, and the load.
+struct Trial {
+  double arc, f, load;
+};
+
 /// A root between two points by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT
 /// 11, 1971).
 class IllinoisBracket {
  public:
-  IllinoisBracket(double right, double f_left, double f_right)
-      : right_(right), f_left_(f_left), f_right_(f_right) {}
+  IllinoisBracket(const Trial& left, const Trial& right) : left_(left), right_(right) {}
 
-  [[nodiscard]] bool has_no_root() const { return f_left_ * f_right_ > 0; }
-  [[nodiscard]] double width() const { return std::abs(right_ - left_); }
-  [[nodiscard]] double next() const {
-    return left_ - f_left_ * (right_ - left_) / (f_right_ - f_left_);
-  }
-  void update(double x, double f) {
-    if (f * f_left_ > 0) {
-      left_ = x;
-      f_left_ = f;
-      f_right_ /= last_side_ < 0 ? 2 : 1;
-      last_side_ = -1;
-    } else {
-      right_ = x;
-      f_right_ = f;
-      f_left_ /= last_side_ > 0 ? 2 : 1;
-      last_side_ = 1;
-    }
+  [[nodiscard]] bool has_no_root() const { return left_.f * right_.f > 0; }
+  [[nodiscard]] double width() const { return std::abs(right_.arc - left_.arc); }
+  [[nodiscard]] double next() const { return left_.arc + share() * (right_.arc - left_.arc); }
+  [[nodiscard]] double load() const { return left_.load + share() * (right_.load - left_.load); }
+  void update(const Trial& trial) {
+    const bool is_left = trial.f * left_.f > 0;
+    (is_left ? right_ : left_).f /= was_updated_ && is_left == was_left_ ? 2 : 1;
+    (is_left ? left_ : right_) = trial;
+    was_left_ = is_left;
+    was_updated_ = true;
   }
 
  private:
-  double left_ = 0, right_, f_left_, f_right_;
-  int last_side_ = 0;
+  [[nodiscard]] double share() const { return left_.f / (left_.f - right_.f); }
+
+  Trial left_, right_;
+  bool was_updated_ = false, was_left_ = false;
 };
 
 /// What the next step is longer by: five corrections each. Where the second is a tenth of the
@@ -245,11 +245,12 @@ class PathFollower {
     const bool load_reversed = reverses_load(ahead);
     if (!stability_changed(previous_unstable, to)) return !load_reversed || previous_unstable < 0;
     PathPoint critical = to;
-    if (!locate(from, previous_unstable, load_reversed, to, critical)) return false;
+    const std::optional<double> load = locate(from, previous_unstable, load_reversed, to, critical);
+    if (!load) return false;
     const auto [low, high] = std::minmax(from.load, to.state.load);
-    const double load = critical.state.load, slack = 1e-9 * std::abs(load);
-    if (!load_reversed) return load > low - slack && load < high + slack;
-    return direction_.load > 0 ? load > high - slack : load < low + slack;
+    const double slack = 1e-9 * std::abs(*load);
+    if (!load_reversed) return *load > low - slack && *load < high + slack;
+    return direction_.load > 0 ? *load > high - slack : *load < low + slack;
   }
 
   static bool stability_changed(Index previous_unstable, const PathPoint& point) {
@@ -305,8 +306,9 @@ class PathFollower {
     PathEvent event;
     event.kind = load_reversed ? PathEvent::Kind::limit_point : PathEvent::Kind::bifurcation;
     PathPoint critical = point;
-    locate(from, previous_unstable, load_reversed, point, critical);
-    event.load = critical.state.load;
+    const std::optional<double> load =
+        locate(from, previous_unstable, load_reversed, point, critical);
+    event.load = load.value_or(critical.state.load);
     if (!equilibrium_.factor(critical.state)) return false;
     equilibrium_.smallest_eigenpair(event.shape);
     path_.events.push_back(event);
@@ -317,9 +319,10 @@ class PathFollower {
   }
 
   /// Finds along the arc where dload/darc vanishes (a limit point) or the smallest eigenvalue does
-  /// (a bifurcation). @returns whether it was found; where not, `critical` is left near it.
-  bool locate(const State& from, Index previous_unstable, bool load_reversed, const PathPoint& to,
-              PathPoint& critical) {
+  /// (a bifurcation). @returns the load there, or nothing where it is not found; `critical` is left
+  /// near it.
+  std::optional<double> locate(const State& from, Index previous_unstable, bool load_reversed,
+                               const PathPoint& to, PathPoint& critical) {
     const Direction d = direction_;
     const auto indicator = [&](const State& state) {
       if (load_reversed) return tangent(state, d).load;
@@ -330,22 +333,31 @@ class PathFollower {
     };
     const Direction chord = chord_between(from, to.state);
     const double interval = dot(d, chord.step, chord.load);
-    if (!equilibrium_.factor(from)) return false;
-    const double f_from = indicator(from);
-    if (!equilibrium_.factor(to.state)) return false;
-    IllinoisBracket bracket(interval, f_from, indicator(to.state));
+    if (!equilibrium_.factor(from)) return {};
+    const Trial first = {0, indicator(from), from.load};
+    if (!equilibrium_.factor(to.state)) return {};
+    IllinoisBracket bracket(first, {interval, indicator(to.state), to.state.load});
     for (int i = 0; i < 60 && bracket.width() > 1e-12 * std::abs(interval); ++i) {
-      if (bracket.has_no_root()) return false;
-      const double arc = bracket.next();
-      PathPoint trial;
-      if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
-      const double f = indicator(trial.state);
-      const double before = critical.state.load;
-      critical = trial;
-      if (f == 0 || std::abs(critical.state.load - before) < 1e-13 * std::abs(before)) return true;
-      bracket.update(arc, f);
+      if (bracket.has_no_root()) return {};
+      // At a bifurcation itself the equations are singular; then beside it, on either side.
+      const double root = bracket.next(), aside = 1e-3 * bracket.width();
+      bool solved = false;
+      for (const double arc : {root, root - aside, root + aside}) {
+        PathPoint trial;
+        if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) continue;
+        const double before = critical.state.load;
+        critical = std::move(trial);
+        const double f = indicator(critical.state), load = critical.state.load;
+        if (f == 0 || std::abs(load - before) < 1e-13 * std::abs(before)) return load;
+        bracket.update({arc, f, load});
+        solved = true;
+        if (arc == root) break;
+      }
+      if (solved) continue;
+      if (bracket.width() < 1e-4 * std::abs(interval)) return bracket.load();
+      return {};
     }
-    return true;
+    return critical.state.load;
   }
 
   void switch_to_branch(const PathPoint& critical, const VectorXd& shape) {

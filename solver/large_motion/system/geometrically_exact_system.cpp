@@ -73,7 +73,7 @@ GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel
   for (const auto& [k, m] : parts_.point_mass) masses.emplace_back(k, k, m);
   mass_.setFromTriplets(masses.begin(), masses.end());
   gravity_ = mass_ * gravity_field(model_, layout_);
-  const PenaltyScales scales(model_, layout_, mass_.diagonal());
+  const PenaltyScales scales(model_, large_motion_, layout_, mass_.diagonal());
   for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
     group->append_blocks(blocks_);
     group->set_compliance(compliance_);

@@ -8,8 +8,9 @@ namespace trammel::solver::large_motion {
 namespace {
 
 /// Stiffness of the elements at each coordinate: EA/h of bars, 12 EI/h^3 and 12 EI/h of beams, E t
-/// of triangles.
-Eigen::VectorXd coordinate_stiffness(const Model& model, const Layout& layout) {
+/// of triangles, and that of springs.
+Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel& large_motion,
+                                     const Layout& layout) {
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(layout.total);
   for (const MemberElement& element : layout.elements) {
     const double h = element.length();
@@ -27,6 +28,18 @@ Eigen::VectorXd coordinate_stiffness(const Model& model, const Layout& layout) {
         stiffness[layout.node[to_size(node)][k]] += plate.material.E * plate.thickness;
       }
     }
+  }
+  const auto add = [&](Index node, std::size_t direction, double value) {
+    const Index k = node < 0 ? node : layout.node[to_size(node)][direction];
+    if (k >= 0) stiffness[k] += value;
+  };
+  for (const Spring& spring : model.springs) {
+    for (const Index node : spring.nodes)
+      for (std::size_t k = 0; k < 3; ++k) add(node, k, spring.stiffness[static_cast<Index>(k)]);
+  }
+  for (const LineSpring& spring : large_motion.line_springs) {
+    for (const Index node : spring.nodes)
+      for (std::size_t k = 0; k < 2; ++k) add(node, k, spring.stiffness);
   }
   return stiffness;
 }
@@ -48,8 +61,9 @@ double largest(const Eigen::VectorXd& values, std::span<const Index> coordinates
 
 }  // namespace
 
-PenaltyScales::PenaltyScales(const Model& model, const Layout& layout, Eigen::VectorXd mass)
-    : stiffness_(coordinate_stiffness(model, layout)), mass_(std::move(mass)) {
+PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_motion,
+                             const Layout& layout, Eigen::VectorXd mass)
+    : stiffness_(coordinate_stiffness(model, large_motion, layout)), mass_(std::move(mass)) {
   mean_mass_ = mean_of_positive(mass_, 1);
   mean_stiffness_ = mean_of_positive(stiffness_, mean_mass_);
 }

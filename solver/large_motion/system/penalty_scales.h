@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "solver/large_motion/elements/large_motion_model.h"
 #include "solver/large_motion/system/layout.h"
 #include "solver/model/model.h"
 
@@ -13,7 +14,8 @@ namespace trammel::solver::large_motion {
 class PenaltyScales {
  public:
   /// @param mass  diagonal of the mass matrix, one entry a coordinate [kg or kg m^2]
-  PenaltyScales(const Model& model, const Layout& layout, Eigen::VectorXd mass);
+  PenaltyScales(const Model& model, const LargeMotionModel& large_motion, const Layout& layout,
+                Eigen::VectorXd mass);
 
   /// The largest stiffness among some coordinates; the model's mean where they have none [N/m].
   [[nodiscard]] double stiffness(std::span<const Index> coordinates) const;
