@@ -8,14 +8,53 @@
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"
+#include "solver/linalg/factorization.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
 
+/// What balances the strains of a damped motion. Damping in proportion to stiffness, K (q + t q'),
+/// makes them follow loads and inertia late: x + t x' = all of these, and K q = x of the loads - M
+/// x of the accelerations.
+class LateInertia {
+ public:
+  LateInertia(const solver::System& system, const MotionHistory& motion)
+      : system_(system), motion_(motion), active_(motion.followed_factor.size() > 0) {
+    if (!active_) return;
+    double fastest = 0;
+    for (solver::Index i = 0; i < system.M.rows(); ++i) {
+      const double mass = system.M.coeff(i, i);
+      if (mass > 0) fastest = std::max(fastest, system.K.coeff(i, i) / mass);
+    }
+    share_ = fastest > 0 ? 1e-6 / fastest : 0;
+    regular_mass_.compute(solver::SparseMatrix(system.M + share_ * system.K));
+  }
+
+  void put(solver::Index sample, solver::ElasticState& elastic) const {
+    if (!active_) return;
+    const auto factor = motion_.followed_factor.col(sample);
+    const Eigen::VectorXd weight = system_.T.transpose() * system_.weight;
+    const Eigen::VectorXd balance =
+        factor[0] * (system_.f - weight) + factor[1] * weight - system_.K * motion_.q.col(sample);
+    Eigen::VectorXd late = Eigen::VectorXd::Zero(balance.size());
+    for (int pass = 0; pass < 3; ++pass) late += regular_mass_.solve(balance - system_.M * late);
+    elastic.acceleration = system_.T * late;
+    elastic.load_factor = factor[0];
+    elastic.weight_factor = factor[1];
+  }
+
+ private:
+  const solver::System& system_;
+  const MotionHistory& motion_;
+  bool active_;
+  double share_ = 0;
+  solver::Factorization regular_mass_;
+};
+
 /// Displacements, velocities and, where an output asks for them, section forces of a sample.
 MovingState state_of(const solver::System& system, const MotionHistory& motion,
-                     solver::Index sample, bool with_forces) {
+                     const LateInertia& late, solver::Index sample, bool with_forces) {
   MovingState state;
   state.displacement = solver::node_motion(system, motion.q.col(sample));
   state.velocity = solver::node_motion(system, motion.v.col(sample));
@@ -29,6 +68,7 @@ MovingState state_of(const solver::System& system, const MotionHistory& motion,
   elastic.load_factor = motion.load_factor[solver::to_size(sample)];
   elastic.constraint_forces = constraint_forces(system, elastic);  // which damping bears upon, too
   elastic.u = system.T * motion.q.col(sample);
+  late.put(sample, elastic);
   postprocess(system, elastic, state.forces);
   return state;
 }
@@ -109,8 +149,9 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   if (with_forces) warn_of_redundancy(system, result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
+  const LateInertia late(system, motion);
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {
-    const MovingState state = state_of(system, motion, sample, with_forces);
+    const MovingState state = state_of(system, motion, late, sample, with_forces);
     record.add("time_s", "", motion.time[solver::to_size(sample)]);
     for (solver::Index i = 0; i < values.rows(); ++i) {
       const Output& output = outputs[solver::to_size(i)];

@@ -11,6 +11,7 @@
 #include "harness/readers/material_reader.h"
 #include "harness/readers/time_reader.h"
 #include "solver/assembly/damping.h"
+#include "solver/assembly/inertia.h"
 #include "solver/model/numbers.h"
 #include "solver/modes/modes.h"
 #include "solver/time/modal_superposition.h"
@@ -52,18 +53,25 @@ struct InitialState {
   Eigen::VectorXd q0, v0;
 };
 
-/// The motion of the free coordinates that comes nearest to a velocity of every node, exact where
-/// constraints allow it.
+/// The motion of the free coordinates whose difference from a velocity of every node, 0 where
+/// supports hold it, has the least kinetic energy; what has no mass strains least.
 Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector2d& velocity) {
+  constexpr double kStraining = 1e-12;
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const auto& node : system.coordinates.node) {
     wanted[node[0]] = velocity.x();
     wanted[node[1]] = velocity.y();
   }
-  const solver::SparseMatrix normal = solver::SparseMatrix(system.T.transpose()) * system.T;
+  for (const solver::ConstraintRow& row : system.constraints.rows) {
+    if (row.source == solver::ConstraintRow::Source::support) wanted[row.terms.front().first] = 0;
+  }
+  const Eigen::VectorXd momentum = system.T.transpose() * solver::inertia_forces(system, wanted);
+  solver::SparseMatrix normal = system.M;
+  const double stiffness = system.K.diagonal().maxCoeff();
+  if (stiffness > 0) normal += kStraining * system.M.diagonal().maxCoeff() / stiffness * system.K;
   solver::Factorization factorization;
   factorization.compute(normal);
-  return factorization.solve(system.T.transpose() * wanted);
+  return factorization.solve(momentum);
 }
 
 InitialState read_initial(const JsonView& transient, const solver::System& system,
@@ -132,6 +140,14 @@ class Motion {
       superpose_modes();
     } else {
       integrate();
+    }
+    if (const double relaxation = history_.damping.rayleigh.stiffness; relaxation > 0) {
+      const auto initial = transient_.find("initial_state");
+      const bool held = initial && initial->json() == "static-equilibrium";
+      history_.followed_factor =
+          solver::followed_factors(load_, relaxation, VectorXd::Constant(2, held ? 1 : 0),
+                                   history_.time)
+              .value;
     }
     return history_;
   }
@@ -220,10 +236,11 @@ class Motion {
     }
     solver::ModalResponse response =
         solver::superpose(basis, decay, system_.M, load_, history_.time, initial_.q0, initial_.v0);
+    solver::add_massless_coordinates(basis, system_.M, system_.K, damping.rayleigh.stiffness, load_,
+                                     history_.time, initial_.q0, response, history_.counters);
     history_.q = std::move(response.q);
     history_.v = std::move(response.v);
     history_.a = std::move(response.a);
-    add_massless(basis);
     solver::EquationOfMotion equation;
     equation.M = system_.M;
     equation.K = system_.K;
@@ -241,21 +258,6 @@ class Motion {
                                transient_.number("step_s"));
     }
     history_.evidence = evidence.result();
-  }
-
-  /// What acts on coordinates without mass moves no mode: they follow it at once.
-  void add_massless(const solver::ModalBasis& basis) {
-    const Eigen::MatrixXd rest =
-        load_.pattern - system_.M * (basis.shape * (basis.shape.transpose() * load_.pattern));
-    if (!(rest.norm() > 1e-9 * load_.pattern.norm())) return;
-    solver::Factorization K;
-    K.compute(system_.K);
-    ++history_.counters.factorizations;
-    if (!K.exists()) return;
-    const VectorXd by_loads = K.solve(rest.col(0)), by_weight = K.solve(rest.col(1));
-    for (solver::Index i = 0; i < history_.q.cols(); ++i) {
-      history_.q.col(i) += history_.load_factor[solver::to_size(i)] * by_loads + by_weight;
-    }
   }
 
   const JsonView& transient_;

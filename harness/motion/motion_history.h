@@ -17,6 +17,9 @@ struct MotionHistory {
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
   std::vector<double> load_factor;  ///< of the loads, not weight, at those times
+  /// Of the loads and of the weight, what strains follow late where damping is in proportion to
+  /// stiffness: 2 x time; else empty.
+  Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;          ///< free coordinate x time
   solver::ViscousDamping damping;   ///< that it has
   std::int64_t steps = 0;           ///< of the integrator; 0 for superposed modes

@@ -142,9 +142,9 @@ class Sides {
 };
 
 solver::Block read_block(const JsonView& place, const SymbolTable& symbols, const Outline& outline,
-                         const solver::Model& structure, solver::Index divisions) {
+                         const solver::Model& structure, solver::Index divisions,
+                         std::array<solver::Index, 4>& corners) {
   solver::Block block;
-  std::array<solver::Index, 4> corners{};
   for (std::size_t i = 0; i < 4; ++i) {
     corners[i] = symbols.find_node(place["corners"][i]);
     block.corners[i] = position(structure, corners[i]);
@@ -170,12 +170,15 @@ void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline
   const auto divisions = place.get<solver::Index>("divisions", 1);
   std::vector<solver::Block> blocks;
   std::vector<JsonView> places;
+  std::vector<solver::Index> corners;
   for (const auto& entry : place["blocks"].entries()) {
+    std::array<solver::Index, 4> of_block{};
     places.push_back(entry.second);
-    blocks.push_back(read_block(entry.second, symbols, outline, structure, divisions));
+    blocks.push_back(read_block(entry.second, symbols, outline, structure, divisions, of_block));
+    corners.insert(corners.end(), of_block.begin(), of_block.end());
   }
   const solver::BlockMesh mesh = solver::mesh_blocks(blocks, six_nodes);
-  const std::vector<solver::Index> nodes = solver::append(structure, plate, mesh);
+  const std::vector<solver::Index> nodes = solver::append(structure, plate, mesh, corners);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const std::vector<solver::Index>& of_mesh : mesh.sides[b]) {
       Edge::Piece piece{plate, {}, six_nodes};

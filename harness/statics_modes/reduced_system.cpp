@@ -6,7 +6,7 @@
 
 namespace trammel::harness {
 
-ReducedSystem reduced_system(const JsonView& analysis, solver::System system) {
+ReducedSystem reduced_system(const JsonView& analysis, solver::System system, bool with_weight) {
   const auto reduction = analysis.find("reduction");
   if (!reduction) return {{}, std::move(system)};
   if (const auto modes = reduction->find("fixed_interface_modes"))
@@ -14,8 +14,11 @@ ReducedSystem reduced_system(const JsonView& analysis, solver::System system) {
   const solver::ModalSolution modes =
       solver::solve_modes(system, {.count = (*reduction)["modes"].get<solver::Index>()});
   if (!modes.outcome.solved()) return {modes.outcome, std::move(system)};
+  const Eigen::VectorXd weight = system.T.transpose() * system.weight;
+  std::vector<Eigen::VectorXd> loads = {system.f - weight};
+  if (with_weight) loads.push_back(weight);
   try {
-    return {{}, solver::reduce_to_modes(system, modes)};
+    return {{}, solver::reduce_to_modes(system, modes, loads)};
   } catch (const solver::ModelError& error) {
     throw reduction->error(error.what());
   }

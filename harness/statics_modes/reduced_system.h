@@ -13,7 +13,9 @@ struct ReducedSystem {
 };
 
 /// As the key "reduction" of the analysis says; without it the system as it is.
+/// @param with_weight  the analysis lets it act, beside the loads
 /// @throws InputError  for a reduction that the system does not allow.
-[[nodiscard]] ReducedSystem reduced_system(const JsonView& analysis, solver::System system);
+[[nodiscard]] ReducedSystem reduced_system(const JsonView& analysis, solver::System system,
+                                           bool with_weight = true);
 
 }  // namespace trammel::harness

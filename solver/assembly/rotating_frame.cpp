@@ -47,6 +47,25 @@ Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const 
   return integral;
 }
 
+/// integral rho I N^T N of the rotation of a frame element's sections, in world axes.
+Matrix6d rotary_mass(const FrameElement& e, const Member& member) {
+  FrameElement light = e;
+  light.section.inertia_per_length = 0;
+  return world_mass(e, member) - world_mass(light, member);
+}
+
+/// What a section of unit rotary inertia feels about an axis in the plane. Its points at a height y
+/// stand y (n cos a - d sin a) beside the axis of the member, d along and n across it, so that the
+/// square of their distance adds y^2 (2 moment a + stiffness a^2): the section turns across the
+/// axis.
+struct SectionPull {
+  double moment, stiffness;
+};
+SectionPull section_pull(const Eigen::Matrix2d& P, const Vector2d& d) {
+  const Vector2d n = perpendicular_matrix() * d;
+  return {-n.dot(P * d), d.dot(P * d) - n.dot(P * n)};
+}
+
 /// Calls visit(coordinates, S, G) for everything that has mass, in world axes.
 template <class Visit>
 void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& visit) {
@@ -62,8 +81,10 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
       return R.transpose() * frame_mass_with(A, e, member) * R;
     };
     const auto r = R.topLeftCorner<2, 2>();
-    const Matrix6d S =
+    Matrix6d S =
         axis == RotationAxis::normal ? world_mass(light, member) : world(r * P * r.transpose());
+    if (axis != RotationAxis::normal)
+      S += section_pull(P, e.direction).stiffness * rotary_mass(e, member);
     visit(e.coordinates, S, world(perpendicular_matrix()));
   }
   for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
@@ -136,7 +157,16 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
         detail::scatter(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval(),
                         force);
       });
-  for (const PointMass& point_mass : system.model.masses) {  // but for the offset itself
+  for (const FrameElement& e : system.mesh.frame) {  // but for the sections' heights
+    if (frame.axis == RotationAxis::normal || e.section.inertia_per_length == 0) continue;
+    const Vector2d swept = e.length * (perpendicular_matrix() * e.direction);
+    Vector6d unit_turn;
+    unit_turn << 0, 0, 1, swept, 1;
+    const Member& member = system.model.members[to_size(e.member)];
+    const double moment = w2 * section_pull(P, e.direction).moment;
+    detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
+  }
+  for (const PointMass& point_mass : system.model.masses) {  // nor for the offset itself
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
                     (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() *
                      P * point_mass.offset)

@@ -9,8 +9,9 @@
 /// What a steadily rotating frame adds to the equations of the motion relative to it, at angular
 /// speed W (counterclockwise) about a centre c. The acceleration of a mass at x is
 ///   u.. + 2 W J u. - W^2 (x - c + u),   J = [0 -1; 1 0],
-/// so that M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c. Rotary inertia of sections and
-/// point masses feels neither term.
+/// so that M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c. Rotary inertia of point masses
+/// feels neither term: as much of it is taken to lie along as across the axis. That of sections
+/// feels none about the normal of the plane.
 namespace trammel::solver {
 
 /// About the normal of the plane, or about an axis in it: then the centrifugal forces pull away
@@ -24,7 +25,7 @@ struct RotatingFrame {
   RotationAxis axis = RotationAxis::normal;
 };
 
-/// S: the mass of the translations away from the axis, q x q.
+/// S: the mass of the motions away from the axis, q x q.
 [[nodiscard]] SparseMatrix centrifugal_softening(const System& system,
                                                  RotationAxis axis = RotationAxis::normal);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -19,7 +20,9 @@ double merge_tolerance(const std::vector<Vector2d>& points) {
 /// Finds the nodes that a model has so far by their place.
 class NodeFinder {
  public:
-  NodeFinder(const Model& model, double near) : tolerance_(near) {
+  /// @param preferred  before others at their places
+  NodeFinder(const Model& model, const std::vector<Index>& preferred, double near)
+      : preferred_(preferred.begin(), preferred.end()), tolerance_(near) {
     for (const Node& node : model.nodes) {
       by_x_.emplace(node.position.x(), Place{static_cast<Index>(by_x_.size()), node.position});
     }
@@ -28,10 +31,12 @@ class NodeFinder {
   /// The first node there, or -1.
   [[nodiscard]] Index find(const Vector2d& position) const {
     Index first = -1;
+    const auto rank = [this](Index node) { return std::pair(preferred_.count(node) == 0, node); };
     auto at = by_x_.lower_bound(position.x() - tolerance_);
     for (; at != by_x_.end() && at->first <= position.x() + tolerance_; ++at) {
       const auto& [node, place] = at->second;
-      if ((place - position).norm() < tolerance_ && (first < 0 || node < first)) first = node;
+      const bool here = (place - position).norm() < tolerance_;
+      if (here && (first < 0 || rank(node) < rank(first))) first = node;
     }
     return first;
   }
@@ -39,6 +44,7 @@ class NodeFinder {
  private:
   using Place = std::pair<Index, Vector2d>;
   std::multimap<double, Place> by_x_;
+  std::set<Index> preferred_;
   double tolerance_;
 };
 
@@ -214,8 +220,9 @@ BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
   return Mesher(blocks, six_nodes).run();
 }
 
-std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh) {
-  const NodeFinder finder(model, merge_tolerance(mesh.positions));
+std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
+                          const std::vector<Index>& corners) {
+  const NodeFinder finder(model, corners, merge_tolerance(mesh.positions));
   std::vector<Index> nodes;
   nodes.reserve(mesh.positions.size());
   for (const Vector2d& position : mesh.positions) {

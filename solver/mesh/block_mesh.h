@@ -39,8 +39,11 @@ struct BlockMesh {
 [[nodiscard]] BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes);
 
 /// Adds the triangles, and those nodes that do not stand in the model yet, without names: where the
-/// model has a node within 1e-9 of the mesh's size, the mesh is joined to it (the first one).
+/// model has a node within 1e-9 of the mesh's size, the mesh is joined to it (of several to a
+/// corner, else to the first).
+/// @param corners  the model's nodes that the blocks were made of
 /// @returns the model's node of each of the mesh's
-std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh);
+std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
+                          const std::vector<Index>& corners = {});
 
 }  // namespace trammel::solver

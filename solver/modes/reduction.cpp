@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "solver/linalg/eigenpairs.h"
@@ -216,22 +217,40 @@ System reduce_members(const System& system, Index modes) {
   return reduced;
 }
 
-System reduce_to_modes(const System& system, const ModalSolution& modes) {
+System reduce_to_modes(const System& system, const ModalSolution& modes,
+                       const std::vector<VectorXd>& loads) {
   constexpr double kCarried = 1e-10;  // share of the loads that is rounding
-  MatrixXd basis = modes.shape;
+  constexpr double kShift = 1e-4;     // below the modes that are left out
+  const MatrixXd& shape = modes.shape;
+  MatrixXd basis = shape;
   Counters counters = modes.counters;
-  const VectorXd rest = system.f - system.M * (basis * (basis.transpose() * system.f));
-  if (modes.zero_energy_mode_count == 0 && rest.norm() > kCarried * system.f.norm()) {
-    Factorization factorization;
-    factorization.compute(system.K);
-    ++counters.factorizations;
+  SparseMatrix K = system.K;
+  if (modes.zero_energy_mode_count > 0) {
+    const double highest = 2 * std::numbers::pi * modes.frequency.maxCoeff();
+    const double mean = system.K.diagonal().sum() / system.M.diagonal().sum();
+    K += kShift * (highest > 0 ? highest * highest : mean) * system.M;
+  }
+  Factorization factorization;
+  for (const VectorXd& load : loads) {
+    const VectorXd rest = load - system.M * (shape * (shape.transpose() * load));
+    if (!(rest.norm() > kCarried * load.norm())) continue;
+    if (!factorization.exists()) {
+      factorization.compute(K);
+      ++counters.factorizations;
+    }
     if (!factorization.exists()) throw ModelError("a reduction to modes needs a stiff model");
     VectorXd answer = factorization.solve(rest);
-    ++counters.solves;
-    answer -= basis * (basis.transpose() * (system.M * answer));
+    answer += factorization.solve(rest - system.K * answer);  // without the shift
+    counters.solves += 2;
+    answer -= shape * (shape.transpose() * (system.M * answer));
+    const MatrixXd others = basis.rightCols(basis.cols() - shape.cols());
+    const double energy = answer.dot(system.K * answer);
+    answer -= others * (others.transpose() * (system.K * answer));
+    const double own = answer.dot(system.K * answer);
+    if (!(own > kCarried * energy)) continue;  // one before it does the same
     basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
     // Of one strain energy, not of one mass: coordinates without mass may answer too.
-    basis.rightCols<1>() = answer / std::sqrt(answer.dot(system.K * answer));
+    basis.rightCols<1>() = answer / std::sqrt(own);
   }
   System reduced = in_coordinates(system, basis.sparseView());
   reduced.counters = counters;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "solver/assembly/system.h"
 #include "solver/modes/modes.h"
 
@@ -21,14 +23,16 @@ namespace trammel::solver {
 /// @throws ModelError  for a negative number of modes.
 [[nodiscard]] System reduce_members(const System& system, Index modes);
 
-/// Modal truncation with static correction (mode acceleration): q = Phi p + r s, with r what the
-/// loads do beyond the modes,
+/// Modal truncation with static correction (mode acceleration): q = Phi p + r s, with r what each
+/// load does beyond the modes,
 ///   K r = f - M Phi Phi^T f.
-/// At frequencies far below those left out the response is that of the full model. A model that
-/// moves freely, or loads that the modes carry whole, have no r.
+/// At frequencies far below those left out the response is that of the full model. Loads that the
+/// modes carry whole have no r.
 ///
 /// @param modes  found modes of the same system, with Phi^T M Phi = I
+/// @param loads  that act one without another [SI]
 /// @returns as `reduce_members`
-[[nodiscard]] System reduce_to_modes(const System& system, const ModalSolution& modes);
+[[nodiscard]] System reduce_to_modes(const System& system, const ModalSolution& modes,
+                                     const std::vector<Eigen::VectorXd>& loads);
 
 }  // namespace trammel::solver

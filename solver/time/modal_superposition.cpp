@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/factorization.h"
+#include "solver/model/numbers.h"
 #include "solver/time/oscillator.h"
 
 namespace trammel::solver {
@@ -180,6 +182,69 @@ ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const Sp
     }
   }
   return {basis.shape * y, basis.shape * v, basis.shape * a};
+}
+
+FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxation,
+                                 const VectorXd& start, const std::vector<double>& times) {
+  FollowedFactors found;
+  const auto columns = static_cast<Index>(times.size());
+  for (Eigen::MatrixXd* m : {&found.value, &found.rate, &found.acceleration})
+    m->setZero(load.factor.rows(), columns);
+  VectorXd y = start;
+  Index sample = 0;
+  const std::vector<double> all = stops(load, times);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Factor factor = factor_from(load, all[k]);
+    const bool lags = relaxation > 0;
+    const VectorXd settled = factor.value - relaxation * factor.slope;
+    const VectorXd away = lags ? VectorXd(y - settled) : VectorXd::Zero(y.size());
+    for (; sample < columns && times[to_size(sample)] == all[k]; ++sample) {
+      found.value.col(sample) = settled + away;
+      found.rate.col(sample) = factor.slope;
+      if (lags) found.rate.col(sample) -= away / relaxation;
+      if (lags) found.acceleration.col(sample) = away / (relaxation * relaxation);
+    }
+    if (!lags || k + 1 == all.size()) continue;
+    const double step = all[k + 1] - all[k];
+    y = settled + step * factor.slope + std::exp(-step / relaxation) * away;
+  }
+  return found;
+}
+
+void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
+                              double relaxation, const PiecewiseLinearLoad& load,
+                              const std::vector<double>& times, const VectorXd& q0,
+                              ModalResponse& response, Counters& counters) {
+  const auto beside_modes = [&](const VectorXd& x) -> VectorXd {
+    return x - basis.shape * (basis.shape.transpose() * (M * x));
+  };
+  const Eigen::MatrixXd rest =
+      load.pattern - M * (basis.shape * (basis.shape.transpose() * load.pattern));
+  if (rest.norm() > 1e-9 * load.pattern.norm()) {
+    // With M x = 0 any multiple of M may be added to K, which free motions make singular.
+    const double shift = K.diagonal().sum() / M.diagonal().sum();
+    Factorization factorization;
+    factorization.compute(SparseMatrix(K + shift * M));
+    ++counters.factorizations;
+    if (!factorization.exists()) return;
+    Eigen::MatrixXd held(rest.rows(), rest.cols());
+    for (Index i = 0; i < rest.cols(); ++i)
+      held.col(i) = beside_modes(factorization.solve(rest.col(i)));
+    counters.solves += rest.cols();
+    const FollowedFactors followed =
+        followed_factors(load, relaxation, VectorXd::Zero(rest.cols()), times);
+    response.q += held * followed.value;
+    response.v += held * followed.rate;
+    response.a += held * followed.acceleration;
+  }
+  if (q0.size() == 0 || relaxation == 0) return;
+  const VectorXd start = beside_modes(q0);
+  for (Index i = 0; i < response.q.cols(); ++i) {
+    const double left = std::exp((times.front() - times[to_size(i)]) / relaxation);
+    response.q.col(i) += left * start;
+    response.v.col(i) -= left / relaxation * start;
+    response.a.col(i) += left / (relaxation * relaxation) * start;
+  }
 }
 
 }  // namespace trammel::solver

@@ -57,4 +57,24 @@ struct ModalResponse {
                                       const std::vector<double>& times, const Eigen::VectorXd& q0,
                                       const Eigen::VectorXd& v0);
 
+/// y of relaxation y' + y = factor, for each load: what follows it late, or at once.
+struct FollowedFactors {
+  Eigen::MatrixXd value, rate, acceleration;  ///< load x time [-], [1/s], [1/s^2]
+};
+
+/// @param relaxation  0: at once; at a jump, the value after it [s]
+/// @param start  at times.front(), where it follows late
+[[nodiscard]] FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxation,
+                                               const Eigen::VectorXd& start,
+                                               const std::vector<double>& times);
+
+/// Adds what coordinates without mass do beside all modes, x with M x = 0 and
+/// K (x + relaxation x') = what of the load moves no mode: without relaxation they follow it at
+/// once.
+/// @param relaxation  damping in proportion to stiffness [s]
+void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
+                              double relaxation, const PiecewiseLinearLoad& load,
+                              const std::vector<double>& times, const Eigen::VectorXd& q0,
+                              ModalResponse& response, Counters& counters);
+
 }  // namespace trammel::solver

@@ -5,6 +5,8 @@
 #include "solver/assembly/rotating_frame.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
+#include "solver/statics/describe_mechanism.h"
+#include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
 namespace {
@@ -33,8 +35,11 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
   const VectorXd on_q = system.T.transpose() * force;
   Factorization factorization;
   factorization.compute(system.K);
-  if (!factorization.exists()) {
-    return {Status::singular, "the centrifugal forces are held by nothing: no statics"};
+  Counters counters;
+  const ZeroEnergyModes free = find_zero_energy_modes(system, factorization, counters);
+  if (free.count() > 0) {
+    return {Status::singular, "the centrifugal forces that stiffen are held by nothing: " +
+                                  describe_mechanism(system, free)};
   }
   const VectorXd u = system.T * factorization.solve(on_q);
   const VectorXd held = internal_forces(system, u) - force;

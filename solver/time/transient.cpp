@@ -10,6 +10,7 @@
 #include "solver/linalg/sparse_ldlt.h"
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
+#include "solver/time/massless_coordinates.h"
 #include "solver/time/motion_evidence.h"
 #include "solver/time/sample_output.h"
 #include "solver/time/transient_start.h"
@@ -133,7 +134,8 @@ class TransientIntegrator {
   // ---- segments and steps ----------------------------------------------------------------------
 
   /// Accelerations in equilibrium at the start of a segment. Coordinates without mass have none of
-  /// their own: there the acceleration is the one that the first step of length h would find.
+  /// their own: with constant matrices they follow the others, else the acceleration is the one
+  /// that the first step of length h would find.
   bool begin_segment(double h, int level) {
     matrices_.update(now_.time);
     matrices_.load(now_.time, now_.f);
@@ -147,14 +149,17 @@ class TransientIntegrator {
                           mass_factor_->smallest_to_largest_pivot() < kSingularMass;
       mass_is_factored_ = true;
     }
-    start_factor_ = mass_factor_.get();
-    if (mass_is_singular_) {
-      start_factor_ = step_factor(h, level);
-      if (!start_factor_)
-        return fail(Status::singular, "M + C h + K h^2 is singular at " + describe_step(h));
+    start_factor_ = mass_is_singular_ ? step_factor(h, level) : mass_factor_.get();
+    if (!start_factor_)
+      return fail(Status::singular, "M + C h + K h^2 is singular at " + describe_step(h));
+    massless_balance_ = mass_is_singular_ && matrices_.constant() &&
+                        massless_.factor(matrices_, h, summary_.counters);
+    if (massless_balance_) {
+      settle_massless(h);
+    } else {
+      start_factor_->solve(residual_, now_.acceleration);
+      ++summary_.counters.solves;
     }
-    start_factor_->solve(residual_, now_.acceleration);
-    ++summary_.counters.solves;
     now_.a = now_.acceleration;
     now_.a_step = h;
     now_.MA.noalias() = matrices_.M() * now_.acceleration;
@@ -163,6 +168,21 @@ class TransientIntegrator {
       evidence_.add_equilibrium(now_.time, now_.time, now_.q, now_.v, now_.acceleration, h);
     }
     return true;
+  }
+
+  /// A jump of the load moves coordinates without mass at once, and what it does beyond straining
+  /// is lost.
+  void settle_massless(double h) {
+    correction_ = now_.q;
+    matrices_.load(now_.time + h / 2, next_.f);
+    massless_.settle(now_, (next_.f - now_.f) / (h / 2));
+    now_.Cv.noalias() = matrices_.C() * now_.v;
+    now_.Kq.noalias() = matrices_.K() * now_.q;
+    residual_ = now_.f - now_.Cv - now_.Kq;
+    const double strain = 0.5 * now_.q.dot(now_.Kq), work = now_.f.dot(now_.q - correction_);
+    now_.energy.dissipated += work - (strain - now_.energy.strain);
+    now_.energy.work += work;
+    now_.energy.strain = strain;
   }
 
   /// What the load of the segment can move: the size of the motion, before there is any, to which
@@ -372,7 +392,14 @@ class TransientIntegrator {
     ++summary_.accepted;
     summary_.smallest_step = summary_.accepted == 1 ? h : std::min(summary_.smallest_step, h);
     summary_.largest_step = std::max(summary_.largest_step, h);
-    output_.step(now_, next_, h);
+    if (massless_balance_ && output_.covers(next_.time)) {
+      TransientState begin = now_, end = next_;
+      const VectorXd rate = (next_.f - now_.f) / h;
+      for (TransientState* state : {&begin, &end}) massless_.follow(*state, rate);
+      output_.step(begin, end, h);
+    } else {
+      output_.step(now_, next_, h);
+    }
     std::swap(now_, next_);
   }
 
@@ -386,6 +413,8 @@ class TransientIntegrator {
   std::unique_ptr<SparseLdlt> mass_factor_;
   SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step where M is singular
   bool mass_is_factored_ = false, mass_is_singular_ = false;
+  MasslessCoordinates massless_;
+  bool massless_balance_ = false;                     // they follow the others
   std::vector<std::unique_ptr<SparseLdlt>> factors_;  // of steps factors_step_ / 2^index
   double factors_step_ = 0;
   int level_ = 0;

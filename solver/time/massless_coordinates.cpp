@@ -1,0 +1,61 @@
+#include "solver/time/massless_coordinates.h"
+
+#include "solver/time/transient_start.h"
+
+namespace trammel::solver {
+
+using Eigen::VectorXd;
+
+bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Counters& counters) {
+  constexpr double kShare = 1e-8;
+  matrices_ = &matrices;
+  counters_ = &counters;
+  for (const bool damped : {true, false}) {
+    damped_ = damped;
+    share_ = kShare * (damped ? h : h * h);
+    if (damped && matrices.norm_C() == 0) continue;
+    SparseMatrix sum = matrices.M();
+    sum += share_ * (damped ? matrices.C() : matrices.K());
+    ++counters.factorizations;
+    if (factor_.factorize(sum) && factor_.smallest_to_largest_pivot() > kSingularMass) return true;
+  }
+  return false;
+}
+
+void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {
+  // (M + share B) s = residual moves masses as well, (M + share B) w = M s by as much alone.
+  factor_.solve(residual, s_);
+  const VectorXd image = matrices_->M() * s_;
+  factor_.solve(image, w_);
+  counters_->solves += 2;
+  x += share_ * (s_ - w_);
+}
+
+void MasslessCoordinates::settle(TransientState& state, const VectorXd& rate) {
+  const SparseMatrix &C = matrices_->C(), &K = matrices_->K();
+  const VectorXd residual = state.f - C * state.v - K * state.q;
+  balance(residual, damped_ ? state.v : state.q);
+  if (!damped_) balance(rate - K * state.v, state.v);
+  const VectorXd left = state.f - C * state.v - K * state.q;
+  factor_.solve(left, state.acceleration);
+  factor_.solve(left - matrices_->M() * state.acceleration, s_);
+  counters_->solves += 2;
+  state.acceleration += s_;
+  accelerate(state, rate);
+}
+
+void MasslessCoordinates::follow(TransientState& state, const VectorXd& rate) {
+  if (!damped_) balance(rate - matrices_->K() * state.v, state.v);
+  accelerate(state, rate);
+}
+
+void MasslessCoordinates::accelerate(TransientState& state, const VectorXd& rate) {
+  if (damped_) {
+    balance(rate - matrices_->K() * state.v - matrices_->C() * state.acceleration,
+            state.acceleration);
+  } else {
+    balance(-(matrices_->K() * state.acceleration), state.acceleration);
+  }
+}
+
+}  // namespace trammel::solver

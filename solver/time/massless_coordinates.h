@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/linalg/sparse_ldlt.h"
+#include "solver/time/equation_of_motion.h"
+#include "solver/time/sample_output.h"
+
+namespace trammel::solver {
+
+/// Coordinates without mass, directions z with M z = 0, of constant matrices: no step says how fast
+/// they move. Undamped they are at once where the forces on them balance, z^T (f - C v - K q) = 0,
+/// and move as that and its derivatives in time do; damped, their velocity balances the forces.
+class MasslessCoordinates {
+ public:
+  /// @param h  the step: masses move by 1e-16 of what they do in it.   @pre the matrices outlive
+  /// this
+  /// @returns false where such a coordinate has neither stiffness nor damping.
+  [[nodiscard]] bool factor(const EquationMatrices& matrices, double h, Counters& counters);
+  /// Puts them where they belong at the start of a segment, and finds all accelerations.
+  /// @param rate  df/dt [SI/s]
+  void settle(TransientState& state, const Eigen::VectorXd& rate);
+  /// Their velocities and accelerations in a state whose positions are known.
+  void follow(TransientState& state, const Eigen::VectorXd& rate);
+
+ private:
+  /// x + z, so that z^T (residual - B z) = 0 with B = C where they are damped, K where not.
+  void balance(const Eigen::VectorXd& residual, Eigen::VectorXd& x);
+  void accelerate(TransientState& state, const Eigen::VectorXd& rate);
+
+  const EquationMatrices* matrices_ = nullptr;
+  Counters* counters_ = nullptr;
+  SparseLdlt factor_{SparseLdlt::Triangle::mean};  // of M + share B
+  bool damped_ = false;
+  double share_ = 0;
+  Eigen::VectorXd s_, w_;
+};
+
+}  // namespace trammel::solver
