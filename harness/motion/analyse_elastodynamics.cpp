@@ -42,8 +42,8 @@ void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& re
 }
 
 /// Energies, and how far their sum moves from where it started, over the largest of them; of a
-/// quasi-static motion, or of modes under a load that changes, nobody keeps account of the work
-/// that loads and actuators do.
+/// quasi-static motion, of modes under a load that changes, or of inextensible links without the
+/// rates of their constraints nobody keeps account of the work that loads and actuators do.
 void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_static,
                    Recorder& record) {
   quasi_static |= !solution.energy.empty() && std::isnan(solution.energy.front().work);

@@ -235,7 +235,7 @@ class Links {
     link.u = ends(m.q, 0, m.q[2]);
     link.v = ends(m.v, -w * m.q[2], m.v[2]);
     link.a = ends(m.a, -2 * w * m.v[2] - w_dot * m.q[2], m.a[2] - w * w * m.q[2]);
-    link.damped = added({}, damping_, ends(m.v, 0, m.v[2]));
+    link.damped = added({}, damping_, link.v);
     if (!nominal) return link;
     const Real turning = turn_of(B, C).acceleration;
     link.a = added(link.a, 1,

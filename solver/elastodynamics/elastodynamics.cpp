@@ -9,6 +9,7 @@
 #include "solver/modes/modes.h"
 #include "solver/time/modal_superposition.h"
 #include "solver/time/motion_evidence.h"
+#include "solver/time/transient_start.h"
 
 namespace trammel::solver {
 namespace {
@@ -43,6 +44,12 @@ EquationOfMotion equation_of(const ElastodynamicsOptions& options, PathFollower&
     }
   };
   if (!options.load_history.constant()) equation.breakpoints = options.load_history.time;
+  if (options.gyroscopic) {
+    equation.working_motion = [&follower](double time, const VectorXd& q, const VectorXd& v) {
+      follower.update_to(time);  // where there is no pose the numbers have ended before
+      return follower.working_motion(q, v);
+    };
+  }
   if (!follower.stands_still()) {
     equation.update = [&follower](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
       if (follower.update_to(time)) follower.matrices(M, C, K);
@@ -141,20 +148,71 @@ void find_first_frequency(const ElastodynamicsOptions& options, const System& st
   effects.damping_ratio = damping_ratio(options.damping, 2 * std::numbers::pi * *first);
 }
 
+/// K q = f - T^T C u., with the velocity of K q = f. Elastic inertia does not enter: its terms
+/// depend, one by one, on which coordinates are free.
+Outcome start_with_rates(const ElastodynamicsOptions& options, PathFollower& follower,
+                         TransientOptions& time, Counters& counters) {
+  EquationOfMotion equation = equation_of(options, follower);
+  equation.C = {};
+  equation.K = follower.system().K();
+  if (equation.update) {
+    equation.update = [&follower](double now, SparseMatrix&, SparseMatrix&, SparseMatrix& K) {
+      if (follower.update_to(now)) K.coeffs() = follower.system().K().coeffs();
+    };
+  }
+  EquationMatrices matrices(equation);
+  time.quasi_static_start = false;
+  time.q0.setZero(equation.K.rows());
+  time.v0.setZero(equation.K.rows());
+  Outcome outcome = start_quasi_statically(matrices, options.time, time.q0, time.v0, counters);
+  if (!outcome.solved() || !follower.damped() || !follower.update_to(time.start)) return outcome;
+  const VectorXd drag = follower.working_motion(time.q0, time.v0).drag;
+  const VectorXd f = follower.load() - follower.system().constraints().T.transpose() * drag;
+  // T. q changes with q: of the velocities that suit it, take the one whose strains stay.
+  VectorXd q, change;
+  if (!follower.solve_statically(f, q) ||
+      !follower.solve_statically(follower.system().K_T_dot() * (q - time.q0), change)) {
+    return {Status::singular, "the stiffness is singular: there is no quasi-static start"};
+  }
+  time.v0 -= change;
+  time.q0 = q;
+  return outcome;
+}
+
+/// Where inextensible links move and the rates of T are left out, it depends on the axes what work
+/// free coordinates do.
+bool work_depends_on_axes(const ElastodynamicsOptions& options, const PathFollower& follower) {
+  const auto& rows = follower.system().constraints().rows;
+  return !options.gyroscopic && !follower.stands_still() &&
+         std::any_of(rows.begin(), rows.end(), [](const ConstraintRow& row) {
+           return row.source == ConstraintRow::Source::inextensible;
+         });
+}
+
 /// By a scheme.
 void integrate(const ElastodynamicsOptions& options, PathFollower& follower,
                ElastodynamicsRecorder& recorder, ElastodynamicsSolution& solution) {
+  TransientOptions time = options.time;
+  Counters start;
+  if (options.gyroscopic && time.quasi_static_start) {
+    solution.outcome = start_with_rates(options, follower, time, start);
+    if (!solution.outcome.solved()) return;
+  }
+  const bool no_work = work_depends_on_axes(options, follower);
   const EquationOfMotion equation = equation_of(options, follower);
-  solution.summary = solve_transient(equation, options.time, [&](const MotionSample& sample) {
+  solution.summary = solve_transient(equation, time, [&](const MotionSample& sample) {
     const bool begins = sample.time == options.time.start;
     const double load_time = begins ? sample.time : options.load_history.end_of_step(sample.time);
     if (sample.index < 0) {
       recorder.add_balance(load_time, sample.q, sample.v, sample.a);
     } else {
-      recorder.record(sample.time, sample.q, sample.v, sample.a, sample.energy, load_time,
+      MotionEnergy energy = sample.energy;
+      if (no_work) energy.work = energy.dissipated = kNaN;
+      recorder.record(sample.time, sample.q, sample.v, sample.a, energy, load_time,
                       sample.interpolated);
     }
   });
+  solution.summary.counters += start;
   solution.outcome = solution.summary.outcome;
   solution.evidence = solution.summary.evidence;
 }

@@ -44,6 +44,7 @@ struct ElastodynamicsSolution {
   Eigen::VectorXd platform_rotation;  ///< mean elastic rotation of C1 C2 C3 about P [rad]
   Eigen::MatrixX3d torque;            ///< of the actuators on the proximal links: reactions [N m]
   Eigen::MatrixX3d rigid_torque;      ///< the same of rigid links with free passive joints [N m]
+  /// No work where inextensible links move without gyroscopic terms: NaN.
   std::vector<MotionEnergy> energy;
   ElastodynamicsEffects effects;
 };

@@ -45,7 +45,7 @@ MovingSystem::MovingSystem(const Model& model, bool gyroscopic, bool inertia)
       interpolation_(start_),
       K_(pattern_.matrix) {
   if (inertia_) M_ = K_;
-  if (gyroscopic_) C_gyroscopic_ = K_centrifugal_euler_ = K_;
+  if (gyroscopic_) C_gyroscopic_ = K_centrifugal_euler_ = K_T_dot_ = M_T_dot_ = K_;
   inertia_u_.setZero(start_.coordinates.size);
   inertia_load_.setZero(K_.rows());
   load_.setZero(K_.rows());
@@ -95,8 +95,8 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
   std::fill_n(K_.valuePtr(), K_.nonZeros(), 0.0);
   if (inertia_) std::fill_n(M_.valuePtr(), M_.nonZeros(), 0.0);
   if (gyroscopic_) {
-    std::fill_n(C_gyroscopic_.valuePtr(), K_.nonZeros(), 0.0);
-    std::fill_n(K_centrifugal_euler_.valuePtr(), K_.nonZeros(), 0.0);
+    for (SparseMatrix* A : {&C_gyroscopic_, &K_centrifugal_euler_, &K_T_dot_, &M_T_dot_})
+      std::fill_n(A->valuePtr(), K_.nonZeros(), 0.0);
   }
   inertia_u_.setZero();
   load_u_ = motion_.load_factor * start_.load;
@@ -104,8 +104,9 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
     const MovingElement& element = elements_[e];
     const PartMotion part = element.motion(motion_);
     const Matrix6d m = element.rotated(element.m, part.angle);
-    add_stiffness_and_mass(e, element.rotated(element.k, part.angle), m);
-    if (gyroscopic_) add_gyroscopic(e, part, m);
+    const Matrix6d k = element.rotated(element.k, part.angle);
+    add_stiffness_and_mass(e, k, m);
+    if (gyroscopic_) add_gyroscopic(e, part, k, m);
     const Vector6d f = element_inertia_load(element, m);
     const Vector6d w = weight(element, m);
     for (Index i = 0; i < 6; ++i) {
@@ -130,7 +131,8 @@ void MovingSystem::add_stiffness_and_mass(std::size_t index, const Matrix6d& k, 
   }
 }
 
-void MovingSystem::add_gyroscopic(std::size_t index, const PartMotion& part, const Matrix6d& m) {
+void MovingSystem::add_gyroscopic(std::size_t index, const PartMotion& part, const Matrix6d& k,
+                                  const Matrix6d& m) {
   const MovingElement& element = elements_[index];
   const Matrix6d first_derivative = element.rotated(element.first_derivative, part.angle);
   const Matrix6d second_derivative = element.rotated(element.second_derivative, part.angle);
@@ -151,7 +153,42 @@ void MovingSystem::add_gyroscopic(std::size_t index, const PartMotion& part, con
     K_centrifugal_euler_.valuePtr()[contribution.destination] +=
         a * (m(contribution.local) * b_ddot + c(contribution.local) * b_dot +
              s(contribution.local) * b);
+    K_T_dot_.valuePtr()[contribution.destination] += a * k(contribution.local) * b_dot;
+    M_T_dot_.valuePtr()[contribution.destination] += a * m(contribution.local) * b_dot;
   }
+}
+
+VectorXd MovingSystem::velocity(const VectorXd& q, const VectorXd& v) const {
+  VectorXd u_dot = constraints_.T() * v;
+  if (gyroscopic_ && constraints_.variable()) u_dot += constraints_.T_dot() * q;
+  return u_dot;
+}
+
+MovingSystem::ElasticMotion MovingSystem::elastic_motion(const VectorXd& q,
+                                                         const VectorXd& v) const {
+  ElasticMotion motion{.u = constraints_.T() * q,
+                       .velocity = velocity(q, v),
+                       .Ku = VectorXd::Zero(load_u_.size()),
+                       .Kv = VectorXd::Zero(load_u_.size()),
+                       .Mv = VectorXd::Zero(load_u_.size()),
+                       .load = load_u_,
+                       .inertia = inertia_u_};
+  for (const MovingElement& element : elements_) {
+    const double angle = element.motion(motion_).angle;
+    const Matrix6d k = element.rotated(element.k, angle);
+    const Vector6d v_e = detail::gather(element.coordinates, motion.velocity);
+    const Vector6d Ku = k * detail::gather(element.coordinates, motion.u);
+    const Vector6d Kv = k * v_e;
+    const Vector6d Mv = element.rotated(element.m, angle) * v_e;
+    for (Index i = 0; i < 6; ++i) {
+      const Index c = element.coordinates[to_size(i)];
+      if (c < 0) continue;
+      motion.Ku[c] += Ku[i];
+      motion.Kv[c] += Kv[i];
+      motion.Mv[c] += Mv[i];
+    }
+  }
+  return motion;
 }
 
 MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, const VectorXd& a,
@@ -159,11 +196,9 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
                                           bool with_inertia) const {
   const auto& T = constraints_.T();
   const VectorXd u = T * q;
-  const VectorXd u_dot = T * v;
+  const VectorXd u_dot = velocity(q, v);
   VectorXd u_ddot = T * a + mass_damping * u_dot;
-  VectorXd turning = u_dot;  // the velocity that turns with the parts
   if (gyroscopic_ && constraints_.variable()) {
-    turning += constraints_.T_dot() * q;
     u_ddot += 2 * (constraints_.T_dot() * v) + constraints_.T_ddot() * q;
   }
   Forces forces;
@@ -178,7 +213,7 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
     Vector6d inertia = m * detail::gather(element.coordinates, u_ddot);
     if (gyroscopic_) {
       inertia += turning_inertia(element, part, detail::gather(element.coordinates, u),
-                                 detail::gather(element.coordinates, turning));
+                                 detail::gather(element.coordinates, u_dot));
     }
     if (with_inertia) inertia -= element_inertia_load(element, m);
     inertia -= weight(element, m);

@@ -22,7 +22,8 @@ namespace trammel::solver {
 ///   int rho W^T (r.. + W u.. + 2 W. u. + W.. u) dV,
 /// r.. the nominal acceleration. The paper keeps the first two terms: loads of inertia, Eq. 14-17,
 /// and the mass. The other two come from the time derivative of T_s and R; they and the same terms
-/// of T(t) are the `gyroscopic` effect, 2 W^T W. a damping matrix and W^T W.. a stiffness.
+/// of T(t) are the `gyroscopic` effect, 2 W^T W. a damping matrix and W^T W.. a stiffness. With
+/// them damping acts on all of u. = T q. + T. q; without, on T q. alone.
 class MovingSystem {
  public:
   /// @param inertia  false: no M, and none of the start
@@ -39,6 +40,9 @@ class MovingSystem {
   [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const {
     return K_centrifugal_euler_;
   }
+  /// T^T k T. and T^T m T. of the elements: what damping takes of T. q; gyroscopic effect.
+  [[nodiscard]] const SparseMatrix& K_T_dot() const { return K_T_dot_; }
+  [[nodiscard]] const SparseMatrix& M_T_dot() const { return M_T_dot_; }
   /// - int rho W^T r.. dV, as a load [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
   /// Loads of the model, which keep their world axes, and weight.
@@ -52,6 +56,15 @@ class MovingSystem {
   /// The model where it was built; its mesh, coordinates and numbering hold at every pose.
   [[nodiscard]] const System& start() const { return start_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_.constraints(); }
+
+  /// A motion and what energies are made of, on all coordinates u at the present pose.
+  struct ElasticMotion {
+    Eigen::VectorXd u, velocity;    ///< T q and T q. + T. q
+    Eigen::VectorXd Ku, Kv, Mv;     ///< of the elements, v the velocity
+    Eigen::VectorXd load, inertia;  ///< loads and weight; of the nominal motion
+  };
+  [[nodiscard]] ElasticMotion elastic_motion(const Eigen::VectorXd& q,
+                                             const Eigen::VectorXd& v) const;
 
   /// Forces at the ends of the frame elements and on all coordinates u, at the present pose.
   struct Forces {
@@ -76,7 +89,9 @@ class MovingSystem {
   [[nodiscard]] Vector6d element_inertia_load(const MovingElement& element,
                                               const Matrix6d& m) const;
   void add_stiffness_and_mass(std::size_t index, const Matrix6d& k, const Matrix6d& m);
-  void add_gyroscopic(std::size_t index, const PartMotion& part, const Matrix6d& m);
+  void add_gyroscopic(std::size_t index, const PartMotion& part, const Matrix6d& k,
+                      const Matrix6d& m);
+  [[nodiscard]] Eigen::VectorXd velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const;
 
   System start_;
   bool gyroscopic_, inertia_;
@@ -85,7 +100,7 @@ class MovingSystem {
   std::vector<MovingElement> elements_;
   MovingPattern pattern_;
   MemberInterpolation interpolation_;
-  SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_;
+  SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_, K_T_dot_, M_T_dot_;
   Eigen::VectorXd inertia_u_, load_u_, inertia_load_, load_;
 };
 

@@ -91,6 +91,21 @@ void PathFollower::matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
     C.coeffs() = moving_.gyroscopic_matrix().coeffs();
   }
   K.coeffs() += moving_.centrifugal_and_euler_matrix().coeffs();
+  if (!damped()) return;
+  K.coeffs() += options_.damping.mass * moving_.M_T_dot().coeffs() +
+                options_.damping.stiffness * moving_.K_T_dot().coeffs();
+}
+
+WorkingMotion PathFollower::working_motion(const VectorXd& q, const VectorXd& v) const {
+  const MovingSystem::ElasticMotion motion = moving_.elastic_motion(q, v);
+  WorkingMotion working{
+      .u = motion.u,
+      .load = motion.load,
+      .drag = options_.damping.mass * motion.Mv + options_.damping.stiffness * motion.Kv,
+      .kinetic = motion.velocity.dot(motion.Mv) / 2,
+      .strain = motion.u.dot(motion.Ku) / 2};
+  if (options_.nominal_inertia) working.load += motion.inertia;
+  return working;
 }
 
 bool PathFollower::solve_statically(const VectorXd& f, VectorXd& q) {

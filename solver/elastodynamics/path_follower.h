@@ -34,8 +34,12 @@ class PathFollower {
 
   /// F and, where it is on, f [N, N m].
   [[nodiscard]] Eigen::VectorXd load() const;
-  /// M, C + G and K + S; C stays as it is where nothing goes with velocities.
+  /// M, C + G and K + S, with what damping takes of T. q; C stays as it is where nothing goes with
+  /// velocities.
   void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
+  /// What energies are told of.
+  [[nodiscard]] WorkingMotion working_motion(const Eigen::VectorXd& q,
+                                             const Eigen::VectorXd& v) const;
   /// K q = f; false where K is singular.
   [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);
   /// (f^T K^-1 f)^(1/2), twice the energy that the load f alone would store [J^(1/2)]; NaN where K

@@ -9,6 +9,12 @@
 /// The equation of motion (paper Eq. 13, 18),  M(t) q'' + C(t) q' + K(t) q = f(t).
 namespace trammel::solver {
 
+/// What energies are told of where q is measured from axes that move: u = T(t) q and its forces.
+struct WorkingMotion {
+  Eigen::VectorXd u, load, drag;   ///< drag: what damping takes [SI]
+  double kinetic = 0, strain = 0;  ///< [J]
+};
+
 /// The equation as the integrator sees it. The matrices are square, stored whole, in compressed
 /// form; K and C may have a skew part that is small beside M / h^2 (gyroscopic terms).
 struct EquationOfMotion {
@@ -18,6 +24,9 @@ struct EquationOfMotion {
   /// Writes the values of M, C and K at `time`; empty: constant. The three then share one pattern,
   /// which stays.
   std::function<void(double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K)> update;
+  /// Of a state at a time, at one of jump after it; empty: q itself and the terms of the equation.
+  std::function<WorkingMotion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v)>
+      working_motion;
   /// Times at which the load or its slope jumps [s]; a step ends at each.
   std::vector<double> breakpoints;
 };

@@ -21,7 +21,7 @@ void SampleOutput::start(const TransientState& state) {
   begun_ = true;
   if (!times_.empty() && times_.front() != state.time) return;
   do {
-    emit(state.time, state.q, state.v, state.acceleration, state.energy);
+    emit(state.time, state.q, state.v, state.acceleration, state.told);
   } while (next_ < times_.size() && times_[next_] == state.time);
 }
 
@@ -36,7 +36,7 @@ constexpr double kEndOfStep = 1e-6;
 
 void SampleOutput::step(const TransientState& begin, const TransientState& end, double h) {
   if (times_.empty()) {
-    emit(end.time, end.q, end.v, end.acceleration, end.energy);
+    emit(end.time, end.q, end.v, end.acceleration, end.told);
     return;
   }
   bool inside = false;
@@ -48,8 +48,8 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
     hermite(s, h, begin.q, begin.v, end.q, end.v, q_);
     hermite(s, h, begin.v, begin.acceleration, end.v, end.acceleration, v_);
     a_ = (1 - s) * begin.acceleration + s * end.acceleration;
-    const MotionEnergy& e0 = begin.energy;
-    const MotionEnergy& e1 = end.energy;
+    const MotionEnergy& e0 = begin.told;
+    const MotionEnergy& e1 = end.told;
     emit(time, q_, v_, a_,
          {.kinetic = mix(e0.kinetic, e1.kinetic),
           .strain = mix(e0.strain, e1.strain),
@@ -57,7 +57,7 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
           .dissipated = mix(e0.dissipated, e1.dissipated)},
          inside);
   }
-  if (inside) observe_({-1, end.time, end.q, end.v, end.acceleration, end.energy});
+  if (inside) observe_({-1, end.time, end.q, end.v, end.acceleration, end.told});
 }
 
 }  // namespace trammel::solver

@@ -16,6 +16,8 @@ struct TransientState {
   Eigen::VectorXd acceleration;  ///< A, in equilibrium
   Eigen::VectorXd f, MA, Mv, Cv, Kq;
   MotionEnergy energy;
+  WorkingMotion working;
+  MotionEnergy told;  ///< the energy, or that of the working motion
 
   explicit TransientState(Index n)
       : q(Eigen::VectorXd::Zero(n)),

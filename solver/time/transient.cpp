@@ -128,6 +128,7 @@ class TransientIntegrator {
     now_.Kq.noalias() = matrices_.K() * now_.q;
     now_.energy.kinetic = 0.5 * now_.v.dot(now_.Mv);
     now_.energy.strain = 0.5 * now_.q.dot(now_.Kq);
+    now_.told = now_.energy;
     return true;
   }
 
@@ -137,6 +138,11 @@ class TransientIntegrator {
   /// their own: with constant matrices they follow the others, else the acceleration is the one
   /// that the first step of length h would find.
   bool begin_segment(double h, int level) {
+    if (equation_.working_motion) {
+      now_.working = equation_.working_motion(now_.time, now_.q, now_.v);
+      now_.told.kinetic = now_.working.kinetic;
+      now_.told.strain = now_.working.strain;
+    }
     matrices_.update(now_.time);
     matrices_.load(now_.time, now_.f);
     now_.Cv.noalias() = matrices_.C() * now_.v;
@@ -379,6 +385,17 @@ class TransientIntegrator {
     evidence_.add_equilibrium(next_.time, load_time, next_.q, next_.v, next_.acceleration, h);
   }
 
+  void tell_working_energy(double load_time) {
+    next_.working = equation_.working_motion(load_time, next_.q, next_.v);
+    const WorkingMotion& from = now_.working;
+    const WorkingMotion& to = next_.working;
+    const VectorXd way = to.u - from.u;
+    next_.told = {.kinetic = to.kinetic,
+                  .strain = to.strain,
+                  .work = now_.told.work + 0.5 * way.dot(from.load + to.load),
+                  .dissipated = now_.told.dissipated + 0.5 * way.dot(from.drag + to.drag)};
+  }
+
   void accept(double h, double load_time) {
     MotionEnergy& energy = next_.energy;
     energy = now_.energy;
@@ -388,6 +405,8 @@ class TransientIntegrator {
     next_.Mv.noalias() = matrices_.M() * next_.v;
     energy.kinetic = 0.5 * next_.v.dot(next_.Mv);
     energy.strain = 0.5 * next_.q.dot(next_.Kq);
+    next_.told = energy;
+    if (equation_.working_motion) tell_working_energy(load_time);
     add_evidence(h, load_time);
     ++summary_.accepted;
     summary_.smallest_step = summary_.accepted == 1 ? h : std::min(summary_.smallest_step, h);

@@ -45,7 +45,7 @@ struct MotionEnergy {
   double kinetic = 0;     ///< v^T M v / 2
   double strain = 0;      ///< q^T K q / 2
   double work = 0;        ///< of the load, trapezoidal over each step
-  double dissipated = 0;  ///< by C, the same way
+  double dissipated = 0;  ///< by C, the same way; of a working motion by its drag on its u
   [[nodiscard]] double total() const { return kinetic + strain - work + dissipated; }
 };
 

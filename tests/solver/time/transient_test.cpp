@@ -30,7 +30,13 @@ EquationOfMotion chain(Index n, double mass, double stiffness) {
     K(i, i) = i + 1 < n ? 2 * stiffness : stiffness;
     if (i > 0) K(i, i - 1) = K(i - 1, i) = -stiffness;
   }
-  return {.M = sparse(M), .C = {}, .K = sparse(K), .load = {}, .update = {}, .breakpoints = {}};
+  return {.M = sparse(M),
+          .C = {},
+          .K = sparse(K),
+          .load = {},
+          .update = {},
+          .working_motion = {},
+          .breakpoints = {}};
 }
 
 /// A load of two patterns with slopes that jump and, at 0.3 s, a value that jumps.
