@@ -92,16 +92,6 @@ bool is_alive(const fs::path& pid_file) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_run_of_which_a_check_could_not_be_judged_does_not_agree) {
-  results::Run run;
-  run.status = results::Status::solved;
-  for (const results::Verdict verdict : {results::Verdict::pass, results::Verdict::error})
-    run.checks.emplace_back().verdict = verdict;
-  BOOST_TEST(to_string(results::grade_of(run)) == "broken");
-  run.checks.pop_back();
-  BOOST_TEST(to_string(results::grade_of(run)) == "agrees");
-}
-
 BOOST_AUTO_TEST_CASE(whatever_an_adapter_does_costs_its_own_row_and_leaves_nothing_behind) {
   const Folder folder;
   std::string names;
@@ -270,15 +260,6 @@ BOOST_AUTO_TEST_CASE(a_right_solver_agrees_and_each_fault_is_caught_by_the_cases
   BOOST_TEST(off_cases(folder, "", cases, 0).empty());
   for (const auto& [fault, caught] : faults)
     BOOST_TEST((off_cases(folder, fault, caught, 1) == caught), fault);
-}
-
-BOOST_AUTO_TEST_CASE(whoever_is_off_broken_crashed_or_late_has_failed) {
-  using results::Grade;
-  for (const Grade grade : {Grade::off, Grade::broken, Grade::crashed, Grade::timed_out})
-    BOOST_TEST(is_failure(grade), to_string(grade));
-  for (const Grade grade : {Grade::agrees, Grade::cannot, Grade::not_exported, Grade::not_given,
-                            Grade::not_judged, Grade::not_run})
-    BOOST_TEST(!is_failure(grade), to_string(grade));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -413,4 +413,17 @@ BOOST_AUTO_TEST_CASE(a_code_that_prints_four_digits_is_judged_by_four) {
   BOOST_TEST(bench.verdict() == "fail");
 }
 
+BOOST_AUTO_TEST_CASE(
+    of_another_code_what_is_missing_is_not_given_and_what_does_not_fit_is_an_error) {
+  const SolverIdentity code{"code", "1", {}, {}};
+  Bench missing;
+  missing.other_solver = &code;
+  missing.quantities.clear();
+  BOOST_TEST(missing.verdict() == "not-given");
+  Bench misfit;
+  misfit.other_solver = &code;
+  misfit.quantities["frequency_Hz"].values.resize(2);
+  BOOST_TEST(misfit.verdict() == "error");
+}
+
 BOOST_AUTO_TEST_SUITE_END()

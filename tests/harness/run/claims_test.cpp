@@ -90,6 +90,14 @@ BOOST_AUTO_TEST_CASE(a_verdict_that_no_longer_follows_is_seen) {
   BOOST_TEST(!evaluate_claims(document, {}).as_expected());
 }
 
+BOOST_AUTO_TEST_CASE(one_verdict_that_no_longer_follows_spoils_the_set) {
+  ClaimSet set = evaluate_claims(claims_of({{"r", ratio}}, "confirmed"), {bend(1, 1)});
+  set.claims.push_back(set.claims.front());
+  BOOST_TEST(set.as_expected());
+  set.claims.back().verdict = ClaimVerdict::contradicted;
+  BOOST_TEST(!set.as_expected());
+}
+
 BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
   Run broken = bend(1, 1);

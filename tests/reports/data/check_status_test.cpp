@@ -12,4 +12,12 @@ BOOST_AUTO_TEST_CASE(a_failure_or_an_error_is_no_pass) {
   BOOST_TEST(!all_checks_pass({{CheckStatus::passes, 3}, {CheckStatus::error, 1}}));
 }
 
+BOOST_AUTO_TEST_CASE(a_group_is_as_good_as_its_worst_entry) {
+  std::array<Check, 3> checks;
+  for (Check& check : checks) check.verdict = Verdict::pass;
+  checks[1].verdict = Verdict::fail;
+  const CheckGroup group{nullptr, {&checks[0], &checks[1], &checks[2]}};
+  BOOST_TEST(&group.worst() == &checks[1]);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

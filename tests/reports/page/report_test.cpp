@@ -240,6 +240,15 @@ BOOST_AUTO_TEST_CASE(results_without_any_failure_say_that_every_check_passes) {
   BOOST_TEST(text.find("Every check passes.") != std::string::npos);
   BOOST_TEST(text.find("<h3>Failures</h3>") == std::string::npos);
   BOOST_TEST(text.find("Table 1 against itself") == std::string::npos);
+  BOOST_TEST(text.find("class=\"banner fails\"") == std::string::npos);
+  // A run that has no checks and was stopped spoils the page.
+  nlohmann::ordered_json late = good.front();
+  late["status"] = "timed-out";
+  late["checks"] = nlohmann::ordered_json::array();
+  results["runs"].push_back(late);
+  write_report_of(workspace.results(results), workspace.path() / "late");
+  const std::string spoilt = text_of_pages(workspace.path() / "late");
+  BOOST_TEST(spoilt.find("class=\"banner fails\"") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_recorded_disagreement_is_never_shown_as_a_success) {

@@ -1,6 +1,7 @@
 #include "solver/effects/energy_shares.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/statics/statics.h"
@@ -46,6 +47,21 @@ BOOST_AUTO_TEST_CASE(energies_of_a_cantilever_are_shared_as_its_compliances) {
   BOOST_TEST(shares.elastic(Effect::axial_flexibility) == stretch / all, close);
   BOOST_TEST(shares.elastic(Effect::shear) == shear / all, close);
   BOOST_TEST(shares.elastic(Effect::joint_compliance) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_spring_of_the_model_is_no_joint_and_a_sprung_end_is) {
+  Model model = cantilever({0, 20});
+  model.members[0].ends[0] = {EndFixity::sprung, 1e4, 0};
+  model.springs = {{"s", {1, -1}, {0, 3e4, 0}}};
+  const System system = assemble(model);
+  const VectorXd q = solve_statics(system).q;
+  const EnergyShares shares(system, q, q.dot(system.K * q));
+  const double spring = 3e4 * std::pow(solve_statics(system).displacement(1, 1), 2);
+  const double moment = 0.5 * (20 - 3e4 * solve_statics(system).displacement(1, 1));
+  BOOST_TEST(spring > 0);
+  BOOST_TEST(
+      shares.elastic(Effect::joint_compliance) == moment * moment / 1e4 / q.dot(system.K * q),
+      boost::test_tools::tolerance(1e-9));
 }
 
 BOOST_AUTO_TEST_CASE(the_inertia_of_a_members_end_counts_where_it_turns_by_itself) {

@@ -97,4 +97,15 @@ BOOST_AUTO_TEST_CASE(a_model_admits_what_its_parts_have) {
   BOOST_TEST(applicable_effects(stripped).empty());
 }
 
+BOOST_AUTO_TEST_CASE(what_parts_of_a_computation_have_evaluated_adds_up) {
+  Counters all{.element_evaluations = 1, .factorizations = 2, .solves = 3, .steps = 4};
+  all.count(Effect::damping, 5);
+  all += all;
+  BOOST_TEST(all.element_evaluations == 2);
+  BOOST_TEST(all.factorizations == 4);
+  BOOST_TEST(all.solves == 6);
+  BOOST_TEST(all.steps == 8);
+  BOOST_TEST(all.evaluations(Effect::damping) == 10);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
