@@ -170,6 +170,7 @@ class Solver {
       if (!provider_.gives_all()) return no_eigenpairs();
       break;
     }
+    iterate_beside_each();
     finish();
     return pairs_;
   }
@@ -205,6 +206,36 @@ class Solver {
     for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
   }
 
+  /// One more inverse iteration of the wanted vectors that need it, with K - t B factored beside
+  /// their own values. (K - s B)^-1 B has the rounding of its largest |mu|, and leaves more of that
+  /// vector in one of a smaller mu, by the ratio of both; here its own is the largest. Negative mu
+  /// are not known.
+  void iterate_beside_each() {
+    constexpr double kAside = 1e-4, kWideSpread = 1e4;
+    const Index wanted = std::min(count_, X_.cols());
+    if (wanted == 0) return;
+    bool moved = false;
+    const double first = null_.cols() > 0 ? 0 : pairs_.value[0];
+    for (Index j = 0; j < wanted; ++j) {
+      const double spread = (pairs_.value[j] - pencil_.shift) / (first - pencil_.shift);
+      if (!pencil_.indefinite && !(spread > kWideSpread)) continue;
+      const double t = pairs_.value[j] * (1 - kAside);
+      factorization_.compute(shifted(*pencil_.K, *pencil_.B, t));
+      ++counters_.factorizations;
+      if (!factorization_.is_reliable()) continue;
+      const Operator beside = [&](const VectorXd& x) -> VectorXd {
+        return pencil_.K_times(x) - t * (pencil_.B->transpose() * x);
+      };
+      const RefinedSolution y =
+          refined_solve(beside, factorization_, pencil_.B->transpose() * X_.col(j),
+                        X_.col(j) / (pairs_.value[j] - t), counters_);
+      if (!(y.correction < 0.1)) continue;
+      X_.col(j) = y.x;
+      moved = true;
+    }
+    if (moved) values();
+  }
+
   /// Repeats until the wanted values stand still. What a step changes, the next one would change
   /// by the square of the ratio to the last value of the block: that is the error left.
   void iterate_to_convergence() {
@@ -215,7 +246,9 @@ class Solver {
       const VectorXd before = pairs_.value;
       inverse_iteration();
       const VectorXd& now = pairs_.value;
-      const VectorXd change = (now - before).cwiseAbs().cwiseQuotient(now.cwiseAbs());
+      if (X_.cols() == 0) return;
+      const VectorXd change =
+          (now - before.head(now.size())).cwiseAbs().cwiseQuotient(now.cwiseAbs());
       const VectorXd ratio = now / now[now.size() - 1];
       pairs_.error = change.cwiseProduct(ratio.cwiseAbs2());
       const Index wanted = std::min(count_, now.size());  // none when rigid motions are all
@@ -266,6 +299,7 @@ class Solver {
 
   /// Rayleigh quotients, ascending.
   void values() {
+    if (pencil_.indefinite) keep_positive();
     const Index p = X_.cols();
     const VectorXd energy = pencil_.K_products(X_).diagonal();
     const MatrixXd BX = pencil_.B->transpose() * X_;
@@ -283,6 +317,23 @@ class Solver {
       sorted.col(j) = X_.col(order[static_cast<std::size_t>(j)]);
     }
     X_ = std::move(sorted);
+  }
+
+  /// Without the vectors whose x^T B x is not positive but by rounding: where there are no more
+  /// eigenvalues, the null space of B offers some, which turn to its negative ones.
+  void keep_positive() {
+    const MatrixXd BX = pencil_.B->transpose() * X_;
+    const MatrixXd terms = pencil_.B->cwiseAbs().transpose() * X_.cwiseAbs();
+    const VectorXd product = X_.cwiseProduct(BX).colwise().sum();
+    const VectorXd size = X_.cwiseAbs().cwiseProduct(terms).colwise().sum();
+    const double rounding = static_cast<double>(X_.rows()) * kEps;
+    Index kept = 0;
+    for (Index j = 0; j < X_.cols(); ++j) {
+      if (product[j] <= rounding * size[j]) continue;
+      X_.col(kept) = X_.col(j);
+      ++kept;
+    }
+    X_.conservativeResize(Eigen::NoChange, kept);
   }
 
   /// Largest relative change of the values in the matrix that is factored, whose entries are

@@ -19,7 +19,8 @@ struct Pencil {
   const SparseMatrix* K = nullptr;
   const SparseMatrix* B = nullptr;
   double shift = 0;
-  Operator K_times;  ///< x -> K x, more exact than the assembled K
+  bool indefinite = false;  ///< B: there are negative eigenvalues, too
+  Operator K_times;         ///< x -> K x, more exact than the assembled K
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;  ///< X -> X^T K X, the same
 };
 

@@ -34,6 +34,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   Pencil pencil;
   pencil.K = &system.K;
   pencil.B = &softening;
+  pencil.indefinite = true;
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {
     return strain_products(system, system.T * X);

@@ -19,4 +19,20 @@ BOOST_AUTO_TEST_CASE(an_operator_that_is_no_number_and_a_start_of_zeros_have_no_
   }
 }
 
+// Spectra's threshold is absolute below eps^(2/3): in small units vectors were hardly converged.
+BOOST_AUTO_TEST_CASE(vectors_are_as_exact_of_small_eigenvalues_as_of_large_ones) {
+  constexpr Index kSize = 200;
+  const VectorXd start = start_vectors(kSize, 1);
+  for (const double unit : {1.0, 1e-18}) {
+    const VectorXd values = unit * VectorXd::LinSpaced(kSize, 1, kSize).cwiseInverse();
+    const auto apply = [&](const VectorXd& x) -> VectorXd { return values.cwiseProduct(x); };
+    const LanczosPairs pairs = largest_eigenpairs(apply, start, {4, 24});
+    BOOST_TEST_REQUIRE(pairs.value.size() == 4);
+    for (Index j = 0; j < 4; ++j) {
+      const VectorXd x = pairs.vector.col(j);
+      BOOST_TEST((apply(x) - pairs.value[j] * x).norm() < 2e-9 * pairs.value[j]);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
