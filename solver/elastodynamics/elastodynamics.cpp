@@ -67,16 +67,18 @@ void solve_quasi_statically(const ElastodynamicsOptions& options, PathFollower& 
   const EquationOfMotion equation = equation_of(options, follower);
   MotionEvidence evidence(equation);
   for (const double time : times) {
-    if (!follower.update_to(time)) return;
+    const bool begins = time == options.time.start;
+    const double load_time = begins ? time : options.load_history.end_of_step(time);
+    if (!follower.update_to(load_time)) return;
     if (!follower.solve_statically(follower.load(), q)) {
       solution.outcome = {Status::singular,
                           "the stiffness is singular: free joints have no quasi-static position"};
       return;
     }
-    evidence.add_equilibrium(time, time, q, still, still, options.time.step);
+    evidence.add_equilibrium(time, load_time, q, still, still, options.time.step);
     MotionEnergy energy;
     energy.strain = q.dot(follower.system().K() * q) / 2;
-    recorder.record(time, q, still, still, energy);
+    recorder.record(time, q, still, still, energy, load_time);
     solution.summary.time = time;
   }
   solution.evidence = evidence.result();
