@@ -337,27 +337,43 @@ class PathFollower {
     const Trial first = {0, indicator(from), from.load};
     if (!equilibrium_.factor(to.state)) return {};
     IllinoisBracket bracket(first, {interval, indicator(to.state), to.state.load});
+    const auto solve_at = [&](double arc, PathPoint& point) {
+      return corrector(from, d, arc, point) && equilibrium_.factor(point.state);
+    };
+    const auto take = [&](double arc, PathPoint& point) {
+      const double f = indicator(point.state);
+      critical = std::move(point);
+      bracket.update({arc, f, critical.state.load});
+      return f;
+    };
+    bool beside = false, is_singular = false;
     for (int i = 0; i < 60 && bracket.width() > 1e-12 * std::abs(interval); ++i) {
       if (bracket.has_no_root()) return {};
-      // At a bifurcation itself the equations are singular; then beside it, on either side.
       const double root = bracket.next(), aside = 1e-3 * bracket.width();
-      bool solved = false;
-      for (const double arc : {root, root - aside, root + aside}) {
-        PathPoint trial;
-        if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) continue;
-        const double before = critical.state.load;
-        critical = std::move(trial);
-        const double f = indicator(critical.state), load = critical.state.load;
+      PathPoint trial, right;
+      if (solve_at(root, trial)) {
+        const double before = critical.state.load, f = take(root, trial);
+        const double load = critical.state.load;
         if (f == 0 || std::abs(load - before) < 1e-13 * std::abs(before)) return load;
-        bracket.update({arc, f, load});
-        solved = true;
-        if (arc == root) break;
+        continue;
       }
-      if (solved) continue;
-      if (bracket.width() < 1e-4 * std::abs(interval)) return bracket.load();
-      return {};
+      // At a bifurcation itself the equations are singular; then beside it, on either side, unless
+      // the path has a gap there: what is on both sides is not one path.
+      is_singular = !solve_at(root - aside, trial);
+      if (is_singular) break;
+      const State left = trial.state;
+      (void)take(root - aside, trial);
+      is_singular = !solve_at(root + aside, right);
+      if (is_singular) break;
+      const Direction step = chord_between(left, right.state);
+      const double way = std::sqrt(squared_norm(step.step) + step.load * step.load);
+      if (!(way < 4 * aside)) return {};
+      (void)take(root + aside, right);
+      beside = true;
     }
-    return critical.state.load;
+    if (!is_singular) return critical.state.load;
+    if (beside && bracket.width() < 1e-4 * std::abs(interval)) return bracket.load();
+    return {};
   }
 
   void switch_to_branch(const PathPoint& critical, const VectorXd& shape) {
