@@ -19,8 +19,10 @@ namespace {
 /// x of the accelerations.
 class LateInertia {
  public:
-  LateInertia(const solver::System& system, const MotionHistory& motion)
-      : system_(system), motion_(motion), active_(motion.followed_factor.size() > 0) {
+  LateInertia(const solver::System& system, const MotionHistory& motion, bool with_forces)
+      : system_(system),
+        motion_(motion),
+        active_(with_forces && motion.followed_factor.size() > 0) {
     if (!active_) return;
     double fastest = 0;
     for (solver::Index i = 0; i < system.M.rows(); ++i) {
@@ -149,7 +151,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   if (with_forces) warn_of_redundancy(system, result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
-  const LateInertia late(system, motion);
+  const LateInertia late(system, motion, with_forces);
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {
     const MovingState state = state_of(system, motion, late, sample, with_forces);
     record.add("time_s", "", motion.time[solver::to_size(sample)]);

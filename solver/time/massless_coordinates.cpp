@@ -8,8 +8,10 @@ using Eigen::VectorXd;
 
 bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Counters& counters) {
   constexpr double kShare = 1e-8;
+  if (h == step_) return factored_;
   matrices_ = &matrices;
   counters_ = &counters;
+  step_ = h;
   for (const bool damped : {true, false}) {
     damped_ = damped;
     share_ = kShare * (damped ? h : h * h);
@@ -17,9 +19,10 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
     SparseMatrix sum = matrices.M();
     sum += share_ * (damped ? matrices.C() : matrices.K());
     ++counters.factorizations;
-    if (factor_.factorize(sum) && factor_.smallest_to_largest_pivot() > kSingularMass) return true;
+    factored_ = factor_.factorize(sum) && factor_.smallest_to_largest_pivot() > kSingularMass;
+    if (factored_) break;
   }
-  return false;
+  return factored_;
 }
 
 void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {

@@ -31,8 +31,8 @@ class MasslessCoordinates {
   const EquationMatrices* matrices_ = nullptr;
   Counters* counters_ = nullptr;
   SparseLdlt factor_{SparseLdlt::Triangle::mean};  // of M + share B
-  bool damped_ = false;
-  double share_ = 0;
+  bool factored_ = false, damped_ = false;
+  double step_ = 0, share_ = 0;
   Eigen::VectorXd s_, w_;
 };
 
