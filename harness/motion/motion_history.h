@@ -20,9 +20,9 @@ struct MotionHistory {
   /// Of the loads and of the weight, what strains follow late where damping is in proportion to
   /// stiffness: 2 x time; else empty.
   Eigen::MatrixXd followed_factor;
-  Eigen::MatrixXd q, v, a;          ///< free coordinate x time
-  solver::ViscousDamping damping;   ///< that it has
-  std::int64_t steps = 0;           ///< of the integrator; 0 for superposed modes
+  Eigen::MatrixXd q, v, a;         ///< free coordinate x time
+  solver::ViscousDamping damping;  ///< that it has
+  std::int64_t steps = 0;          ///< of the integrator; 0 for superposed modes
 };
 
 /// As the key "transient" of the analysis says, damped where the effects have it.

@@ -68,6 +68,7 @@ const std::map<std::string, std::pair<std::string, std::string>> kHostile = {
     {"says-infinity", {"broken", "result.json:"}},
     {"other-unit", {"broken", "/quantities/reaction_y_N:A/unit: expected 'N' (got 'kN')"}},
     {"other-length", {"broken", "/quantities/frequency_Hz/values: expected 3 numbers (got 1)"}},
+    {"longer", {"broken", "/quantities/frequency_Hz/values: expected 3 numbers (got 4)"}},
     {"other-name", {"broken", "did you mean 'reaction_y_N:A'?"}},
     {"other-key", {"broken", "/verdict"}},
     {"prints-much", {"agrees", ""}},
@@ -97,7 +98,7 @@ BOOST_AUTO_TEST_CASE(whatever_an_adapter_does_costs_its_own_row_and_leaves_nothi
   std::string names;
   for (const auto& item : kHostile) {
     Json json = judged(item.first);
-    if (item.first == "other-length") {
+    if (item.first == "other-length" || item.first == "longer") {
       json["analysis"] = {{"modes", {{"count", 3}}}};
       json["checks"]["held"]["quantity"] = "frequency_Hz";
     }

@@ -64,6 +64,8 @@ elif mode == "other-unit":
     answer({"reaction_y_N:A": {"unit": "kN", "values": [0.1]}})
 elif mode == "other-length":
     answer({"frequency_Hz": {"unit": "Hz", "values": [1.0]}})
+elif mode == "longer":
+    answer({"frequency_Hz": {"unit": "Hz", "values": [1.0, 2.0, 3.0, 4.0]}})
 elif mode == "other-name":
     answer({"reaction_y:A": {"unit": "N", "values": [-100.0]}})
 elif mode == "other-key":
