@@ -201,8 +201,10 @@ FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxat
     for (; sample < columns && times[to_size(sample)] == all[k]; ++sample) {
       found.value.col(sample) = settled + away;
       found.rate.col(sample) = factor.slope;
-      if (lags) found.rate.col(sample) -= away / relaxation;
-      if (lags) found.acceleration.col(sample) = away / (relaxation * relaxation);
+      if (!lags) continue;
+      // By their equation, in which round-off of what is at rest is none.
+      found.rate.col(sample) = (factor.value - found.value.col(sample)) / relaxation;
+      found.acceleration.col(sample) = (factor.slope - found.rate.col(sample)) / relaxation;
     }
     if (!lags || k + 1 == all.size()) continue;
     const double step = all[k + 1] - all[k];
