@@ -24,21 +24,21 @@ class LateInertia {
         motion_(motion),
         active_(with_forces && motion.followed_factor.size() > 0) {
     if (!active_) return;
+    weight_ = system.T.transpose() * system.weight;
     double fastest = 0;
     for (solver::Index i = 0; i < system.M.rows(); ++i) {
       const double mass = system.M.coeff(i, i);
       if (mass > 0) fastest = std::max(fastest, system.K.coeff(i, i) / mass);
     }
-    share_ = fastest > 0 ? 1e-6 / fastest : 0;
-    regular_mass_.compute(solver::SparseMatrix(system.M + share_ * system.K));
+    const double share = fastest > 0 ? 1e-6 / fastest : 0;
+    regular_mass_.compute(solver::SparseMatrix(system.M + share * system.K));
   }
 
   void put(solver::Index sample, solver::ElasticState& elastic) const {
     if (!active_) return;
     const auto factor = motion_.followed_factor.col(sample);
-    const Eigen::VectorXd weight = system_.T.transpose() * system_.weight;
     const Eigen::VectorXd balance =
-        factor[0] * (system_.f - weight) + factor[1] * weight - system_.K * motion_.q.col(sample);
+        factor[0] * (system_.f - weight_) + factor[1] * weight_ - system_.K * motion_.q.col(sample);
     Eigen::VectorXd late = Eigen::VectorXd::Zero(balance.size());
     for (int pass = 0; pass < 3; ++pass) late += regular_mass_.solve(balance - system_.M * late);
     elastic.acceleration = system_.T * late;
@@ -50,7 +50,7 @@ class LateInertia {
   const solver::System& system_;
   const MotionHistory& motion_;
   bool active_;
-  double share_ = 0;
+  Eigen::VectorXd weight_;  // on the free coordinates
   solver::Factorization regular_mass_;
 };
 

@@ -9,8 +9,8 @@
 /// along a path. Written in the axes of each link, which turn at W: with the interpolation N of
 /// what its nodes do in these axes, x, and Q = diag(rho A, rho A, rho I) along the link,
 ///   int N^T Q (N x.. + 2 W J N x. + (W. J - W^2 P) N x + r..) ds,
-/// J a quarter turn and P the identity of translations; r.. of the nominal motion. Damped by b M, on all of
-/// the velocities in world axes. By Fehlberg's method of order 8.
+/// J a quarter turn and P the identity of translations; r.. of the nominal motion. Damped by b M,
+/// on all of the velocities in world axes. By Fehlberg's method of order 8.
 namespace trammel::references {
 
 /// Arguments: manipulator, trajectory, force_N and moment_N_m at P, mass_damping_per_s, times_s

@@ -1,6 +1,7 @@
 #include "solver/time/transient.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -128,7 +129,6 @@ class TransientIntegrator {
     now_.Kq.noalias() = matrices_.K() * now_.q;
     now_.energy.kinetic = 0.5 * now_.v.dot(now_.Mv);
     now_.energy.strain = 0.5 * now_.q.dot(now_.Kq);
-    now_.told = now_.energy;
     return true;
   }
 
@@ -138,11 +138,6 @@ class TransientIntegrator {
   /// their own: with constant matrices they follow the others, else the acceleration is the one
   /// that the first step of length h would find.
   bool begin_segment(double h, int level) {
-    if (equation_.working_motion) {
-      now_.working = equation_.working_motion(now_.time, now_.q, now_.v);
-      now_.told.kinetic = now_.working.kinetic;
-      now_.told.strain = now_.working.strain;
-    }
     matrices_.update(now_.time);
     matrices_.load(now_.time, now_.f);
     now_.Cv.noalias() = matrices_.C() * now_.v;
@@ -165,6 +160,13 @@ class TransientIntegrator {
     } else {
       start_factor_->solve(residual_, now_.acceleration);
       ++summary_.counters.solves;
+    }
+    if (equation_.working_motion) {
+      now_.working = equation_.working_motion(now_.time, now_.q, now_.v);
+      now_.told.kinetic = now_.working.kinetic;
+      now_.told.strain = now_.working.strain;
+    } else {
+      now_.told = now_.energy;
     }
     now_.a = now_.acceleration;
     now_.a_step = h;
@@ -412,10 +414,11 @@ class TransientIntegrator {
     summary_.smallest_step = summary_.accepted == 1 ? h : std::min(summary_.smallest_step, h);
     summary_.largest_step = std::max(summary_.largest_step, h);
     if (massless_balance_ && output_.covers(next_.time)) {
-      TransientState begin = now_, end = next_;
+      shown_[0] = now_;
+      shown_[1] = next_;
       const VectorXd rate = (next_.f - now_.f) / h;
-      for (TransientState* state : {&begin, &end}) massless_.follow(*state, rate);
-      output_.step(begin, end, h);
+      for (TransientState& state : shown_) massless_.follow(state, rate);
+      output_.step(shown_[0], shown_[1], h);
     } else {
       output_.step(now_, next_, h);
     }
@@ -433,7 +436,8 @@ class TransientIntegrator {
   SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step where M is singular
   bool mass_is_factored_ = false, mass_is_singular_ = false;
   MasslessCoordinates massless_;
-  bool massless_balance_ = false;                     // they follow the others
+  bool massless_balance_ = false;  // they follow the others, as the states that are shown have it
+  std::array<TransientState, 2> shown_{TransientState(0), TransientState(0)};
   std::vector<std::unique_ptr<SparseLdlt>> factors_;  // of steps factors_step_ / 2^index
   double factors_step_ = 0;
   int level_ = 0;
