@@ -114,7 +114,8 @@ class HarmonicScene {
     if (case_model.path) throw analysis.error("expected a model at one place");
     if (!(high_ > low_)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
     ReducedSystem reduced = reduced_system(
-        analysis, solver::assemble(build_model(case_model, step), case_model.effects), false);
+        analysis, solver::assemble(build_model(case_model, step), case_model.effects),
+        Weight::left_out);
     system = std::move(reduced.system);
     outcome_ = reduced.outcome;
     outputs = read_outputs(analysis["outputs"], system.model);

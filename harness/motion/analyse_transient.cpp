@@ -3,60 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "harness/motion/motion_history.h"
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"
-#include "solver/linalg/factorization.h"
 #include "solver/model/numbers.h"
+#include "solver/time/late_strain.h"
 
 namespace trammel::harness {
 namespace {
 
-/// What balances the strains of a damped motion. Damping in proportion to stiffness, K (q + t q'),
-/// makes them follow loads and inertia late: x + t x' = all of these, and K q = x of the loads - M
-/// x of the accelerations.
-class LateInertia {
- public:
-  LateInertia(const solver::System& system, const MotionHistory& motion, bool with_forces)
-      : system_(system),
-        motion_(motion),
-        active_(with_forces && motion.followed_factor.size() > 0) {
-    if (!active_) return;
-    weight_ = system.T.transpose() * system.weight;
-    double fastest = 0;
-    for (solver::Index i = 0; i < system.M.rows(); ++i) {
-      const double mass = system.M.coeff(i, i);
-      if (mass > 0) fastest = std::max(fastest, system.K.coeff(i, i) / mass);
-    }
-    const double share = fastest > 0 ? 1e-6 / fastest : 0;
-    regular_mass_.compute(solver::SparseMatrix(system.M + share * system.K));
-  }
-
-  void put(solver::Index sample, solver::ElasticState& elastic) const {
-    if (!active_) return;
-    const auto factor = motion_.followed_factor.col(sample);
-    const Eigen::VectorXd balance =
-        factor[0] * (system_.f - weight_) + factor[1] * weight_ - system_.K * motion_.q.col(sample);
-    Eigen::VectorXd late = Eigen::VectorXd::Zero(balance.size());
-    for (int pass = 0; pass < 3; ++pass) late += regular_mass_.solve(balance - system_.M * late);
-    elastic.acceleration = system_.T * late;
-    elastic.load_factor = factor[0];
-    elastic.weight_factor = factor[1];
-  }
-
- private:
-  const solver::System& system_;
-  const MotionHistory& motion_;
-  bool active_;
-  Eigen::VectorXd weight_;  // on the free coordinates
-  solver::Factorization regular_mass_;
-};
-
 /// Displacements, velocities and, where an output asks for them, section forces of a sample.
 MovingState state_of(const solver::System& system, const MotionHistory& motion,
-                     const LateInertia& late, solver::Index sample, bool with_forces) {
+                     const std::optional<solver::LateStrain>& late, solver::Index sample,
+                     bool with_forces) {
   MovingState state;
   state.displacement = solver::node_motion(system, motion.q.col(sample));
   state.velocity = solver::node_motion(system, motion.v.col(sample));
@@ -70,7 +32,7 @@ MovingState state_of(const solver::System& system, const MotionHistory& motion,
   elastic.load_factor = motion.load_factor[solver::to_size(sample)];
   elastic.constraint_forces = constraint_forces(system, elastic);  // which damping bears upon, too
   elastic.u = system.T * motion.q.col(sample);
-  late.put(sample, elastic);
+  if (late) late->put(motion.q.col(sample), motion.followed_factor.col(sample), elastic);
   postprocess(system, elastic, state.forces);
   return state;
 }
@@ -151,7 +113,8 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   if (with_forces) warn_of_redundancy(system, result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
-  const LateInertia late(system, motion, with_forces);
+  std::optional<solver::LateStrain> late;
+  if (with_forces && motion.followed_factor.size() > 0) late.emplace(system);
   for (solver::Index sample = 0; sample < values.cols(); ++sample) {
     const MovingState state = state_of(system, motion, late, sample, with_forces);
     record.add("time_s", "", motion.time[solver::to_size(sample)]);

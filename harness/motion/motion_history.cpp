@@ -14,6 +14,7 @@
 #include "solver/assembly/inertia.h"
 #include "solver/model/numbers.h"
 #include "solver/modes/modes.h"
+#include "solver/time/late_strain.h"
 #include "solver/time/modal_superposition.h"
 #include "solver/time/motion_evidence.h"
 #include "solver/time/rotating_frame_transient.h"
@@ -56,7 +57,6 @@ struct InitialState {
 /// The motion of the free coordinates whose difference from a velocity of every node, 0 where
 /// supports hold it, has the least kinetic energy; what has no mass strains least.
 Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector2d& velocity) {
-  constexpr double kStraining = 1e-12;
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const auto& node : system.coordinates.node) {
     wanted[node[0]] = velocity.x();
@@ -66,12 +66,7 @@ Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector
     if (row.source == solver::ConstraintRow::Source::support) wanted[row.terms.front().first] = 0;
   }
   const Eigen::VectorXd momentum = system.T.transpose() * solver::inertia_forces(system, wanted);
-  solver::SparseMatrix normal = system.M;
-  const double stiffness = system.K.diagonal().maxCoeff();
-  if (stiffness > 0) normal += kStraining * system.M.diagonal().maxCoeff() / stiffness * system.K;
-  solver::Factorization factorization;
-  factorization.compute(normal);
-  return factorization.solve(momentum);
+  return solver::RegularizedMass(system).solve(momentum);
 }
 
 InitialState read_initial(const JsonView& transient, const solver::System& system,

@@ -6,7 +6,7 @@
 
 namespace trammel::harness {
 
-ReducedSystem reduced_system(const JsonView& analysis, solver::System system, bool with_weight) {
+ReducedSystem reduced_system(const JsonView& analysis, solver::System system, Weight weight) {
   const auto reduction = analysis.find("reduction");
   if (!reduction) return {{}, std::move(system)};
   if (const auto modes = reduction->find("fixed_interface_modes"))
@@ -14,9 +14,9 @@ ReducedSystem reduced_system(const JsonView& analysis, solver::System system, bo
   const solver::ModalSolution modes =
       solver::solve_modes(system, {.count = (*reduction)["modes"].get<solver::Index>()});
   if (!modes.outcome.solved()) return {modes.outcome, std::move(system)};
-  const Eigen::VectorXd weight = system.T.transpose() * system.weight;
-  std::vector<Eigen::VectorXd> loads = {system.f - weight};
-  if (with_weight) loads.push_back(weight);
+  const Eigen::VectorXd forces_of_weight = system.T.transpose() * system.weight;
+  std::vector<Eigen::VectorXd> loads = {system.f - forces_of_weight};
+  if (weight == Weight::acts) loads.push_back(forces_of_weight);
   try {
     return {{}, solver::reduce_to_modes(system, modes, loads)};
   } catch (const solver::ModelError& error) {

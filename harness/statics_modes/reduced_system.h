@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstdint>
+
 #include "harness/input/json_view.h"
 #include "solver/assembly/system.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::harness {
+
+enum class Weight : std::uint8_t { acts, left_out };
 
 /// A system in the coordinates that an analysis asks for.
 struct ReducedSystem {
@@ -13,9 +17,9 @@ struct ReducedSystem {
 };
 
 /// As the key "reduction" of the analysis says; without it the system as it is.
-/// @param with_weight  the analysis lets it act, beside the loads
+/// @param weight  whether the analysis lets it act, beside the loads
 /// @throws InputError  for a reduction that the system does not allow.
 [[nodiscard]] ReducedSystem reduced_system(const JsonView& analysis, solver::System system,
-                                           bool with_weight = true);
+                                           Weight weight = Weight::acts);
 
 }  // namespace trammel::harness
