@@ -170,6 +170,7 @@ class Solver {
       if (!provider_.gives_all()) return no_eigenpairs();
       break;
     }
+    if (some_are_hidden()) return report_hidden_eigenpairs();
     iterate_beside_each();
     finish();
     return pairs_;
@@ -371,6 +372,21 @@ class Solver {
     return pairs_.inertia_count;
   }
 
+  /// Whether B has more eigenvalues than were found, all fewer than wanted: the others are so far
+  /// from the first that its rounding hides them.
+  [[nodiscard]] bool some_are_hidden() {
+    constexpr double kNoMass = 1e-12;  // of B scaled to a unit diagonal
+    if (X_.cols() >= count_ || pencil_.indefinite) return false;
+    const VectorXd diagonal = pencil_.B->diagonal();
+    SparseMatrix B = *pencil_.B;
+    for (Index i = 0; i < B.rows(); ++i) {
+      B.coeffRef(i, i) -= diagonal[i] > 0 ? kNoMass * diagonal[i] : diagonal.maxCoeff();
+    }
+    factorization_.compute(B);
+    ++counters_.factorizations;
+    return factorization_.exists() && B.rows() - factorization_.negative_pivots() > checked_;
+  }
+
   /// Number of found values below a gap: the first clear one at or after the wanted, or the widest.
   [[nodiscard]] Index cluster_boundary(double rounding) const {
     const VectorXd& v = pairs_.value;
@@ -397,6 +413,14 @@ class Solver {
                                                  " eigenvalues were found where the inertia of the "
                                                  "matrices counts " +
                                                  std::to_string(expected)};
+    finish();
+    return pairs_;
+  }
+
+  Eigenpairs report_hidden_eigenpairs() {
+    pairs_.outcome = {Status::not_converged, "only " + std::to_string(checked_) +
+                                                 " eigenvalues were found: the others are too far "
+                                                 "from the first for double precision"};
     finish();
     return pairs_;
   }
