@@ -32,7 +32,7 @@ def main():
         "Verdicts and digits by configuration",
         [f"    <thead><tr>{heads}</tr></thead>", "    <tbody>",
          *(row(entry, flips) for entry in result["configurations"]), "    </tbody>"],
-        ["  <ul>", *(f'    <li>{f["check"]}, {f["configuration"][:1].lower()}{f["configuration"][1:]}: {f["to"]} instead of {f["from"]}</li>' for f in flips),
+        ["  <ul>", *(f'    <li>{f["check"]} ({f["configuration"]}): {f["to"]} instead of {f["from"]}</li>' for f in flips),
          "  </ul>"] if flips else ["  <p>No verdict differs.</p>"])
 
 
