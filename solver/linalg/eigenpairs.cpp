@@ -372,15 +372,15 @@ class Solver {
     return pairs_.inertia_count;
   }
 
-  /// Whether B has more eigenvalues than were found, all fewer than wanted: the others are so far
-  /// from the first that its rounding hides them.
+  /// Whether B has more positive eigenvalues than pairs were found, which are fewer than wanted:
+  /// the others are so far from the first that its rounding hides them.
   [[nodiscard]] bool some_are_hidden() {
     constexpr double kNoMass = 1e-12;  // of B scaled to a unit diagonal
     if (X_.cols() >= count_ || pencil_.indefinite) return false;
     const VectorXd diagonal = pencil_.B->diagonal();
     SparseMatrix B = *pencil_.B;
     for (Index i = 0; i < B.rows(); ++i) {
-      B.coeffRef(i, i) -= diagonal[i] > 0 ? kNoMass * diagonal[i] : diagonal.maxCoeff();
+      B.coeffRef(i, i) -= diagonal[i] > 0 ? kNoMass * diagonal[i] : 1;  // a row of zeros
     }
     factorization_.compute(B);
     ++counters_.factorizations;
