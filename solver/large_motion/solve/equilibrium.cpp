@@ -39,13 +39,12 @@ bool Equilibrium::factor(const State& state) {
   return regular;
 }
 
-bool Equilibrium::factor_if_moved(const State& state) {
-  constexpr double kSame = 1e-7;
+bool Equilibrium::factor_if_moved(const State& state, double relative) {
   const bool same = factored_.q.size() == state.q.size() &&
                     weighted_rms_norm(system_, state.q - factored_.q) <=
-                        kSame * weighted_rms_norm(system_, state.q) &&
-                    (state.lambda - factored_.lambda).norm() <= kSame * state.lambda.norm() &&
-                    std::abs(state.load - factored_.load) <= kSame * std::abs(state.load);
+                        relative * weighted_rms_norm(system_, state.q) &&
+                    (state.lambda - factored_.lambda).norm() <= relative * state.lambda.norm() &&
+                    std::abs(state.load - factored_.load) <= relative * std::abs(state.load);
   return same || factor(state);
 }
 

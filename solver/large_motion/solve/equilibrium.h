@@ -36,8 +36,8 @@ class Equilibrium {
 
   /// Factors the tangent at a state. @return false: singular to working precision.
   [[nodiscard]] bool factor(const State& state);
-  /// The same unless the tangent factored last is of a state that differs by 1e-7 at most.
-  [[nodiscard]] bool factor_if_moved(const State& state);
+  /// The same unless the tangent factored last is of a state that differs by that share at most.
+  [[nodiscard]] bool factor_if_moved(const State& state, double relative = 1e-7);
   /// dq/dload and dlambda/dload with the tangent factored last, as (dq, dlambda).
   void load_direction(const State& state, VectorXd& direction);
   /// One corrector: solution of the tangent equation for minus the residual.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -16,31 +17,45 @@ namespace {
 /// between their mean and the chord, which is parallel to it but for the change of curvature.
 constexpr double kTurn = 0.95, kChord = 0.995;
 
+/// What has moved less needs no new factorization to tell its stability.
+constexpr double kSame = 1e-10;
+
+/// How near a bifurcation, of a path's length, its equations are solved: at the distance w rounding
+/// moves their solution by epsilon/w aside, which has to be small beside w.
+const double kNearest = 16 * std::sqrt(std::numeric_limits<double>::epsilon());
+
 /// A direction in (q, lambda, load), of unit length in the path's metric.
 struct Direction {
   VectorXd step;  ///< (dq, dlambda)
   double load = 0;
 };
 
-/// A point between two others of the path: how far from the first, what is to vanish, and the load.
+/// A point between two others of the path: how far from the first, what is to vanish, and the
+/// state.
 struct Trial {
-  double arc, f, load;
+  double arc, f;
+  State state;
 };
 
 /// A root between two points by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT
 /// 11, 1971).
 class IllinoisBracket {
  public:
-  IllinoisBracket(const Trial& left, const Trial& right) : left_(left), right_(right) {}
+  IllinoisBracket(Trial left, Trial right) : left_(std::move(left)), right_(std::move(right)) {}
 
   [[nodiscard]] bool has_no_root() const { return left_.f * right_.f > 0; }
   [[nodiscard]] double width() const { return std::abs(right_.arc - left_.arc); }
   [[nodiscard]] double next() const { return left_.arc + share() * (right_.arc - left_.arc); }
-  [[nodiscard]] double load() const { return left_.load + share() * (right_.load - left_.load); }
-  void update(const Trial& trial) {
+  [[nodiscard]] double load() const {
+    const double left = left_.state.load;
+    return left + share() * (right_.state.load - left);
+  }
+  [[nodiscard]] const State& left() const { return left_.state; }
+  [[nodiscard]] const State& right() const { return right_.state; }
+  void update(Trial trial) {
     const bool is_left = trial.f * left_.f > 0;
     (is_left ? right_ : left_).f /= was_updated_ && is_left == was_left_ ? 2 : 1;
-    (is_left ? left_ : right_) = trial;
+    (is_left ? left_ : right_) = std::move(trial);
     was_left_ = is_left;
     was_updated_ = true;
   }
@@ -201,14 +216,15 @@ class PathFollower {
       if (cut == 40) return not_converged("no step is small enough");
       // A step beyond the target ends on the target, or is halved; so is one that may have come to
       // another branch, which passes near by.
-      const bool reached = crosses_target(from) ? solve_at_target(from, point)
-                                                : corrector(from, direction_, arc_step_, point) &&
-                                                      !passed_target(from, point.state) &&
-                                                      equilibrium_.factor_if_moved(point.state);
+      const bool reached = crosses_target(from)
+                               ? solve_at_target(from, point)
+                               : corrector(from, direction_, arc_step_, point) &&
+                                     !passed_target(from, point.state) &&
+                                     equilibrium_.factor_if_moved(point.state, kSame);
       if (reached) ahead = tangent(point.state, direction_);
       if (reached && is_smooth(from, point.state, ahead)) {
         point.unstable_directions = equilibrium_.matrix().negative_pivots();
-        if (cut > 20 || event_fits(from, previous_unstable, point, ahead)) break;
+        if (event_fits(from, previous_unstable, point, ahead)) break;
       }
       arc_step_ /= 2;
     }
@@ -295,7 +311,7 @@ class PathFollower {
     const VectorXd distance = point.state.q - guess.q;
     return std::sqrt(displacement_weight_) * weighted_rms_norm(system_, distance) <
                0.5 * std::abs(arc) &&
-           equilibrium_.factor_if_moved(point.state);
+           equilibrium_.factor_if_moved(point.state, kSame);
   }
 
   /// Records what lies between two points. @return true: the path goes on along another branch.
@@ -319,8 +335,8 @@ class PathFollower {
   }
 
   /// Finds along the arc where dload/darc vanishes (a limit point) or the smallest eigenvalue does
-  /// (a bifurcation). @returns the load there, or nothing where it is not found; `critical` is left
-  /// near it.
+  /// (a bifurcation), between states on both sides of it. @returns the load there, or nothing where
+  /// it is not found or the path has a gap; `critical` is left near it.
   std::optional<double> locate(const State& from, Index previous_unstable, bool load_reversed,
                                const PathPoint& to, PathPoint& critical) {
     const Direction d = direction_;
@@ -331,49 +347,46 @@ class PathFollower {
       return equilibrium_.matrix().negative_pivots() == previous_unstable ? eigenvalue
                                                                           : -eigenvalue;
     };
-    const Direction chord = chord_between(from, to.state);
+    Direction chord = chord_between(from, to.state);
     const double interval = dot(d, chord.step, chord.load);
+    normalize(chord);
     if (!equilibrium_.factor(from)) return {};
-    const Trial first = {0, indicator(from), from.load};
+    Trial first = {0, indicator(from), from};
     if (!equilibrium_.factor(to.state)) return {};
-    IllinoisBracket bracket(first, {interval, indicator(to.state), to.state.load});
-    const auto solve_at = [&](double arc, PathPoint& point) {
-      return corrector(from, d, arc, point) && equilibrium_.factor(point.state);
+    IllinoisBracket bracket(std::move(first), {interval, indicator(to.state), to.state});
+    const double nearest = kNearest * std::max(std::abs(to.state.load), std::abs(interval));
+    const auto solve_at = [&](double arc, PathPoint& trial) {
+      if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
+      bracket.update({arc, indicator(trial.state), trial.state});
+      return true;
     };
-    const auto take = [&](double arc, PathPoint& point) {
-      const double f = indicator(point.state);
-      critical = std::move(point);
-      bracket.update({arc, f, critical.state.load});
-      return f;
+    // At a bifurcation itself the equations are singular.
+    const auto solve_beside = [&](double root, PathPoint& trial) {
+      const double least = std::max(1e-3 * bracket.width(), nearest);
+      for (const double aside : {least, 4 * least})
+        if (solve_at(root - aside, trial) && solve_at(root + aside, trial)) return true;
+      return false;
     };
-    bool beside = false, is_singular = false;
-    for (int i = 0; i < 60 && bracket.width() > 1e-12 * std::abs(interval); ++i) {
+    const double enough = load_reversed ? 1e-12 * std::abs(interval) : 4 * nearest;
+    std::optional<double> load;
+    for (int i = 0; i < 60 && bracket.width() > enough && !load; ++i) {
       if (bracket.has_no_root()) return {};
-      const double root = bracket.next(), aside = 1e-3 * bracket.width();
-      PathPoint trial, right;
+      const double root = bracket.next(), last = critical.state.load;
+      PathPoint trial;
       if (solve_at(root, trial)) {
-        const double before = critical.state.load, f = take(root, trial);
-        const double load = critical.state.load;
-        if (f == 0 || std::abs(load - before) < 1e-13 * std::abs(before)) return load;
-        continue;
+        critical = trial;
+        if (std::abs(critical.state.load - last) > 1e-13 * std::abs(last)) continue;
+        load = critical.state.load;
       }
-      // At a bifurcation itself the equations are singular; then beside it, on either side, unless
-      // the path has a gap there: what is on both sides is not one path.
-      is_singular = !solve_at(root - aside, trial);
-      if (is_singular) break;
-      const State left = trial.state;
-      (void)take(root - aside, trial);
-      is_singular = !solve_at(root + aside, right);
-      if (is_singular) break;
-      const Direction step = chord_between(left, right.state);
-      const double way = std::sqrt(squared_norm(step.step) + step.load * step.load);
-      if (!(way < 4 * aside)) return {};
-      (void)take(root + aside, right);
-      beside = true;
+      if (!solve_beside(root, trial)) return {};
+      if (!load) critical = std::move(trial);
     }
-    if (!is_singular) return critical.state.load;
-    if (beside && bracket.width() < 1e-4 * std::abs(interval)) return bracket.load();
-    return {};
+    // What is on both sides of a gap is not one path: it goes aside more than the path bends.
+    const Direction across = chord_between(bracket.left(), bracket.right());
+    const double way = squared_norm(across.step) + across.load * across.load;
+    const double along = dot(chord, across.step, across.load);
+    if (way - along * along > 0.05 * along * along) return {};
+    return load ? load : bracket.load();
   }
 
   void switch_to_branch(const PathPoint& critical, const VectorXd& shape) {
