@@ -28,7 +28,8 @@ bool Equilibrium::converged(const std::vector<double>& correction, double displa
   // What is left after a correction is its square, so 1e-15 of the model's size is no loss however
   // small the displacement.
   if (last <= options_.tolerance * displacement + 1e-15) return true;
-  return count > 1 && last < 1e-8 * displacement && last > 0.3 * correction[count - 2];
+  // Where nothing is deflected, rounding over what is left of the stiffness beside a bifurcation.
+  return count > 1 && last < 1e-8 * displacement + 1e-11 && last > 0.3 * correction[count - 2];
 }
 
 bool Equilibrium::factor(const State& state) {

@@ -18,11 +18,7 @@ namespace {
 constexpr double kTurn = 0.95, kChord = 0.995;
 
 /// What has moved less needs no new factorization to tell its stability.
-constexpr double kSame = 1e-10;
-
-/// How near a bifurcation, of a path's length, its equations are solved: at the distance w rounding
-/// moves their solution by epsilon/w aside, which has to be small beside w.
-const double kNearest = 16 * std::sqrt(std::numeric_limits<double>::epsilon());
+constexpr double kSame = 1e-9;
 
 /// A direction in (q, lambda, load), of unit length in the path's metric.
 struct Direction {
@@ -30,10 +26,11 @@ struct Direction {
   double load = 0;
 };
 
-/// A point between two others of the path: how far from the first, what is to vanish, and the
-/// state.
+/// A point between two others of the path: how far from the first, what is to vanish, the count of
+/// unstable directions, and the state.
 struct Trial {
   double arc, f;
+  Index unstable;
   State state;
 };
 
@@ -50,8 +47,8 @@ class IllinoisBracket {
     const double left = left_.state.load;
     return left + share() * (right_.state.load - left);
   }
-  [[nodiscard]] const State& left() const { return left_.state; }
-  [[nodiscard]] const State& right() const { return right_.state; }
+  [[nodiscard]] const Trial& left() const { return left_; }
+  [[nodiscard]] const Trial& right() const { return right_; }
   void update(Trial trial) {
     const bool is_left = trial.f * left_.f > 0;
     (is_left ? right_ : left_).f /= was_updated_ && is_left == was_left_ ? 2 : 1;
@@ -254,12 +251,12 @@ class PathFollower {
   }
 
   /// Whether what lies between two points is on the way from one to the other: a limit point has a
-  /// load beyond both of theirs and changes the count of unstable directions, or another event
-  /// hides there, a bifurcation has one between them.
+  /// load beyond both of theirs, a bifurcation has one between them.
   bool event_fits(const State& from, Index previous_unstable, const PathPoint& to,
                   const Direction& ahead) {
     const bool load_reversed = reverses_load(ahead);
-    if (!stability_changed(previous_unstable, to)) return !load_reversed || previous_unstable < 0;
+    const bool eventful = load_reversed || stability_changed(previous_unstable, to);
+    if (previous_unstable < 0 || !eventful) return true;
     PathPoint critical = to;
     const std::optional<double> load = locate(from, previous_unstable, load_reversed, to, critical);
     if (!load) return false;
@@ -320,23 +317,38 @@ class PathFollower {
     const bool load_reversed = reverses_load(ahead);
     if (!load_reversed && !stability_changed(previous_unstable, point)) return false;
     PathEvent event;
-    event.kind = load_reversed ? PathEvent::Kind::limit_point : PathEvent::Kind::bifurcation;
     PathPoint critical = point;
     const std::optional<double> load =
         locate(from, previous_unstable, load_reversed, point, critical);
     event.load = load.value_or(critical.state.load);
     if (!equilibrium_.factor(critical.state)) return false;
     equilibrium_.smallest_eigenpair(event.shape);
-    path_.events.push_back(event);
+    // One for each direction that becomes unstable or stable; a limit point is one of them.
+    Index bifurcations =
+        previous_unstable < 0 ? 1 : std::abs(point.unstable_directions - previous_unstable);
+    if (load_reversed) {
+      event.kind = PathEvent::Kind::limit_point;
+      path_.events.push_back(event);
+      bifurcations = std::abs(bifurcations - 1);
+    }
+    event.kind = PathEvent::Kind::bifurcation;
+    for (Index i = 0; i < bifurcations; ++i) path_.events.push_back(event);
     const bool switches = !load_reversed && options_.switch_branch && !switched_;
     if (switches) switch_to_branch(critical, event.shape);
     if (!switches && done && !equilibrium_.factor(point.state)) return false;
     return switches;
   }
 
+  /// Of a path's length: at the distance w from a bifurcation rounding moves states aside, by the
+  /// share epsilon/w of the model's size, which has to be small beside w.
+  double nearest_to_bifurcation() const {
+    const double size = std::max(std::sqrt(displacement_weight_), 1.0);
+    return 8 * std::sqrt(std::numeric_limits<double>::epsilon() * size);
+  }
+
   /// Finds along the arc where dload/darc vanishes (a limit point) or the smallest eigenvalue does
   /// (a bifurcation), between states on both sides of it. @returns the load there, or nothing where
-  /// it is not found or the path has a gap; `critical` is left near it.
+  /// it is not found, the path has a gap, or there is another event; `critical` is left near it.
   std::optional<double> locate(const State& from, Index previous_unstable, bool load_reversed,
                                const PathPoint& to, PathPoint& critical) {
     const Direction d = direction_;
@@ -351,24 +363,29 @@ class PathFollower {
     const double interval = dot(d, chord.step, chord.load);
     normalize(chord);
     if (!equilibrium_.factor(from)) return {};
-    Trial first = {0, indicator(from), from};
+    const auto trial_at = [&](double arc, const State& state) {
+      const double f = indicator(state);
+      return Trial{arc, f, equilibrium_.matrix().negative_pivots(), state};
+    };
+    Trial first = trial_at(0, from);
     if (!equilibrium_.factor(to.state)) return {};
-    IllinoisBracket bracket(std::move(first), {interval, indicator(to.state), to.state});
-    const double nearest = kNearest * std::max(std::abs(to.state.load), std::abs(interval));
+    IllinoisBracket bracket(std::move(first), trial_at(interval, to.state));
+    const double nearest =
+        nearest_to_bifurcation() * std::max(std::abs(to.state.load), std::abs(interval));
     const auto solve_at = [&](double arc, PathPoint& trial) {
       if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
-      bracket.update({arc, indicator(trial.state), trial.state});
+      bracket.update(trial_at(arc, trial.state));
       return true;
     };
+    std::optional<double> load;
     // At a bifurcation itself the equations are singular.
     const auto solve_beside = [&](double root, PathPoint& trial) {
-      const double least = std::max(1e-3 * bracket.width(), nearest);
+      const double least = load ? nearest : std::max(1e-3 * bracket.width(), nearest);
       for (const double aside : {least, 4 * least})
         if (solve_at(root - aside, trial) && solve_at(root + aside, trial)) return true;
       return false;
     };
-    const double enough = load_reversed ? 1e-12 * std::abs(interval) : 4 * nearest;
-    std::optional<double> load;
+    const double enough = load_reversed ? 0 : 4 * nearest;
     for (int i = 0; i < 60 && bracket.width() > enough && !load; ++i) {
       if (bracket.has_no_root()) return {};
       const double root = bracket.next(), last = critical.state.load;
@@ -382,10 +399,13 @@ class PathFollower {
       if (!load) critical = std::move(trial);
     }
     // What is on both sides of a gap is not one path: it goes aside more than the path bends.
-    const Direction across = chord_between(bracket.left(), bracket.right());
+    const Trial &left = bracket.left(), &right = bracket.right();
+    const Direction across = chord_between(left.state, right.state);
     const double way = squared_norm(across.step) + across.load * across.load;
     const double along = dot(chord, across.step, across.load);
     if (way - along * along > 0.05 * along * along) return {};
+    const bool alone = left.unstable == previous_unstable || previous_unstable < 0;
+    if (!alone || right.unstable != to.unstable_directions) return {};
     return load ? load : bracket.load();
   }
 
