@@ -38,15 +38,11 @@ Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value) {
   const auto at = [&time](Index i) { return time[static_cast<std::size_t>(i)]; };
   Peak result{at(k), value[k]};
   if (k == 0 || k + 1 == value.size()) return result;
-  const double left = at(k) - at(k - 1);
-  const double right = at(k + 1) - at(k);
-  const double slope_left = (value[k] - value[k - 1]) / left;
-  const double slope_right = (value[k + 1] - value[k]) / right;
-  const double curvature = 2 * (slope_right - slope_left) / (left + right);
-  const double slope = (slope_left * right + slope_right * left) / (left + right);
+  const double slope = (value[k + 1] - value[k - 1]) / 2;
+  const double curvature = (value[k + 1] - value[k]) - (value[k] - value[k - 1]);
   if (curvature == 0) return result;
-  const double shift = std::clamp(-slope / curvature, -left, right);
-  result.time += shift;
+  const double shift = std::clamp(-slope / curvature, -1.0, 1.0);
+  result.time += shift * (at(k + 1) - at(k));
   result.value += shift * (slope + 0.5 * curvature * shift);
   return result;
 }

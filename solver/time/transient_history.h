@@ -18,8 +18,8 @@ struct TransientHistory {
 [[nodiscard]] TransientHistory solve_transient(const EquationOfMotion& equation,
                                                const TransientOptions& options);
 
-/// Where a sampled quantity is largest in magnitude, refined by the parabola through the sample and
-/// its two neighbours.
+/// Where a quantity sampled at even times is largest in magnitude, refined by the parabola through
+/// the sample and its two neighbours.
 struct Peak {
   double time = 0;
   double value = 0;

@@ -73,6 +73,12 @@ double step_factor(const std::vector<double>& correction) {
   return std::clamp(factor, fast ? 1.0 : 0.5, 2.0);
 }
 
+/// A limit point or a bifurcation between two points of a path.
+struct Critical {
+  std::optional<double> load;  ///< nothing where it is not found
+  PathPoint point;             ///< near it
+};
+
 class PathFollower {
  public:
   PathFollower(const GeometricallyExactSystem& system, const StaticPathOptions& options)
@@ -209,6 +215,7 @@ class PathFollower {
       return not_converged("too many points");
     PathPoint point;
     Direction ahead;
+    std::optional<Critical> critical;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return not_converged("no step is small enough");
       // A step beyond the target ends on the target, or is halved; so is one that may have come to
@@ -221,13 +228,15 @@ class PathFollower {
       if (reached) ahead = tangent(point.state, direction_);
       if (reached && is_smooth(from, point.state, ahead)) {
         point.unstable_directions = equilibrium_.matrix().negative_pivots();
-        if (event_fits(from, previous_unstable, point, ahead)) break;
+        critical = between(from, previous_unstable, point, ahead);
+        if (!critical || fits(*critical, from, previous_unstable, point, ahead)) break;
       }
       arc_step_ /= 2;
     }
     ++point_count_;
     const bool done = point.state.load == options_.target;
-    const bool switched = record_event(from, previous_unstable, point, ahead, done);
+    const bool switched =
+        critical && record_event(*critical, previous_unstable, point, reverses_load(ahead), done);
     if (!switched) {
       arc_step_ *= step_factor(point.newton.correction);
       direction_ = std::move(ahead);
@@ -250,20 +259,26 @@ class PathFollower {
     return ahead.load * direction_.load < 0;
   }
 
-  /// Whether what lies between two points is on the way from one to the other: a limit point has a
-  /// load beyond both of theirs, a bifurcation has one between them.
-  bool event_fits(const State& from, Index previous_unstable, const PathPoint& to,
-                  const Direction& ahead) {
+  /// What lies between two points, if anything does.
+  std::optional<Critical> between(const State& from, Index previous_unstable, const PathPoint& to,
+                                  const Direction& ahead) {
     const bool load_reversed = reverses_load(ahead);
-    const bool eventful = load_reversed || stability_changed(previous_unstable, to);
-    if (previous_unstable < 0 || !eventful) return true;
-    PathPoint critical = to;
-    const std::optional<double> load = locate(from, previous_unstable, load_reversed, to, critical);
-    if (!load) return false;
+    if (!load_reversed && !stability_changed(previous_unstable, to)) return {};
+    Critical critical{{}, to};
+    critical.load = locate(from, previous_unstable, load_reversed, to, critical.point);
+    return critical;
+  }
+
+  /// Whether it is on the way from one to the other: a limit point has a load beyond both of
+  /// theirs, a bifurcation has one between them.
+  bool fits(const Critical& critical, const State& from, Index previous_unstable,
+            const PathPoint& to, const Direction& ahead) const {
+    if (previous_unstable < 0) return true;
+    if (!critical.load) return false;
+    const double load = *critical.load, slack = 1e-9 * std::abs(load);
     const auto [low, high] = std::minmax(from.load, to.state.load);
-    const double slack = 1e-9 * std::abs(*load);
-    if (!load_reversed) return *load > low - slack && *load < high + slack;
-    return direction_.load > 0 ? *load > high - slack : *load < low + slack;
+    if (!reverses_load(ahead)) return load > low - slack && load < high + slack;
+    return direction_.load > 0 ? load > high - slack : load < low + slack;
   }
 
   static bool stability_changed(Index previous_unstable, const PathPoint& point) {
@@ -312,16 +327,11 @@ class PathFollower {
   }
 
   /// Records what lies between two points. @return true: the path goes on along another branch.
-  bool record_event(const State& from, Index previous_unstable, const PathPoint& point,
-                    const Direction& ahead, bool done) {
-    const bool load_reversed = reverses_load(ahead);
-    if (!load_reversed && !stability_changed(previous_unstable, point)) return false;
+  bool record_event(const Critical& critical, Index previous_unstable, const PathPoint& point,
+                    bool load_reversed, bool done) {
     PathEvent event;
-    PathPoint critical = point;
-    const std::optional<double> load =
-        locate(from, previous_unstable, load_reversed, point, critical);
-    event.load = load.value_or(critical.state.load);
-    if (!equilibrium_.factor(critical.state)) return false;
+    event.load = critical.load.value_or(critical.point.state.load);
+    if (!equilibrium_.factor(critical.point.state)) return false;
     equilibrium_.smallest_eigenpair(event.shape);
     // One for each direction that becomes unstable or stable; a limit point is one of them.
     Index bifurcations =
@@ -334,7 +344,7 @@ class PathFollower {
     event.kind = PathEvent::Kind::bifurcation;
     for (Index i = 0; i < bifurcations; ++i) path_.events.push_back(event);
     const bool switches = !load_reversed && options_.switch_branch && !switched_;
-    if (switches) switch_to_branch(critical, event.shape);
+    if (switches) switch_to_branch(critical.point, event.shape);
     if (!switches && done && !equilibrium_.factor(point.state)) return false;
     return switches;
   }
