@@ -83,6 +83,16 @@ void print(const Certification& certificate) {
   flips.print(std::cout, "  ");
 }
 
+/// Results of another input differ by it, not by how they were computed.
+void require_same_cases(const results::Results& own, const Configuration& stored) {
+  for (const results::CaseInfo& info : stored.results.cases) {
+    const auto now = std::ranges::find(own.cases, info.id, &results::CaseInfo::id);
+    if (now != own.cases.end() && now->hash != info.hash)
+      throw InputError(stored.name + ": /cases/" + info.id +
+                       "/hash: expected results of the case as it is now; run it again");
+  }
+}
+
 }  // namespace
 
 int certify_command(const RunCommand& command, const std::vector<std::string>& builds) {
@@ -95,7 +105,10 @@ int certify_command(const RunCommand& command, const std::vector<std::string>& b
     stored.push_back({name, read_summary(file)});
   }
   configurations = computed(command);
-  for (Configuration& build : stored) configurations.push_back(std::move(build));
+  for (Configuration& build : stored) {
+    require_same_cases(configurations.front().results, build);
+    configurations.push_back(std::move(build));
+  }
   const Certification certificate = certify(configurations);
   const bool any = std::ranges::any_of(certificate.rows,
                                        [](const ConfigurationRow& row) { return row.checks > 0; });

@@ -280,7 +280,7 @@ void print_csv(const SideComparison& comparison) {
   std::cout << "run,quantity,index,changed,noise";
   for (const ComparedSide& side : comparison.sides)
     std::cout << ',' << csv_cell(side.label) << ',' << csv_cell(side.label + " [%]");
-  std::cout << "\r\n";
+  std::cout << "\n";
   const auto line = [&](const std::string& run, const std::string& quantity,
                         const std::string& index, const results::ComparedValue& value) {
     const auto cell = [](const Number& number) { return number ? shortest(*number) : ""; };
@@ -288,7 +288,7 @@ void print_csv(const SideComparison& comparison) {
               << (value.changed ? "true," : "false,") << shortest(value.noise);
     for (std::size_t s = 0; s < value.values.size(); ++s)
       std::cout << ',' << cell(value.values[s]) << ',' << cell(value.percent[s]);
-    std::cout << "\r\n";
+    std::cout << "\n";
   };
   for (const ComparedRun& run : comparison.runs) {
     for (const results::ComparedModes& found : run.modes)

@@ -1,5 +1,6 @@
 #include "harness/cli/command_references.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include "harness/base/data_root.h"
@@ -13,7 +14,7 @@ namespace trammel::harness {
 namespace {
 
 void print_csv(const std::vector<CitedReference>& all) {
-  std::cout << "id,title,kind,unit,index,value,uncertainty,printed,source,place,notes\r\n";
+  std::cout << "id,title,kind,unit,index,value,uncertainty,printed,source,place,notes\n";
   for (const auto& [reference, source] : all) {
     for (std::size_t i = 0; i < reference.values.size(); ++i) {
       const std::string printed = reference.printed.empty() ? "" : reference.printed[i];
@@ -21,14 +22,14 @@ void print_csv(const std::vector<CitedReference>& all) {
                 << to_string(reference.kind) << ',' << csv_cell(reference.unit) << ',' << i << ','
                 << shortest(reference.values[i]) << ',' << shortest(reference.uncertainty[i]) << ','
                 << printed << ',' << csv_cell(source.text) << ',' << csv_cell(reference.place)
-                << ',' << csv_cell(reference.notes) << "\r\n";
+                << ',' << csv_cell(reference.notes) << "\n";
     }
   }
 }
 
 void print_json(const std::vector<CitedReference>& all) {
   Json json = Json::array();
-  for (const auto& [reference, source] : all)
+  for (const auto& [reference, source] : all) {
     json.push_back({{"id", reference.id},
                     {"title", reference.title},
                     {"kind", to_string(reference.kind)},
@@ -37,7 +38,24 @@ void print_json(const std::vector<CitedReference>& all) {
                     {"uncertainty", reference.uncertainty},
                     {"source", source.text},
                     {"place", reference.place}});
+    if (!reference.printed.empty()) json.back()["printed"] = reference.printed;
+    if (!reference.notes.empty()) json.back()["notes"] = reference.notes;
+  }
   std::cout << pretty(json);
+}
+
+void print_values(const CitedReference& cited) {
+  const auto& [reference, source] = cited;
+  std::cout << reference.id << ": " << reference.title << "\n  " << to_string(reference.kind) << ", "
+            << source.text << "\n  " << reference.place << '\n';
+  if (!reference.notes.empty()) std::cout << "  " << reference.notes << '\n';
+  Table table({"index", ">value [" + reference.unit + "]", ">uncertainty"});
+  for (std::size_t i = 0; i < reference.values.size(); ++i) {
+    table.add({std::to_string(i),
+               reference.printed.empty() ? shortest(reference.values[i]) : reference.printed[i],
+               rounded(reference.uncertainty[i], 2)});
+  }
+  table.print(std::cout, "  ");
 }
 
 void print_table(const std::vector<CitedReference>& all) {
@@ -69,7 +87,8 @@ int list_references(const std::vector<std::string>& names, ReferenceFormat forma
   for (const auto& [id, reference] : library.used()) all.push_back(reference);
   if (format == ReferenceFormat::csv) print_csv(all);
   if (format == ReferenceFormat::json) print_json(all);
-  if (format == ReferenceFormat::table) print_table(all);
+  if (format == ReferenceFormat::table && names.empty()) print_table(all);
+  if (format == ReferenceFormat::table && !names.empty()) std::ranges::for_each(all, print_values);
   return 0;
 }
 

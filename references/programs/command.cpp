@@ -1,5 +1,6 @@
 #include "references/programs/command.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <iomanip>
@@ -45,6 +46,15 @@ void print_values(const Comparison& comparison, std::ostream& out) {
     out << "  " << comparison.derived.size() - comparison.stored.size()
         << " more derived than stored\n";
   }
+  if (comparison.printed.empty()) return;
+  bool all = comparison.printed.size() == comparison.proved.size();
+  for (std::size_t i = 0; i < std::min(comparison.printed.size(), comparison.proved.size()); ++i) {
+    if (comparison.printed[i] == comparison.proved[i]) continue;
+    all = false;
+    out << "  value " << i << ": stored " << comparison.printed[i] << ", proved "
+        << comparison.proved[i] << "\n";
+  }
+  if (all) out << "  all digits stored are proved\n";
 }
 
 bool print_comparison(const std::string& file, std::ostream& out) {

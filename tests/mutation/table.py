@@ -45,7 +45,7 @@ def main():
     return page_section.write(
         "detection", "Faults that are noticed",
         f"Of {len(faults)} faults that were seeded into the program one at a time, {noticed} are noticed."
-        " Each counts for the family of cases that notices it first. Coefficients are 1 % off; generic faults are"
+        " Each counts for one family of cases that notices it, or one suite of tests. Coefficients are 1 % off; generic faults are"
         " drawn from all constants, operators, indices, conditions and terms of the solver.",
         "Faults by family", table(faults))
 

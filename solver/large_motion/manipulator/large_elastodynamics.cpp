@@ -238,8 +238,8 @@ class LargeElastodynamics {
     return true;
   }
 
-  /// Deflections of the quasi-static start and their rates, by differences of second order; K q = f
-  /// - C v with what damping takes up.
+  /// K q = f - C v with what damping takes up, at the rates v of K q = f, by differences of second
+  /// order; so starts linear elastodynamics, too.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
     const TransientOptions& time = options_.time;
     const double h = std::min(time.step, (time.end - time.start) / 2);
@@ -248,16 +248,10 @@ class LargeElastodynamics {
       found[i] = equilibrium_at(time.start + static_cast<double>(i) * h);
       if (!found[i]) return false;
     }
-    const auto differences = [&found, h] {
-      const VectorXd &a = found[0]->state.q, &b = found[1]->state.q, &c = found[2]->state.q;
-      return std::array<VectorXd, 3>{(4 * b - 3 * a - c) / (2 * h), (c - a) / (2 * h),
-                                     (3 * c - 4 * b + a) / (2 * h)};
-    };
-    const std::array<VectorXd, 3> undamped = differences();
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!add_damping(*found[i], undamped[i])) return false;
-    }
-    rates += differences()[0];
+    const VectorXd &a = found[0]->state.q, &b = found[1]->state.q, &c = found[2]->state.q;
+    const VectorXd deflection_rates = (4 * b - 3 * a - c) / (2 * h);
+    if (!add_damping(*found[0], deflection_rates)) return false;
+    rates += deflection_rates;
     state.q = found[0]->state.q;
     start_sample_ =
         sample_of(*found[0]->system, found[0]->state, found[0]->nominal, found[0]->nominal);

@@ -520,6 +520,15 @@ BOOST_AUTO_TEST_CASE(a_case_is_certified_over_ways_of_rounding) {
   const Json found = Json::parse(run(folder, "certify cantilever-tip-force --json").out);
   for (const Json& row : found.at("configurations"))
     BOOST_TEST(row.at("fewest_digits").get<double>() < 16, row.dump());
+  (void)run(folder, "run cantilever-tip-force --out other");
+  BOOST_TEST(run(folder, "certify cantilever-tip-force --results other").status == 0);
+  Json other = read_json(folder.path() / "other/results.json");
+  other["cases"]["cantilever-tip-force"]["hash"] = "9b12aadb-01ba-5329-ace7-33862ad0c057";
+  (void)folder.write("other/results.json", other.dump());
+  const Outcome stale = run(folder, "certify cantilever-tip-force --results other");
+  BOOST_TEST(stale.status == 2);
+  BOOST_TEST(contains(stale.err, "other: /cases/cantilever-tip-force/hash: expected results of"),
+             stale.err);
   (void)folder.write(testing::cantilever());
   const Outcome none = run(folder, "certify cantilever.json");
   BOOST_TEST(none.status == 2);
@@ -793,9 +802,14 @@ BOOST_AUTO_TEST_CASE(references_have_a_row_a_value_and_their_source) {
   for (const Json& reference : Json::parse(json.out)) values += reference["values"].size();
   BOOST_TEST(values > 4000U);
   BOOST_TEST(lines(csv.out) == values + 1);
+  BOOST_TEST(csv.out.find_first_of("\r?") == std::string::npos, "an end of line is one character");
   const Outcome one = run(folder, "references table-2-ansys --csv");
   BOOST_TEST(lines(one.out) == 7U);
   BOOST_TEST(contains(one.out, "paper,\"Hz\",5,64.514,5e-04,64.514,\"K. V. Varalakshmi"));
+  const Outcome proved = run(folder, "references cantilever-roots");
+  BOOST_TEST(contains(proved.out, "1.87510406871196116644530824108"), proved.out);
+  const Outcome digits = run(folder, "references cantilever-roots --json");
+  BOOST_TEST(contains(digits.out, "\"1.87510406871196116644530824108"), digits.out);
   const Outcome wrong = run(folder, "references tabel-2-ansys");
   BOOST_TEST(wrong.status == 2);
   BOOST_TEST(contains(wrong.err, "did you mean 'table-2-ansys'?"));
