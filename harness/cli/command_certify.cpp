@@ -37,8 +37,7 @@ constexpr std::pair<const char*, int> kRounding[] = {{"to the nearest", FE_TONEA
                                                      {"downwards", FE_DOWNWARD},
                                                      {"towards zero", FE_TOWARDZERO}};
 
-std::vector<Configuration> computed(const RunCommand& command) {
-  const std::vector<Case> cases = select_cases(command);
+std::vector<Configuration> computed(const std::vector<Case>& cases, const RunCommand& command) {
   const References references;
   std::vector<Configuration> configurations;
   for (const auto& [name, mode] : kRounding) {
@@ -84,31 +83,31 @@ void print(const Certification& certificate) {
 }
 
 /// Results of another input differ by it, not by how they were computed.
-void require_same_cases(const results::Results& own, const Configuration& stored) {
-  for (const results::CaseInfo& info : stored.results.cases) {
-    const auto now = std::ranges::find(own.cases, info.id, &results::CaseInfo::id);
-    if (now != own.cases.end() && now->hash != info.hash)
-      throw InputError(stored.name + ": /cases/" + info.id +
-                       "/hash: expected results of the case as it is now; run it again");
+void require_same_cases(const std::vector<Case>& cases, const std::filesystem::path& file,
+                        const results::Results& stored) {
+  for (const Case& one : cases) {
+    const results::CaseInfo now = case_info(one);
+    const auto then = std::ranges::find(stored.cases, now.id, &results::CaseInfo::id);
+    if (then != stored.cases.end() && then->hash != now.hash)
+      throw InputError(file.string(), "/cases/" + now.id + "/hash",
+                       "expected results of the case as it is now; run it again");
   }
 }
 
 }  // namespace
 
 int certify_command(const RunCommand& command, const std::vector<std::string>& builds) {
-  std::vector<Configuration> configurations;
+  const std::vector<Case> cases = select_cases(command);
   std::vector<Configuration> stored;
   for (const std::string& name : builds) {
     const std::filesystem::path file = is_directory(std::filesystem::path(name))
                                            ? std::filesystem::path(name) / "results.json"
                                            : std::filesystem::path(name);
     stored.push_back({name, read_summary(file)});
+    require_same_cases(cases, file, stored.back().results);
   }
-  configurations = computed(command);
-  for (Configuration& build : stored) {
-    require_same_cases(configurations.front().results, build);
-    configurations.push_back(std::move(build));
-  }
+  std::vector<Configuration> configurations = computed(cases, command);
+  for (Configuration& build : stored) configurations.push_back(std::move(build));
   const Certification certificate = certify(configurations);
   const bool any = std::ranges::any_of(certificate.rows,
                                        [](const ConfigurationRow& row) { return row.checks > 0; });

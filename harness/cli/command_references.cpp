@@ -40,15 +40,19 @@ void print_json(const std::vector<CitedReference>& all) {
                     {"place", reference.place}});
     if (!reference.printed.empty()) json.back()["printed"] = reference.printed;
     if (!reference.notes.empty()) json.back()["notes"] = reference.notes;
+    if (!reference.derivation.empty()) json.back()["derivation"] = reference.derivation;
+    if (!reference.errata.empty()) json.back()["errata"] = reference.errata;
   }
   std::cout << pretty(json);
 }
 
-void print_values(const CitedReference& cited) {
+void print_reference(const CitedReference& cited) {
   const auto& [reference, source] = cited;
-  std::cout << reference.id << ": " << reference.title << "\n  " << to_string(reference.kind) << ", "
-            << source.text << "\n  " << reference.place << '\n';
+  std::cout << reference.id << ": " << reference.title << "\n  " << to_string(reference.kind)
+            << ", " << source.text << "\n  " << reference.place << '\n';
+  if (!reference.derivation.empty()) std::cout << "  " << reference.derivation << '\n';
   if (!reference.notes.empty()) std::cout << "  " << reference.notes << '\n';
+  for (const std::string& erratum : reference.errata) std::cout << "  erratum: " << erratum << '\n';
   Table table({"index", ">value [" + reference.unit + "]", ">uncertainty"});
   for (std::size_t i = 0; i < reference.values.size(); ++i) {
     table.add({std::to_string(i),
@@ -88,7 +92,8 @@ int list_references(const std::vector<std::string>& names, ReferenceFormat forma
   if (format == ReferenceFormat::csv) print_csv(all);
   if (format == ReferenceFormat::json) print_json(all);
   if (format == ReferenceFormat::table && names.empty()) print_table(all);
-  if (format == ReferenceFormat::table && !names.empty()) std::ranges::for_each(all, print_values);
+  if (format == ReferenceFormat::table && !names.empty())
+    std::ranges::for_each(all, print_reference);
   return 0;
 }
 

@@ -13,6 +13,8 @@ namespace trammel::harness {
                                           const std::vector<Case>& cases,
                                           const References& references, bool with_series = true);
 
+[[nodiscard]] results::CaseInfo case_info(const Case& given);
+
 [[nodiscard]] results::Counters counters(const solver::Counters& counters);
 
 /// The series and the drawing alone.

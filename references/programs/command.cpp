@@ -46,15 +46,19 @@ void print_values(const Comparison& comparison, std::ostream& out) {
     out << "  " << comparison.derived.size() - comparison.stored.size()
         << " more derived than stored\n";
   }
-  if (comparison.printed.empty()) return;
-  bool all = comparison.printed.size() == comparison.proved.size();
-  for (std::size_t i = 0; i < std::min(comparison.printed.size(), comparison.proved.size()); ++i) {
-    if (comparison.printed[i] == comparison.proved[i]) continue;
-    all = false;
-    out << "  value " << i << ": stored " << comparison.printed[i] << ", proved "
-        << comparison.proved[i] << "\n";
+}
+
+/// Of a proved reference, which values have other digits.
+void print_proved(const Comparison& comparison, std::ostream& out) {
+  const std::vector<std::string>&stored = comparison.printed, &proved = comparison.proved;
+  if (stored.empty()) return;
+  if (stored == proved) out << "  all digits stored are proved\n";
+  if (stored.size() != proved.size())
+    out << "  digits of " << stored.size() << " values stored, " << proved.size() << " proved\n";
+  for (std::size_t i = 0; i < std::min(stored.size(), proved.size()); ++i) {
+    if (stored[i] != proved[i])
+      out << "  value " << i << ": stored " << stored[i] << ", proved " << proved[i] << "\n";
   }
-  if (all) out << "  all digits stored are proved\n";
 }
 
 bool print_comparison(const std::string& file, std::ostream& out) {
@@ -66,6 +70,7 @@ bool print_comparison(const std::string& file, std::ostream& out) {
   }
   out << " by " << comparison.program << "\n";
   print_values(comparison, out);
+  print_proved(comparison, out);
   out << "  " << (comparison.within_uncertainty() ? "holds" : "DOES NOT HOLD") << "\n";
   return comparison.within_uncertainty();
 }

@@ -27,7 +27,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
   }
 }
 
-/// At most a step, within which the load has no jump or kink [s].
+}  // namespace
+
 double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
   constexpr double kBefore = 0.999;  // at a jump the load has the value after it
   double span = std::min(options.step, options.end - options.start);
@@ -35,8 +36,6 @@ double smooth_span(const std::vector<double>& breakpoints, const TransientOption
     if (time > options.start) span = std::min(span, kBefore * (time - options.start));
   return span;
 }
-
-}  // namespace
 
 Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOptions& options,
                                VectorXd& q, VectorXd& v, Counters& counters) {

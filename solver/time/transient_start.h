@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "solver/time/transient.h"
 
@@ -8,6 +9,10 @@ namespace trammel::solver {
 
 /// Below this ratio of pivot to diagonal a mass or stiffness matrix counts as singular.
 inline constexpr double kSingularMass = 1e-13;
+
+/// At most a step, within which the load has no jump or kink [s].
+[[nodiscard]] double smooth_span(const std::vector<double>& breakpoints,
+                                 const TransientOptions& options);
 
 /// K q = f now and at four times after it, within a step and before a jump or kink of the load: the
 /// velocity by the one-sided difference of order 4.

@@ -18,6 +18,7 @@
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
 #include "solver/model/plane.h"
+#include "solver/time/transient_start.h"
 
 namespace trammel::solver::large_motion {
 namespace {
@@ -241,11 +242,10 @@ class LargeElastodynamics {
   /// K q = f - C v with what damping takes up, at the rates v of K q = f, by differences of second
   /// order; so starts linear elastodynamics, too.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
-    const TransientOptions& time = options_.time;
-    const double h = std::min(time.step, (time.end - time.start) / 2);
+    const double h = smooth_span(options_.load_history.bends(), options_.time) / 2;
     std::array<std::optional<StaticInstant>, 3> found;
     for (std::size_t i = 0; i < 3; ++i) {
-      found[i] = equilibrium_at(time.start + static_cast<double>(i) * h);
+      found[i] = equilibrium_at(options_.time.start + static_cast<double>(i) * h);
       if (!found[i]) return false;
     }
     const VectorXd &a = found[0]->state.q, &b = found[1]->state.q, &c = found[2]->state.q;

@@ -13,7 +13,8 @@ namespace trammel::solver {
 /// effects, and no quasi-static motion beside a dynamic one. Gyroscopic terms cannot be left out.
 /// Schemes become generalized-alpha with their spectral radius at infinite frequency. Steps end
 /// where samples are asked for and the load history bends. A quasi-static start: three equilibria
-/// give velocities, what damping takes up at them acts on three more, whose velocities start it.
+/// give the rates of the deflection; the first is moved to where it holds with what damping takes
+/// up at them.
 /// not_converged: a path of equilibria or a step that does not reach its end.
 /// @throws ModelError  as `solve_elastodynamics`; where it is `beyond_large_displacement`; without
 ///                     elastic inertia and times of samples.

@@ -74,7 +74,7 @@ double step_factor(const std::vector<double>& correction) {
 }
 
 /// A limit point or a bifurcation between two points of a path.
-struct Critical {
+struct CriticalPoint {
   std::optional<double> load;  ///< nothing where it is not found
   PathPoint point;             ///< near it
 };
@@ -215,7 +215,7 @@ class PathFollower {
       return not_converged("too many points");
     PathPoint point;
     Direction ahead;
-    std::optional<Critical> critical;
+    std::optional<CriticalPoint> critical;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return not_converged("no step is small enough");
       // A step beyond the target ends on the target, or is halved; so is one that may have come to
@@ -228,8 +228,8 @@ class PathFollower {
       if (reached) ahead = tangent(point.state, direction_);
       if (reached && is_smooth(from, point.state, ahead)) {
         point.unstable_directions = equilibrium_.matrix().negative_pivots();
-        critical = between(from, previous_unstable, point, ahead);
-        if (!critical || fits(*critical, from, previous_unstable, point, ahead)) break;
+        critical = find_critical_point(from, previous_unstable, point, ahead);
+        if (!critical || lies_on_path(*critical, from, previous_unstable, point, ahead)) break;
       }
       arc_step_ /= 2;
     }
@@ -260,19 +260,19 @@ class PathFollower {
   }
 
   /// What lies between two points, if anything does.
-  std::optional<Critical> between(const State& from, Index previous_unstable, const PathPoint& to,
-                                  const Direction& ahead) {
+  std::optional<CriticalPoint> find_critical_point(const State& from, Index previous_unstable,
+                                                   const PathPoint& to, const Direction& ahead) {
     const bool load_reversed = reverses_load(ahead);
     if (!load_reversed && !stability_changed(previous_unstable, to)) return {};
-    Critical critical{{}, to};
+    CriticalPoint critical{{}, to};
     critical.load = locate(from, previous_unstable, load_reversed, to, critical.point);
     return critical;
   }
 
   /// Whether it is on the way from one to the other: a limit point has a load beyond both of
   /// theirs, a bifurcation has one between them.
-  bool fits(const Critical& critical, const State& from, Index previous_unstable,
-            const PathPoint& to, const Direction& ahead) const {
+  bool lies_on_path(const CriticalPoint& critical, const State& from, Index previous_unstable,
+                    const PathPoint& to, const Direction& ahead) const {
     if (previous_unstable < 0) return true;
     if (!critical.load) return false;
     const double load = *critical.load, slack = 1e-9 * std::abs(load);
@@ -327,7 +327,7 @@ class PathFollower {
   }
 
   /// Records what lies between two points. @return true: the path goes on along another branch.
-  bool record_event(const Critical& critical, Index previous_unstable, const PathPoint& point,
+  bool record_event(const CriticalPoint& critical, Index previous_unstable, const PathPoint& point,
                     bool load_reversed, bool done) {
     PathEvent event;
     event.load = critical.load.value_or(critical.point.state.load);

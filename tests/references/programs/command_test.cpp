@@ -73,6 +73,19 @@ BOOST_AUTO_TEST_CASE(a_corrupted_reference_is_caught_with_status_1) {
   BOOST_TEST(outcome.out.find("centroid") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_digit_that_is_not_proved_is_shown) {
+  Json reference = read_json(values / "beams/beam-modes/cantilever-roots.json");
+  const Outcome right = run({(values / "beams/beam-modes/cantilever-roots.json").string()});
+  BOOST_TEST(right.out.find("all digits stored are proved") != std::string::npos);
+  std::string digits = reference["printed"][1].get<std::string>();
+  digits.back() = digits.back() == '1' ? '2' : '1';
+  reference["printed"][1] = digits;
+  const ScratchFile file(reference.dump());
+  const Outcome wrong = run({file.path()});
+  BOOST_TEST(wrong.status == 1);
+  BOOST_TEST(wrong.out.find("  value 1: stored " + digits + ", proved ") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_printed_reference_has_nothing_to_derive) {
   const Outcome outcome = run({(values / "paper/table-2-ansys.json").string()});
   BOOST_TEST(outcome.status == 0);
