@@ -58,6 +58,22 @@ BOOST_AUTO_TEST_CASE(every_file_that_the_readme_of_a_folder_names_is_there) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_file_that_names_its_schema_names_one_that_is_there) {
+  const std::regex schema("\"\\$schema\": \"(\\.[^\"]*)\"");
+  std::size_t named = 0;
+  for (const char* folder : {"cases", "references/values"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".json") continue;
+      const fs::path file = fs::relative(entry.path(), root);
+      for (const std::string& path : found(text_of(file.string()), schema)) {
+        ++named;
+        BOOST_TEST(fs::exists(entry.path().parent_path() / path), file << " names " << path);
+      }
+    }
+  }
+  BOOST_TEST(named > 1000U);
+}
+
 BOOST_AUTO_TEST_CASE(the_readme_names_every_analysis_that_a_case_may_ask_for) {
   const auto schema = nlohmann::json::parse(text_of("cases/schema/case.schema.json"));
   const std::string readme = text_of("README.md");
