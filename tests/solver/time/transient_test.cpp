@@ -472,7 +472,7 @@ BOOST_AUTO_TEST_CASE(input_without_meaning_is_refused) {
   TransientOptions options;
   options.end = 1;
   options.step = 0.1;
-  const auto refused = [&good](TransientOptions o) {
+  const auto refused = [&good](const TransientOptions& o) {
     BOOST_CHECK_THROW(static_cast<void>(solve_transient(good, o)), ModelError);
   };
   TransientOptions bad = options;
