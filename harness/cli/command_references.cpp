@@ -91,9 +91,12 @@ int list_references(const std::vector<std::string>& names, ReferenceFormat forma
   for (const auto& [id, reference] : library.used()) all.push_back(reference);
   if (format == ReferenceFormat::csv) print_csv(all);
   if (format == ReferenceFormat::json) print_json(all);
-  if (format == ReferenceFormat::table && names.empty()) print_table(all);
-  if (format == ReferenceFormat::table && !names.empty())
-    std::ranges::for_each(all, print_reference);
+  if (format == ReferenceFormat::table) {
+    if (names.empty())
+      print_table(all);
+    else
+      std::ranges::for_each(all, print_reference);
+  }
   return 0;
 }
 

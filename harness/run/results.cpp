@@ -210,6 +210,25 @@ results::Run run_results(const Run& run, bool with_series) {
   return out;
 }
 
+results::CaseInfo case_info(const Case& given) {
+  results::CaseInfo info;
+  const Json& json = given.document.value();
+  info.id = given.id();
+  info.title = given.title();
+  info.description = json.value("description", "");
+  info.family = json.value("family", "");
+  info.labels = json.value("labels", std::vector<std::string>{});
+  for (const char* key : {"stress_suite"})
+    if (json.contains(key)) info.stress_suite = results::read_stress_suite(json[key]);
+  if (json.contains("figures")) info.figures = results::read_figures(json["figures"]);
+  if (json.contains("tables")) info.tables = results::read_tables(json["tables"]);
+  info.analysis = analysis_kind(given.document);
+  info.hash = case_hash(given);
+  for (const std::string& variant : given.variants())
+    info.variants.push_back({variant, given.variant_title(variant)});
+  return info;
+}
+
 results::Reference reference(const std::string& id, const CitedReference& cited) {
   const references::Reference& source = cited.reference;
   results::Reference out;
@@ -242,23 +261,8 @@ results::UncertaintyCoverage coverage(const NumericalUncertaintySummary& summary
 
 }  // namespace
 
-results::CaseInfo case_info(const Case& given) {
-  results::CaseInfo info;
-  const Json& json = given.document.value();
-  info.id = given.id();
-  info.title = given.title();
-  info.description = json.value("description", "");
-  info.family = json.value("family", "");
-  info.labels = json.value("labels", std::vector<std::string>{});
-  for (const char* key : {"stress_suite"})
-    if (json.contains(key)) info.stress_suite = results::read_stress_suite(json[key]);
-  if (json.contains("figures")) info.figures = results::read_figures(json["figures"]);
-  if (json.contains("tables")) info.tables = results::read_tables(json["tables"]);
-  info.analysis = analysis_kind(given.document);
-  info.hash = content_hash(json.dump());
-  for (const std::string& variant : given.variants())
-    info.variants.push_back({variant, given.variant_title(variant)});
-  return info;
+std::string case_hash(const Case& given) {
+  return content_hash(given.document.value().dump());
 }
 
 results::Run stored_series(const Computation& computation) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "harness/results/results.h"
@@ -13,7 +14,8 @@ namespace trammel::harness {
                                           const std::vector<Case>& cases,
                                           const References& references, bool with_series = true);
 
-[[nodiscard]] results::CaseInfo case_info(const Case& given);
+/// Of the case with all that it extends, as its `CaseInfo` has it.
+[[nodiscard]] std::string case_hash(const Case& given);
 
 [[nodiscard]] results::Counters counters(const solver::Counters& counters);
 

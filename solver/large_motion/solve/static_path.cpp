@@ -75,6 +75,7 @@ double step_factor(const std::vector<double>& correction) {
 
 /// A limit point or a bifurcation between two points of a path.
 struct CriticalPoint {
+  bool load_reversed = false;  ///< a limit point
   std::optional<double> load;  ///< nothing where it is not found
   PathPoint point;             ///< near it
 };
@@ -229,14 +230,13 @@ class PathFollower {
       if (reached && is_smooth(from, point.state, ahead)) {
         point.unstable_directions = equilibrium_.matrix().negative_pivots();
         critical = find_critical_point(from, previous_unstable, point, ahead);
-        if (!critical || lies_on_path(*critical, from, previous_unstable, point, ahead)) break;
+        if (!critical || lies_on_path(*critical, from, previous_unstable, point)) break;
       }
       arc_step_ /= 2;
     }
     ++point_count_;
     const bool done = point.state.load == options_.target;
-    const bool switched =
-        critical && record_event(*critical, previous_unstable, point, reverses_load(ahead), done);
+    const bool switched = critical && record_event(*critical, previous_unstable, point, done);
     if (!switched) {
       arc_step_ *= step_factor(point.newton.correction);
       direction_ = std::move(ahead);
@@ -255,29 +255,24 @@ class PathFollower {
                kChord * std::sqrt(2 + 2 * turn);
   }
 
-  [[nodiscard]] bool reverses_load(const Direction& ahead) const {
-    return ahead.load * direction_.load < 0;
-  }
-
   /// What lies between two points, if anything does.
   std::optional<CriticalPoint> find_critical_point(const State& from, Index previous_unstable,
                                                    const PathPoint& to, const Direction& ahead) {
-    const bool load_reversed = reverses_load(ahead);
-    if (!load_reversed && !stability_changed(previous_unstable, to)) return {};
-    CriticalPoint critical{{}, to};
-    critical.load = locate(from, previous_unstable, load_reversed, to, critical.point);
+    CriticalPoint critical{ahead.load * direction_.load < 0, {}, to};
+    if (!critical.load_reversed && !stability_changed(previous_unstable, to)) return {};
+    critical.load = locate(from, previous_unstable, critical.load_reversed, to, critical.point);
     return critical;
   }
 
   /// Whether it is on the way from one to the other: a limit point has a load beyond both of
   /// theirs, a bifurcation has one between them.
   bool lies_on_path(const CriticalPoint& critical, const State& from, Index previous_unstable,
-                    const PathPoint& to, const Direction& ahead) const {
+                    const PathPoint& to) const {
     if (previous_unstable < 0) return true;
     if (!critical.load) return false;
     const double load = *critical.load, slack = 1e-9 * std::abs(load);
     const auto [low, high] = std::minmax(from.load, to.state.load);
-    if (!reverses_load(ahead)) return load > low - slack && load < high + slack;
+    if (!critical.load_reversed) return load > low - slack && load < high + slack;
     return direction_.load > 0 ? load > high - slack : load < low + slack;
   }
 
@@ -328,7 +323,7 @@ class PathFollower {
 
   /// Records what lies between two points. @return true: the path goes on along another branch.
   bool record_event(const CriticalPoint& critical, Index previous_unstable, const PathPoint& point,
-                    bool load_reversed, bool done) {
+                    bool done) {
     PathEvent event;
     event.load = critical.load.value_or(critical.point.state.load);
     if (!equilibrium_.factor(critical.point.state)) return false;
@@ -336,14 +331,14 @@ class PathFollower {
     // One for each direction that becomes unstable or stable; a limit point is one of them.
     Index bifurcations =
         previous_unstable < 0 ? 1 : std::abs(point.unstable_directions - previous_unstable);
-    if (load_reversed) {
+    if (critical.load_reversed) {
       event.kind = PathEvent::Kind::limit_point;
       path_.events.push_back(event);
       bifurcations = std::abs(bifurcations - 1);
     }
     event.kind = PathEvent::Kind::bifurcation;
     for (Index i = 0; i < bifurcations; ++i) path_.events.push_back(event);
-    const bool switches = !load_reversed && options_.switch_branch && !switched_;
+    const bool switches = !critical.load_reversed && options_.switch_branch && !switched_;
     if (switches) switch_to_branch(critical.point, event.shape);
     if (!switches && done && !equilibrium_.factor(point.state)) return false;
     return switches;
