@@ -4,6 +4,7 @@
 
 #include "solver/assembly/system.h"
 #include "solver/linalg/factorization.h"
+#include "solver/statics/postprocessing.h"
 
 namespace trammel::solver {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/large_motion/solve/step_convergence.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
 
@@ -58,7 +59,12 @@ StepReport GeneralizedAlpha::attempt(double h, double end) {
 
 double GeneralizedAlpha::relation_defect(double h) {
   const auto size = [this](const VectorXd& x) { return weighted_rms_norm(system_, x); };
-  const double A = size(A0_) + size(A1_), a = size(from_.a) + size(to_.a) + A;
+  // A body that comes to rest has accelerations of round-off: that of the positions, over beta h^2.
+  // Terms of which it is more than this share, a tenth of the residual's limit, have no digits.
+  constexpr double kRoundoffShare = 1e-5;
+  const double roundoff = kEps * (size(from_.q) + size(to_.q)) / (beta_ * h * h);
+  const double A = size(A0_) + size(A1_) + roundoff / kRoundoffShare;
+  const double a = size(from_.a) + size(to_.a) + A;
   const double v = size(from_.v) + size(to_.v) + h * A;
   const double q = size(from_.q) + size(to_.q) + h * v;
   const auto share = [&](double terms) {

@@ -12,6 +12,7 @@
 #include "solver/large_motion/solve/generalized_alpha.h"
 #include "solver/large_motion/solve/motion_residuals.h"
 #include "solver/large_motion/solve/state_results.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
 
@@ -104,8 +105,9 @@ class TimeIntegration {
   }
 
   bool advance_over_breakpoints(double target, double& h) {
-    // As near for both runs of an extrapolated motion.
-    const double apart = 1e-6 * options_.step * options_.steps_in_multiples_of;
+    // Round-off error of a time that is a multiple of the output step: breakpoints that are farther
+    // apart are integrated one by one, however short a pulse is.
+    const double apart = 8 * kEps * std::max(std::abs(start_time_), std::abs(options_.end_time));
     bool bends = false;
     for (; next_breakpoint_ < options_.breakpoints.size(); ++next_breakpoint_) {
       const double time = options_.breakpoints[next_breakpoint_];
