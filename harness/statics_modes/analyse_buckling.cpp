@@ -51,9 +51,11 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
     }
   }
   if (buckling.load_factor.size() == 0)
-    result.warnings.push_back(
-        {"the number of load factors", 0, "",
-         "nothing buckles, for the loads compress nothing, or there are none"});
+    result.warnings.push_back({"the number of load factors", 0, "",
+                               buckling.checked_factor > 0
+                                   ? "K + factor K_G is positive definite up to a factor of " +
+                                         rounded(buckling.checked_factor, 3)
+                                   : "the loads change no stiffness, or there are none"});
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;
 }

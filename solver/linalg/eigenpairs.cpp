@@ -207,12 +207,14 @@ class Solver {
     for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
   }
 
-  /// One more inverse iteration of the wanted vectors that need it, with K - t B factored beside
+  /// More inverse iterations of the wanted vectors that need them, with K - t B factored next to
   /// their own values. (K - s B)^-1 B has the rounding of its largest |mu|, and leaves more of that
   /// vector in one of a smaller mu, by the ratio of both; here its own is the largest. Negative mu
   /// are not known.
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
+    constexpr int kPasses = 4;
+    constexpr double kEnough = 1e-9;  // a pass divides what other vectors leave by 1 / kAside
     const Index wanted = std::min(count_, X_.cols());
     if (wanted == 0) return;
     bool moved = false;
@@ -227,12 +229,17 @@ class Solver {
       const Operator beside = [&](const VectorXd& x) -> VectorXd {
         return pencil_.K_times(x) - t * (pencil_.B->transpose() * x);
       };
-      const RefinedSolution y =
-          refined_solve(beside, factorization_, pencil_.B->transpose() * X_.col(j),
-                        X_.col(j) / (pairs_.value[j] - t), counters_);
-      if (!(y.correction < 0.1)) continue;
-      X_.col(j) = y.x;
-      moved = true;
+      for (int pass = 0; pass < kPasses; ++pass) {
+        const VectorXd guess = X_.col(j) / (pairs_.value[j] - t);
+        const RefinedSolution y = refined_solve(
+            beside, factorization_, pencil_.B->transpose() * X_.col(j), guess, counters_);
+        if (!(y.correction < 0.1)) break;
+        const VectorXd change = (y.x - guess).cwiseQuotient(factorization_.scaling());
+        const double size = y.x.cwiseQuotient(factorization_.scaling()).norm();
+        X_.col(j) = y.x * (X_.col(j).norm() / y.x.norm());
+        moved = true;
+        if (!pencil_.indefinite || change.norm() <= kEnough * size) break;
+      }
     }
     if (moved) values();
   }
@@ -355,7 +362,7 @@ class Solver {
     checked_ = cut + null_.cols();
     for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
       if (p == 0) {
-        pairs_.check_shift = -pencil_.shift * fraction;
+        pairs_.check_shift = std::abs(pencil_.shift) * fraction;
       } else if (cut == p) {
         pairs_.check_shift = v[p - 1] * (1 + 2e-6 * fraction);
       } else {

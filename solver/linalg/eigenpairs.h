@@ -13,8 +13,9 @@ namespace trammel::solver {
 
 enum class EigenMethod { automatic, dense, sparse };
 
-/// The pencil K x = lambda B x with K - s B positive definite, s <= 0; B is symmetric and may be
-/// semi-definite (massless coordinates) or indefinite (buckling).
+/// The pencil K x = lambda B x with K - s B positive definite; B is symmetric and may be
+/// semi-definite (massless coordinates, s <= 0) or indefinite (buckling, s below the first positive
+/// eigenvalue).
 struct Pencil {
   const SparseMatrix* K = nullptr;
   const SparseMatrix* B = nullptr;

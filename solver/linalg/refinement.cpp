@@ -21,8 +21,9 @@ RefinedSolution refined_solve(const Operator& A, const Factorization& factorizat
   for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::VectorXd correction = factorization.solve(b - A(result.x));
     ++counters.solves;
-    const double size = correction.norm();
-    const double whole = result.x.norm();
+    // In the scaling of the matrix, so that meters and radians have one unit.
+    const double size = correction.cwiseQuotient(factorization.scaling()).norm();
+    const double whole = result.x.cwiseQuotient(factorization.scaling()).norm();
     result.correction = size == 0 ? 0 : size / whole;
     if (!(size < last)) break;  // it no longer converges: what is left is rounding, or hopeless
     result.x += correction;

@@ -1,6 +1,8 @@
 #include "solver/statics/buckling.h"
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "solver/assembly/equation_rows.h"
@@ -12,6 +14,62 @@
 #include "solver/statics/statics.h"
 
 namespace trammel::solver {
+namespace {
+
+/// Brackets the first load factor by inertia. Sylvester: K - t B has as many negative pivots as
+/// there are factors in (0, t).
+struct FirstFactor {
+  bool determined = false;  ///< false if no count can be relied on
+  bool exists = false;      ///< false if there is none up to `checked`
+  double below = 0;         ///< no factor lies below it, and the first one below four times it
+  double checked = 0;       ///< largest t whose inertia was counted
+};
+
+FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
+                                 Factorization& factorization, Counters& counters) {
+  constexpr int kHalvings = 200;  // 60 orders of magnitude
+  FirstFactor first;
+  // Entries of B over those of K scaled to a unit diagonal: `least` without round-off of the
+  // largest.
+  constexpr double kRoundoff = 1e4 * kEps;
+  double largest = 0, least = 0;
+  const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
+  const auto visit = [&](auto&& take) {
+    for (Index j = 0; j < B.cols(); ++j) {
+      for (SparseMatrix::InnerIterator it(B, j); it; ++it)
+        take(std::abs(it.value()) * scale[it.row()] * scale[j]);
+    }
+  };
+  visit([&](double size) { largest = std::max(largest, size); });
+  if (largest == 0) return {.determined = true};
+  least = largest;
+  visit([&](double size) {
+    if (size > kRoundoff * largest) least = std::min(least, size);
+  });
+  // The loads dominate each entry a thousandfold, while ten digits are left of the stiffness that
+  // they do not change.
+  first.checked = std::min(1e3 / least, 1e10 / largest);
+  const auto has_factor_below = [&](double t) -> std::optional<bool> {
+    for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot comes near zero
+      factorization.compute(shifted(K, B, share * t));
+      ++counters.factorizations;
+      if (factorization.is_reliable()) return factorization.negative_pivots() > 0;
+    }
+    return {};
+  };
+  double above = first.checked, ratio = 0.25;
+  std::optional<bool> has = has_factor_below(above);
+  for (int i = 0; has && *has && i < kHalvings; ++i) {
+    first.exists = true;
+    has = has_factor_below(ratio * above);
+    if (has && *has) above *= ratio;
+  }
+  first.below = 0.87 * ratio * above;
+  first.determined = has && !*has;
+  return first;
+}
+
+}  // namespace
 
 BucklingSolution solve_buckling(const System& system, const BucklingOptions& options) {
   BucklingSolution solution;
@@ -27,20 +85,31 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   const Prestress forces =
       prestress(system, state.u, constraint_forces(system, state), body_forces(system));
   const SparseMatrix softening = -geometric_stiffness(system, forces);
-  if (softening.nonZeros() == 0 || softening.coeffs().isZero(0)) {
-    solution.evidence.add(Residual::mode_count, 0);  // K + factor 0 stays what it is
+  Factorization factorization;
+  const FirstFactor first =
+      bracket_first_factor(system.K, softening, factorization, solution.counters);
+  if (!first.determined) {
+    solution.outcome = {Status::not_converged,
+                        "the inertia of K + factor K_G is dominated by round-off"};
+    return solution;
+  }
+  solution.checked_factor = first.checked;
+  if (!first.exists) {
+    solution.evidence.add(Residual::mode_count, 0);
     return solution;
   }
   Pencil pencil;
   pencil.K = &system.K;
   pencil.B = &softening;
   pencil.indefinite = true;
+  // Without a shift the factors of members in large tension, negative and small, would have the
+  // largest 1/factor, and its round-off hides the others.
+  pencil.shift = first.below;
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {
     return strain_products(system, system.T * X);
   };
-  Factorization factorization;
-  factorization.compute(shifted(system.K, softening, 0));
+  factorization.compute(shifted(system.K, softening, pencil.shift));
   ++solution.counters.factorizations;
   const Eigen::MatrixXd no_null(system.K.rows(), 0);
   const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.method,

@@ -17,7 +17,10 @@ struct BucklingOptions {
 /// forces of first-order statics. Positive factors only: loads in their given sense.
 struct BucklingSolution {
   Outcome outcome;              ///< singular: the model is a mechanism before any load
-  Eigen::VectorXd load_factor;  ///< ascending [-]; empty where the loads compress nothing
+  Eigen::VectorXd load_factor;  ///< ascending [-]; empty if there is none up to checked_factor
+  /// Load factor up to which the inertia of K + factor K_G was counted [-]; 0 if the loads change
+  /// no stiffness.
+  double checked_factor = 0;
   /// Estimate of each factor's relative round-off error [-], as in ModalSolution.
   Eigen::VectorXd roundoff;
   Eigen::MatrixXd shape;    ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
