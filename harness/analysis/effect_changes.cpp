@@ -5,25 +5,62 @@
 #include <limits>
 #include <vector>
 
+#include "solver/model/plane.h"
+
 namespace trammel::harness {
 namespace {
 
-/// Of each kind, what its changes are measured by: not round-off.
-std::map<std::string, double> scales_of(const Quantities& full, double size) {
-  constexpr double kNothing = 1e-9;
+/// The other component of the vector that a quantity is the x component of; null if it is none.
+const Quantity* second_component(const Quantities& all, const std::string& name) {
+  const std::size_t place = name.find("_x_");
+  if (place == std::string::npos) return nullptr;
+  const auto found = all.find(std::string(name).replace(place, 3, "_y_"));
+  return found == all.end() ? nullptr : &found->second;
+}
+
+/// Magnitudes of a quantity's values, of a vector if it is an x component.
+std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
+  std::vector<double> size = all.at(name).values;
+  const Quantity* second = second_component(all, name);
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    const bool paired = second && i < second->values.size();
+    size[i] = std::hypot(size[i], paired ? second->values[i] : 0);
+  }
+  return size;
+}
+
+/// What the changes of each kind are relative to: its largest value, and never less than the
+/// round-off error that forces and displacements of the model leave in it.
+std::map<std::string, double> change_scales(const Quantities& full, const ModelScales& model) {
+  // Round-off of thousands of steps is about 1e-11 of the partner's scale; no tolerance is small
+  // enough to notice it against this share.
+  constexpr double kRoundoff = 1e-7;
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {
     const std::string kind = change_kind(name);
-    if (!kind.empty()) scale[kind] = std::max(scale[kind], max_abs(quantity.values));
+    if (!kind.empty()) scale[kind] = std::max(scale[kind], max_abs(magnitudes(full, name)));
   }
-  const auto floor = [&](const char* kind, const char* beside, double arm) {
-    if (scale.count(kind) + scale.count(beside) < 2) return;
-    scale[kind] = std::max(scale[kind], kNothing * scale[beside] * arm);
+  const auto floor = [&](const char* kind, double size) {
+    const auto found = scale.find(kind);
+    if (found != scale.end()) found->second = std::max(found->second, kRoundoff * size);
   };
-  floor("displacement", "rotation", size);
-  floor("rotation", "displacement", 1 / size);
-  floor("force", "moment", 1 / size);
-  floor("moment", "force", size);
+  const auto known = [&](const char* kind, double otherwise) {
+    const auto found = scale.find(kind);
+    return std::max(found == scale.end() ? 0 : found->second, otherwise);
+  };
+  const double length = model.length, displacement = known("displacement", model.displacement);
+  const double force = known("force", model.force);
+  if (!(length > 0)) return scale;
+  const double rotation = known("rotation", 0), moment = known("moment", 0);
+  floor("displacement", std::max(displacement, rotation * length));
+  floor("rotation", displacement / length);
+  floor("force", std::max(force, moment / length));
+  floor("moment", force * length);
+  const double speed = known("velocity", 0), spin = known("angular velocity", 0);
+  floor("velocity", spin * length);
+  floor("angular velocity", speed / length);
+  // A position's origin is arbitrary.
+  if (scale.count("position") > 0) scale["position"] = length;
   return scale;
 }
 
@@ -55,8 +92,40 @@ std::string change_kind(const std::string& quantity) {
   return "";
 }
 
-Changes changes_between(const Quantities& full, const Quantities& other, double size_m) {
-  const auto scale = scales_of(full, size_m);
+ModelScales scales_of(const solver::Model& model) {
+  ModelScales scales;
+  scales.length = solver::box_diagonal(model);
+  const double length = scales.length;
+  double mass = 0, stiffest = 0;
+  for (const solver::Member& member : model.members) {
+    const double own = (model.nodes[solver::to_size(member.nodes[1])].position -
+                        model.nodes[solver::to_size(member.nodes[0])].position)
+                           .norm();
+    scales.force += member.load.norm() * own;
+    mass += member.section.mass_per_length * own;
+    stiffest = std::max(stiffest, member.section.EA);
+  }
+  for (const solver::Plate& plate : model.plates)
+    stiffest = std::max(stiffest, plate.material.E * plate.thickness * length);
+  for (const solver::PointMass& point : model.masses) mass += point.mass;
+  for (const solver::NodalLoad& load : model.loads) {
+    scales.force += load.force.head<2>().norm();
+    if (length > 0) scales.force += std::abs(load.force[2]) / length;
+  }
+  for (const solver::EdgeLoad& edge : model.edge_loads) {
+    const double thickness = model.plates[solver::to_size(edge.plate)].thickness;
+    const double side = (model.nodes[solver::to_size(edge.nodes[1])].position -
+                         model.nodes[solver::to_size(edge.nodes[0])].position)
+                            .norm();
+    scales.force += (edge.traction.norm() + std::abs(edge.normal)) * thickness * side;
+  }
+  scales.force += mass * model.gravity.norm();
+  if (stiffest > 0) scales.displacement = scales.force * length / stiffest;
+  return scales;
+}
+
+Changes changes_between(const Quantities& full, const Quantities& other, const ModelScales& model) {
+  const auto scale = change_scales(full, model);
   Changes changes;
   for (const auto& [kind, by] : scale) changes[kind] = {};
   for (const auto& [name, quantity] : full) {
@@ -71,7 +140,18 @@ Changes changes_between(const Quantities& full, const Quantities& other, double 
     const auto by = [&, &quantity = quantity, scale = scale.at(kind)](std::size_t i) {
       return kind == "frequency" ? std::abs(quantity.values[i]) : scale;
     };
-    const LargestDifference change = largest_difference(quantity.values, found->second.values, by);
+    LargestDifference change = largest_difference(quantity.values, found->second.values, by);
+    const Quantity* second = second_component(full, name);
+    const Quantity* other_second = second_component(other, name);
+    const bool is_vector = second && other_second &&
+                           quantity.values.size() == found->second.values.size() &&
+                           second->values.size() == quantity.values.size() &&
+                           other_second->values.size() == quantity.values.size();
+    for (std::size_t i = 0; is_vector && i < quantity.values.size(); ++i) {
+      const double difference = std::hypot(quantity.values[i] - found->second.values[i],
+                                           second->values[i] - other_second->values[i]);
+      if (difference > 0 && difference / by(i) > change.value) change = {difference / by(i), i};
+    }
     if (change.value > largest.value) largest = change;
   }
   return changes;

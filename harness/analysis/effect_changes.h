@@ -5,16 +5,27 @@
 
 #include "harness/base/quantity.h"
 #include "harness/base/statistic.h"
+#include "solver/model/model.h"
 
 namespace trammel::harness {
 
+/// Scales of a model's kinds of quantities, from which the round-off error of each follows where
+/// its own observed values are all round-off. Zero if nothing is known.
+struct ModelScales {
+  double length = 0;        ///< diagonal of the bounding box [m]
+  double force = 0;         ///< sum of the magnitudes of all loads, moments over the length [N]
+  double displacement = 0;  ///< that force stretches the stiffest member over the length by [m]
+};
+[[nodiscard]] ModelScales scales_of(const solver::Model& model);
+
 /// Largest change of each kind of quantity: "displacement", "rotation", "force", "moment",
 /// "stress", each relative to the largest of its kind, and "frequency", each relative to itself.
-/// Infinite where modes are lost. Quantities that one side does not have, as rotations of a rigid
-/// platform, and those of other kinds are not compared.
+/// The two components of a vector are compared as one. Infinite where modes are lost. Quantities
+/// that one side does not have, as rotations of a rigid platform, and those of other kinds are not
+/// compared.
 using Changes = std::map<std::string, LargestDifference>;
 [[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
-                                      double size_m);
+                                      const ModelScales& model);
 [[nodiscard]] LargestDifference max_change(const Changes& changes);
 
 /// What a quantity is compared among; empty: it is not compared.

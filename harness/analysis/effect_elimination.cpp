@@ -84,7 +84,7 @@ class EliminationOf {
 class MeshedScene {
  public:
   MeshedScene(const AnalysisKind& kind, const JsonView& analysis, CaseModel scene, Effects all,
-              double size)
+              const ModelScales& size)
       : kind_(kind), analysis_(analysis), scene_(std::move(scene)), all_(all), size_(size) {}
 
   /// Nothing where there is no solution.
@@ -180,7 +180,7 @@ class MeshedScene {
   const JsonView& analysis_;
   CaseModel scene_;
   Effects all_;
-  double size_;
+  ModelScales size_;
   std::vector<std::pair<Effects, ByStep>> runs_;
 };
 
@@ -232,7 +232,7 @@ class Measurement {
               const EffectScope& scope, double tolerance)
       : scope_(scope), tolerance_(tolerance) {
     const solver::Model model = first_model(scene);
-    size_ = solver::box_diagonal(model);
+    size_ = scales_of(model);
     const auto members = std::max<solver::Index>(std::ssize(model.members), 1);
     CaseModel coarse = scene, coarsest = scene;
     const bool vibrates = kind.effects == &harmonic_effects() ||
@@ -407,7 +407,7 @@ class Measurement {
 
   const EffectScope& scope_;
   double tolerance_;
-  double size_;
+  ModelScales size_;
   Effects negligible_;
   /// Of prismatic members one element is exact for loads at its ends.
   bool is_linear_exact_ = false, has_points_ = false;
@@ -436,7 +436,7 @@ void eliminate_near_tolerance(const AnalysisKind& kind, const JsonView& analysis
   EffectScope left = scope;
   left.applicable = left.required = found.chosen;
   for (const Effect effect : near) left.required = left.required.without(effect);
-  MeshedScene mesh(kind, analysis, scene, beside.first, solver::box_diagonal(first_model(scene)));
+  MeshedScene mesh(kind, analysis, scene, beside.first, scales_of(first_model(scene)));
   const ChangeWith change_with = [&](Effects active) {
     return beside.second + mesh.change(beside.first, active, {0});
   };
@@ -472,7 +472,7 @@ std::vector<double> changes_at_start(const JsonView& analysis, CaseModel scene,
     return solved ? record.take_quantities() : Quantities();
   };
   const Quantities full = samples(whole);
-  const double size = solver::box_diagonal(build_model(scene, 0));
+  const ModelScales size = scales_of(build_model(scene, 0));
   std::vector<double> changes;
   for (const Effect effect : effects) {
     const Quantities other = samples(scope.without(whole, effect));
@@ -497,7 +497,7 @@ std::optional<double> large_displacement_at_rest(const JsonView& analysis, const
       record_solution(model, state, -1, record);
     found.push_back(record.take_quantities());
   }
-  return max_change(changes_between(found[0], found[1], solver::box_diagonal(model))).value;
+  return max_change(changes_between(found[0], found[1], scales_of(model))).value;
 }
 
 }  // namespace trammel::harness

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
-#include "harness/statics_modes/reduced_system.h"
 #include "harness/statics_modes/rotating_state.h"
 #include "solver/model/numbers.h"
 #include "solver/modes/modes.h"
 #include "solver/modes/prestressed_modes.h"
+#include "solver/modes/reduction.h"
 #include "solver/poses/pose_modes.h"
 
 namespace trammel::harness {
@@ -34,7 +34,9 @@ solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
   }
   if (analysis["reduction"].has("modes"))
     throw analysis["reduction"].error("expected 'fixed_interface_modes': modes are looked for");
-  return reduced_system(analysis, std::move(system)).system;
+  // Loads do not act in modes.
+  return solver::reduce_members(
+      system, analysis["reduction"].get<solver::Index>("fixed_interface_modes", 0));
 }
 
 solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_model,

@@ -30,7 +30,7 @@ class Study {
                            ? (*requested)["auto"].number("tolerance")
                            : options.tolerance;
     const CaseModel case_model = read_case_model(document_);
-    size_ = solver::box_diagonal(build_model(case_model, 0));
+    size_ = scales_of(build_model(case_model, 0));
     study_.scope = effect_scope(document_, case_model);
     if (analysis_kind(document_) == "statics") {
       const solver::BucklingSolution buckling =
@@ -126,7 +126,7 @@ class Study {
   Document automatic_;
   EffectStudyOptions options_;
   References references_;
-  double size_ = 1;
+  ModelScales size_;
   EffectStudy study_;
 };
 

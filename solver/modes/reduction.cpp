@@ -153,8 +153,29 @@ void add_column(const VectorXd& values, const std::vector<Index>& set, Index col
   }
 }
 
+/// Share of a load's static response that is round-off.
+constexpr double kCarried = 1e-10;
+
+/// Parts of static responses beyond the modes, of unit strain energy, each orthogonal to those
+/// before it in K.
+MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& modes,
+                      const std::vector<VectorXd>& responses) {
+  MatrixXd parts(K.rows(), 0);
+  for (VectorXd part : responses) {
+    const double energy = part.dot(K * part);
+    part -= modes * (modes.transpose() * (M * part));
+    part -= parts * (parts.transpose() * (K * part));
+    const double rest = part.dot(K * part);
+    if (!(rest > kCarried * energy)) continue;
+    parts.conservativeResize(Eigen::NoChange, parts.cols() + 1);
+    parts.rightCols<1>() = part / std::sqrt(rest);
+  }
+  return parts;
+}
+
 /// R in q = R p.
-SparseMatrix reduction(const System& system, Index modes, Counters& counters) {
+SparseMatrix reduction(const System& system, Index modes, const std::vector<VectorXd>& loads,
+                       Counters& counters) {
   const std::vector<bool> interior = interior_coordinates(system);
   const std::vector<std::vector<Index>> sets = components(system, interior);
   const Index size = system.K.rows();
@@ -182,9 +203,16 @@ SparseMatrix reduction(const System& system, Index modes, Counters& counters) {
       ++counters.solves;
       add_column(follows, set, kept[static_cast<std::size_t>(boundary)], entries);
     }
-    if (modes == 0) continue;
-    const MatrixXd shapes = fixed_interface_modes(K, M, modes, factorization, counters);
-    for (Index j = 0; j < shapes.cols(); ++j) add_column(shapes.col(j), set, columns++, entries);
+    std::vector<VectorXd> responses;
+    for (const VectorXd& load : loads) {
+      responses.emplace_back(factorization.solve(load(set)));
+      ++counters.solves;
+    }
+    MatrixXd shapes(K.rows(), 0);
+    if (modes > 0) shapes = fixed_interface_modes(K, M, modes, factorization, counters);
+    for (const MatrixXd& block : {shapes, beyond_modes(K, M, shapes, responses)}) {
+      for (Index j = 0; j < block.cols(); ++j) add_column(block.col(j), set, columns++, entries);
+    }
   }
   SparseMatrix R(size, columns);
   R.setFromTriplets(entries.begin(), entries.end());
@@ -209,18 +237,17 @@ System in_coordinates(const System& system, const SparseMatrix& R) {
 
 }  // namespace
 
-System reduce_members(const System& system, Index modes) {
+System reduce_members(const System& system, Index modes, const std::vector<VectorXd>& loads) {
   if (modes < 0) throw ModelError("a reduction needs a number of modes that is not negative");
   Counters counters = system.counters;
-  System reduced = in_coordinates(system, reduction(system, modes, counters));
+  System reduced = in_coordinates(system, reduction(system, modes, loads, counters));
   reduced.counters = counters;
   return reduced;
 }
 
 System reduce_to_modes(const System& system, const ModalSolution& modes,
                        const std::vector<VectorXd>& loads) {
-  constexpr double kCarried = 1e-10;  // share of the loads that is rounding
-  constexpr double kShift = 1e-4;     // below the modes that are left out
+  constexpr double kShift = 1e-4;  // below the modes that are left out
   const MatrixXd& shape = modes.shape;
   MatrixXd basis = shape;
   Counters counters = modes.counters;

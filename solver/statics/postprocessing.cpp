@@ -51,7 +51,9 @@ Vector2d element_axes(const FrameElement& e, const Vector2d& world) {
 class Recovery {
  public:
   Recovery(const System& system, const RecoveredForces& forces, StaticSolution& solution)
-      : system_(system), model_(system.model), forces_(forces), solution_(solution) {}
+      : system_(system), model_(system.model), forces_(forces), solution_(solution) {
+    roundoff_ = force_roundoff(forces.element, box_diagonal(forces.position));
+  }
 
   void run() {
     displacements();
@@ -113,7 +115,7 @@ class Recovery {
   }
 
   /// |N| / A + |M| / W at a point of an element; 0 where a taper has come to its point, NaN where
-  /// the section states no area.
+  /// the section states no area or modulus, and the force is not round-off.
   [[nodiscard]] double stress(const FrameElement& e, double from_start, double x,
                               const Vector3d& forces) const {
     const Member& member = model_.members[static_cast<std::size_t>(e.member)];
@@ -122,10 +124,8 @@ class Recovery {
     const bool tip = (section.area <= 0 && e.section.area > 0) ||
                      (section.section_modulus <= 0 && e.section.section_modulus > 0);
     if (tip) return 0;
-    const double bending = forces[2] == 0 ? 0 : std::abs(forces[2]) / section.section_modulus;
-    const double axial = forces[0] == 0 ? 0 : std::abs(forces[0]) / section.area;
-    const double sum = axial + bending;
-    return std::isfinite(sum) ? sum : kNaN;
+    return stress_of_force(forces[0], section.area, roundoff_.force) +
+           stress_of_force(forces[2], section.section_modulus, roundoff_.moment);
   }
 
   /// Both ends and, under a load across, the two places where |N|/A + |M|/W can be stationary;
@@ -176,6 +176,7 @@ class Recovery {
   const Model& model_;
   const RecoveredForces& forces_;
   StaticSolution& solution_;
+  ForceRoundoff roundoff_;
 };
 
 class Postprocessor {
@@ -326,6 +327,18 @@ VectorXd constraint_forces(const System& system, const ElasticState& state) {
   if (state.prestress) force += geometric_stiffness_forces(system, *state.prestress, state.u);
   if (state.acceleration.size() > 0) force += inertia_forces(system, state.acceleration);
   return system.constraints.multipliers(force);
+}
+
+ForceRoundoff force_roundoff(const Eigen::Matrix<double, 6, Eigen::Dynamic>& ends, double size) {
+  constexpr double kShare = 1e-10;  // the limit of the residual of equilibrium
+  if (ends.cols() == 0) return {};
+  double force = 0, moment = 0;
+  for (const Index end : {0, 3}) {
+    force = std::max(force, ends.middleRows<2>(end).cwiseAbs().maxCoeff());
+    moment = std::max(moment, ends.row(end + 2).cwiseAbs().maxCoeff());
+  }
+  return {kShare * std::max(force, size > 0 ? moment / size : 0),
+          kShare * std::max(moment, force * size)};
 }
 
 void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution) {

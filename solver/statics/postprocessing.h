@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "solver/assembly/prestress.h"
@@ -35,6 +37,24 @@ struct RecoveredForces {
   Eigen::Matrix<double, 6, Eigen::Dynamic> element;  ///< what its nodes do to each frame element,
                                                      ///< in its axes [N, N, N m]
 };
+
+/// Forces and moments of a state that are round-off [N, N m].
+struct ForceRoundoff {
+  double force = 0, moment = 0;
+};
+/// @param ends  end forces of the elements, a column each: N, V, M at both ends [N, N, N m]
+/// @param size  of the model [m]
+[[nodiscard]] ForceRoundoff force_roundoff(const Eigen::Matrix<double, 6, Eigen::Dynamic>& ends,
+                                           double size);
+
+/// Force over area or moment over section modulus: 0 for a force that is round-off if the section
+/// does not state what resists it, NaN for any other there.
+template <class T>
+[[nodiscard]] double stress_of_force(const T& force, double resistance, double roundoff) {
+  const double size = std::abs(force), stress = size / resistance;
+  if (std::isfinite(stress)) return stress;
+  return size <= roundoff ? 0 : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// Fills displacements, rotations of members' ends, reactions, section forces and the stresses of
 /// members: the largest at the ends of their elements and between them, where an element bears

@@ -13,6 +13,7 @@
 #include "solver/assembly/equation_rows.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/sparse_lu.h"
+#include "solver/model/plane.h"
 #include "solver/statics/describe_mechanism.h"
 #include "solver/statics/postprocessing.h"
 #include "solver/statics/zero_energy_modes.h"
@@ -171,6 +172,13 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature =
       part(u.imag(), inertial.imag(), elastic.imag());
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
+  const ForceRoundoff roundoff =
+      force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
+  // A force whose resistance the section does not state counts if it is more than round-off.
+  const auto stress_amplitude = [](const Complex& force, double resistance, double negligible) {
+    const double stress = stress_of_force(force, resistance, negligible);
+    return stress > 0 ? force / resistance : Complex(stress);
+  };
   const auto members = static_cast<Index>(system_.model.members.size());
   result.resultant_start.resize(members, 3);
   result.resultant_end.resize(members, 3);
@@ -185,12 +193,11 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
     for (const Index end : {0, 3}) {
       const Complex N(in_phase(i, end), quadrature(i, end));
       const Complex M(in_phase(i, end + 2), quadrature(i, end + 2));
-      const Complex axial = N == 0.0 ? N : N / e.section.area;
-      const Complex bending = M == 0.0 ? M : M / e.section.section_modulus;
-      const double stress_amplitude =
-          std::max(std::abs(axial + bending), std::abs(axial - bending));
-      stress = std::isfinite(stress_amplitude) ? std::max(stress, stress_amplitude)
-                                               : std::numeric_limits<double>::quiet_NaN();
+      const Complex axial = stress_amplitude(N, e.section.area, roundoff.force);
+      const Complex bending = stress_amplitude(M, e.section.section_modulus, roundoff.moment);
+      const double larger = std::max(std::abs(axial + bending), std::abs(axial - bending));
+      stress = std::isfinite(larger) ? std::max(stress, larger)
+                                     : std::numeric_limits<double>::quiet_NaN();
     }
   }
   return result;
@@ -231,9 +238,11 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
   while (!is_lower(below(width)) || !is_lower(above(width))) width *= 4;
   constexpr int kBits = 26;  // half of a double's: a maximum is flat
   std::uintmax_t evaluations = 100;
-  const auto [frequency, negative] = boost::math::tools::brent_find_minima(
-      [&](double f) { return -size(f); }, below(width), above(width), kBits, evaluations);
-  if (-negative > peak.amplitude) peak = {frequency, -negative};
+  // Over the share of the interval, because the tolerance has an absolute part.
+  const double start = below(width), interval = above(width) - start;
+  const auto [share, negative] = boost::math::tools::brent_find_minima(
+      [&](double s) { return -size(start + s * interval); }, 0.0, 1.0, kBits, evaluations);
+  if (-negative > peak.amplitude) peak = {start + share * interval, -negative};
   return peak;
 }
 

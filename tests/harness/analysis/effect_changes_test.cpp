@@ -12,11 +12,11 @@ BOOST_AUTO_TEST_CASE(a_mode_that_is_lost_is_beyond_any_tolerance) {
   whole["frequency_Hz"] = {{1, 2}, {}};
   whole["displacement_y_m:B"] = {{0.1}, {}};
   Quantities without = whole;
-  BOOST_TEST(max_change(changes_between(whole, without, 1)).value == 0);
+  BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value == 0);
   without.erase("displacement_y_m:B");  // a part may have no such thing
-  BOOST_TEST(max_change(changes_between(whole, without, 1)).value == 0);
+  BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value == 0);
   without.erase("frequency_Hz");
-  BOOST_TEST(max_change(changes_between(whole, without, 1)).value ==
+  BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value ==
              std::numeric_limits<double>::infinity());
 }
 

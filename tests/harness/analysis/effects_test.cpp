@@ -285,7 +285,7 @@ BOOST_AUTO_TEST_CASE(a_change_that_is_not_a_number_is_not_forgotten_over_the_nex
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const Quantities full = {{"displacement_x_m:B", {{1, 2, 3}, {}}}};
   const Quantities other = {{"displacement_x_m:B", {{nothing, 2, 3.1}, {}}}};
-  BOOST_TEST(std::isinf(max_change(changes_between(full, other, 1)).value));
+  BOOST_TEST(std::isinf(max_change(changes_between(full, other, {.length = 1})).value));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
