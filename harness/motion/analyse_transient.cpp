@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "harness/motion/motion_history.h"
 #include "harness/scene/outputs.h"
@@ -75,6 +76,16 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
   }
 }
 
+/// A hundredth of the initial velocity is noticed in no plot of the motion.
+void warn_of_basis(double missing, std::vector<Warning>& warnings) {
+  constexpr double kNoticed = 0.01;
+  if (!(missing > kNoticed)) return;
+  add_warning(warnings,
+              {"the part of the initial velocity outside the reduced basis", missing, "",
+               "relative to the initial velocity, in the norm of kinetic energy; a larger "
+               "'reduction' represents more of it"});
+}
+
 void draw_motion(const solver::System& system, const MotionHistory& motion, Drawing& drawing) {
   std::vector<Eigen::VectorXd> q;
   for (solver::Index i = 0; i < motion.q.cols(); ++i) q.emplace_back(motion.q.col(i));
@@ -92,8 +103,10 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   if (case_model.path) throw analysis.error("expected a model at one place");
   if (analysis.has("reduction") && analysis.has("rotating_frame"))
     throw analysis["reduction"].error("expected it without 'rotating_frame'");
-  const auto [outcome, system] =
-      reduced_system(analysis, solver::assemble(build_model(case_model, step), case_model.effects));
+  solver::System assembled = solver::assemble(build_model(case_model, step), case_model.effects);
+  std::optional<solver::System> full;
+  if (analysis.has("reduction")) full = assembled;
+  const auto [outcome, system] = reduced_system(analysis, std::move(assembled));
   if (!outcome.solved()) return {outcome, system.counters, std::nullopt};
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const bool with_forces = needs_forces(outputs);
@@ -111,6 +124,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
     return result;
   }
   if (with_forces) warn_of_redundancy(system, result.warnings);
+  if (full) warn_of_basis(unrepresented_velocity(analysis, *full, system), result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;
   std::optional<solver::LateStrain> late;

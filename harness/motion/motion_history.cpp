@@ -266,6 +266,19 @@ class Motion {
 
 }  // namespace
 
+double unrepresented_velocity(const JsonView& transient, const solver::System& full,
+                              const solver::System& reduced) {
+  const auto initial = transient.find("initial_state");
+  if (!initial || !initial->has("velocity_m_per_s")) return 0;
+  const Eigen::Vector2d velocity = read_point((*initial)["velocity_m_per_s"]);
+  const auto kinetic_energy = [&](const solver::System& system) {
+    const Eigen::VectorXd v = uniform_motion(system, velocity);
+    return v.dot(system.M * v);
+  };
+  const double whole = kinetic_energy(full);
+  return whole > 0 ? std::sqrt(std::max(0.0, 1 - kinetic_energy(reduced) / whole)) : 0;
+}
+
 MotionHistory compute_motion(const JsonView& transient, const solver::System& system,
                              solver::Effects effects) {
   const bool damped = effects.has(solver::Effect::damping) && transient.has("damping");

@@ -30,4 +30,9 @@ struct MotionHistory {
 [[nodiscard]] MotionHistory compute_motion(const JsonView& transient, const solver::System& system,
                                            solver::Effects effects);
 
+/// Part of the initial velocity that a reduced basis cannot represent, relative to the initial
+/// velocity of the full model, in the norm of kinetic energy [-]; 0 without an initial velocity.
+[[nodiscard]] double unrepresented_velocity(const JsonView& transient, const solver::System& full,
+                                            const solver::System& reduced);
+
 }  // namespace trammel::harness
