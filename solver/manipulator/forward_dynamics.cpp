@@ -28,25 +28,30 @@ Pose pose_of(const State& y) {
 /// Local error over the tolerance, as ForwardOptions measures it; odeint accepts a step up to 1.
 class ErrorNorm {
  public:
-  ErrorNorm(const ManipulatorGeometry& geometry, double tolerance) : tolerance_(tolerance) {
+  /// @param duration  of the motion [s]
+  ErrorNorm(const ManipulatorGeometry& geometry, double tolerance, double duration)
+      : tolerance_(tolerance), duration_(duration) {
     for (const Vector2d& c : geometry.platform) radius_ += c.norm() / 3;
   }
   template <class Algebra>
   double error(Algebra&, const State& y, const State&, const State& error, double) const {
     if (!error.allFinite()) return std::numeric_limits<double>::infinity();
-    return std::max(relative(error, y, 0), relative(error, y, 3)) / tolerance_;
+    const double speed = duration_ > 0 ? radius_ / duration_ : 0;
+    return std::max(relative(error, y, 0, radius_), relative(error, y, 3, speed)) / tolerance_;
   }
 
  private:
-  /// Of positions (first = 0) or velocities (3); rotations count by the platform's radius.
-  [[nodiscard]] double relative(const State& error, const State& y, Index first) const {
+  /// Error of positions (first = 0) or velocities (3), relative to the largest of them and to no
+  /// less than `least`: a motion through the platform's radius. Rotations count by that radius.
+  [[nodiscard]] double relative(const State& error, const State& y, Index first,
+                                double least) const {
     const Vector3d scale(1, 1, radius_);
     const double largest = y.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff();
     return error.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff() /
-           std::max(largest, radius_);
+           std::max(largest, least);
   }
 
-  double tolerance_, radius_ = 0;
+  double tolerance_, duration_, radius_ = 0;
 };
 
 using DormandPrince =
@@ -57,13 +62,15 @@ class MotionIntegrator {
  public:
   MotionIntegrator(const RigidManipulator& manipulator,
                    const std::function<Vector3d(double)>& torque, const Vector3d& wrench,
-                   const ForwardOptions& options, const TrajectoryPoint& start)
+                   const ForwardOptions& options, const TrajectoryPoint& start, double end)
       : manipulator_(manipulator),
         torque_(torque),
         wrench_(wrench),
         max_steps_(options.max_steps),
-        stepper_(ErrorNorm(manipulator.geometry, options.tolerance)),
-        t_(start.time) {
+        duration_(end - start.time),
+        stepper_(ErrorNorm(manipulator.geometry, options.tolerance, duration_)),
+        t_(start.time),
+        h_(1e-3 * duration_) {  // error control finds its own step from here
     y_ << start.pose.x, start.pose.y, start.pose.phi, start.velocity, 0;
     result.outcome = evaluate(t_, y_, rate_);
     side_ = side();
@@ -149,14 +156,14 @@ class MotionIntegrator {
     };
     if (stepper_.try_step(system, y_, rate_, t_, h) == odeint::success) {
       ++result.steps;
-      if (side() * side_ < 0) stop(Status::singular, "a parallel singularity is passed");
+      if (side() * side_ < 0) stop(Status::singular, kSingularity);
       if (last) t_ = end;
       h_ = tried < h_ ? std::max(h_, h) : h;  // a step shortened to meet a time says little
       return;
     }
     ++result.rejected;
     h_ = h;
-    if (h > 16 * kEps * std::max(1.0, std::abs(t_))) return;
+    if (h > 16 * kEps * std::max(duration_, std::abs(t_))) return;
     if (stages.solved()) {
       stop(Status::not_converged, "the step has become smaller than the rounding of time");
     } else {
@@ -172,6 +179,11 @@ class MotionIntegrator {
     return jacobians(manipulator_.geometry, pose_of(y_), posture).parallel.determinant();
   }
 
+  static constexpr const char* kSingularity =
+      "a parallel (type 2) singularity is passed, where the equations in the actuators' angles "
+      "have "
+      "no solution; the rigid motion itself could go on";
+
   void stop(Status status, const std::string& reason) {
     std::ostringstream why;
     why << "at " << t_ << " s: " << reason;
@@ -182,8 +194,9 @@ class MotionIntegrator {
   const std::function<Vector3d(double)>& torque_;
   const Vector3d wrench_;
   const Index max_steps_;
+  const double duration_;  // of the motion [s]
   ControlledStepper stepper_;
-  double t_, h_ = 1e-3;
+  double t_, h_;
   double start_energy_ = kNaN, energy_size_ = 0, largest_imbalance_ = 0;
   double last_work_ = 0, turnover_ = 0;
   double side_ = 0;  // at the start
@@ -223,7 +236,7 @@ ForwardDynamics forward_dynamics(const RigidManipulator& m, const TrajectoryPoin
       throw ModelError("the times of the motion must ascend from its start");
     last = t;
   }
-  MotionIntegrator integrator(m, torque, wrench, options, start);
+  MotionIntegrator integrator(m, torque, wrench, options, start, last);
   integrator.result.motion.reserve(times.size());
   for (const double t : times) {
     integrator.advance(t);

@@ -24,8 +24,9 @@ struct PlatformAcceleration {
                                                         const Vector3d& wrench = Vector3d::Zero());
 
 struct ForwardOptions {
-  double tolerance = 1e-10;  ///< local error a step, relative to the largest of the six states
-                             ///< and the platform's radius (positions) or radius / s (velocities)
+  double tolerance = 1e-10;  ///< local error a step, relative to the largest position or velocity,
+                             ///< and to no less than the platform's radius, or that over the
+                             ///< duration of the motion
   Index max_steps = 100000;  ///< taken and rejected
 };
 

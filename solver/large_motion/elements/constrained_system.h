@@ -31,6 +31,7 @@ struct TangentCoefficients {
   double damping = 0;
   double stiffness = 1;
   double compliance = 1;
+  bool has_penalty = true;  ///< false: the matrix without the penalties of `KktMatrix`
 };
 
 class ConstrainedSystem {
@@ -44,6 +45,8 @@ class ConstrainedSystem {
   [[nodiscard]] virtual const VectorXd& compliance() const = 0;
   /// What counts as a unit change of each coordinate: the model's size [m] or 1 rad.
   [[nodiscard]] virtual const VectorXd& scale() const = 0;
+  /// Unit of each constraint's residual: the model's size [m] or 1 rad.
+  [[nodiscard]] virtual VectorXd row_unit() const;
   /// What each element couples, for `KktMatrix`.
   [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
 
@@ -74,6 +77,10 @@ class ConstrainedSystem {
   if (system.coordinates() == 0) return 1;
   const double least = system.scale().minCoeff();
   return least < 1 ? least : system.scale().maxCoeff();
+}
+
+inline VectorXd ConstrainedSystem::row_unit() const {
+  return VectorXd::Constant(constraints(), length_scale(*this));
 }
 
 /// Root mean square of a change of coordinates over their scale [-].

@@ -171,11 +171,15 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
   }
 }
 
-void KktMatrix::multiply(const VectorXd& x, VectorXd& product) const {
-  for (Index i = 0; i < x.size(); ++i) work_[permutation_[static_cast<std::size_t>(i)]] = x[i];
-  solution_ = matrix_ * work_;
-  for (Index i = 0; i < x.size(); ++i)
-    product[i] = solution_[permutation_[static_cast<std::size_t>(i)]];
+KktMatrix::Extended KktMatrix::multiply(const Extended& x) const {
+  Extended ordered(x.size()), sums = Extended::Zero(x.size()), product(x.size());
+  for (Index i = 0; i < x.size(); ++i) ordered[permutation_[static_cast<std::size_t>(i)]] = x[i];
+  for (Index column = 0; column < matrix_.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, column); it; ++it)
+      sums[it.row()] += static_cast<long double>(it.value()) * ordered[column];
+  }
+  for (Index i = 0; i < x.size(); ++i) product[i] = sums[permutation_[static_cast<std::size_t>(i)]];
+  return product;
 }
 
 void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {

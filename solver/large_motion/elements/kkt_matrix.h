@@ -26,10 +26,12 @@ using Eigen::VectorXd;
 /// whose upper left block is positive definite where the structure is stable. Each row is
 /// eliminated after its coordinates, so LDL^T needs no pivoting, and its negative pivots count the
 /// unstable directions. At least a relative 1e-11 on the rows' diagonal keeps redundant constraints
-/// regular.
+/// regular. With rho = 0 the matrix is the first one, for exact products.
 /// The pattern is set once; assembling, factoring and solving reuse its memory.
 class KktMatrix {
  public:
+  using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
   /// @param blocks  each lists the unknowns that an element couples; rows are numbered from
   ///                `coordinates` on; every row belongs to one block only; unknowns below 0 or not
   ///                listed as free take no part.
@@ -66,7 +68,8 @@ class KktMatrix {
     scatter_rows(block, D, G, E);
     const Index n = S.rows();
     for (Index i = 0; i < G.rows(); ++i) {
-      const double compliance = std::max(c[i] * E[i], 1e-11 / penalty[i]);
+      const double least = penalty[i] > 0 ? 1e-11 / penalty[i] : 0;
+      const double compliance = std::max(c[i] * E[i], least);
       add_row_diagonal(block, n + i, n + G.rows(), -compliance, penalty[i] / E[i]);
     }
   }
@@ -81,8 +84,9 @@ class KktMatrix {
   /// Solves in place: (b, d) becomes (dq, dlambda).
   void solve(Eigen::Ref<VectorXd> right_hand_side) const;
 
-  /// The left-hand sides of the unknowns x = (q, lambda) where the rows' right-hand sides vanish.
-  void multiply(const VectorXd& x, VectorXd& product) const;
+  /// The left-hand sides of the unknowns x = (q, lambda), without penalties: in extended precision,
+  /// because the stiffness of a soft joint is what remains of the products of stiff members.
+  [[nodiscard]] Extended multiply(const Extended& x) const;
 
   /// Of each equation, the sum of the magnitudes of its terms with the unknowns x = (q, lambda).
   void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;

@@ -16,6 +16,7 @@ class ConsistentInitialization {
         step_(step),
         n_(system.coordinates()),
         m_(system.constraints()),
+        row_unit_(system.row_unit()),
         matrix_(n_, m_, system.blocks()),
         constraint_residual_(VectorXd::Zero(m_)),
         constraint_rate_(VectorXd::Zero(m_)),
@@ -37,15 +38,16 @@ class ConsistentInitialization {
   Outcome failed(const std::string& what) const {
     std::ostringstream message;
     message << "no consistent " << what << " at the start, time " << state_.t
-            << " s: largest constraint residual " << (m_ > 0 ? rigid_constraint_residual() : 0.0)
-            << " m or rad";
+            << " s: the largest constraint residual is "
+            << (m_ > 0 ? rigid_constraint_residual() : 0.0) << " of the model's size or of 1 rad";
     return {Status::not_converged, message.str()};
   }
 
+  /// Over the model's size or 1 rad.
   double rigid_constraint_residual() const {
     double largest = 0;
     for (Index i = 0; i < m_; ++i) {
-      if (rigid(i)) largest = std::max(largest, std::abs(constraint_residual_[i]));
+      if (rigid(i)) largest = std::max(largest, std::abs(constraint_residual_[i]) / row_unit_[i]);
     }
     return largest;
   }
@@ -82,17 +84,20 @@ class ConsistentInitialization {
 
   bool solve_velocities(const PrescribedVelocities& given) {
     assemble(1e-3);
-    // More than masses and what of the stiffness stands in S beside them.
-    VectorXd ones = VectorXd::Zero(n_ + m_), rows = ones;
-    ones.head(n_).setOnes();
-    matrix_.term_magnitudes(ones, rows);
-    const double penalty = 1e6 * std::max(mass_scale(), n_ > 0 ? rows.head(n_).maxCoeff() : 0.0);
-    for (const auto& [k, value] : given) matrix_.add_diagonal(k, penalty);
+    // More than masses and the stiffness in S, both for unit changes of the coordinates.
+    const VectorXd& scale = system_.scale();
+    VectorXd units = VectorXd::Zero(n_ + m_), rows = units;
+    units.head(n_) = scale;
+    matrix_.term_magnitudes(units, rows);
+    const double stiffness = n_ > 0 ? rows.head(n_).cwiseProduct(scale).maxCoeff() : 0.0;
+    const double energy = 1e6 * std::max(mass_scale(), stiffness);
+    const auto penalty = [&](Index k) { return energy / (scale[k] * scale[k]); };
+    for (const auto& [k, value] : given) matrix_.add_diagonal(k, penalty(k));
     if (!matrix_.factor(system_.symmetric())) return false;
     VectorXd penalty_force = VectorXd::Zero(n_);
     for (int i = 0; i < 8; ++i) {
       // Each pass also takes away what the last one left of the given values.
-      for (const auto& [k, value] : given) penalty_force[k] += penalty * (value - state_.v[k]);
+      for (const auto& [k, value] : given) penalty_force[k] += penalty(k) * (value - state_.v[k]);
       State at_rest = state_;
       at_rest.v.setZero();
       system_.constraint_residual(at_rest, constraint_residual_, constraint_rate_);
@@ -119,13 +124,14 @@ class ConsistentInitialization {
     return state_.v.allFinite();
   }
 
+  /// Sum of what unit accelerations of all coordinates bring about, in their units.
   double mass_scale() {
     State probe = state_;
     VectorXd r0(n_), r1(n_);
     system_.force_residual(probe, r0);
-    probe.a.setOnes();
+    probe.a = system_.scale();
     system_.force_residual(probe, r1);
-    const double sum = (r1 - r0).cwiseAbs().sum();
+    const double sum = (r1 - r0).cwiseProduct(system_.scale()).cwiseAbs().sum();
     return sum > 0 ? sum : 1.0;
   }
 
@@ -184,6 +190,7 @@ class ConsistentInitialization {
   State& state_;
   double step_;
   Index n_, m_;
+  VectorXd row_unit_;  ///< of each constraint [m or rad]
   KktMatrix matrix_;
   TangentCoefficients coefficients_;
   VectorXd constraint_residual_, constraint_rate_, force_residual_, solution_;

@@ -21,7 +21,8 @@ namespace {
 /// Residuals of the rigid constraints in the states that are observed.
 class ConstraintResiduals {
  public:
-  explicit ConstraintResiduals(const ConstrainedSystem& system) : system_(system) {}
+  explicit ConstraintResiduals(const ConstrainedSystem& system)
+      : system_(system), unit_(system.row_unit()) {}
 
   void take(const State& state, IntegrationSummary& summary) {
     residual_.setZero(system_.constraints());
@@ -32,12 +33,14 @@ class ConstraintResiduals {
       summary.max_constraint_residual =
           std::max(summary.max_constraint_residual, std::abs(residual_[r]));
       summary.max_constraint_rate = std::max(summary.max_constraint_rate, std::abs(rate_[r]));
+      summary.max_relative_constraint_residual =
+          std::max(summary.max_relative_constraint_residual, std::abs(residual_[r]) / unit_[r]);
     }
   }
 
  private:
   const ConstrainedSystem& system_;
-  VectorXd residual_, rate_;
+  VectorXd unit_, residual_, rate_;
 };
 
 class TimeIntegration {
@@ -253,15 +256,13 @@ Outcome outcome_of_start(const GeometricallyExactSystem& system, const State& st
 
 /// Where two runs differ by their leading error alone, what is combined meets the constraints far
 /// better than either state resembles the other.
-Outcome outcome_of_extrapolation(const ConstrainedSystem& system,
-                                 const IntegrationSummary& summary) {
+Outcome outcome_of_extrapolation(const IntegrationSummary& summary) {
   constexpr double kLimit = 1e-3;
-  const double size = length_scale(system);
-  if (summary.max_constraint_residual <= kLimit * size) return {};
+  if (summary.max_relative_constraint_residual <= kLimit) return {};
   std::ostringstream message;
   message << "the steps are too long to be extrapolated: what the two runs give together misses a "
              "constraint by "
-          << summary.max_constraint_residual / size << " of the model's size";
+          << summary.max_relative_constraint_residual << " of the model's size or of 1 rad";
   return {Status::not_converged, message.str()};
 }
 
@@ -311,6 +312,7 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
   fixed.step /= 2;
   fixed.steps_in_multiples_of *= 2;
   summary.max_constraint_residual = summary.max_constraint_rate = 0;
+  summary.max_relative_constraint_residual = 0;
   std::size_t next = 0;
   State extrapolated;
   ConstraintResiduals constraints(system);
@@ -333,7 +335,7 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
   summary.min_step = second.min_step;
   summary.counters.factorizations += second.counters.factorizations;
   summary.counters.solves += second.counters.solves;
-  if (summary.outcome.solved()) summary.outcome = outcome_of_extrapolation(system, summary);
+  if (summary.outcome.solved()) summary.outcome = outcome_of_extrapolation(summary);
   return summary;
 }
 

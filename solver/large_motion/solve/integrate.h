@@ -37,6 +37,7 @@ struct IntegrationSummary {
   double min_step = 0;                 ///< [s]
   double max_constraint_residual = 0;  ///< of a rigid constraint at any observed time [m or rad]
   double max_constraint_rate = 0;      ///< the same of its rate [m/s or rad/s]
+  double max_relative_constraint_residual = 0;  ///< over the model's size or 1 rad [-]
   Counters counters;
 };
 

@@ -11,7 +11,7 @@ namespace trammel::solver::large_motion {
 MotionResiduals::MotionResiduals(const ConstrainedSystem& system, const Stepper& stepper)
     : system_(system),
       stepper_(stepper),
-      size_(length_scale(system)),
+      row_unit_(system.row_unit()),
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
       residual_(VectorXd::Zero(system.coordinates())),
       unknowns_(VectorXd::Zero(system.coordinates() + system.constraints())),
@@ -51,8 +51,8 @@ void MotionResiduals::add_constraints(double h, Evidence& evidence) {
   evidence.add(Residual::constraints, 0);  // every row may be compliant
   for (Index r = 0; r < constraint_residual_.size(); ++r) {
     if (system_.compliance()[r] > 0) continue;
-    evidence.add(Residual::constraints, std::abs(constraint_residual_[r]) / size_);
-    evidence.add(Residual::constraints, rate * std::abs(constraint_rate_[r]) / size_);
+    evidence.add(Residual::constraints, std::abs(constraint_residual_[r]) / row_unit_[r]);
+    evidence.add(Residual::constraints, rate * std::abs(constraint_rate_[r]) / row_unit_[r]);
   }
 }
 

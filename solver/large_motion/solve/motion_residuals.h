@@ -28,7 +28,7 @@ class MotionResiduals {
 
   const ConstrainedSystem& system_;
   const Stepper& stepper_;
-  double size_;  ///< of the model [m]
+  VectorXd row_unit_;  ///< of each constraint [m or rad]
   bool has_energy_ = false;
   double energy_gap_ = 0, largest_energy_gap_ = 0, largest_energy_ = 0, throughput_ = 0;  ///< [J]
   KktMatrix matrix_;

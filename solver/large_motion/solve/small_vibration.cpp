@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,6 +17,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
+using Extended = KktMatrix::Extended;
 
 /// Below this share of |s| its real or imaginary part is round-off.
 constexpr double kRoundoffShare = 1e-7;
@@ -26,8 +27,8 @@ constexpr double kSoftShare = 1e-10;
 /// The lowest w^2 above them is known in K^-1 to some orders of magnitude; of what has no mass, to
 /// none.
 constexpr double kAlike = 1e6;
-/// A motion is free where all that K makes of it is the rounding of a row's terms.
-constexpr double kFreeRow = 1e3 * kEps;
+/// A motion is free if its energy is the round-off error of its terms.
+constexpr double kFreeEnergy = 1e3 * kEps;
 /// How far from a mode's w^2 the matrix is factored that its vector is solved for with.
 constexpr double kAside = 1e-3;
 
@@ -49,60 +50,139 @@ MatrixXd mass_matrix(const ConstrainedSystem& system, const State& at_rest) {
   return M;
 }
 
-/// Row by row, K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a mode; a coordinate
-/// counts with at least a thousandth of the largest motion, as in equation_rows.h.
-double residual_of(const KktMatrix& K, const VectorXd& scale, const VectorXd& mode,
-                   const VectorXd& inertia) {
-  VectorXd residual(mode.size()), terms(mode.size()), size = mode.cwiseAbs();
-  K.multiply(mode, residual);
-  auto motion = size.head(scale.size());
-  motion = motion.cwiseMax(kLeastShare * motion.cwiseQuotient(scale).maxCoeff() * scale);
-  K.term_magnitudes(size, terms);
-  residual.head(inertia.size()) -= inertia;
-  terms.head(inertia.size()) += inertia.cwiseAbs();
-  return largest_ratio(residual, terms.array() + terms.maxCoeff() * 1e-9);
-}
-
-/// K^-1 (f, 0), and what rounding leaves of the rows solved for again.
-VectorXd refined_solve(const KktMatrix& K, Index size, const VectorXd& force) {
-  VectorXd x = VectorXd::Zero(size), product(size);
-  for (int pass = 0; pass < 3; ++pass) {
-    K.multiply(x, product);
-    VectorXd correction = -product;
-    correction.head(force.size()) += force;
-    K.solve(correction);
-    x += correction;
+/// K - w2 M on the constraints, factored with penalties and again without, for exact products:
+/// those of stiff members would round off the stiffness of soft joints.
+class ShiftedStiffness {
+ public:
+  ShiftedStiffness(const GeometricallyExactSystem& system, const State& state, double w2)
+      : system_(system),
+        plain_(system.coordinates(), system.constraints(), system.blocks()),
+        factored_(system.coordinates(), system.constraints(), system.blocks()) {
+    TangentCoefficients coefficients;
+    coefficients.mass = -w2;
+    factored_.clear();
+    system.tangent(state, coefficients, factored_);
+    exists_ = factored_.factor(system.symmetric());
+    coefficients.has_penalty = false;
+    plain_.clear();
+    system.tangent(state, coefficients, plain_);
   }
-  return x;
-}
 
-/// Factors K - w2 M.
-bool factor(const GeometricallyExactSystem& system, const State& state, double w2, KktMatrix& K) {
-  TangentCoefficients coefficients;
-  coefficients.mass = -w2;
-  K.clear();
-  system.tangent(state, coefficients, K);
-  return K.factor(system.symmetric());
+  /// False if it is singular.
+  [[nodiscard]] bool exists() const { return exists_; }
+
+  /// (x, y) of K (x, y) = (f, 0), by iterative refinement until it stands still.
+  [[nodiscard]] Extended solve(const Extended& force) const {
+    constexpr int kPasses = 30;  // corrections of ill-conditioned matrices do not shrink evenly
+    const Index n = system_.coordinates();
+    Extended x = Extended::Zero(n + system_.constraints());
+    last_correction_ = 1;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      Extended residual = -plain_.multiply(x);
+      residual.head(n) += force;
+      VectorXd correction = residual.cast<double>();
+      factored_.solve(correction);
+      x += correction.cast<long double>();
+      // Motions over themselves, forces of constraints over what acts on the coordinates as well.
+      const auto size_of = [&](const VectorXd& values, const VectorXd& unit, Index begin) {
+        return values.segment(begin, unit.size()).cwiseProduct(unit).norm();
+      };
+      const VectorXd now = x.cast<double>(), unit = system_.scale().cwiseInverse();
+      const double motion = size_of(now, unit, 0);
+      const double forces =
+          size_of(now, system_.row_unit(), n) + size_of(force.cast<double>(), system_.scale(), 0);
+      const double share =
+          std::max(motion > 0 ? size_of(correction, unit, 0) / motion : 0,
+                   forces > 0 ? size_of(correction, system_.row_unit(), n) / forces : 0);
+      const bool stalled = pass > 1 && !(share < 0.5 * last_correction_);
+      last_correction_ = share;
+      if (share < kEps || (stalled && converged())) break;
+    }
+    return x;
+  }
+
+  /// True if the last solution is known to six digits: the factors have enough of the matrix's.
+  [[nodiscard]] bool converged() const { return last_correction_ < 1e-6; }
+
+  /// Row by row, K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a mode; a coordinate
+  /// counts with at least a thousandth of the largest motion, as in equation_rows.h, and a row with
+  /// at least 1e-9 of the largest of its kind.
+  [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
+    constexpr double kLeastRow = 1e-9;
+    const VectorXd& scale = system_.scale();
+    const Index n = scale.size();
+    Extended residual = plain_.multiply(mode);
+    VectorXd terms(mode.size()), size = mode.cast<double>().cwiseAbs();
+    auto motion = size.head(n);
+    motion = motion.cwiseMax(kLeastShare * motion.cwiseQuotient(scale).maxCoeff() * scale);
+    plain_.term_magnitudes(size, terms);
+    residual.head(n) -= inertia;
+    terms.head(n) += inertia.cast<double>().cwiseAbs();
+    VectorXd unit(mode.size());  // of forces and of the constraints' residuals
+    unit << scale.cwiseInverse(), system_.row_unit();
+    for (const auto& [begin, count] : {std::pair(Index{0}, n), std::pair(n, mode.size() - n)}) {
+      if (count == 0) continue;
+      auto kind = terms.segment(begin, count);
+      const auto own = unit.segment(begin, count);
+      kind += kLeastRow * kind.cwiseQuotient(own).maxCoeff() * own;
+    }
+    return largest_ratio(residual.cast<double>(), terms);
+  }
+
+  /// Energy of a motion over the magnitudes of its terms.
+  [[nodiscard]] double energy_share(const Extended& mode) const {
+    const VectorXd size = mode.cast<double>().cwiseAbs();
+    VectorXd terms(mode.size());
+    plain_.term_magnitudes(size, terms);
+    const auto energy = static_cast<double>(mode.dot(plain_.multiply(mode)));
+    const double sum = size.dot(terms);
+    return sum > 0 ? std::abs(energy) / sum : 0;
+  }
+
+ private:
+  const GeometricallyExactSystem& system_;
+  KktMatrix plain_, factored_;
+  bool exists_ = false;
+  mutable double last_correction_ = 1;
+};
+
+/// L with M = L L^T and a column for each motion that has mass. Coordinates without mass, which
+/// have no mode, would leave eigenvalues of round-off.
+MatrixXd mass_factor(const MatrixXd& M) {
+  const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
+  const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
+  const SymmetricEigenpairs<MatrixXd> pairs =
+      symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
+  const double rounding = static_cast<double>(M.rows()) * kEps;  // of a unit diagonal
+  const Index rank = (pairs.value.array() > rounding).count();
+  return size.asDiagonal() * pairs.vector.rightCols(rank) *
+         pairs.value.tail(rank).cwiseSqrt().asDiagonal();
 }
 
 /// The modes by their |w^2|, ascending.
 struct Spectrum {
   bool converged = false;
-  std::vector<std::complex<double>> w2;  // infinite of what has no mass
+  std::vector<std::complex<double>> w2;  // infinite for what constraints hold
   std::vector<VectorXcd> x;
   double shift = 0;
 };
 
-/// @param K  has K - shift M factored
-Spectrum spectrum(const KktMatrix& K, Index constraints, const MatrixXd& M, const VectorXd& scale,
-                  double shift) {
-  const Index n = M.rows();
-  MatrixXd flexibility(n, n);  // of K^-1 (M, 0)
-  for (Index j = 0; j < n; ++j)
-    flexibility.col(j) = refined_solve(K, n + constraints, M.col(j)).head(n);
-  // Coordinates over their scale, so that no unit of length enters.
-  const ComplexEigenpairs pairs =
-      eigenpairs(scale.cwiseInverse().asDiagonal() * flexibility * scale.asDiagonal());
+/// @param K  K - shift M
+/// @param L  of `mass_factor`
+Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bool symmetric) {
+  const Index n = L.rows();
+  MatrixXd flexibility(n, L.cols());  // (K - shift M)^-1 (L, 0)
+  for (Index j = 0; j < L.cols(); ++j)
+    flexibility.col(j) = K.solve(L.col(j).cast<long double>()).head(n).cast<double>();
+  const MatrixXd A = L.transpose() * flexibility;
+  ComplexEigenpairs pairs;
+  if (symmetric) {
+    const SymmetricEigenpairs<MatrixXd> real =
+        symmetric_eigenpairs((0.5 * (A + A.transpose())).eval());
+    pairs = {real.converged, real.value, real.vector};
+  } else {
+    pairs = eigenpairs(A);
+  }
   Spectrum found;
   found.converged = pairs.converged;
   found.shift = shift;
@@ -110,13 +190,16 @@ Spectrum spectrum(const KktMatrix& K, Index constraints, const MatrixXd& M, cons
   const auto inverse = [&](Index j) {  // 1 / |w^2|
     return std::abs(pairs.value[j]) / std::abs(1.0 + shift * pairs.value[j]);
   };
-  std::vector<Index> order(to_size(n));
-  for (Index j = 0; j < n; ++j) order[to_size(j)] = j;
+  std::vector<Index> order(to_size(pairs.value.size()));
+  for (Index j = 0; j < std::ssize(order); ++j) order[to_size(j)] = j;
   std::stable_sort(order.begin(), order.end(),
                    [&](Index a, Index b) { return inverse(a) > inverse(b); });
+  // Motions that constraints hold have no mode.
+  const double held = 1e-4 * kEps * pairs.value.cwiseAbs().maxCoeff();
   for (const Index j : order) {
+    if (!(std::abs(pairs.value[j]) > held)) continue;
     found.w2.push_back(shift + 1.0 / pairs.value[j]);
-    found.x.emplace_back(scale.asDiagonal() * pairs.vector.col(j));
+    found.x.emplace_back(flexibility * pairs.vector.col(j));
   }
   return found;
 }
@@ -130,83 +213,99 @@ double lowest_above_soft(const Spectrum& modes) {
   return 0;
 }
 
-/// One inverse iteration with K - t M factored beside a real w^2, and w^2 by it. The whole matrix
-/// has the rounding of its lowest mode, and K^-1 leaves more of that in a higher one, by the ratio
-/// of both; here the higher one is the largest.
-VectorXd beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
-                std::complex<double>& w2, const VectorXd& mode) {
-  const Index n = system.coordinates(), m = system.constraints();
-  const double t = w2.real() - kAside * std::abs(w2);
-  KktMatrix K(n, m, system.blocks());
-  if (!factor(system, state, t, K)) return mode;
-  const VectorXd inertia = M * mode.head(n);
-  const VectorXd next = refined_solve(K, n + m, inertia);
-  const double mass = next.head(n).dot(M * next.head(n));
-  w2 = t + next.head(n).dot(inertia) / mass;
-  return next / std::sqrt(mass);
+/// Inverse iteration with K - t M factored next to a real w^2, and w^2 by it. The matrix of all
+/// modes has the rounding of its lowest mode, and K^-1 leaves more of that in a higher one, by the
+/// ratio of both; here the higher one is the largest.
+Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
+                std::complex<double>& w2, Extended mode) {
+  const Index n = system.coordinates();
+  // Farther away if the factors' own errors are larger than the distance.
+  for (const double aside : {kAside, 0.03, 0.3}) {
+    const double t = w2.real() - aside * std::abs(w2);
+    const ShiftedStiffness K(system, state, t);
+    if (!K.exists()) continue;
+    const int passes = aside == kAside ? 1 : 20;
+    for (int pass = 0; pass < passes; ++pass) {
+      const Extended inertia = M.cast<long double>() * mode.head(n);
+      const Extended next = K.solve(inertia);
+      if (!K.converged()) break;
+      const long double mass = next.head(n).dot(M.cast<long double>() * next.head(n));
+      w2 = static_cast<double>(t + next.head(n).dot(inertia) / mass);
+      mode = next / std::sqrt(mass);
+    }
+    if (K.converged()) break;
+  }
+  return mode;
 }
 
 }  // namespace
 
 SmallVibration small_vibration(const GeometricallyExactSystem& system, const State& state,
                                Index count) {
-  const Index n = system.coordinates(), m = system.constraints();
+  const Index n = system.coordinates();
   if (n > kMaxVibrationCoordinates)
     throw ModelError("small vibration about a large displacement takes at most " +
                      std::to_string(kMaxVibrationCoordinates) + " coordinates; the model has " +
                      std::to_string(n));
   SmallVibration found;
-  KktMatrix K(n, m, system.blocks());
-  K.clear();
-  system.tangent(state, TangentCoefficients{}, K);
-  auto shifted = std::make_unique<KktMatrix>(n, m, system.blocks());
-  if (!factor(system, state, 0, *shifted)) {
+  const ShiftedStiffness K(system, state, 0);
+  if (!K.exists()) {
     found.outcome = {Status::singular, "the tangent is singular"};
     return found;
   }
-  const MatrixXd M = mass_matrix(system, state);
-  const VectorXd& scale = system.scale();
-  Spectrum modes = spectrum(*shifted, m, M, scale, 0);
+  const MatrixXd M = mass_matrix(system, state), L = mass_factor(M);
+  Spectrum modes = spectrum(K, L, 0, system.symmetric());
+  std::optional<ShiftedStiffness> stiffened;
   if (const double above = lowest_above_soft(modes); above > 0) {
-    auto stiffened = std::make_unique<KktMatrix>(n, m, system.blocks());
-    if (factor(system, state, -above, *stiffened)) {
-      Spectrum clear = spectrum(*stiffened, m, M, scale, -above);
-      // Else all that it is soft beside is without mass.
-      if (lowest_above_soft(clear) > 0 && lowest_above_soft(clear) < kAlike * above) {
-        modes = std::move(clear);
-        shifted = std::move(stiffened);
-      }
+    stiffened.emplace(system, state, -above);
+    const Spectrum clear =
+        stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
+    // Otherwise all that it is soft compared with has no mass.
+    const double next = lowest_above_soft(clear);
+    if (next > 0 && next < kAlike * above) {
+      modes = clear;
+    } else {
+      stiffened.reset();
     }
   }
+  const ShiftedStiffness& shifted = stiffened ? *stiffened : K;
   if (!modes.converged) {
     found.outcome = {Status::not_converged, "the eigenvalues of the dense matrix"};
     return found;
   }
-  count = std::min(count, n);
+  count = std::min(count, std::ssize(modes.w2));
   found.frequency.resize(count);
   found.growth_rate.resize(count);
   for (Index k = 0; k < count; ++k) {
     std::complex<double> w2 = modes.w2[to_size(k)];
     const VectorXcd force = (w2 - modes.shift) * (M * modes.x[to_size(k)]);
-    VectorXcd mode = refined_solve(*shifted, n + m, force.real());
-    if (std::abs(w2) < kSoftShare * std::abs(modes.shift) &&
-        residual_of(K, scale, mode.real(), VectorXd::Zero(n)) < kFreeRow) {
+    Extended mode = shifted.solve(force.real().cast<long double>());
+    Extended imaginary = Extended::Zero(mode.size());
+    const bool is_soft = std::abs(w2) < kSoftShare * std::abs(modes.shift);
+    for (int pass = 0; is_soft && pass < 2; ++pass)
+      mode = shifted.solve(-modes.shift * (M.cast<long double>() * mode.head(n)));
+    if (is_soft && K.energy_share(mode) < kFreeEnergy) {
       w2 = 0;
     } else if (w2.imag() != 0) {
-      mode += std::complex<double>(0, 1) * refined_solve(*shifted, n + m, force.imag());
+      imaginary = shifted.solve(force.imag().cast<long double>());
     } else {
-      mode = beside(system, state, M, w2, mode.real());
+      mode = beside(system, state, M, w2, mode);
     }
     std::complex<double> s = std::sqrt(-w2);
     if (std::abs(s.real()) < kRoundoffShare * std::abs(s)) s.real(0);
     if (std::abs(s.imag()) < kRoundoffShare * std::abs(s)) s.imag(0);
     found.frequency[k] = std::abs(s.imag()) / (2 * std::numbers::pi);
     found.growth_rate[k] = std::abs(s.real());
-    const VectorXcd inertia = w2 * (M * mode.head(n));
-    found.evidence.add(
-        Residual::eigenvalue_equation,
-        std::max(residual_of(K, scale, mode.real(), inertia.real()),
-                 w2.imag() == 0 ? 0 : residual_of(K, scale, mode.imag(), inertia.imag())));
+    if (w2 == 0.0) {
+      found.evidence.add(Residual::eigenvalue_equation, K.energy_share(mode));
+      continue;
+    }
+    const Extended real = M.cast<long double>() * mode.head(n);
+    const Extended other = M.cast<long double>() * imaginary.head(n);
+    const long double a = w2.real(), b = w2.imag();
+    found.evidence.add(Residual::eigenvalue_equation,
+                       std::max(K.residual(mode, a * real - b * other),
+                                w2.imag() == 0 ? 0 : K.residual(imaginary, a * other + b * real)));
   }
   found.outcome = outcome_by_evidence(found.outcome, found.evidence);
   return found;

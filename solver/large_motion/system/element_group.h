@@ -49,8 +49,11 @@ class ElementGroup {
   /// Sets c >= 0 of the group's own rows.
   // NOLINTNEXTLINE(performance-unnecessary-value-param)
   virtual void set_compliance(Eigen::Ref<VectorXd>) const {}
-  /// Tells the rows what they join.
+  /// Sets the penalties of the rows from the parts that they join.
   virtual void set_penalty_scales(const PenaltyScales&) {}
+  /// Sets the unit of each of the group's own rows: the model's size [m] or 1 rad.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
+  virtual void set_row_units(const PenaltyScales&, Eigen::Ref<VectorXd>) const {}
 };
 
 /// Values of an element's coordinates; what a support holds (beyond the vector) is zero.
@@ -134,10 +137,17 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
   void set_penalty_scales(const PenaltyScales& scales) override {
     if constexpr (requires(Element & e) { e.stiffness_scale; }) {
       for (Index e = 0; e < size(); ++e) {
-        element(e).stiffness_scale = scales.stiffness(coordinates(e));
-        element(e).mass_scale = scales.mass(coordinates(e));
+        double lever = 0;
+        if constexpr (requires { element(e).offset; }) lever = element(e).offset.norm();
+        element(e).stiffness_scale = scales.stiffness(coordinates(e), lever);
+        element(e).mass_scale = scales.mass(coordinates(e), lever);
       }
     }
+  }
+
+  void set_row_units(const PenaltyScales& scales, Eigen::Ref<VectorXd> unit) const override {
+    for (Index e = 0; e < size(); ++e)
+      unit.template segment<R>(first_row(e)).setConstant(scales.row_unit(coordinates(e)));
   }
 
   void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override {
@@ -178,7 +188,7 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
       const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
       element(e).constraint_residual(q, state.t, residual, G);
       matrix.add(block(e), coordinate_matrix(state, e, tau, coefficients), G,
-                 scaled_compliance(e, coefficients), element(e).penalty(coefficients));
+                 scaled_compliance(e, coefficients), penalty(e, coefficients));
     }
   }
 
@@ -193,7 +203,7 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
       element(e).constraint_residual(q1, to.t, residual, G);
       matrix.add(block(e), coordinate_matrix(midpoint, e, tau, coefficients),
                  element(e).discrete_gradient(q0, q1), G, scaled_compliance(e, coefficients),
-                 element(e).penalty(coefficients));
+                 penalty(e, coefficients));
     }
   }
 
@@ -231,6 +241,12 @@ class ConstraintElements final : public ElementList<Element, Element::R> {
       S += (coefficients.stiffness + tau * coefficients.damping) * element(e).stiffness();
     if constexpr (requires { element(e).mass(); }) S += coefficients.mass * element(e).mass();
     return S;
+  }
+
+  [[nodiscard]] typename Element::Rows penalty(Index e,
+                                               const TangentCoefficients& coefficients) const {
+    if (!coefficients.has_penalty) return Element::Rows::Zero();
+    return element(e).penalty(coefficients);
   }
 
   [[nodiscard]] typename Element::Rows scaled_compliance(

@@ -66,6 +66,7 @@ GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel
       parts_(all_parts(model_, large_motion_, layout_, options.order)),
       compliance_(VectorXd::Zero(parts_.rows)),
       scale_(coordinate_scales(model_, layout_)),
+      row_unit_(VectorXd::Ones(parts_.rows)),
       mass_(layout_.total, layout_.total),
       padded_(VectorXd::Zero(layout_.total)),
       product_(VectorXd::Zero(layout_.total)) {
@@ -73,11 +74,12 @@ GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel
   for (const auto& [k, m] : parts_.point_mass) masses.emplace_back(k, k, m);
   mass_.setFromTriplets(masses.begin(), masses.end());
   gravity_ = mass_ * gravity_field(model_, layout_);
-  const PenaltyScales scales(model_, large_motion_, layout_, mass_.diagonal());
+  const PenaltyScales scales(model_, large_motion_, layout_, mass_.diagonal(), model_size(model_));
   for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
     group->append_blocks(blocks_);
     group->set_compliance(compliance_);
     group->set_penalty_scales(scales);
+    group->set_row_units(scales, row_unit_);
   }
   require_driven_parts(model_, large_motion_, layout_, blocks_, mass_.diagonal());
 }

@@ -29,6 +29,7 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] Index constraints() const override { return compliance_.size(); }
   [[nodiscard]] const VectorXd& compliance() const override { return compliance_; }
   [[nodiscard]] const VectorXd& scale() const override { return scale_; }
+  [[nodiscard]] VectorXd row_unit() const override { return row_unit_; }
   [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return blocks_; }
   void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
@@ -92,7 +93,7 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   Layout layout_;
   SystemParts parts_;
   std::vector<std::vector<Index>> blocks_;
-  VectorXd compliance_, scale_;
+  VectorXd compliance_, scale_, row_unit_;
   Eigen::SparseMatrix<double> mass_;  ///< total x total
   VectorXd gravity_;                  ///< M times the gravity field, total
   VectorXd accelerations_;            ///< of statics; empty: none

@@ -45,9 +45,15 @@ void LinearConstraints::add(LinearConstraintRow row) {
 
 void LinearConstraints::set_penalty_scales(const PenaltyScales& scales) {
   for (LinearConstraintRow& row : rows_) {
-    row.stiffness_scale = scales.stiffness(row.coordinates);
-    row.mass_scale = scales.mass(row.coordinates);
+    row.stiffness_scale = scales.stiffness(row.coordinates, 0);
+    row.mass_scale = scales.mass(row.coordinates, 0);
   }
+}
+
+void LinearConstraints::set_row_units(const PenaltyScales& scales,
+                                      Eigen::Ref<VectorXd> unit) const {
+  for (std::size_t e = 0; e < rows_.size(); ++e)
+    unit[first_row_ + static_cast<Index>(e)] = scales.row_unit(rows_[e].coordinates);
 }
 
 void LinearConstraints::append_blocks(std::vector<std::vector<Index>>& blocks) {
@@ -94,9 +100,9 @@ void LinearConstraints::tangent(const State&, double, const TangentCoefficients&
   const Eigen::Matrix<double, 1, 1> c = Eigen::Matrix<double, 1, 1>::Zero();
   for (std::size_t e = 0; e < rows_.size(); ++e) {
     const double norm = rows_[e].factors.squaredNorm();
-    const Eigen::Matrix<double, 1, 1> rho((coefficients.stiffness * rows_[e].stiffness_scale +
-                                           coefficients.mass * rows_[e].mass_scale) /
-                                          norm);
+    const double penalty =
+        coefficients.stiffness * rows_[e].stiffness_scale + coefficients.mass * rows_[e].mass_scale;
+    const Eigen::Matrix<double, 1, 1> rho(coefficients.has_penalty ? penalty / norm : 0);
     matrix.add(first_block_ + static_cast<Index>(e), zero_blocks_[e],
                Eigen::RowVectorXd(rows_[e].factors.transpose()), c, rho);
   }

@@ -32,6 +32,7 @@ class LinearConstraints final : public ElementGroup {
   [[nodiscard]] Index size() const override { return static_cast<Index>(rows_.size()); }
   [[nodiscard]] Index rows() const override { return size(); }
   void set_penalty_scales(const PenaltyScales& scales) override;
+  void set_row_units(const PenaltyScales& scales, Eigen::Ref<VectorXd> unit) const override;
 
  private:
   void add_constraint_forces(const VectorXd& lambda, Eigen::Ref<VectorXd> r) const;

@@ -1,7 +1,7 @@
 #include "solver/large_motion/system/penalty_scales.h"
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
 namespace trammel::solver::large_motion {
 
@@ -44,36 +44,73 @@ Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel&
   return stiffness;
 }
 
-/// Over the coordinates that have any; `none` where none has.
+/// Sum of the magnitudes of all loads, in forces [N].
+double load_size(const Model& model, const LargeMotionModel& large_motion, double size) {
+  double sum = 0, mass = 0;
+  const auto add = [&](const Vector3d& load) {
+    sum += load.head<2>().norm() + (size > 0 ? std::abs(load[2]) / size : 0);
+  };
+  for (const NodalLoad& load : model.loads) add(load.force);
+  for (const FollowerLoad& load : large_motion.follower_loads) add(load.force);
+  for (const PointMass& point : model.masses) mass += point.mass;
+  return sum + mass * model.gravity.norm();
+}
+
+/// Mean over the coordinates that have any; `none` if none has.
 double mean_of_positive(const Eigen::VectorXd& values, double none) {
   const Index count = (values.array() > 0).count();
   const double mean = count > 0 ? values.sum() / static_cast<double>(count) : 0.0;
   return mean > 0 ? mean : none;
 }
 
-double largest(const Eigen::VectorXd& values, std::span<const Index> coordinates, double none) {
-  double value = 0;
-  for (const Index k : coordinates) {
-    if (k >= 0) value = std::max(value, values[k]);
-  }
-  return value > 0 ? value : none;
-}
-
 }  // namespace
 
 PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_motion,
-                             const Layout& layout, Eigen::VectorXd mass)
-    : stiffness_(coordinate_stiffness(model, large_motion, layout)), mass_(std::move(mass)) {
-  mean_mass_ = mean_of_positive(mass_, 1);
-  mean_stiffness_ = mean_of_positive(stiffness_, mean_mass_);
+                             const Layout& layout, const Eigen::VectorXd& mass, double size)
+    : is_rotation_(layout.is_rotation),
+      size_(size),
+      stiffness_(coordinate_stiffness(model, large_motion, layout)),
+      mass_(mass) {
+  const auto of_translations = [&](Eigen::VectorXd values) {
+    for (Index k = 0; k < layout.total; ++k)
+      if (is_rotation_[to_size(k)]) values[k] /= size * size;
+    return values;
+  };
+  mean_mass_ = mean_of_positive(of_translations(mass_), 1);
+  // Without stiffness, loads turn the model.
+  const double turning = load_size(model, large_motion, size) / size;
+  mean_stiffness_ =
+      mean_of_positive(of_translations(stiffness_), turning > 0 ? turning : mean_mass_);
 }
 
-double PenaltyScales::stiffness(std::span<const Index> coordinates) const {
-  return largest(stiffness_, coordinates, mean_stiffness_);
+bool PenaltyScales::turns(std::span<const Index> coordinates) const {
+  return std::ranges::all_of(coordinates,
+                             [&](Index k) { return k < 0 || is_rotation_[to_size(k)]; });
 }
 
-double PenaltyScales::mass(std::span<const Index> coordinates) const {
-  return largest(mass_, coordinates, mean_mass_);
+double PenaltyScales::row_unit(std::span<const Index> coordinates) const {
+  return turns(coordinates) ? 1 : size_;
+}
+
+double PenaltyScales::largest(const Eigen::VectorXd& values, double mean,
+                              std::span<const Index> coordinates, double lever) const {
+  const bool is_turn = turns(coordinates);
+  double value = 0;
+  for (const Index k : coordinates) {
+    if (k < 0) continue;
+    const bool levered = is_rotation_[to_size(k)] && !is_turn;
+    if (levered && !(lever > 0)) continue;
+    value = std::max(value, levered ? values[k] / (lever * lever) : values[k]);
+  }
+  return value > 0 ? value : is_turn ? mean * size_ * size_ : mean;
+}
+
+double PenaltyScales::stiffness(std::span<const Index> coordinates, double lever) const {
+  return largest(stiffness_, mean_stiffness_, coordinates, lever);
+}
+
+double PenaltyScales::mass(std::span<const Index> coordinates, double lever) const {
+  return largest(mass_, mean_mass_, coordinates, lever);
 }
 
 }  // namespace trammel::solver::large_motion

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "solver/large_motion/elements/large_motion_model.h"
 #include "solver/large_motion/system/layout.h"
@@ -9,21 +10,34 @@
 
 namespace trammel::solver::large_motion {
 
-/// Stiffness and mass of what a constraint row joins, from which its penalty rho follows (see
-/// `KktMatrix`).
+/// Stiffness and mass of the parts that a constraint row joins, from which its penalty rho follows
+/// (see `KktMatrix`). In a row of displacements [m] a rotation counts by its lever.
 class PenaltyScales {
  public:
   /// @param mass  diagonal of the mass matrix, one entry a coordinate [kg or kg m^2]
+  /// @param size  of the model [m]
   PenaltyScales(const Model& model, const LargeMotionModel& large_motion, const Layout& layout,
-                Eigen::VectorXd mass);
+                const Eigen::VectorXd& mass, double size);
 
-  /// The largest stiffness among some coordinates; the model's mean where they have none [N/m].
-  [[nodiscard]] double stiffness(std::span<const Index> coordinates) const;
-  /// The largest mass among some coordinates; the model's mean where they have none [kg].
-  [[nodiscard]] double mass(std::span<const Index> coordinates) const;
+  /// Largest stiffness among some coordinates, in the unit of their row: [N/m], or [N m/rad] if all
+  /// are rotations. The model's mean if they have none.
+  /// @param lever  of the row's rotations, if others are displacements [m]
+  [[nodiscard]] double stiffness(std::span<const Index> coordinates, double lever) const;
+  /// Largest mass among some coordinates, likewise [kg or kg m^2].
+  [[nodiscard]] double mass(std::span<const Index> coordinates, double lever) const;
+  /// Unit of the residual of a row that joins these coordinates: 1 rad if all are rotations,
+  /// otherwise the model's size [m].
+  [[nodiscard]] double row_unit(std::span<const Index> coordinates) const;
 
  private:
-  Eigen::VectorXd stiffness_, mass_;  ///< of each coordinate
+  [[nodiscard]] bool turns(std::span<const Index> coordinates) const;
+  [[nodiscard]] double largest(const Eigen::VectorXd& values, double mean,
+                               std::span<const Index> coordinates, double lever) const;
+
+  std::vector<bool> is_rotation_;  ///< of each coordinate
+  double size_;                    ///< of the model [m]
+  Eigen::VectorXd stiffness_;      ///< of each coordinate [N/m or N m/rad]
+  Eigen::VectorXd mass_;           ///< of each coordinate [kg or kg m^2]
   double mean_stiffness_, mean_mass_;
 };
 
