@@ -100,6 +100,8 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   if (options.keep_points && (case_model.path || factors.size() > 1)) {
     throw analysis["whole_path"].error("expected one pose and one load factor beside it");
   }
+  // Small vibration reports a free part as a mode of 0 Hz; otherwise its position is undetermined.
+  options.keep_free_parts = analysis.get("vibration_modes", solver::Index{0}) > 0;
   solver::Model model = build_bare_model(case_model, step);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);

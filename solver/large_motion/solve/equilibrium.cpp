@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -20,7 +21,8 @@ Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOpt
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
       constraint_residual_(VectorXd::Zero(system.constraints())),
       constraint_rate_(VectorXd::Zero(system.constraints())),
-      step_(VectorXd::Zero(system.coordinates() + system.constraints())) {}
+      step_(VectorXd::Zero(system.coordinates() + system.constraints())),
+      force_unit_(system.row_unit().cwiseInverse()) {}
 
 bool Equilibrium::converged(const std::vector<double>& correction, double displacement) const {
   const std::size_t count = correction.size();
@@ -35,6 +37,7 @@ bool Equilibrium::converged(const std::vector<double>& correction, double displa
 bool Equilibrium::factor(const State& state) {
   matrix_.clear();
   system_.tangent(state, TangentCoefficients{}, matrix_);
+  for (const auto& [k, stiffness] : held_) matrix_.add_diagonal(k, stiffness);
   const bool regular = matrix_.factor(system_.symmetric());
   factored_ = regular ? state : State();
   return regular;
@@ -44,7 +47,8 @@ bool Equilibrium::factor_if_moved(const State& state, double relative) {
   const bool same = factored_.q.size() == state.q.size() &&
                     weighted_rms_norm(system_, state.q - factored_.q) <=
                         relative * weighted_rms_norm(system_, state.q) &&
-                    (state.lambda - factored_.lambda).norm() <= relative * state.lambda.norm() &&
+                    (state.lambda - factored_.lambda).cwiseQuotient(force_unit_).norm() <=
+                        relative * state.lambda.cwiseQuotient(force_unit_).norm() &&
                     std::abs(state.load - factored_.load) <= relative * std::abs(state.load);
   return same || factor(state);
 }
@@ -99,9 +103,10 @@ double Equilibrium::backward_error(const State& state) {
   VectorXd x(n + m), residual(n + m), load(n);
   const VectorXd motion = state.q.head(n).cwiseQuotient(system_.scale()).cwiseAbs();
   const double largest_motion = n > 0 ? motion.maxCoeff() : 0;
-  const double largest_force = m > 0 ? state.lambda.cwiseAbs().maxCoeff() : 0;
+  const VectorXd force = state.lambda.cwiseQuotient(force_unit_).cwiseAbs();
+  const double largest_force = m > 0 ? force.maxCoeff() : 0;
   x.head(n) = motion.cwiseMax(kLeastShare * largest_motion).cwiseProduct(system_.scale());
-  x.tail(m) = state.lambda.cwiseAbs().cwiseMax(kLeastShare * largest_force);
+  x.tail(m) = force.cwiseMax(kLeastShare * largest_force).cwiseProduct(force_unit_);
   matrix_.clear();
   system_.tangent(state, TangentCoefficients{}, matrix_);
   VectorXd terms(n + m);
@@ -133,6 +138,29 @@ double Equilibrium::smallest_eigenpair(VectorXd& shape) {
   }
   shape = x.head(n) * eigenvalue;
   return eigenvalue;
+}
+
+Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
+  constexpr double kRoundoff = 1e3 * std::numeric_limits<double>::epsilon();
+  constexpr double kDriven = 1e-9;  // share of the work of loads along the motion
+  FreeMotion found;
+  const Index n = system_.coordinates();
+  if (n == 0) return found;
+  (void)smallest_eigenpair(found.shape);
+  VectorXd motion = VectorXd::Zero(n + system_.constraints()), terms(motion.size()), load(n);
+  motion.head(n) = found.shape.cwiseAbs();
+  matrix_.term_magnitudes(motion, terms);
+  KktMatrix::Extended x = KktMatrix::Extended::Zero(motion.size());
+  x.head(n) = found.shape.cast<long double>();
+  const auto energy = static_cast<double>(x.dot(matrix_.multiply(x)));
+  found.exists = std::abs(energy) <= kRoundoff * motion.dot(terms);
+  system_.load_derivative(state, load);
+  const double work = motion.head(n).cwiseQuotient(system_.scale()).norm() *
+                      load.cwiseProduct(system_.scale()).norm();
+  found.is_driven = std::abs(found.shape.dot(load)) > kDriven * work;
+  motion.head(n).cwiseQuotient(system_.scale()).maxCoeff(&found.coordinate);
+  found.stiffness = terms[found.coordinate] / motion[found.coordinate];
+  return found;
 }
 
 NewtonResult Equilibrium::solve(State& state, double load) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/large_motion/system/geometrically_exact_system.h"
@@ -49,6 +50,23 @@ class Equilibrium {
   /// inverse iteration with the tangent factored last) [N m].
   double smallest_eigenpair(VectorXd& shape);
 
+  /// A motion that the tangent factored last does not resist: its energy is the round-off error of
+  /// its terms.
+  struct FreeMotion {
+    bool exists = false;
+    bool is_driven = false;  ///< the loads do work on it
+    VectorXd shape;          ///< of the smallest eigenvalue, whether it is free or not
+    Index coordinate = 0;    ///< that moves most
+    double stiffness = 0;    ///< typical of that coordinate [N/m or N m/rad]
+  };
+  [[nodiscard]] FreeMotion free_motion(const State& state);
+  /// Keeps a coordinate in place from here on by a stiffness of the tangent alone: a free motion
+  /// that no force drives stays where it is, and its direction is neither stable nor unstable.
+  void hold(Index coordinate, double stiffness) {
+    held_.emplace_back(coordinate, stiffness);
+    factored_ = State();
+  }
+
   /// True where the corrections so far end the iteration at a displacement of that size: the last
   /// is small enough, or they have stopped to shrink at round-off.
   [[nodiscard]] bool converged(const std::vector<double>& correction, double displacement) const;
@@ -62,8 +80,10 @@ class Equilibrium {
   NewtonOptions options_;
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, step_;
-  State factored_;         ///< of which the tangent was factored last
-  VectorXd held_damping_;  ///< empty: none
+  State factored_;                              ///< of which the tangent was factored last
+  VectorXd held_damping_;                       ///< empty: none
+  std::vector<std::pair<Index, double>> held_;  ///< stiffness of coordinates of free motions
+  VectorXd force_unit_;                         ///< of each multiplier: 1/m or 1/rad
 };
 
 /// Adds a correction (dq, dlambda) times a factor.

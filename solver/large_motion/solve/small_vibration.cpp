@@ -73,6 +73,7 @@ class ShiftedStiffness {
 
   /// (x, y) of K (x, y) = (f, 0), by iterative refinement until it stands still.
   [[nodiscard]] Extended solve(const Extended& force) const {
+    constexpr double kEnough = 1e-13;
     constexpr int kPasses = 30;  // corrections of ill-conditioned matrices do not shrink evenly
     const Index n = system_.coordinates();
     Extended x = Extended::Zero(n + system_.constraints());
@@ -96,7 +97,7 @@ class ShiftedStiffness {
                    forces > 0 ? size_of(correction, system_.row_unit(), n) / forces : 0);
       const bool stalled = pass > 1 && !(share < 0.5 * last_correction_);
       last_correction_ = share;
-      if (share < kEps || (stalled && converged())) break;
+      if (share < kEps || (stalled && share < kEnough)) break;
     }
     return x;
   }
@@ -224,7 +225,7 @@ Extended beside(const GeometricallyExactSystem& system, const State& state, cons
     const double t = w2.real() - aside * std::abs(w2);
     const ShiftedStiffness K(system, state, t);
     if (!K.exists()) continue;
-    const int passes = aside == kAside ? 1 : 20;
+    const int passes = aside == kAside ? 4 : 20;  // each leaves this share of the other modes
     for (int pass = 0; pass < passes; ++pass) {
       const Extended inertia = M.cast<long double>() * mode.head(n);
       const Extended next = K.solve(inertia);

@@ -107,15 +107,20 @@ class PathFollower {
     const bool at_rest = point.newton.correction.size() == 1;  // where it was factored
     if (!at_rest && !equilibrium_.factor(point.state))
       return stop({Status::singular, "the tangent is singular"});
-    VectorXd shape;
-    const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
+    for (Index found = 0; found <= system_.coordinates(); ++found) {
+      const Equilibrium::FreeMotion free = equilibrium_.free_motion(point.state);
+      if (!free.exists) break;
+      if (free.is_driven || !options_.keep_free_parts || found == system_.coordinates()) {
+        return stop(
+            {Status::singular, "free motion: " + describe_largest_coordinate(system_, free.shape)});
+      }
+      equilibrium_.hold(free.coordinate, free.stiffness);
+      if (!equilibrium_.factor(point.state))
+        return stop({Status::singular, "the tangent is singular"});
+    }
     equilibrium_.load_direction(point.state, direction_.step);
     const double response = weighted_rms_norm(system_, direction_.step.head(system_.coordinates()));
-    // A rigid-body motion leaves a pivot of pure round-off: a response beyond every scale.
-    if (!std::isfinite(eigenvalue) || !std::isfinite(response) || response > 1e11) {
-      return stop(
-          {Status::singular, "free motion: " + describe_largest_coordinate(system_, shape)});
-    }
+    if (!std::isfinite(response)) return stop({Status::singular, "the tangent is singular"});
     const double typical = response < 1e-6 ? mean_response(point.state) : response;
     displacement_weight_ = 1 / std::pow(std::max(typical, 1e-6), 2);
     direction_.load = 1;

@@ -19,6 +19,8 @@ struct StaticPathOptions {
   int max_points = 2000;       ///< at most
   bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
   bool keep_points = true;     ///< false: keep the last point only
+  /// Parts that move freely and that no load drives stay where they are; false: they are singular.
+  bool keep_free_parts = false;
   NewtonOptions newton;
 };
 
