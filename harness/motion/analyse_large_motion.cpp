@@ -8,6 +8,7 @@
 #include "harness/readers/time_reader.h"
 #include "harness/scene/draw_large.h"
 #include "harness/scene/tracking.h"
+#include "harness/statics_modes/range_warnings.h"
 #include "solver/large_motion/solve/integrate.h"
 #include "solver/large_motion/solve/large_statics.h"
 #include "solver/large_motion/solve/state_results.h"
@@ -291,6 +292,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   result.counters.element_evaluations = system.element_evaluations();
   result.counters.steps = summary.steps + summary.rejected;
   record_summary(summary, log, record);
+  warn_of_redundancy(solver::assemble(system.model()), result.warnings);
   return result;
 }
 

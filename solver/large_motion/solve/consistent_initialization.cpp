@@ -30,8 +30,13 @@ class ConsistentInitialization {
     state_.load = system_.load_factor(state_.t);
     if (!project_positions()) return failed("positions");
     if (!solve_velocities(given)) return failed("velocities");
-    if (!solve_accelerations()) return failed("accelerations");
-    return {};
+    return run_accelerations();
+  }
+
+  Outcome run_accelerations() {
+    if (state_.a.size() != n_) state_.a.setZero(n_);
+    state_.a.setZero();
+    return solve_accelerations() ? Outcome() : failed("accelerations");
   }
 
  private:
@@ -201,6 +206,10 @@ class ConsistentInitialization {
 Outcome make_consistent(const ConstrainedSystem& system, State& state,
                         const PrescribedVelocities& given, double step) {
   return ConsistentInitialization(system, state, step).run(given);
+}
+
+Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& state, double step) {
+  return ConsistentInitialization(system, state, step).run_accelerations();
 }
 
 }  // namespace trammel::solver::large_motion

@@ -19,4 +19,8 @@ using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 [[nodiscard]] Outcome make_consistent(const ConstrainedSystem& system, State& state,
                                       const PrescribedVelocities& given, double step);
 
+/// Sets the accelerations and multipliers of a state from its positions and velocities.
+[[nodiscard]] Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& state,
+                                                    double step);
+
 }  // namespace trammel::solver::large_motion

@@ -8,9 +8,10 @@ namespace trammel::solver::large_motion {
 ///
 ///     q1 - q0 = h (v0 + v1)/2,     M (v1 - v0)/h = f(q0, q1) - D(q0, q1)^T lambda,     g(q1) = 0,
 ///
-/// with discrete gradients f and D, so that energy and momentum stay as they are to round-off for
-/// any step, without numerical damping. Order 2. Velocities meet their constraint on the mean of
-/// each step; multipliers are means too, carried to the step's end.
+/// with discrete gradients f and D, so that the energy is kept to round-off for any step, without
+/// numerical damping. Momentum is kept within O(h^2). Order 2. Velocities meet their constraint on
+/// the mean of each step. Multipliers are means that alternate about those of the motion;
+/// `integrate` shows those that follow from positions and velocities.
 class EnergyMomentum final : public Stepper {
  public:
   explicit EnergyMomentum(const ConservativeSystem& system);

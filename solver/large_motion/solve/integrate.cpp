@@ -296,7 +296,19 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
     return summary;
   }
   EnergyMomentum stepper(system);
-  return TimeIntegration(system, stepper, options, observe).run(state);
+  const double start = state.t;
+  Outcome recovered;
+  IntegrationSummary summary =
+      TimeIntegration(system, stepper, options, [&](const State& at) {
+        if (!observe) return;
+        State shown =
+            at;  // the multipliers of a step are means, which alternate about the motion's
+        if (at.t > start && recovered.solved())
+          recovered = make_accelerations_consistent(system, shown, options.step);
+        observe(shown);
+      }).run(state);
+  if (summary.outcome.solved()) summary.outcome = recovered;
+  return summary;
 }
 
 IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system, State& state,
