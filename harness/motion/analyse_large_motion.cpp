@@ -272,8 +272,10 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   MotionRecorder log(system, read_kept(analysis, system), record);
   const auto moments =
       static_cast<double>(result.drawing ? max_drawn_moments(result.drawing->nodes.size()) - 1 : 1);
+  State last;
   const auto look = [&](const State& state) {
     log.look(state);
+    last = state;
     if (tracking) record_deflection(system, state, *case_model.path, record);
     if (!result.drawing) return;
     std::vector<Drawing::Pose>& poses = result.drawing->poses;
@@ -292,7 +294,8 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   result.counters.element_evaluations = system.element_evaluations();
   result.counters.steps = summary.steps + summary.rejected;
   record_summary(summary, log, record);
-  warn_of_redundancy(solver::assemble(system.model()), result.warnings);
+  if (result.outcome.solved() && last.q.size() > 0)
+    warn_of_redundancy(redundant_constraints(system, last), result.warnings);
   return result;
 }
 

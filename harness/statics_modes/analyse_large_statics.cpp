@@ -125,7 +125,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
     if (factor == longest) events = std::move(path.events);
   }
-  warn_of_redundancy(solver::assemble(system.model()), result.warnings);
+  warn_of_redundancy(redundant_constraints(system, recorded_points.back().state), result.warnings);
   const auto vibrations = analysis.get("vibration_modes", solver::Index{0});
   if (!large_motion.follower_loads.empty() && vibrations == 0)
     result.warnings.push_back(

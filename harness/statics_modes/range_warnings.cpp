@@ -97,11 +97,14 @@ void warn_of_amplification(const solver::StaticSolution& solution, std::vector<W
 
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings) {
   const std::vector<solver::Index>& pivot = system.constraints.pivot;
-  const auto redundant = std::ranges::count(pivot, -1);
+  warn_of_redundancy(std::ranges::count(pivot, -1), warnings);
+}
+
+void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings) {
   if (redundant == 0) return;
   add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
-                         "statics does not determine the forces among them: those that are given "
-                         "are one admissible set"});
+                         "equilibrium does not determine the forces among them: those that are "
+                         "given are one admissible set"});
 }
 
 }  // namespace trammel::harness

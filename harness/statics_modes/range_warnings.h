@@ -37,5 +37,7 @@ void warn_of_amplification(const solver::StaticSolution& solution, std::vector<W
 /// Of supports, rigid bodies and inextensible members that hold what others hold already: how they
 /// share the loads is not determined, and what is reported is one way of many.
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings);
+/// @param redundant  number of such constraints
+void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings);
 
 }  // namespace trammel::harness

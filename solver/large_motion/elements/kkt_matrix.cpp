@@ -182,6 +182,25 @@ KktMatrix::Extended KktMatrix::multiply(const Extended& x) const {
   return product;
 }
 
+Eigen::SparseMatrix<double> KktMatrix::constraint_gradient(const VectorXd& scale,
+                                                           const VectorXd& row_unit) const {
+  std::vector<Index> unknown(permutation_.size());
+  for (std::size_t i = 0; i < permutation_.size(); ++i)
+    unknown[static_cast<std::size_t>(permutation_[i])] = static_cast<Index>(i);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index column = 0; column < matrix_.cols(); ++column) {
+    const Index k = unknown[static_cast<std::size_t>(column)];
+    if (k >= coordinates_) continue;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, column); it; ++it) {
+      const Index r = unknown[static_cast<std::size_t>(it.row())] - coordinates_;
+      if (r >= 0) entries.emplace_back(r, k, it.value() * scale[k] / row_unit[r]);
+    }
+  }
+  Eigen::SparseMatrix<double> G(constraints_, coordinates_);
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G;
+}
+
 void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {
   solution_.setZero();
   for (Index i = 0; i < x.size(); ++i)

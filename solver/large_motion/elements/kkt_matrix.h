@@ -88,6 +88,11 @@ class KktMatrix {
   /// because the stiffness of a soft joint is what remains of the products of stiff members.
   [[nodiscard]] Extended multiply(const Extended& x) const;
 
+  /// G of the rows in units of their own and of the coordinates: G_rk scale_k / row_unit_r.
+  /// @pre assembled without penalties
+  [[nodiscard]] Eigen::SparseMatrix<double> constraint_gradient(const VectorXd& scale,
+                                                                const VectorXd& row_unit) const;
+
   /// Of each equation, the sum of the magnitudes of its terms with the unknowns x = (q, lambda).
   void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;
 

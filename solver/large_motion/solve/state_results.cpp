@@ -1,5 +1,8 @@
 #include "solver/large_motion/solve/state_results.h"
 
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseQR>
+
 #include "solver/large_motion/system/member_elements.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
@@ -251,6 +254,35 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
   Eigen::MatrixX2d line(static_cast<Index>(points.size()), 2);
   for (Index i = 0; i < line.rows(); ++i) line.row(i) = points[to_size(i)].transpose();
   return line;
+}
+
+Index redundant_constraints(const GeometricallyExactSystem& system, const State& state) {
+  if (system.constraints() == 0 || system.coordinates() == 0) return 0;
+  KktMatrix matrix(system.coordinates(), system.constraints(), system.blocks());
+  TangentCoefficients coefficients;
+  coefficients.has_penalty = false;
+  matrix.clear();
+  system.tangent(state, coefficients, matrix);
+  const Eigen::SparseMatrix<double> G =
+      matrix.constraint_gradient(system.scale(), system.row_unit());
+  std::vector<Eigen::Triplet<double>> entries;
+  Index rigid = 0;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = G;
+  for (Index r = 0; r < rows.rows(); ++r) {
+    const double size = rows.row(r).norm();  // 0 for what supports hold at both ends
+    if (system.compliance()[r] > 0) continue;
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, r); size > 0 && it;
+         ++it)
+      entries.emplace_back(it.col(), rigid, it.value() / size);
+    ++rigid;
+  }
+  Eigen::SparseMatrix<double> columns(system.coordinates(), rigid);
+  columns.setFromTriplets(entries.begin(), entries.end());
+  columns.makeCompressed();
+  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
+  qr.setPivotThreshold(1e-10);  // of unit columns; rounding leaves far less
+  qr.compute(columns);
+  return rigid - qr.rank();
 }
 
 }  // namespace trammel::solver::large_motion

@@ -53,4 +53,9 @@ class MemberBalance {
 [[nodiscard]] Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system,
                                                      const VectorXd& q, Index member);
 
+/// Number of rigid constraints that follow from the others in a state: the forces of as many are
+/// not determined by equilibrium.
+[[nodiscard]] Index redundant_constraints(const GeometricallyExactSystem& system,
+                                          const State& state);
+
 }  // namespace trammel::solver::large_motion
