@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <unordered_map>
 
 #include "harness/input/schema_diagnostics.h"
@@ -36,10 +37,16 @@ bool has_all(const Json& object, const SchemaRule& keys) {
                      [&](const SchemaRule& key) { return object.contains(key.GetString()); });
 }
 
+/// Returns whether a number has no fraction, however it is written: 2, 2.0 and 2e0 alike.
+bool is_whole(const Json& value) {
+  if (!value.is_number_float()) return value.is_number_integer();
+  return std::trunc(value.get<double>()) == value.get<double>();
+}
+
 /// Whether a value has one of the types of a rule.
 bool has_type(const Json& value, const SchemaRule& rule) {
   return keyword(rule, "type") == nullptr || wants(rule, value.type_name()) ||
-         (value.is_number_integer() && wants(rule, "integer"));
+         (is_whole(value) && wants(rule, "integer"));
 }
 
 /// Whether a value obeys one keyword, but for its type and what is inside it.

@@ -251,6 +251,8 @@ void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model&
     throw place[key].error(std::string("expected it beside '") + (of_edge ? "edge" : "node") +
                            "' only");
   }
+  if (on_edge && !place.has("traction_Pa") && !place.has("normal_Pa"))
+    throw place.error("the load is empty; expected 'traction_Pa' or 'normal_Pa'");
   if (on_edge) return read_edge_load(place, symbols, model);
   model.loads.push_back({symbols.find_node(place["node"]), read_force(place)});
 }
@@ -263,6 +265,7 @@ SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
   };
   for (std::size_t i = 0; i < structure.nodes.size(); ++i) add(i);
   each(model, "nodes", [&](const std::string& name, const JsonView& place) {
+    if (name.empty()) throw place.error("the name of the node is empty; expected a name");
     structure.nodes.push_back({name, read_point(place)});
     if (!add(structure.nodes.size() - 1)) {
       throw place.error("expected another name: the manipulator has a node of that name");

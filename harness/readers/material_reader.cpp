@@ -7,6 +7,8 @@ Eigen::Vector2d read_point(const JsonView& point) {
 }
 
 Eigen::Vector3d read_force(const JsonView& load) {
+  if (!load.has("force_N") && !load.has("moment_N_m"))
+    throw load.error("the load is empty; expected 'force_N' or 'moment_N_m'");
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   if (const auto given = load.find("force_N")) force.head<2>() = read_point(*given);
   force.z() = load.get("moment_N_m", 0.0);

@@ -1,7 +1,10 @@
 #include "harness/scene/case_model.h"
 
 #include <cstring>
+#include <map>
+#include <set>
 
+#include "harness/base/text.h"
 #include "harness/readers/frame_reader.h"
 #include "harness/readers/joint_reader.h"
 #include "harness/readers/manipulator_reader.h"
@@ -29,6 +32,50 @@ bool mentions(const std::string& text, const std::string& label) {
   return false;
 }
 
+/// Names of the parts in quantities. Two parts with one name would overwrite each other.
+class PartNames {
+ public:
+  /// @throws InputError  if another part has the name; the message has the pointers of both.
+  void claim(const std::string& name, const JsonView& place) {
+    const auto [other, is_new] = pointers_.emplace(name, place.pointer());
+    if (is_new) return;
+    throw place.error("two parts are called '" + printable(name) +
+                      "' in quantities; expected different names; the other part is " +
+                      other->second);
+  }
+
+ private:
+  std::map<std::string, std::string> pointers_;
+};
+
+/// @param bare  the manipulator alone
+void check_part_names(const JsonView& model, const solver::Model& bare) {
+  PartNames names;
+  names.claim("total", model);  // the sum over all parts
+  if (const auto manipulator = model.find("manipulator")) {
+    names.claim("platform", *manipulator);
+    for (const solver::Member& member : bare.members) names.claim(member.name, *manipulator);
+    for (const solver::Plate& plate : bare.plates)
+      if (plate.name != "platform") names.claim(plate.name, *manipulator);
+  }
+  std::set<std::string> loaded;  // several point masses of a node share a name
+  if (const auto masses = model.find("point_masses")) {
+    for (const auto& [name, place] : masses->entries())
+      if (loaded.insert(place.text("node")).second) names.claim("at-" + place.text("node"), place);
+  }
+  const auto all = model.get<solver::Index>("elements", 1);
+  if (const auto members = model.find("members")) {
+    for (const auto& [name, place] : members->entries()) {
+      for (const char* suffix : {"", ".start", ".end"}) names.claim(name + suffix, place);
+      if (!place.has("arc_center_m") && !place.has("restrained_motions")) continue;
+      const auto count = place.get<solver::Index>("elements", all);
+      for (solver::Index i = 1; i <= count; ++i) names.claim(name + "." + std::to_string(i), place);
+    }
+  }
+  if (const auto plates = model.find("plates"))
+    for (const auto& [name, place] : plates->entries()) names.claim(name, place);
+}
+
 }  // namespace
 
 CaseModel read_case_model(const Document& document) {
@@ -54,6 +101,7 @@ CaseModel read_case_model(const Document& document) {
         case_model.manipulator
             ? solver::build_manipulator(*case_model.manipulator, case_model.motion.front().pose)
             : solver::Model();
+    check_part_names(model, bare);
     case_model.structure = read_structure(model, bare.nodes);
     case_model.joint_elements = read_joint_elements(model, build_bare_model(case_model, 0));
   });

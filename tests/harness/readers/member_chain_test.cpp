@@ -170,4 +170,32 @@ BOOST_AUTO_TEST_CASE(a_taper_needs_something_to_taper_to) {
                       "/model/members/AB/taper: expected an 'end_section' beside it"));
 }
 
+BOOST_AUTO_TEST_CASE(two_parts_of_one_name_are_refused_with_both_pointers) {
+  for (const char* name : {"AB.1", "AB.6", "AB.start", "AB.end", "total", "at-B"}) {
+    Json json = quarter(6);
+    json["model"]["point_masses"]["m"] = {{"node", "B"}, {"mass_kg", 1}};
+    json["model"]["members"][name] = {{"nodes", {"A", "B"}},
+                                      {"section", json["model"]["members"]["AB"]["section"]}};
+    const auto read = [&] { return read_case_model(document_of(json)); };
+    BOOST_TEST(contains(complaint(read), "/model/members/"), name);
+    BOOST_TEST(contains(complaint(read), "two parts are called"), name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(similar_names_of_different_parts_are_accepted) {
+  for (const char* name : {"AB.7", "AB.0", "AB.01", "AB1", "at-B", "A.1"}) {
+    Json json = quarter(6);
+    json["model"]["members"][name] = {{"nodes", {"A", "B"}},
+                                      {"section", json["model"]["members"]["AB"]["section"]}};
+    BOOST_CHECK_NO_THROW(static_cast<void>(read_case_model(document_of(json))));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_empty_load_is_refused) {
+  Json json = quarter(2);
+  json["model"]["loads"]["tip"] = {{"node", "B"}};
+  const auto read = [&] { return read_case_model(document_of(json)); };
+  BOOST_TEST(contains(complaint(read), "the load is empty"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
