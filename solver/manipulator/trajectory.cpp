@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "solver/linalg/sparse_lu.h"
 #include "solver/manipulator/path_error.h"
@@ -123,7 +124,13 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
   }
   require_path(spline.pose.allFinite() && std::isfinite(times.front()) && h.allFinite(),
                "the table of poses is not finite");
-  require_path((h.array() > 0).all(), "the times of the table of poses must ascend");
+  for (Index k = 0; k + 1 < n; ++k) {
+    if (h(k) > 0) continue;
+    throw PathError("the times of the table of poses must ascend; knot " + std::to_string(k + 1) +
+                    " at " + std::to_string(times[static_cast<std::size_t>(k + 1)]) +
+                    " s does not follow " + std::to_string(times[static_cast<std::size_t>(k)]) +
+                    " s");
+  }
   const bool periodic = ends == SplineEnds::periodic;
   require_path(!periodic || spline.pose.row(0) == spline.pose.row(n - 1),
                "a periodic table of poses must end where it begins");

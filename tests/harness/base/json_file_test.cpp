@@ -46,6 +46,16 @@ BOOST_AUTO_TEST_CASE(a_number_beyond_a_double_is_refused) {
              "x.json: /a/1: expected a number that a double can hold (got '1e999')");
 }
 
+BOOST_AUTO_TEST_CASE(a_number_that_underflows_to_zero_is_refused) {
+  for (const std::string number : {"1e-400", "-1e-400", "0.001e-330", "2E-324", "1.0e-9999"}) {
+    BOOST_TEST(fault(R"({"a": [1, )" + number + "]}") ==
+               "x.json: /a/1: expected 0 or a number that a double does not round to 0 (got '" +
+                   number + "')");
+  }
+  for (const std::string number : {"0", "0.0", "-0.0", "0e-400", "5e-324", "1e-300"})
+    BOOST_TEST(fault(R"({"a": [1, )" + number + "]}").empty());
+}
+
 BOOST_AUTO_TEST_CASE(bottomless_nesting_does_not_overflow_the_stack) {
   BOOST_TEST(testing::contains(fault(std::string(1000000, '[')), "levels of nesting"));
 }
