@@ -64,13 +64,13 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
-/// What effects were estimated to be worth, so that checks can judge it.
+/// Records the changes by which effects were chosen, so that checks can judge them.
 void record_estimates(const AnalysisKind& kind, const EffectChoice& choice, Recorder& record) {
-  if (kind.effects == nullptr || kind.effects->estimate == nullptr) return;
+  if (kind.effects == nullptr) return;
   for (const EffectReason& one : choice.reasons) {
     const std::string effect(solver::name_of(one.effect));
     if (one.number) record.add("effect_number", effect, *one.number);
-    // Of an effect that nothing estimates there is no number.
+    // An effect that was not decided by a change has none.
     if (one.change && std::isfinite(*one.change)) record.add("effect_change", effect, *one.change);
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace trammel::solver::large_motion {
@@ -36,7 +37,9 @@ class ConsistentInitialization {
   Outcome run_accelerations() {
     if (state_.a.size() != n_) state_.a.setZero(n_);
     state_.a.setZero();
-    return solve_accelerations() ? Outcome() : failed("accelerations");
+    if (!solve_accelerations()) return failed("accelerations");
+    refine_accelerations();
+    return {};
   }
 
  private:
@@ -163,6 +166,23 @@ class ConsistentInitialization {
       if (rigid(r)) state_.lambda[r] = solution_[n_ + r];
     }
     return state_.a.allFinite() && state_.lambda.allFinite();
+  }
+
+  /// Removes what the stiffness in S left of the equation of motion, as long as that shrinks.
+  void refine_accelerations() {
+    double last = std::numeric_limits<double>::infinity();
+    for (int pass = 0; pass < 3; ++pass) {
+      system_.force_residual(state_, force_residual_);
+      const double now = force_residual_.cwiseProduct(system_.scale()).norm();
+      if (!(now < last)) return;
+      last = now;
+      solution_.head(n_) = -force_residual_;
+      solution_.tail(m_).setZero();
+      matrix_.solve(solution_);
+      state_.a += solution_.head(n_);
+      for (Index r = 0; r < m_; ++r)
+        if (rigid(r)) state_.lambda[r] += solution_[n_ + r];
+    }
   }
 
   bool solve_with_mass_scaling(double fraction, const VectorXd& bias) {
