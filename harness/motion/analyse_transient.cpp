@@ -124,6 +124,7 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
     return result;
   }
   if (with_forces) warn_of_redundancy(system, result.warnings);
+  warn_of_taper(system.model, result.warnings);
   if (full) warn_of_basis(unrepresented_velocity(analysis, *full, system), result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
   EnergyDrift drift;

@@ -10,6 +10,7 @@
 #include "harness/readers/symbol_table.h"
 #include "solver/large_motion/elements/linear_joints.h"
 #include "solver/model/numbers.h"
+#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {
@@ -196,7 +197,8 @@ void read_pin(const std::string& name, const JsonView& place, const SymbolTable&
   const double apart = (model.nodes[solver::to_size(nodes[0])].position -
                         model.nodes[solver::to_size(nodes[1])].position)
                            .norm();
-  if (apart > 1e-12) {
+  constexpr double kRoundoff = 1e-12;  // of coordinates that were computed, over the model's size
+  if (apart > kRoundoff * solver::box_diagonal(model)) {
     throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
                                " m between them)");
   }

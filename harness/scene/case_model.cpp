@@ -84,6 +84,10 @@ CaseModel read_case_model(const Document& document) {
   const JsonView model = root["model"];
   CaseModel case_model;
   if (model.has("manipulator")) {
+    if (model.has("elements") && !model.has("members")) {
+      throw model["elements"].error(
+          "expected 'elements' in /model/manipulator/links for the links of a manipulator");
+    }
     case_model.manipulator = read_manipulator(model["manipulator"]);
     PlatformMotion motion = read_platform_motion(model, case_model.manipulator->geometry);
     case_model.path = std::move(motion.path);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
+#include "harness/statics_modes/range_warnings.h"
 #include "solver/statics/buckling.h"
 
 namespace trammel::harness {
@@ -56,6 +57,7 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
                                    ? "K + factor K_G is positive definite up to a factor of " +
                                          rounded(buckling.checked_factor, 3)
                                    : "the loads change no stiffness, or there are none"});
+  warn_of_taper(system.model, result.warnings);
   record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
   return result;
 }

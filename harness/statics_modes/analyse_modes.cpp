@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/readers/eigen_method.h"
+#include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/rotating_state.h"
 #include "solver/model/numbers.h"
 #include "solver/modes/modes.h"
@@ -139,6 +140,8 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
     return result;
   }
   record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);
+  warn_of_taper(system.model, result.warnings);
+  warn_of_wave_length(system, modes.frequency.maxCoeff(), result.warnings);
   if (analysis.has("count_below_Hz")) {
     const std::optional<solver::Index> below =
         solver::sturm_count(system, analysis.number("count_below_Hz"));

@@ -173,6 +173,7 @@ StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::si
   warn_of_rotation(largest_rotation(system, system.T * solution.q), result.warnings);
   warn_of_strain(model, solution, result.warnings);
   warn_of_redundancy(system, result.warnings);
+  warn_of_taper(model, result.warnings);
   warn_of_amplification(solution, result.warnings);
   // The pins of a platform are points that no mesh resolves.
   if (!case_model.manipulator) record_node_stresses(model, solution, of_forces, record);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
@@ -93,6 +94,39 @@ void warn_of_amplification(const solver::StaticSolution& solution, std::vector<W
   add_warning(warnings, {"the amplification by second-order theory", solution.amplification, "",
                          "the loads are near those of buckling, and errors of the mesh are "
                          "amplified as much as displacements"});
+}
+
+void warn_of_wave_length(const solver::System& system, double frequency,
+                         std::vector<Warning>& warnings) {
+  const double omega = 2 * std::numbers::pi * frequency;
+  double largest = 0;
+  for (const solver::FrameElement& e : system.mesh.frame) {
+    if (!(e.section.EI > 0)) continue;
+    const double beta = std::pow(omega * omega * e.section.mass_per_length / e.section.EI, 0.25);
+    largest = std::max(largest, beta * e.length);
+  }
+  if (!(largest > kMaxWaveNumber)) return;
+  add_warning(warnings, {"the largest dimensionless wave number of an element", largest, "",
+                         "above pi / 2 there are fewer than two elements per half wave of the "
+                         "highest mode; more 'elements' of members, or of a manipulator's 'links', "
+                         "make frequencies accurate"});
+}
+
+void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings) {
+  double largest = 1;
+  for (const solver::Member& member : model.members) {
+    const auto add = [&](double start, double end) {
+      if (!(start > 0 && end > 0)) return;
+      const double change = std::abs(std::log(end / start)) / static_cast<double>(member.elements);
+      largest = std::max(largest, std::exp(change));
+    };
+    add(member.section.EI, member.end_section.EI);
+    add(member.section.EA, member.end_section.EA);
+  }
+  if (!(largest > kMaxTaperRatio)) return;
+  add_warning(warnings, {"the largest ratio of stiffness at the ends of an element", largest, "",
+                         "each element of a tapered member has the section at its middle; more "
+                         "'elements' of the member make results accurate"});
 }
 
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings) {

@@ -34,6 +34,18 @@ void warn_of_strain(const solver::Model& model, const solver::StaticSolution& so
 inline constexpr double kMaxAmplification = 10;
 void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings);
 
+/// An element bends as a cubic: up to here it is at most half of a half wave, pi / beta, of bending
+/// vibration with beta^4 = w^2 m / EI.
+inline constexpr double kMaxWaveNumber = 1.5708;
+/// @param frequency  highest of the modes that are reported [Hz]
+void warn_of_wave_length(const solver::System& system, double frequency,
+                         std::vector<Warning>& warnings);
+
+/// An element of a tapered member has the section at its middle: up to this ratio of the stiffness
+/// at its ends the error is about 1 %.
+inline constexpr double kMaxTaperRatio = 1.5;
+void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
+
 /// Of supports, rigid bodies and inextensible members that hold what others hold already: how they
 /// share the loads is not determined, and what is reported is one way of many.
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings);

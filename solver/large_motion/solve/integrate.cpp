@@ -1,10 +1,12 @@
 #include "solver/large_motion/solve/integrate.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -43,6 +45,57 @@ class ConstraintResiduals {
   VectorXd unit_, residual_, rate_;
 };
 
+/// Orientation of a mechanism's assembly: the sign of det G, or of det (G, v) with one degree of
+/// freedom. It differs between the branches that meet at a singular position, and a step that is
+/// longer than the gap between two branches takes the wrong one, with residuals of round-off.
+class AssemblyBranch {
+ public:
+  explicit AssemblyBranch(const ConstrainedSystem& system) : system_(system) {
+    const Index n = system.coordinates();
+    const Index rigid = (system.compliance().array() == 0).count();
+    freedom_ = n - rigid;
+    constexpr Index kLargest = 64;  // the determinant is dense
+    is_known_ =
+        n > 0 && n <= kLargest && rigid == system.constraints() && (freedom_ == 0 || freedom_ == 1);
+    if (is_known_) matrix_.emplace(n, rigid, system.blocks());
+  }
+
+  /// True if the orientation of the second state is the opposite of the first one's.
+  [[nodiscard]] bool changes(const State& from, const State& to) {
+    if (!is_known_) return false;
+    const double turned =
+        freedom_ == 1 ? from.v.dot(system_.scale().cwiseAbs2().cwiseInverse().asDiagonal() * to.v)
+                      : 1;
+    const double before = orientation(from), after = orientation(to);
+    return before * after * (turned < 0 ? -1 : 1) < 0;
+  }
+
+ private:
+  /// 0 if it is not known, as at a singular position or at rest.
+  [[nodiscard]] double orientation(const State& state) {
+    const Index n = system_.coordinates();
+    TangentCoefficients coefficients;
+    coefficients.has_penalty = false;
+    matrix_->clear();
+    system_.tangent(state, coefficients, *matrix_);
+    Eigen::MatrixXd G(n, n);
+    G.topRows(n - freedom_) = matrix_->constraint_gradient(system_.scale(), system_.row_unit());
+    if (freedom_ == 1) {
+      const VectorXd rate = state.v.cwiseQuotient(system_.scale());
+      if (rate.isZero(0)) return 0;
+      G.bottomRows<1>() = rate.normalized().transpose();
+    }
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(G);
+    return lu.matrixLU().diagonal().array().sign().prod() *
+           static_cast<double>(lu.permutationP().determinant());
+  }
+
+  const ConstrainedSystem& system_;
+  Index freedom_ = 0;
+  bool is_known_ = false;
+  std::optional<KktMatrix> matrix_;
+};
+
 class TimeIntegration {
  public:
   TimeIntegration(const ConstrainedSystem& system, Stepper& stepper,
@@ -50,6 +103,7 @@ class TimeIntegration {
       : stepper_(stepper),
         options_(options),
         observe_(observe),
+        branch_(system),
         residuals_(system, stepper),
         constraints_(system) {}
 
@@ -138,15 +192,18 @@ class TimeIntegration {
     int failures = 0;
     double failed_step = 0;
     while (state_time() < target) {
-      if (summary_.steps + summary_.rejected >= max_steps_) return fail(step_limit_reason_, h, {});
+      if (summary_.steps + summary_.rejected >= max_steps_)
+        return fail(step_limit_reason_, h, {.tried = false});
       const double remaining = target - state_time();
       // Equal steps up to the target: no tiny last one.
       const double allowed = failures > 0 ? h : std::min(h, longest);
       const double count = std::ceil(remaining / allowed * (1 - 1e-9));
       const double step = count <= 1 ? remaining : remaining / count;
       if (step < 1e-7 * options_.step && remaining > step)
-        return fail("no step is small enough", step, {});
+        return fail("the step has become smaller than 1e-7 of the requested one", step,
+                    last_report_);
       StepReport report = stepper_.attempt(step, count <= 1 ? target : state_time() + step);
+      last_report_ = report;
       summary_.iterations += report.iterations;
       const double ratio = options_.adaptive ? report.error / options_.tolerance : 0.0;
       if (!report.converged || ratio > 1.5) {
@@ -154,6 +211,14 @@ class TimeIntegration {
         if (++failures > 30) return fail("no step converges", step, report);
         h = report.converged ? step * std::clamp(0.85 / std::cbrt(ratio), 0.2, 0.8)
                              : retry(failed_step, step, failures);
+        continue;
+      }
+      // A path through a singular position keeps its direction however short the step is.
+      constexpr double kShortest = 1e-3;
+      if (step > kShortest * options_.step && branch_.changes(stepper_.state(), stepper_.next())) {
+        ++summary_.rejected;
+        ++failures;
+        h = step / 2;
         continue;
       }
       failed_step = 0;
@@ -184,8 +249,13 @@ class TimeIntegration {
   bool fail(const std::string& why, double h, const StepReport& report) {
     std::ostringstream message;
     message << why << ": step " << summary_.steps + 1 << " at time " << state_time()
-            << " s of size " << h << " s, last correction " << report.correction
-            << " of the model's size after " << report.iterations << " iterations";
+            << " s of size " << h << " s";
+    if (report.iterations > 0) {
+      message << ", last correction " << report.correction << " of the model's size after "
+              << report.iterations << " iterations";
+    } else if (report.tried) {
+      message << ", the tangent is singular there";
+    }
     summary_.outcome = {Status::not_converged, message.str()};
     return false;
   }
@@ -201,7 +271,7 @@ class TimeIntegration {
   void observe_state() {
     const State& state = stepper_.state();
     if (!state.q.allFinite() || !state.v.allFinite()) {
-      fail("the motion is not finite", options_.step, {});
+      fail("the motion is not finite", options_.step, {.tried = false});
       return;
     }
     constraints_.take(state, summary_);
@@ -211,12 +281,14 @@ class TimeIntegration {
   Stepper& stepper_;
   const IntegrationOptions& options_;
   const Observer& observe_;
+  AssemblyBranch branch_;
   IntegrationSummary summary_;
   MotionResiduals residuals_;
   ConstraintResiduals constraints_;
   double start_time_ = 0, next_look_ = 0;
   std::size_t next_breakpoint_ = 0;
   std::int64_t max_steps_ = 0;
+  StepReport last_report_;
   const char* step_limit_reason_ = "too many steps";
 };
 
