@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "solver/linalg/sparse_ldlt.h"
@@ -199,6 +200,16 @@ Eigen::SparseMatrix<double> KktMatrix::constraint_gradient(const VectorXd& scale
   Eigen::SparseMatrix<double> G(constraints_, coordinates_);
   G.setFromTriplets(entries.begin(), entries.end());
   return G;
+}
+
+double KktMatrix::energy_over_roundoff(const Extended& x) const {
+  const VectorXd size = x.cast<double>().cwiseAbs();
+  VectorXd terms(x.size());
+  term_magnitudes(size, terms);
+  const double roundoff =
+      16 * std::numeric_limits<double>::epsilon() * size.cwiseProduct(terms).norm();
+  const auto energy = static_cast<double>(x.dot(multiply(x)));
+  return roundoff > 0 ? std::abs(energy) / roundoff : 0;
 }
 
 void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {

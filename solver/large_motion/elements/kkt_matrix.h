@@ -93,6 +93,12 @@ class KktMatrix {
   [[nodiscard]] Eigen::SparseMatrix<double> constraint_gradient(const VectorXd& scale,
                                                                 const VectorXd& row_unit) const;
 
+  /// Energy of a motion over the round-off error that the rounded entries leave in it: the square
+  /// root of the sum of the squared terms, times 16 epsilon. Up to 1 the motion is free. The sum of
+  /// the terms itself would take smooth motions of fine meshes for free.
+  [[nodiscard]] double energy_over_roundoff(const Extended& x) const;
+  [[nodiscard]] bool is_free(const Extended& x) const { return energy_over_roundoff(x) <= 1; }
+
   /// Of each equation, the sum of the magnitudes of its terms with the unknowns x = (q, lambda).
   void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;
 

@@ -31,14 +31,15 @@ class ConsistentInitialization {
     state_.load = system_.load_factor(state_.t);
     if (!project_positions()) return failed("positions");
     if (!solve_velocities(given)) return failed("velocities");
-    return run_accelerations();
+    if (!solve_accelerations()) return failed("accelerations");
+    return {};
   }
 
   Outcome run_accelerations() {
     if (state_.a.size() != n_) state_.a.setZero(n_);
     state_.a.setZero();
     if (!solve_accelerations()) return failed("accelerations");
-    refine_accelerations();
+    if (resolved_) refine_accelerations();
     return {};
   }
 
@@ -160,6 +161,7 @@ class ConsistentInitialization {
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
       solution_ = resolved;
+      resolved_ = false;
     }
     state_.a = solution_.head(n_);
     for (Index r = 0; r < m_; ++r) {
@@ -215,7 +217,8 @@ class ConsistentInitialization {
   State& state_;
   double step_;
   Index n_, m_;
-  VectorXd row_unit_;  ///< of each constraint [m or rad]
+  bool resolved_ = true;  ///< nothing vibrates faster than a step
+  VectorXd row_unit_;     ///< of each constraint [m or rad]
   KktMatrix matrix_;
   TangentCoefficients coefficients_;
   VectorXd constraint_residual_, constraint_rate_, force_residual_, solution_;

@@ -27,8 +27,6 @@ constexpr double kSoftShare = 1e-10;
 /// The lowest w^2 above them is known in K^-1 to some orders of magnitude; of what has no mass, to
 /// none.
 constexpr double kAlike = 1e6;
-/// A motion is free if its energy is the round-off error of its terms.
-constexpr double kFreeEnergy = 1e3 * kEps;
 /// How far from a mode's w^2 the matrix is factored that its vector is solved for with.
 constexpr double kAside = 1e-3;
 
@@ -130,14 +128,9 @@ class ShiftedStiffness {
     return largest_ratio(residual.cast<double>(), terms);
   }
 
-  /// Energy of a motion over the magnitudes of its terms.
-  [[nodiscard]] double energy_share(const Extended& mode) const {
-    const VectorXd size = mode.cast<double>().cwiseAbs();
-    VectorXd terms(mode.size());
-    plain_.term_magnitudes(size, terms);
-    const auto energy = static_cast<double>(mode.dot(plain_.multiply(mode)));
-    const double sum = size.dot(terms);
-    return sum > 0 ? std::abs(energy) / sum : 0;
+  /// As `KktMatrix::energy_over_roundoff`.
+  [[nodiscard]] double energy_over_roundoff(const Extended& mode) const {
+    return plain_.energy_over_roundoff(mode);
   }
 
  private:
@@ -263,7 +256,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
         stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
     // Otherwise all that it is soft compared with has no mass.
     const double next = lowest_above_soft(clear);
-    if (next > 0 && next < kAlike * above) {
+    if (next > above / kAlike && next < kAlike * above) {
       modes = clear;
     } else {
       stiffened.reset();
@@ -285,7 +278,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     const bool is_soft = std::abs(w2) < kSoftShare * std::abs(modes.shift);
     for (int pass = 0; is_soft && pass < 2; ++pass)
       mode = shifted.solve(-modes.shift * (M.cast<long double>() * mode.head(n)));
-    if (is_soft && K.energy_share(mode) < kFreeEnergy) {
+    if (is_soft && K.energy_over_roundoff(mode) <= 1) {
       w2 = 0;
     } else if (w2.imag() != 0) {
       imaginary = shifted.solve(force.imag().cast<long double>());
@@ -298,7 +291,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     found.frequency[k] = std::abs(s.imag()) / (2 * std::numbers::pi);
     found.growth_rate[k] = std::abs(s.real());
     if (w2 == 0.0) {
-      found.evidence.add(Residual::eigenvalue_equation, K.energy_share(mode));
+      found.evidence.add(Residual::eigenvalue_equation, kEps * K.energy_over_roundoff(mode));
       continue;
     }
     const Extended real = M.cast<long double>() * mode.head(n);

@@ -276,6 +276,7 @@ Index redundant_constraints(const GeometricallyExactSystem& system, const State&
       entries.emplace_back(it.col(), rigid, it.value() / size);
     ++rigid;
   }
+  if (rigid > kMaxCountedConstraints) return 0;
   Eigen::SparseMatrix<double> columns(system.coordinates(), rigid);
   columns.setFromTriplets(entries.begin(), entries.end());
   columns.makeCompressed();

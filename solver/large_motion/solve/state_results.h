@@ -53,8 +53,12 @@ class MemberBalance {
 [[nodiscard]] Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system,
                                                      const VectorXd& q, Index member);
 
+/// Above this number of rigid constraints, most of which are those of members, none are counted:
+/// the factorization that finds their rank takes longer than statics.
+inline constexpr Index kMaxCountedConstraints = 400;
+
 /// Number of rigid constraints that follow from the others in a state: the forces of as many are
-/// not determined by equilibrium.
+/// not determined by equilibrium. 0 above `kMaxCountedConstraints`.
 [[nodiscard]] Index redundant_constraints(const GeometricallyExactSystem& system,
                                           const State& state);
 

@@ -95,13 +95,14 @@ double PenaltyScales::row_unit(std::span<const Index> coordinates) const {
 double PenaltyScales::largest(const Eigen::VectorXd& values, double mean,
                               std::span<const Index> coordinates, double lever) const {
   const bool is_turn = turns(coordinates);
-  double value = 0;
+  double value = 0,
+         levered = 0;  // of the row's own kind, and of rotations in a row of displacements
   for (const Index k : coordinates) {
     if (k < 0) continue;
-    const bool levered = is_rotation_[to_size(k)] && !is_turn;
-    if (levered && !(lever > 0)) continue;
-    value = std::max(value, levered ? values[k] / (lever * lever) : values[k]);
+    double& kind = is_rotation_[to_size(k)] && !is_turn ? levered : value;
+    kind = std::max(kind, values[k]);
   }
+  if (!(value > 0) && lever > 0) value = levered / (lever * lever);
   return value > 0 ? value : is_turn ? mean * size_ * size_ : mean;
 }
 

@@ -11,7 +11,8 @@
 namespace trammel::solver::large_motion {
 
 /// Stiffness and mass of the parts that a constraint row joins, from which its penalty rho follows
-/// (see `KktMatrix`). In a row of displacements [m] a rotation counts by its lever.
+/// (see `KktMatrix`). In a row of displacements [m] rotations count, by their lever, if
+/// displacements have none.
 class PenaltyScales {
  public:
   /// @param mass  diagonal of the mass matrix, one entry a coordinate [kg or kg m^2]
