@@ -124,8 +124,9 @@ class Recovery {
     const bool tip = (section.area <= 0 && e.section.area > 0) ||
                      (section.section_modulus <= 0 && e.section.section_modulus > 0);
     if (tip) return 0;
-    return stress_of_force(forces[0], section.area, roundoff_.force) +
-           stress_of_force(forces[2], section.section_modulus, roundoff_.moment);
+    const double axial = stress_of_force(forces[0], section.area, roundoff_.force);
+    const double bending = stress_of_force(forces[2], section.section_modulus, roundoff_.moment);
+    return axial + bending;
   }
 
   /// Both ends and, under a load across, the two places where |N|/A + |M|/W can be stationary;

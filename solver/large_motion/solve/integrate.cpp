@@ -254,7 +254,7 @@ class TimeIntegration {
       message << ", last correction " << report.correction << " of the model's size after "
               << report.iterations << " iterations";
     } else if (report.tried) {
-      message << ", the tangent is singular there";
+      message << ", no correction: the tangent is singular there";
     }
     summary_.outcome = {Status::not_converged, message.str()};
     return false;
