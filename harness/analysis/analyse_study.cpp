@@ -148,6 +148,8 @@ StepResult analyse_study(const Document& document, const References& references,
     add_warnings(result.warnings, found.warnings);
     if (found.drawing) result.drawing = std::move(found.drawing);
   }
+  if (study.get("trajectory", false))
+    warn_of_crossed_singularity(read_case_model(document), result.warnings);
   for (std::size_t k = 0; k < keep.size(); ++k) {
     const auto& [name, place] = keep[k];
     for (const KeptQuantity& one : kept[k]) record.add_or_gap(name, "", one.value);

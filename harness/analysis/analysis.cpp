@@ -75,8 +75,8 @@ void record_estimates(const AnalysisKind& kind, const EffectChoice& choice, Reco
   }
 }
 
-/// Between two points of the path J_x can change its sign, although each of them is far from any
-/// singularity.
+}  // namespace
+
 void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warning>& warnings) {
   if (!case_model.manipulator || !case_model.path) return;
   const solver::ManipulatorGeometry& geometry = case_model.manipulator->geometry;
@@ -94,8 +94,6 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
     if (now != 0) before = now;
   }
 }
-
-}  // namespace
 
 void set_solver_rounding(int mode) {
   solver_rounding = mode;
@@ -127,7 +125,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.reasons);
-    if (result.outcome.solved() && kind.tells_forces)
+    if (result.outcome.solved() && kind.warns_of_crossing)
       warn_of_crossed_singularity(case_model, result.warnings);
     if (choice.beyond_tier && *choice.beyond_tier > *choice.tolerance) {
       result.warnings.push_back(

@@ -46,4 +46,8 @@ struct AnalysisResult {
 /// Reading, judging and printing go on rounding to the nearest.
 void set_solver_rounding(int mode);
 
+/// Adds a warning if J_x changes its sign between two points of a manipulator's path, although each
+/// of them is far from any singularity.
+void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warning>& warnings);
+
 }  // namespace trammel::harness

@@ -38,7 +38,8 @@ struct AnalysisKind {
   /// What a result must show before it counts as solved; empty: it solves no equation of its own.
   std::vector<solver::Residual> evidence = {};
   PointAnalysis of_points = {};
-  bool tells_forces = false;  ///< at points of a path, which may cross a singularity between two
+  /// Warns if a path crosses a parallel singularity between two of its points.
+  bool warns_of_crossing = false;
 
   [[nodiscard]] bool needs_model(const Document& document) const;
 };

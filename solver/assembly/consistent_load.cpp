@@ -65,15 +65,6 @@ Vector2d tangent(const Model& model, const Triangle& triangle, std::size_t k, do
   return along;
 }
 
-bool runs_counterclockwise(const Model& model, const Triangle& triangle) {
-  const auto position = [&](std::size_t i) -> const Vector2d& {
-    return model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
-  };
-  const Vector2d a = position(1) - position(0);
-  const Vector2d b = position(2) - position(0);
-  return a.x() * b.y() > a.y() * b.x();
-}
-
 }  // namespace
 
 void add_body_force(System& system, const BodyForce& force) {
@@ -90,13 +81,12 @@ void add_body_force(System& system, const BodyForce& force) {
 void add_edge_traction(System& system, const Traction& traction) {
   const std::map<Side, int> count = count_sides(system.model);
   for (const Triangle& triangle : system.model.triangles) {
-    const double outward = runs_counterclockwise(system.model, triangle) ? 1 : -1;
     for (std::size_t k = 0; k < 3; ++k) {
       if (count.at(side_of(triangle, k)) != 1) continue;
       for (const LineQuadraturePoint& point : line_quadrature()) {
         const TriangleInterpolation at = interpolate(system.model, triangle, on_side(k, point.xi));
         const Vector2d along = tangent(system.model, triangle, k, point.xi);
-        const Vector2d normal = outward / along.norm() * Vector2d(along.y(), -along.x());
+        const Vector2d normal = Vector2d(along.y(), -along.x()) / along.norm();
         const double area = point.weight * along.norm() * plate_of(system, triangle).thickness;
         add_to_nodes(system, triangle, at, area * traction(at.position, normal));
       }

@@ -22,6 +22,7 @@ void add_body_force(System& system, const BodyForce& force);
 
 /// On every side that belongs to one triangle only. What falls on supported coordinates goes to the
 /// ground.
+/// @pre the triangles run counterclockwise, as readers and meshes make them
 void add_edge_traction(System& system, const Traction& traction);
 
 /// On all frame elements that bend.

@@ -253,8 +253,8 @@ class TimeIntegration {
     if (report.iterations > 0) {
       message << ", last correction " << report.correction << " of the model's size after "
               << report.iterations << " iterations";
-    } else if (report.tried) {
-      message << ", no correction: the tangent is singular there";
+    } else {
+      message << ", no correction" << (report.tried ? ": the tangent is singular there" : "");
     }
     summary_.outcome = {Status::not_converged, message.str()};
     return false;

@@ -138,6 +138,9 @@ BOOST_AUTO_TEST_CASE(each_scene_calls_for_the_effects_that_it_was_made_for) {
       {"scene-thick-link-modes",
        "axial-flexibility, shear, platform-flexibility, link-mass and inertia"},
       {"scene-thick-links", "axial-flexibility, shear and platform-flexibility"},
+      {"scene-free-end", "link-mass and inertia"},
+      {"scene-tie-rod",
+       "axial-flexibility, link-mass, inertia, geometric-stiffening and large-displacement"},
       {"scene-tightened-strip", "link-mass, inertia and geometric-stiffening"},
       {"scene-welded-truss", "axial-flexibility"},
   };

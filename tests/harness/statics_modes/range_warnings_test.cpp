@@ -73,7 +73,8 @@ BOOST_AUTO_TEST_CASE(loads_that_compress_nothing_have_no_load_factor_and_a_warni
   for (const auto& [along, warned] : {std::pair(1.0, true), std::pair(-1.0, false)}) {
     const AnalysisResult result = of_cantilever(along, 0, "buckling");
     BOOST_TEST(result.warnings.size() == (warned ? 1U : 0U));
-    if (warned) BOOST_TEST(contains(result.warnings[0].text(), "nothing buckles, for the loads"));
+    if (warned)
+      BOOST_TEST(contains(result.warnings[0].text(), "K + factor K_G is positive definite"));
   }
 }
 
