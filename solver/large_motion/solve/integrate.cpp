@@ -82,7 +82,9 @@ class AssemblyBranch {
     G.topRows(n - freedom_) = matrix_->constraint_gradient(system_.scale(), system_.row_unit());
     if (freedom_ == 1) {
       const VectorXd rate = state.v.cwiseQuotient(system_.scale());
-      if (rate.isZero(0)) return 0;
+      const double speed = rate.norm();
+      // A drive moves the mechanism as well: then its velocity has no orientation.
+      if (speed == 0 || (G.topRows(n - 1) * rate).norm() > 1e-6 * speed) return 0;
       G.bottomRows<1>() = rate.normalized().transpose();
     }
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(G);
