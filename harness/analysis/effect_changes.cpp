@@ -29,7 +29,7 @@ std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
   return size;
 }
 
-/// What the changes of each kind are relative to: its largest value, and never less than the
+/// Scales that changes of each kind are relative to: its largest value, and never less than the
 /// round-off error that forces and displacements of the model leave in it.
 std::map<std::string, double> change_scales(const Quantities& full, const ModelScales& model) {
   // Round-off of thousands of steps is about 1e-11 of the partner's scale; no tolerance is small

@@ -180,9 +180,8 @@ class MotionIntegrator {
   }
 
   static constexpr const char* kSingularity =
-      "a parallel (type 2) singularity is passed, where the equations in the actuators' angles "
-      "have "
-      "no solution; the rigid motion itself could go on";
+      "a parallel (type 2) singularity is passed, where the actuators' angles do not determine the "
+      "motion; the rigid motion itself could go on";
 
   void stop(Status status, const std::string& reason) {
     std::ostringstream why;

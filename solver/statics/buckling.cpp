@@ -48,17 +48,21 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   });
   // The loads dominate each entry a thousandfold, while ten digits are left of the stiffness that
   // they do not change.
-  first.checked = std::min(1e3 / least, 1e10 / largest);
+  const double farthest = std::min(1e3 / least, 1e10 / largest);
+  double counted = 0;
   const auto has_factor_below = [&](double t) -> std::optional<bool> {
     for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot comes near zero
-      factorization.compute(shifted(K, B, share * t));
+      counted = share * t;
+      factorization.compute(shifted(K, B, counted));
       ++counters.factorizations;
       if (factorization.is_reliable()) return factorization.negative_pivots() > 0;
     }
     return {};
   };
-  double above = first.checked, ratio = 0.25;
-  std::optional<bool> has = has_factor_below(above);
+  std::optional<bool> has = has_factor_below(farthest);
+  first.checked = counted;
+  double above = counted;
+  constexpr double ratio = 0.25;
   for (int i = 0; has && *has && i < kHalvings; ++i) {
     first.exists = true;
     has = has_factor_below(ratio * above);

@@ -84,8 +84,9 @@ class KktMatrix {
   /// Solves in place: (b, d) becomes (dq, dlambda).
   void solve(Eigen::Ref<VectorXd> right_hand_side) const;
 
-  /// The left-hand sides of the unknowns x = (q, lambda), without penalties: in extended precision,
-  /// because the stiffness of a soft joint is what remains of the products of stiff members.
+  /// Product of the matrix as it was assembled with x = (q, y), in extended precision: the
+  /// stiffness of a soft joint is what remains of the products of stiff members. y is lambda if the
+  /// matrix was assembled without penalties.
   [[nodiscard]] Extended multiply(const Extended& x) const;
 
   /// G of the rows in units of their own and of the coordinates: G_rk scale_k / row_unit_r.

@@ -60,14 +60,16 @@ class AssemblyBranch {
     if (is_known_) matrix_.emplace(n, rigid, system.blocks());
   }
 
-  /// True if the orientation of the second state is the opposite of the first one's.
+  /// True if the orientation at the end of a step is the opposite of that at its start.
   [[nodiscard]] bool changes(const State& from, const State& to) {
     if (!is_known_) return false;
-    const double turned =
-        freedom_ == 1 ? from.v.dot(system_.scale().cwiseAbs2().cwiseInverse().asDiagonal() * to.v)
-                      : 1;
-    const double before = orientation(from), after = orientation(to);
-    return before * after * (turned < 0 ? -1 : 1) < 0;
+    if (last_.t != from.t) last_ = {from.t, orientation(from)};
+    const Orientation next{to.t, orientation(to)};
+    const VectorXd weight = system_.scale().cwiseAbs2().cwiseInverse();
+    const bool reverses = freedom_ == 1 && from.v.cwiseProduct(weight).dot(to.v) < 0;
+    if (last_.sign * next.sign * (reverses ? -1 : 1) < 0) return true;
+    last_ = next;
+    return false;
   }
 
  private:
@@ -92,9 +94,15 @@ class AssemblyBranch {
            static_cast<double>(lu.permutationP().determinant());
   }
 
+  struct Orientation {
+    double t = -std::numeric_limits<double>::infinity();
+    double sign = 0;
+  };
+
   const ConstrainedSystem& system_;
   Index freedom_ = 0;
   bool is_known_ = false;
+  Orientation last_;  ///< of the end of the last step that kept it
   std::optional<KktMatrix> matrix_;
 };
 
@@ -195,22 +203,21 @@ class TimeIntegration {
     double failed_step = 0;
     while (state_time() < target) {
       if (summary_.steps + summary_.rejected >= max_steps_)
-        return fail(step_limit_reason_, h, {.tried = false});
+        return fail(step_limit_reason_, h, nullptr);
       const double remaining = target - state_time();
       // Equal steps up to the target: no tiny last one.
       const double allowed = failures > 0 ? h : std::min(h, longest);
       const double count = std::ceil(remaining / allowed * (1 - 1e-9));
       const double step = count <= 1 ? remaining : remaining / count;
       if (step < 1e-7 * options_.step && remaining > step)
-        return fail("the step has become smaller than 1e-7 of the requested one", step,
-                    last_report_);
+        return fail("the step has become smaller than 1e-7 of the requested one", step, &attempt_);
       StepReport report = stepper_.attempt(step, count <= 1 ? target : state_time() + step);
-      last_report_ = report;
+      attempt_ = report;
       summary_.iterations += report.iterations;
       const double ratio = options_.adaptive ? report.error / options_.tolerance : 0.0;
       if (!report.converged || ratio > 1.5) {
         ++summary_.rejected;
-        if (++failures > 30) return fail("no step converges", step, report);
+        if (++failures > 30) return fail("no step converges", step, &report);
         h = report.converged ? step * std::clamp(0.85 / std::cbrt(ratio), 0.2, 0.8)
                              : retry(failed_step, step, failures);
         continue;
@@ -248,15 +255,16 @@ class TimeIntegration {
     return failures % 2 == 1 ? smaller : failed_step * (1 + 0.3 * failures / (1 + 0.1 * failures));
   }
 
-  bool fail(const std::string& why, double h, const StepReport& report) {
+  /// @param report  of the step that failed; null if none was tried
+  bool fail(const std::string& why, double h, const StepReport* report) {
     std::ostringstream message;
     message << why << ": step " << summary_.steps + 1 << " at time " << state_time()
             << " s of size " << h << " s";
-    if (report.iterations > 0) {
-      message << ", last correction " << report.correction << " of the model's size after "
-              << report.iterations << " iterations";
+    if (report && report->iterations > 0) {
+      message << ", last correction " << report->correction << " of the model's size after "
+              << report->iterations << " iterations";
     } else {
-      message << ", no correction" << (report.tried ? ": the tangent is singular there" : "");
+      message << ", no correction" << (report ? ": the tangent is singular there" : "");
     }
     summary_.outcome = {Status::not_converged, message.str()};
     return false;
@@ -273,7 +281,7 @@ class TimeIntegration {
   void observe_state() {
     const State& state = stepper_.state();
     if (!state.q.allFinite() || !state.v.allFinite()) {
-      fail("the motion is not finite", options_.step, {.tried = false});
+      fail("the motion is not finite", options_.step, nullptr);
       return;
     }
     constraints_.take(state, summary_);
@@ -290,7 +298,7 @@ class TimeIntegration {
   double start_time_ = 0, next_look_ = 0;
   std::size_t next_breakpoint_ = 0;
   std::int64_t max_steps_ = 0;
-  StepReport last_report_;
+  StepReport attempt_;  ///< the last one
   const char* step_limit_reason_ = "too many steps";
 };
 

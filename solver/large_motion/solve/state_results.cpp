@@ -257,26 +257,25 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
 }
 
 Index redundant_constraints(const GeometricallyExactSystem& system, const State& state) {
-  if (system.constraints() == 0 || system.coordinates() == 0) return 0;
+  const Index rigid = (system.compliance().array() == 0).count();
+  if (rigid == 0 || rigid > kMaxCountedConstraints || system.coordinates() == 0) return 0;
   KktMatrix matrix(system.coordinates(), system.constraints(), system.blocks());
   TangentCoefficients coefficients;
   coefficients.has_penalty = false;
   matrix.clear();
   system.tangent(state, coefficients, matrix);
-  const Eigen::SparseMatrix<double> G =
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows =
       matrix.constraint_gradient(system.scale(), system.row_unit());
   std::vector<Eigen::Triplet<double>> entries;
-  Index rigid = 0;
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = G;
+  Index column = 0;
   for (Index r = 0; r < rows.rows(); ++r) {
-    const double size = rows.row(r).norm();  // 0 for what supports hold at both ends
     if (system.compliance()[r] > 0) continue;
+    const double size = rows.row(r).norm();  // 0 for what supports hold at both ends
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, r); size > 0 && it;
          ++it)
-      entries.emplace_back(it.col(), rigid, it.value() / size);
-    ++rigid;
+      entries.emplace_back(it.col(), column, it.value() / size);
+    ++column;
   }
-  if (rigid > kMaxCountedConstraints) return 0;
   Eigen::SparseMatrix<double> columns(system.coordinates(), rigid);
   columns.setFromTriplets(entries.begin(), entries.end());
   columns.makeCompressed();

@@ -9,7 +9,6 @@ namespace trammel::solver::large_motion {
 /// How one step ended.
 struct StepReport {
   bool converged = false;
-  bool tried = true;
   int iterations = 0;
   double correction = 0;  ///< last correction of the positions, over the scale [-]
   double error = 0;       ///< estimate of the local error in position, over the scale [-]
