@@ -1,10 +1,27 @@
 #include "solver/time/massless_coordinates.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "solver/time/transient_start.h"
 
 namespace trammel::solver {
 
 using Eigen::VectorXd;
+
+namespace {
+
+/// The least ratio of two diagonals where both are positive: with a step of many periods, what is
+/// added to the mass is small beside every mass.
+double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
+  double least = std::numeric_limits<double>::infinity();
+  const VectorXd mass = M.diagonal(), other = added.diagonal();
+  for (Index i = 0; i < mass.size(); ++i)
+    if (mass[i] > 0 && other[i] > 0) least = std::min(least, mass[i] / other[i]);
+  return least;
+}
+
+}  // namespace
 
 bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Counters& counters) {
   constexpr double kShare = 1e-8;
@@ -14,10 +31,11 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
   step_ = h;
   for (const bool damped : {true, false}) {
     damped_ = damped;
-    share_ = kShare * (damped ? h : h * h);
     if (damped && matrices.norm_C() == 0) continue;
+    const SparseMatrix& added = damped ? matrices.C() : matrices.K();
+    share_ = kShare * std::min(damped ? h : h * h, least_ratio(matrices.M(), added));
     SparseMatrix sum = matrices.M();
-    sum += share_ * (damped ? matrices.C() : matrices.K());
+    sum += share_ * added;
     ++counters.factorizations;
     factored_ = factor_.factorize(sum) && factor_.smallest_to_largest_pivot() > kSingularMass;
     if (factored_) break;
