@@ -102,7 +102,11 @@ double PenaltyScales::largest(const Eigen::VectorXd& values, double mean,
     double& kind = is_rotation_[to_size(k)] && !is_turn ? levered : value;
     kind = std::max(kind, values[k]);
   }
-  if (!(value > 0) && lever > 0) value = levered / (lever * lever);
+  if (!(value > 0) && lever > 0) {
+    constexpr double kShortest = 1e-3;  // an offset of round-off is no lever
+    const double length = std::max(lever, kShortest * size_);
+    value = levered / (length * length);
+  }
   return value > 0 ? value : is_turn ? mean * size_ * size_ : mean;
 }
 
