@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/large_motion/solve/step_convergence.h"
+#include "solver/linalg/lanczos.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
@@ -155,12 +156,29 @@ void GeneralizedAlpha::correct(double h) {
   to_.lambda += per_acceleration * velocity_correction_.tail(m);
 }
 
+/// Of a correction, by the round-off errors of constraint forces and residuals, with arbitrary
+/// signs: beside large forces that balance each other, or near a singular position, a small motion
+/// is known no better.
+double GeneralizedAlpha::correction_roundoff(double h) const {
+  const Index n = system_.coordinates(), m = system_.constraints();
+  const double per_acceleration = (1 - alpha_m_) / ((1 - alpha_f_) * beta_ * h * h);
+  VectorXd multipliers = VectorXd::Zero(n + m), errors(n + m);
+  multipliers.tail(m) = to_.lambda / per_acceleration;
+  matrix_.term_magnitudes(multipliers, errors);
+  const double moved = weighted_rms_norm(system_, to_.q);
+  errors.tail(m) = (system_.compliance().array() == 0).select(moved * system_.row_unit(), 0);
+  errors = kEps * errors.cwiseProduct(start_vectors(n + m, 1));
+  matrix_.solve(errors);
+  return weighted_rms_norm(system_, errors.head(n));
+}
+
 StepReport GeneralizedAlpha::newton(double h, bool exact) {
   StepReport report;
   const Index n = system_.coordinates();
   predict(h);
   StepConvergence convergence;
   bool fresh = false;
+  double roundoff = 0;
   for (int i = 0; i < 20; ++i) {
     if (exact || factored_step_ != h || (!fresh && convergence.slow())) {
       if (!factor(h)) return report;
@@ -174,8 +192,9 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
         weighted_rms_norm(system_, position_correction_.head(n) - velocity_correction_.head(n)));
     report.correction = convergence.last();
     const double acceleration = beta_ * h * h * weighted_rms_norm(system_, A1_);
+    if (roundoff == 0 && convergence.stalled()) roundoff = correction_roundoff(h);
     if (convergence.converged(acceleration, h * weighted_rms_norm(system_, to_.v),
-                              weighted_rms_norm(system_, to_.q), 1e-13 * acceleration)) {
+                              weighted_rms_norm(system_, to_.q), 1e-13 * acceleration, roundoff)) {
       report.converged = true;
       // Many iterations: the factorization is out of date, the next step makes a new one.
       if (i > 3) factored_step_ = 0;

@@ -40,6 +40,7 @@ class GeneralizedAlpha final : public Stepper {
   [[nodiscard]] bool factor(double h);
   void correct(double h);
   [[nodiscard]] double relation_defect(double h);
+  [[nodiscard]] double correction_roundoff(double h) const;
 
   const ConstrainedSystem& system_;
   double alpha_m_, alpha_f_, beta_, gamma_;
