@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/state_results.h"
 
 namespace trammel::solver::large_motion {
@@ -49,6 +50,11 @@ class IllinoisBracket {
   }
   [[nodiscard]] const Trial& left() const { return left_; }
   [[nodiscard]] const Trial& right() const { return right_; }
+  /// How far the load of a point is from the extremum, where the indicator is its derivative: the
+  /// load is a parabola there.
+  [[nodiscard]] double distance_to_extremum(double f) const {
+    return f * f / 2 * width() / std::abs(right_.f - left_.f);
+  }
   void update(Trial trial) {
     const bool is_left = trial.f * left_.f > 0;
     (is_left ? right_ : left_).f /= was_updated_ && is_left == was_left_ ? 2 : 1;
@@ -64,13 +70,14 @@ class IllinoisBracket {
   bool was_updated_ = false, was_left_ = false;
 };
 
-/// What the next step is longer by: five corrections each. Where the second is a tenth of the
-/// first, quadratic convergence takes no more, and others are of round-off, which no shorter step
-/// cures.
+/// Factor of the next step. The ratio of the first two corrections grows with the square of the
+/// step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1), and a tenth is
+/// wanted. Unlike a number of iterations, the ratio is continuous: rounding does not change the
+/// path's points.
 double step_factor(const std::vector<double>& correction) {
-  const double factor = std::sqrt(5 / static_cast<double>(correction.size()));
-  const bool fast = correction.size() > 1 && correction[1] < 0.1 * correction[0];
-  return std::clamp(factor, fast ? 1.0 : 0.5, 2.0);
+  constexpr double kWantedRatio = 0.1;
+  if (correction.size() < 2) return 2;
+  return std::clamp(std::sqrt(kWantedRatio * correction[0] / correction[1]), 0.5, 2.0);
 }
 
 /// A limit point or a bifurcation between two points of a path.
@@ -382,11 +389,15 @@ class PathFollower {
     IllinoisBracket bracket(std::move(first), trial_at(interval, to.state));
     const double nearest =
         nearest_to_bifurcation() * std::max(std::abs(to.state.load), std::abs(interval));
+    double f = 0;  // of the last trial
     const auto solve_at = [&](double arc, PathPoint& trial) {
       if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
-      bracket.update(trial_at(arc, trial.state));
+      Trial found = trial_at(arc, trial.state);
+      f = found.f;
+      bracket.update(std::move(found));
       return true;
     };
+    constexpr double kEnough = 1e-13;
     std::optional<double> load;
     // At a bifurcation itself the equations are singular.
     const auto solve_beside = [&](double root, PathPoint& trial) {
@@ -402,7 +413,9 @@ class PathFollower {
       PathPoint trial;
       if (solve_at(root, trial)) {
         critical = trial;
-        if (std::abs(critical.state.load - last) > 1e-13 * std::abs(last)) continue;
+        const double left =
+            load_reversed ? bracket.distance_to_extremum(f) : critical.state.load - last;
+        if (std::abs(left) > kEnough * std::abs(last)) continue;
         load = critical.state.load;
       }
       if (!solve_beside(root, trial)) return {};
@@ -438,7 +451,7 @@ class PathFollower {
     message << why << " after point " << point_count_ << " at load factor " << last.state.load
             << ", arc step " << arc_step_ << ", residual "
             << (last.newton.force_residual.empty() ? 0.0 : last.newton.force_residual.back())
-            << " N m";
+            << " N m" << contradictory_drives(system_, last.state, std::abs(arc_step_));
     return stop({Status::not_converged, message.str()});
   }
 
