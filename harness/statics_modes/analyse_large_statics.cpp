@@ -56,7 +56,9 @@ void record_vibration(const GeometricallyExactSystem& system, const PathPoint& p
   const auto found = solver::large_motion::small_vibration(system, point.state, count);
   result.outcome = found.outcome;
   result.evidence.add(found.evidence);
-  record_frequencies(found.frequency, found.growth_rate, several, record);
+  if (!found.outcome.solved()) return;
+  record_frequencies(found.frequency, found.growth_rate, several, record, found.roundoff);
+  warn_of_roundoff(found.roundoff.size() > 0 ? found.roundoff.maxCoeff() : 0, result.warnings);
 }
 
 void record_events(const std::vector<PathEvent>& events, Recorder& record) {

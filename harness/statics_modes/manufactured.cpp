@@ -18,7 +18,7 @@ void judge(const solver::System& system, double omega, ManufacturedSolution& sol
   if (omega != 0) rows.add_inertia(u, -omega * omega);
   rows.add_load(system.load, -1);
   solution.evidence.add(solver::Residual::equilibrium, rows.backward_error());
-  solution.evidence.add(solver::Residual::load, rows.residual_over(system.f));
+  solution.evidence.add(solver::Residual::load, rows.residual_over_load());
   solution.outcome = solver::outcome_by_evidence(solution.outcome, solution.evidence);
 }
 

@@ -141,4 +141,13 @@ void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings) 
                          "given are one admissible set"});
 }
 
+void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings) {
+  constexpr double kNoticed = 1e-3;
+  if (!(of_frequency > kNoticed)) return;
+  add_warning(warnings,
+              {"the relative round-off error of a frequency", of_frequency, "",
+               "stiff parts leave few digits of a soft motion; 'axial': 'inextensible' or "
+               "rigid bodies leave more"});
+}
+
 }  // namespace trammel::harness

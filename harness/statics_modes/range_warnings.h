@@ -46,6 +46,9 @@ void warn_of_wave_length(const solver::System& system, double frequency,
 inline constexpr double kMaxTaperRatio = 1.5;
 void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
 
+/// @param of_frequency  relative round-off error; beyond a thousandth it is noticed
+void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings);
+
 /// Of supports, rigid bodies and inextensible members that hold what others hold already: how they
 /// share the loads is not determined, and what is reported is one way of many.
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings);

@@ -37,10 +37,10 @@ void record_state(const solver::System& system, const solver::RotatingModes& mod
 }  // namespace
 
 void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
-                        bool several, Recorder& record) {
+                        bool several, Recorder& record, const Eigen::VectorXd& roundoff) {
   for (solver::Index i = 0; i < frequency.size(); ++i) {
     const std::string item = several ? std::to_string(i + 1) : "";
-    record.add("frequency_Hz", item, frequency[i]);
+    record.add("frequency_Hz", item, frequency[i], roundoff.size() > 0 ? roundoff[i] : -1);
     record.add("growth_rate_per_s", item, growth_rate[i]);
   }
 }

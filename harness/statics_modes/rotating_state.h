@@ -12,8 +12,9 @@ namespace trammel::harness {
                                           solver::Effects effects, bool draw, Recorder& record);
 
 /// Frequencies and growth rates of modes about a state; of several states with the mode.
+/// @param roundoff  relative, of each frequency; empty where it is not known
 void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
-                        bool several, Recorder& record);
+                        bool several, Recorder& record, const Eigen::VectorXd& roundoff = {});
 
 /// All that the case says but for the effects and the speed.
 [[nodiscard]] solver::RotatingOptions read_rotating_options(const JsonView& modes);

@@ -207,6 +207,26 @@ double lowest_above_soft(const Spectrum& modes) {
   return 0;
 }
 
+/// The same where K is singular to working precision, so that all modes of K^-1 are mixed with the
+/// free ones: with shifts from above all modes down to the lowest that is not free.
+double lowest_above_free(const GeometricallyExactSystem& system, const State& state,
+                         const MatrixXd& L, const Spectrum& mixed) {
+  constexpr double kNear = 1e-4;  // of the shift: known to more than ten digits
+  double shift = mixed.w2.empty() ? 0 : std::abs(mixed.w2.back());
+  for (int pass = 0; pass < 8 && shift > 0; ++pass) {
+    const ShiftedStiffness K(system, state, -shift);
+    if (!K.exists()) return 0;
+    double lowest = 0;
+    for (const std::complex<double> w2 : spectrum(K, L, -shift, system.symmetric()).w2) {
+      const double size = std::abs(w2);
+      if (size > kSoftShare * shift && (lowest == 0 || size < lowest)) lowest = size;
+    }
+    if (lowest > kNear * shift) return lowest;
+    shift = lowest;
+  }
+  return 0;
+}
+
 /// Inverse iteration with K - t M factored next to a real w^2, and w^2 by it. The matrix of all
 /// modes has the rounding of its lowest mode, and K^-1 leaves more of that in a higher one, by the
 /// ratio of both; here the higher one is the largest.
@@ -250,7 +270,12 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   const MatrixXd M = mass_matrix(system, state), L = mass_factor(M);
   Spectrum modes = spectrum(K, L, 0, system.symmetric());
   std::optional<ShiftedStiffness> stiffened;
-  if (const double above = lowest_above_soft(modes); above > 0) {
+  double above = lowest_above_soft(modes);
+  if (above == 0 && !modes.x.empty()) {
+    const Extended lowest = K.solve((M * modes.x.front().real()).cast<long double>());
+    if (K.energy_over_roundoff(lowest) <= 1) above = lowest_above_free(system, state, L, modes);
+  }
+  if (above > 0) {
     stiffened.emplace(system, state, -above);
     const Spectrum clear =
         stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
@@ -270,6 +295,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   count = std::min(count, std::ssize(modes.w2));
   found.frequency.resize(count);
   found.growth_rate.resize(count);
+  found.roundoff.setZero(count);
   for (Index k = 0; k < count; ++k) {
     std::complex<double> w2 = modes.w2[to_size(k)];
     const VectorXcd force = (w2 - modes.shift) * (M * modes.x[to_size(k)]);
@@ -294,6 +320,8 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
       found.evidence.add(Residual::eigenvalue_equation, kEps * K.energy_over_roundoff(mode));
       continue;
     }
+    // The frequency is the root of the energy.
+    if (w2.imag() == 0) found.roundoff[k] = 0.5 / K.energy_over_roundoff(mode);
     const Extended real = M.cast<long double>() * mode.head(n);
     const Extended other = M.cast<long double>() * imaginary.head(n);
     const long double a = w2.real(), b = w2.imag();

@@ -10,6 +10,7 @@ struct SmallVibration {
   Outcome outcome;
   VectorXd frequency;    ///< f, ascending [Hz]; 0 for what grows or decays without turning over
   VectorXd growth_rate;  ///< g of the growing one of each pair [1/s]; 0 where it only swings
+  VectorXd roundoff;     ///< relative round-off error that stiff parts leave of each frequency
   Evidence evidence;
 };
 
