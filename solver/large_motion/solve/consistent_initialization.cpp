@@ -35,6 +35,14 @@ class ConsistentInitialization {
     return {};
   }
 
+  /// What the velocities that fit best leave of the rates of the constraints.
+  VectorXd rate_defect() {
+    state_.v.setZero(n_);
+    if (!solve_velocities({})) return VectorXd::Zero(m_);
+    system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
+    return constraint_rate_;
+  }
+
   Outcome run_accelerations() {
     if (state_.a.size() != n_) state_.a.setZero(n_);
     state_.a.setZero();
@@ -229,6 +237,31 @@ class ConsistentInitialization {
 Outcome make_consistent(const ConstrainedSystem& system, State& state,
                         const PrescribedVelocities& given, double step) {
   return ConsistentInitialization(system, state, step).run(given);
+}
+
+std::string contradictory_drives(const GeometricallyExactSystem& system, const State& state,
+                                 double step) {
+  constexpr double kContradiction = 1e-3;  // of the fastest motion; round-off leaves far less
+  const std::vector<Drive>& drives = system.large_motion().drives;
+  if (drives.empty() || !state.q.allFinite()) return "";
+  for (const double aside : {0.5, -0.5}) {  // drives may start from rest there, or come to rest
+    State at = state;
+    at.t += aside * step;
+    at.load = system.load_factor(at.t);
+    const VectorXd defect =
+        ConsistentInitialization(system, at, step).rate_defect().cwiseQuotient(system.row_unit());
+    const double fastest =
+        at.v.size() > 0 ? at.v.cwiseQuotient(system.scale()).lpNorm<Eigen::Infinity>() : 0;
+    const double limit = kContradiction * std::max(fastest, defect.lpNorm<Eigen::Infinity>());
+    std::string names;
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      if (std::abs(defect[system.drive_row(static_cast<Index>(i))]) > limit)
+        names += std::string(names.empty() ? "" : ", ") + drives[i].name;
+    }
+    if (!names.empty())
+      return "; the constraints and the other drives do not admit the motion of " + names;
+  }
+  return "";
 }
 
 Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& state, double step) {

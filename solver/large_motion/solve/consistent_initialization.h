@@ -1,9 +1,11 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "solver/large_motion/elements/constrained_system.h"
+#include "solver/large_motion/system/geometrically_exact_system.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver::large_motion {
@@ -18,6 +20,11 @@ using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 /// @param state  t and q are the guess; v, a, lambda are replaced.
 [[nodiscard]] Outcome make_consistent(const ConstrainedSystem& system, State& state,
                                       const PrescribedVelocities& given, double step);
+
+/// Half a sentence for the reason of a failure: the drives whose motions the constraints and the
+/// other drives do not admit half a step beside a state; empty if there are none.
+[[nodiscard]] std::string contradictory_drives(const GeometricallyExactSystem& system,
+                                               const State& state, double step);
 
 /// Sets the accelerations and multipliers of a state from its positions and velocities.
 [[nodiscard]] Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& state,

@@ -309,31 +309,32 @@ Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocit
   return k < system.coordinates() ? k : -1;
 }
 
-/// Rods of one length and joints may not admit the velocities that were given.
-Outcome outcome_of_start(const GeometricallyExactSystem& system, const State& state) {
+/// A given velocity, but for one, that the constraints do not admit; null where they admit all.
+const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, const State& state,
+                                        const InitialVelocity* left_out = nullptr) {
   constexpr double kRounding = 1e-6;
   const VectorXd& scale = system.scale();
   const double fastest =
       state.v.size() > 0 ? state.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>() : 0.0;
   for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
-    const Index coordinate = coordinate_of(system, initial);
-    if (coordinate < 0) continue;
-    const double value = initial.value;
-    const double missed = std::abs(state.v[coordinate] - value);
-    if (missed <= kRounding * std::max(std::abs(value), fastest * scale[coordinate])) continue;
-    constexpr std::array kDirections = {" m/s along x", " m/s along y", " rad/s"};
-    std::ostringstream message;
-    const double nearest = state.v[coordinate];
-    message.precision(9);
-    message << "the constraints do not let node "
-            << system.model().nodes[static_cast<std::size_t>(initial.node)].name << " start with "
-            << value << kDirections[static_cast<std::size_t>(initial.direction)]
-            << ": together with the other given velocities "
-            << (std::abs(nearest) < kRounding * fastest * scale[coordinate] ? 0.0 : nearest)
-            << " is nearest";
-    return {Status::singular, message.str()};
+    const Index k = coordinate_of(system, initial);
+    if (k < 0 || &initial == left_out) continue;
+    const double missed = std::abs(state.v[k] - initial.value);
+    if (missed > kRounding * std::max(std::abs(initial.value), fastest * scale[k])) return &initial;
   }
-  return {};
+  return nullptr;
+}
+
+constexpr std::array kVelocityUnits = {" m/s", " m/s", " rad/s"};
+
+/// A given velocity as text: "node B start with 3 m/s along x".
+std::string describe_start(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
+  constexpr std::array kDirections = {" along x", " along y", ""};
+  const auto direction = static_cast<std::size_t>(initial.direction);
+  std::ostringstream text;
+  text << "node " << system.model().nodes[static_cast<std::size_t>(initial.node)].name
+       << " start with " << initial.value << kVelocityUnits[direction] << kDirections[direction];
+  return text.str();
 }
 
 /// Where two runs differ by their leading error alone, what is combined meets the constraints far
@@ -356,40 +357,53 @@ IntegrationSummary integrate(const ConstrainedSystem& system, State& state,
   return TimeIntegration(system, stepper, options, observe).run(state);
 }
 
-IntegrationSummary integrate(const GeometricallyExactSystem& system, State& state,
-                             const IntegrationOptions& options, const Observer& observe) {
-  const Outcome started = initialize_state(system, state, options.step);
-  if (!started.solved()) {
-    IntegrationSummary summary;
-    summary.outcome = started;
-    return summary;
-  }
-  if (options.integrator == Integrator::generalized_alpha) {
-    const ConstrainedSystem& equations = system;
-    MemberBalance balance;
-    const double start = state.t;
-    IntegrationSummary summary = integrate(equations, state, options, [&](const State& at) {
-      // What vibrates faster than a step starts with the acceleration of an implicit one.
-      if (at.t > start) balance.add(system, at);
-      if (observe) observe(at);
-    });
-    summary.evidence.add(Residual::equation_of_motion, balance.residual());
-    summary.outcome = outcome_by_evidence(summary.outcome, summary.evidence);
-    return summary;
-  }
+namespace {
+
+IntegrationSummary run_generalized_alpha(const GeometricallyExactSystem& system, State& state,
+                                         const IntegrationOptions& options,
+                                         const Observer& observe) {
+  const ConstrainedSystem& equations = system;
+  MemberBalance balance;
+  const double start = state.t;
+  IntegrationSummary summary = integrate(equations, state, options, [&](const State& at) {
+    // What vibrates faster than a step starts with the acceleration of an implicit one.
+    if (at.t > start) balance.add(system, at);
+    if (observe) observe(at);
+  });
+  summary.evidence.add(Residual::equation_of_motion, balance.residual());
+  summary.outcome = outcome_by_evidence(summary.outcome, summary.evidence);
+  return summary;
+}
+
+IntegrationSummary run_energy_momentum(const GeometricallyExactSystem& system, State& state,
+                                       const IntegrationOptions& options, const Observer& observe) {
   EnergyMomentum stepper(system);
   const double start = state.t;
   Outcome recovered;
-  IntegrationSummary summary =
-      TimeIntegration(system, stepper, options, [&](const State& at) {
-        if (!observe) return;
-        State shown =
-            at;  // the multipliers of a step are means, which alternate about the motion's
-        if (at.t > start && recovered.solved())
-          recovered = make_accelerations_consistent(system, shown, options.step);
-        observe(shown);
-      }).run(state);
+  const auto show = [&](const State& at) {
+    if (!observe) return;
+    State shown = at;  // the multipliers of a step are means, which alternate about the motion's
+    if (at.t > start && recovered.solved())
+      recovered = make_accelerations_consistent(system, shown, options.step);
+    observe(shown);
+  };
+  IntegrationSummary summary = TimeIntegration(system, stepper, options, show).run(state);
   if (summary.outcome.solved()) summary.outcome = recovered;
+  return summary;
+}
+
+}  // namespace
+
+IntegrationSummary integrate(const GeometricallyExactSystem& system, State& state,
+                             const IntegrationOptions& options, const Observer& observe) {
+  IntegrationSummary summary;
+  summary.outcome = initialize_state(system, state, options.step);
+  if (!summary.outcome.solved()) return summary;
+  summary = options.integrator == Integrator::generalized_alpha
+                ? run_generalized_alpha(system, state, options, observe)
+                : run_energy_momentum(system, state, options, observe);
+  if (!summary.outcome.solved())
+    summary.outcome.reason += contradictory_drives(system, state, options.step);
   return summary;
 }
 
@@ -434,21 +448,44 @@ IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system
 }
 
 Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
-  state = system.reference_state();
-  PrescribedVelocities given;
-  for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
-    const Index k = coordinate_of(system, initial);
-    if (k < 0) {
-      if (initial.value == 0) continue;
-      return {Status::singular,
-              "a start velocity is given where a support holds node " +
-                  system.model().nodes[static_cast<std::size_t>(initial.node)].name +
-                  ", or it has no rotation"};
-    }
-    given.emplace_back(k, initial.value);
+  const std::vector<InitialVelocity>& initial_velocities = system.large_motion().initial_velocities;
+  for (const InitialVelocity& initial : initial_velocities) {
+    if (coordinate_of(system, initial) >= 0 || initial.value == 0) continue;
+    return {Status::singular,
+            "a start velocity is given where a support holds node " +
+                system.model().nodes[static_cast<std::size_t>(initial.node)].name +
+                ", or it has no rotation"};
   }
-  const Outcome consistent = make_consistent(system, state, given, step);
-  return consistent.solved() ? outcome_of_start(system, state) : consistent;
+  const auto start_without = [&](const InitialVelocity* left_out, State& start) {
+    start = system.reference_state();
+    PrescribedVelocities given;
+    for (const InitialVelocity& initial : initial_velocities) {
+      const Index k = coordinate_of(system, initial);
+      if (k >= 0 && &initial != left_out) given.emplace_back(k, initial.value);
+    }
+    return make_consistent(system, start, given, step);
+  };
+  const Outcome consistent = start_without(nullptr, state);
+  const InitialVelocity* refused = consistent.solved() ? refused_velocity(system, state) : nullptr;
+  if (refused == nullptr) return consistent;
+  std::ostringstream message;
+  message.precision(9);
+  message << "the constraints do not let " << describe_start(system, *refused);
+  // The others determine it: a velocity that they leave free would not have been refused.
+  State admitted;
+  if (!start_without(refused, admitted).solved() || refused_velocity(system, admitted, refused)) {
+    message << ", nor do they admit the other given velocities together";
+  } else {
+    constexpr double kRounding = 1e-9;
+    const Index k = coordinate_of(system, *refused);
+    const VectorXd& scale = system.scale();
+    const double fastest = admitted.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
+    const double value = admitted.v[k];
+    message << (initial_velocities.size() > 1 ? ": with the other given velocities, " : ": ")
+            << (std::abs(value) < kRounding * fastest * scale[k] ? 0.0 : value)
+            << kVelocityUnits[static_cast<std::size_t>(refused->direction)] << " is admissible";
+  }
+  return {Status::singular, message.str()};
 }
 
 }  // namespace trammel::solver::large_motion

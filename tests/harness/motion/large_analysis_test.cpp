@@ -284,4 +284,67 @@ BOOST_AUTO_TEST_CASE(a_stretched_rod_is_refused_whatever_its_length) {
   }
 }
 
+namespace {
+
+/// A rigid crank about O with masses at B and C.
+Json crank() {
+  return Json::parse(R"({
+    "id": "crank", "title": "A rigid crank",
+    "model": {
+      "nodes": {"O": [0, 0], "B": [3, 4], "C": [6, 0]},
+      "rigid_bodies": {"crank": {"reference": "O", "nodes": ["B", "C"]}},
+      "point_masses": {"B": {"node": "B", "mass_kg": 1}, "C": {"node": "C", "mass_kg": 2}},
+      "supports": {"O": ["x", "y"]}
+    },
+    "analysis": {"large-motion": {"end_time_s": 0.1, "step_s": 0.01}}
+  })");
+}
+
+}  // namespace
+
+// v_y = -3/4 v_x in B, and C moves along y alone.
+BOOST_AUTO_TEST_CASE(an_admissible_velocity_is_suggested_that_is_admitted) {
+  Json json = crank();
+  Json& given = json["analysis"]["large-motion"]["initial_velocities"];
+  given["B"] = {{"x_m_per_s", 1}, {"y_m_per_s", 0.9}};
+  const std::string reason = result_of(json).outcome.reason;
+  BOOST_TEST(reason ==
+             "the constraints do not let node B start with 1 m/s along x: with the other given "
+             "velocities, -1.2 m/s is admissible");
+  given["B"]["x_m_per_s"] = -1.2;
+  BOOST_TEST(result_of(json).outcome.solved());
+  given["C"]["y_m_per_s"] = 5;
+  BOOST_TEST(contains(result_of(json).outcome.reason,
+                      "nor do they admit the other given velocities together"));
+  given = {{"C", {{"x_m_per_s", 1}}}};
+  BOOST_TEST(contains(result_of(json).outcome.reason, ": 0 m/s is admissible"));
+}
+
+BOOST_AUTO_TEST_CASE(drives_that_contradict_each_other_are_named) {
+  Json json = crank();
+  const auto drive = [](const char* node, const char* motion, const Json& law) {
+    return Json{{"node", node}, {"motion", motion}, {"law", law}};
+  };
+  const auto at = [](double speed) { return Json{{"constant_speed", {{"speed_per_s", speed}}}}; };
+  const auto travel = [](double way) {
+    return Json{{"rest_to_rest", {{"travel", way}, {"duration_s", 0.1}}}};
+  };
+  const auto reason = [&](const Json& first, const Json& second, const char* kind) {
+    Json options = {{"drives", {{"a", first}, {"b", second}}}};
+    if (kind == std::string("large-motion"))
+      options.update({{"end_time_s", 0.1}, {"step_s", 0.01}});
+    json["analysis"] = {{kind, options}};
+    return result_of(json).outcome.reason;
+  };
+  const std::string both = "do not admit the motion of a, b";
+  BOOST_TEST(contains(reason(drive("O", "rotation", at(1)), drive("C", "y", at(2)), "large-motion"),
+                      both));
+  BOOST_TEST(contains(
+      reason(drive("O", "rotation", travel(1)), drive("C", "y", travel(2)), "large-motion"), both));
+  BOOST_TEST(contains(
+      reason(drive("O", "rotation", at(1)), drive("C", "y", at(2)), "large-statics"), both));
+  BOOST_TEST(reason(drive("O", "rotation", at(1)), drive("C", "rotation", at(1)), "large-motion") ==
+             "");
+}
+
 BOOST_AUTO_TEST_SUITE_END()
