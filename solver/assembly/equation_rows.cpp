@@ -89,12 +89,15 @@ double EquationRows::backward_error() const {
   return largest_ratio(rows.cwiseAbs(), terms);
 }
 
-double EquationRows::residual_over(const VectorXd& load) const {
+double EquationRows::residual_over_load() const {
   const VectorXcd rows = system_.T.transpose() * sum_ + free_sum_;
   const VectorXd scale = system_.K.diagonal().cwiseAbs().unaryExpr(
       [](double k) { return k > 0 ? 1 / std::sqrt(k) : 0; });
+  const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
   const double size = scale.cwiseProduct(load).norm();
-  const double residual = scale.cwiseProduct(rows.cwiseAbs()).norm();
+  // Round-off errors cancel at some angles of the model and not at others.
+  const VectorXd roundoff = kEps * (system_.T.cwiseAbs().transpose() * terms_ + free_terms_);
+  const double residual = scale.cwiseProduct(rows.cwiseAbs().cwiseMax(roundoff)).norm();
   return residual == 0 ? 0 : residual / size;
 }
 

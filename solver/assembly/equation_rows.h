@@ -29,8 +29,9 @@ class EquationRows {
   /// Largest |row| over its terms, in the free coordinates: the least relative change of matrices
   /// and loads for which the solution is exact. Source: Oettli and Prager (1964).
   [[nodiscard]] double backward_error() const;
-  /// |rows| over |load|, in the free coordinates, forces and moments made alike by the stiffness.
-  [[nodiscard]] double residual_over(const Eigen::VectorXd& load) const;
+  /// |rows|, at least the round-off error of their terms, over |load|, in the free coordinates;
+  /// forces and moments are made alike by the stiffness.
+  [[nodiscard]] double residual_over_load() const;
 
   /// Sums of the terms' magnitudes on the unconstrained coordinates.
   [[nodiscard]] const Eigen::VectorXd& terms() const { return terms_; }

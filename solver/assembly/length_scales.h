@@ -22,4 +22,10 @@ namespace trammel::solver {
   return length_scales(system).asDiagonal() * system.T;
 }
 
+/// Square of the length [m] that a unit of each free coordinate moves.
+[[nodiscard]] inline Eigen::VectorXd squared_lengths(const System& system) {
+  const SparseMatrix lengths = free_length_scales(system);
+  return lengths.cwiseAbs2().transpose() * Eigen::VectorXd::Ones(lengths.rows());
+}
+
 }  // namespace trammel::solver

@@ -147,9 +147,10 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
   search.bracketed = best > 0 && best + 1 < grid.size();
   if (!search.bracketed) return search;
 
-  const auto error_at = [&](double log_sigma) {
+  const double middle = grid(best);
+  const auto error_at = [&](double log_ratio) {
     ++search.evaluations;
-    const double sigma = std::exp(log_sigma);
+    const double sigma = middle * std::exp(log_ratio);
     const double error =
         cross_validation_error(network, Eigen::VectorXd::Constant(1, sigma), validation)(0);
     if (error < search.error) {
@@ -158,10 +159,12 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
     }
     return error;
   };
-  constexpr int kBits = 16;  // of the logarithm: sigma to better than 1e-3
+  // Of the logarithm of sigma over the middle of the bracket, in any unit of the inputs: sigma to
+  // better than 1e-3.
+  constexpr int kBits = 12;
   std::uintmax_t evaluations = 100;
-  boost::math::tools::brent_find_minima(error_at, std::log(grid(best - 1)),
-                                        std::log(grid(best + 1)), kBits, evaluations);
+  boost::math::tools::brent_find_minima(error_at, std::log(grid(best - 1) / middle),
+                                        std::log(grid(best + 1) / middle), kBits, evaluations);
   return search;
 }
 

@@ -10,6 +10,20 @@
 
 namespace trammel::solver {
 
+namespace {
+
+/// A shift far above all eigenvalues that can matter, in coordinates scaled to a unit diagonal of
+/// A: units of length and rotation do not mix.
+double shift_above_all(const SparseMatrix& A, const SparseMatrix& B) {
+  const Eigen::VectorXd scale =
+      A.diagonal().cwiseAbs().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
+  const SparseMatrix scaled = scale.asDiagonal() * B * scale.asDiagonal();
+  const double size = scaled.norm();
+  return size > 0 ? std::sqrt(static_cast<double>(A.rows())) / size : 0;
+}
+
+}  // namespace
+
 double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
                               const Eigen::VectorXd& found, Factorization&& spent,
                               double shift_above) {
@@ -17,8 +31,7 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
   Factorization factorization = std::move(spent);
   if (A.rows() == 0) return static_cast<double>(found.size());
   if (found.size() == 0) {  // none at all, however large the shift
-    const double size = B.norm();
-    factorization.compute(shifted(A, B, size > 0 ? A.norm() / size : 0));
+    factorization.compute(shifted(A, B, shift_above_all(A, B)));
     return factorization.is_reliable() ? static_cast<double>(factorization.negative_pivots())
                                        : std::numeric_limits<double>::infinity();
   }

@@ -20,7 +20,7 @@ enum class Residual {
   equation_of_motion,   ///< row by row, the largest over the steps
   constraints,          ///< joints, drives and the closing of loops, over the size of the model
   energy,               ///< work of all forces less the change of energy, over the whole run
-  load,                 ///< |K u - f| over |f|: small only where the condition number allows it
+  load,  ///< |K u - f|, at least its round-off error, over |f|: small if the condition number is
 };
 inline constexpr std::array kResiduals = {Residual::equilibrium,
                                           Residual::recovered_forces,

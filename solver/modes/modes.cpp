@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/assembly/equation_rows.h"
+#include "solver/assembly/length_scales.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/eigenvalue_count.h"
@@ -19,12 +20,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// M-orthonormal basis of the free motions; false where one of them moves no mass.
-bool orthonormalise(const SparseMatrix& M, MatrixXd& Z) {
+bool orthonormalise(const System& system, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
-  const VectorXd mass = M.diagonal();
+  const SparseMatrix& M = system.M;
+  // Masses of rotations are counted as inertia over the square of the model's size.
+  const VectorXd squared_length = squared_lengths(system);
+  VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
   const double largest = mass.maxCoeff();
   if (!(largest > 0)) return false;
-  const VectorXd weight = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
+  mass = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
+  const VectorXd weight = mass.cwiseProduct(squared_length);
   const MatrixXd gram = Z.transpose() * (M * Z);
   const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
   const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(gram, size);
@@ -46,11 +51,12 @@ bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
 /// then as well-conditioned as the elastic part of K.
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
-  const VectorXd diagonal = system.K.diagonal();
-  const double largest = diagonal.size() > 0 ? diagonal.maxCoeff() : 0;
+  const VectorXd diagonal = system.K.diagonal(), squared_length = squared_lengths(system);
+  const double largest =
+      diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
   if (!(largest > 0)) return -1;
   for (Index i = 0; i < diagonal.size(); ++i) {
-    shifted.coeffRef(i, i) += 1e-11 * (diagonal[i] > 0 ? diagonal[i] : largest);
+    shifted.coeffRef(i, i) += 1e-11 * (diagonal[i] > 0 ? diagonal[i] : largest * squared_length[i]);
   }
   Factorization factorization;
   factorization.compute(shifted);
@@ -104,7 +110,7 @@ ModalSolution solve_modes(const System& system, const ModesOptions& options) {
   ZeroEnergyModes free = find_zero_energy_modes(system, factorization, counters);
   solution.zero_energy_mode_count = free.count();
   solution.zero_energy_mode_text = describe_mechanism(system, free);
-  if (!orthonormalise(system.M, free.basis)) {
+  if (!orthonormalise(system, free.basis)) {
     solution.outcome = {Status::singular,
                         "a part without mass moves freely: " + solution.zero_energy_mode_text};
     return solution;

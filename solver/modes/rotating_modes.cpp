@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "solver/assembly/equation_rows.h"
+#include "solver/assembly/length_scales.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/gyroscopic.h"
 #include "solver/linalg/refinement.h"
@@ -42,13 +43,14 @@ class SteadyState {
       update(VectorXd::Zero(system_.T.rows()));
       return solve(added_, rhs);
     }
+    const SparseMatrix lengths = free_length_scales(system_);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kSteps; ++step) {
       const VectorXd before = q;
       if (!solve(added_, rhs)) return false;
-      const double change = (q - before).norm();
+      const double change = (lengths * (q - before)).norm(), size = (lengths * q).norm();
       const bool settled =
-          change <= 1e-13 * q.norm() || (change <= 1e-8 * q.norm() && change >= 0.5 * last);
+          change <= 1e-13 * size || (change <= 1e-8 * size && change >= 0.5 * last);
       if (settled && step > 0) return true;
       last = change;
       update(system_.T * q);

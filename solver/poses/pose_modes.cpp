@@ -105,6 +105,8 @@ class BlockSolver {
   bool begin() {
     const Index n = pencil_.ends();
     X_.ends = start_vectors(rows, n);
+    // Strain energies of the joints' unit motions are m^2 or 1 times a stiffness; inside it is 1.
+    X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
     X_.inside = start_vectors(rows, pencil_.inside(), 1);
     return true;
   }

@@ -27,6 +27,8 @@ double digits(double error) {
 double amplification(const System& system, const VectorXd& first, const SecondOrderState& second) {
   const VectorXd added = second.q - first;
   const double stiffness = strain_products(system, system.T * added)(0, 0);
+  const double roundoff = second.error * second.error;
+  if (stiffness <= roundoff * strain_products(system, system.T * first)(0, 0)) return 1;
   const double left = -added.dot(geometric_stiffness(system, second.forces) * first);
   return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
@@ -52,7 +54,7 @@ void take_residuals(const System& system, const ElasticState& state, StaticSolut
     rows.add_terms(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() / kEps);
   }
   solution.evidence.add(Residual::equilibrium, rows.backward_error());
-  solution.evidence.add(Residual::load, rows.residual_over(system.f));
+  solution.evidence.add(Residual::load, rows.residual_over_load());
   solution.evidence.add(Residual::recovered_forces,
                         unbalanced_forces(system, state, solution, rows.terms()));
 }

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "solver/assembly/equation_rows.h"
+#include "solver/assembly/length_scales.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/sparse_lu.h"
 #include "solver/model/plane.h"
@@ -95,11 +96,12 @@ void HarmonicSolver::superpose(Index damped) {
   } else if (free.count() > 0 && free.all_found) {
     const Eigen::MatrixXd mass = free.basis.transpose() * system_.M * free.basis;
     const Eigen::LLT<Eigen::MatrixXd> factor(mass);
-    // Of a motion without mass the rounding of those that have some.
-    const double least = 1e-20 * system_.M.diagonal().maxCoeff();
-    const bool moves_mass =
-        (mass.diagonal().array() > least * free.basis.colwise().squaredNorm().transpose().array())
-            .all();
+    // Of a motion without mass the rounding of those that have some; masses of rotations are
+    // counted as inertia over the square of the model's size.
+    const VectorXd squared_length = squared_lengths(system_);
+    const double least = 1e-20 * system_.M.diagonal().cwiseQuotient(squared_length).maxCoeff();
+    const VectorXd moved = free.basis.cwiseAbs2().transpose() * squared_length;
+    const bool moves_mass = (mass.diagonal().array() > least * moved.array()).all();
     if (!moves_mass || factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) {
       outcome_ = {Status::singular,
                   "a part without mass moves freely: " + describe_mechanism(system_, free)};

@@ -158,8 +158,7 @@ struct Beam {
   /// rho of `KktMatrix`: a shear stiffness 12 EI/h^2, which keeps bending and shear of one size,
   /// and the element's mass.
   [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
-    double k = 12 * EI / (length * length);
-    if (k <= 0) k = stretch_compliance > 0 ? 1e-6 / stretch_compliance : 1.0;
+    const double k = 12 * EI / (length * length);
     Rows rho;
     for (int g = 0; g < P; ++g) {
       const double w = shape_functions<P>().weight[g];
