@@ -4,11 +4,15 @@ import math
 import re
 
 ROUNDOFF = 1e-9  # times a tolerance of 1e-5 or less: below 1e-14 of the size, displacements are round-off error
+TURNS = {"motion_phi_rad": "motion_m", "motion_velocity_phi_rad_per_s": "motion_velocity_m_per_s", "rotation_rad": "displacement_m", "end_rotation_rad": "displacement_m", "platform_rotation_rad": "displacement_m",
+         "angular_velocity_rad_per_s": "velocity_m_per_s"}
 UNCOUNTED = re.compile(  # work, round-off and positions of extremes, which no law of mechanics determines
-    r"degrees_of_freedom|mode_count_below|estimated_correct_digits|.*residual|.*roundoff|.*steps?(_|$)|.*_drift|.*evaluations|"
-    r"newton_|frequency_gap|.*_error|effect_|rejected|peak_time_s|.*_number|time_s$|rigid_body_modes|.*_difference|"
-    r"result_|center_[xy]_m|sample")
-ODD_IN_MIRROR = re.compile(r".*(_y_|rotation_|_moment_|bending_|shear_force|angular_velocity|torque|stress_xy|_angle)")
+    r"degrees_of_freedom|peak_frequency|estimated_correct_digits|.*residual|.*roundoff|.*steps?(_|$)|.*_drift|.*evaluations|"
+    r"newton_|frequency_gap|.*_error|effect_|rejected|peak_time_s|.*_number|.*_difference|"
+    r"result_|sample")
+ODD_IN_MIRROR = re.compile(r"angle_ra|.*(_y_|rotation_|phi_|passive_|active_|elbow_sine|_moment_|bending_|shear_force|angular_velocity|torque|stress_xy|_angle)")
+PLACE = re.compile("(?:(?:predicted_)?position|pose|center|motion|singular|boundary)_([xy])_m")
+ANGLE = re.compile("(?:pose_phi|motion_phi|active_angle|passive_angle|predicted_(?:active_)?angle)_rad")
 PEAK = re.compile(r"peak_.*_[xy]_")
 ODD_IN_REVERSAL = re.compile(r"(peak_)?(bending_moment|bending_stress)_")
 
@@ -36,7 +40,8 @@ class Law:
                 values.update(self.turned(name, quantities))
             else:
                 factor = self.factor(name)
-                shift = self.offset.get(name.split("_")[1], 0) if name.startswith("position_") else 0
+                place = PLACE.match(name)
+                shift = self.offset.get(place[1] if place else "angle" if ANGLE.match(name) else None, 0)
                 values[self.rename(name)] = [factor * v + shift for v in series]
         return values
 
@@ -57,15 +62,16 @@ class Law:
         return [sum(w * v for w, v in zip(weights[axes], values)) for values in zip(*parts)]
 
     def factor(self, name):
+        is_turn = re.search("sensitivity.*:orientation$", name)
         name = name.split(":")[0]
         factor = self.units(name) if self.units else 1.0
-        if self.mirrored and ODD_IN_MIRROR.match(name):
+        if self.mirrored and (is_turn or ODD_IN_MIRROR.match(name)):
             factor = -factor
         if self.reversed_members and ODD_IN_REVERSAL.match(name):
             factor = -factor
         if self.loads != 1 and name.startswith("compliance_J"):
             factor *= self.loads ** 2
-        elif self.loads != 1 and not re.match(r"mass_kg|inertia_|length_", name):
+        elif self.loads != 1 and not re.match(r"mass_kg|inertia_|length_|pose_|time_s", name):
             factor *= self.loads
         return factor
 
@@ -77,7 +83,7 @@ def kind(name):
     return unit or re.sub(r"_([xy]|xx|yy|xy)(?=_|$)", "", head)
 
 
-def scales(values, forces, size):
+def scales(values, forces, size, stiffness):
     """Returns the largest magnitude of each kind in a case. Forces and moments are one scale by the model's size,
     to which the applied forces belong."""
     largest = {"_N": forces}
@@ -85,38 +91,59 @@ def scales(values, forces, size):
         for value in series:
             if value is not None and math.isfinite(value):
                 largest[kind(name)] = max(largest.get(kind(name), 0.0), abs(value))
-    for head in ("displacement_m", "velocity_m_per_s"):  # round-off error of places is 1e-16 of the size
+    for head in ("displacement_m", "velocity_m_per_s", "motion_velocity_m_per_s"):  # round-off error of places is 1e-16 of the size
         largest[head] = max(largest.get(head, 0.0), ROUNDOFF * size)
-    for head in ("rotation_rad", "end_rotation_rad"):
-        largest[head] = max(largest.get(head, 0.0), ROUNDOFF)
-    largest["_N"] = max(largest["_N"], largest.get("_N_m", 0.0) / size)
+    for turn, length in TURNS.items():  # a turn by what its points move over the model's size
+        largest[turn] = max(largest.get(turn, 0.0), largest.get(length, 0.0) / size)
+    moved = largest.get("displacement_m", 0.0) / size
+    largest["_N"] = max(largest["_N"], largest.get("_N_m", 0.0) / size, ROUNDOFF * moved * stiffness)
     largest["_N_m"] = max(largest.get("_N_m", 0.0), largest["_N"] * size)
     return largest
 
 
 def forces_and_size(model):
-    """Returns the largest applied force and the extent of a plain model."""
-    places = list(model["nodes"].values())
+    """Returns the largest applied force, the extent and the largest axial stiffness EA of a plain model."""
+    places = list(model["nodes"].values()) if "nodes" in model else model["manipulator"].get("base_m") or [
+        [0, 0], [model["manipulator"]["base_side_m"]] * 2]
     size = max(max(p[i] for p in places) - min(p[i] for p in places) for i in (0, 1)) or 1.0
     loads = [*model.get("loads", {}).values(), *model.get("follower_loads", {}).values()]
     forces = [abs(f) for load in loads for f in load.get("force_N", [])]
     lines = [abs(q) * size for m in model.get("members", {}).values() for q in m.get("load_N_per_m", [])]
-    return max(forces + lines, default=0.0), size
+    sections, materials = model.get("sections", {}), model.get("materials", {})
+    areas = [s.get("area_m2", 0.0) * materials[s["material"]]["E_Pa"] for s in sections.values() if "material" in s]
+    plates = [p["thickness_m"] * size * materials[p["material"]]["E_Pa"] for p in model.get("plates", {}).values()]
+    return max(forces + lines, default=0.0), size, max(areas + plates, default=0.0)
 
 
-def differences(expected, obtained, tolerance, model):
-    """Returns (name, expected, obtained, error over the scale of the kind) where the tolerance is exceeded."""
-    scale, found = scales(expected, *forces_and_size(model)), []
+def stated_roundoff(*runs):
+    """Returns kind -> relative round-off error that the runs state together."""
+    total = {}
+    for run in runs:
+        largest = {}
+        for name, error in run.items():
+            largest[kind(name)] = max(largest.get(kind(name), 0.0), error)
+        for head, error in largest.items():
+            total[head] = total.get(head, 0.0) + error
+    return total
+
+
+def differences(expected, obtained, tolerance, model, stated):
+    """Returns (name, expected, obtained, error over the scale of the kind) where the tolerance is exceeded, and the
+    largest of the errors that do not exceed it."""
+    scale, found, largest_error = scales(expected, *forces_and_size(model)), [], 0.0
     for name, series in expected.items():
         other = obtained.get(name)
         if other is None or len(other) != len(series):
             found.append((name, f"{len(series)} values", "missing" if other is None else f"{len(other)} values", math.inf))
             continue
         largest = scale.get(kind(name), 0.0) or 1.0  # all zero: absolute
-        errors = [(abs(a - b) / largest, a, b) for a, b in zip(series, other)
+        turn = 2 * math.pi if ANGLE.match(name) else math.inf
+        errors = [(abs(math.remainder(a - b, turn)) / largest, a, b) for a, b in zip(series, other)
                   if not (a == b or (a != a and b != b))]
         if errors:
             worst = max(errors, key=lambda e: math.inf if e[0] != e[0] else e[0])
-            if not worst[0] <= tolerance:
+            if not worst[0] <= tolerance + stated.get(kind(name), 0.0):
                 found.append((name, worst[1], worst[2], worst[0]))
-    return found
+            else:
+                largest_error = max(largest_error, worst[0])
+    return found, largest_error

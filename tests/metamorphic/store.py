@@ -32,15 +32,23 @@ def decode(data, at=0):
 
 
 def read_run(path):
-    """Returns the quantities (name -> list of numbers) and which effects are active."""
+    """Returns the quantities (name -> list of numbers), their relative round-off errors (name -> the largest that the
+    program states) and which effects are active."""
     data = path.read_bytes()
     numbers = data[16:16 + struct.unpack("<Q", data[8:16])[0]]  # behind checksum and length
     outcome = decode(data, 16 + len(numbers))[0][3]
     names, (start, size) = outcome[2]
     lengths = struct.unpack(f"<{size // 8}Q", numbers[start:start + size])
-    quantities, letter, start = {}, 0, lengths[0]
-    for name, values, roundoff in zip(lengths[1::3], lengths[2::3], lengths[3::3]):
-        quantities[names[letter:letter + name]] = struct.unpack(f"<{values // 8}d", numbers[start:start + values])
-        letter, start = letter + name, start + values + roundoff
+    quantities, roundoff, letter, start = {}, {}, 0, lengths[0]
+
+    def read(size):
+        nonlocal start
+        start += size
+        return struct.unpack(f"<{size // 8}d", numbers[start - size:start])
+
+    for length, values, errors in zip(lengths[1::3], lengths[2::3], lengths[3::3]):
+        name, letter = names[letter:letter + length], letter + length
+        quantities[name] = read(values)
+        roundoff[name] = max(read(errors), default=0.0)
     effects = next((item[0] for item in zip(outcome[7:], outcome[6:]) if isinstance(item[1], str)), [])
-    return quantities, [effect[:2] for effect in effects if isinstance(effect, list)]
+    return quantities, roundoff, [effect[:2] for effect in effects if isinstance(effect, list)]

@@ -9,7 +9,7 @@ from laws import Law
 KEYED = ("materials", "sections", "nodes", "members", "plates", "edges", "rigid_bodies", "point_masses", "springs",
          "pins", "sliders", "axial_springs", "loads", "follower_loads")
 UNITS = {"m": (1, 0, 0), "m2": (2, 0, 0), "m3": (3, 0, 0), "m4": (4, 0, 0), "N": (1, 1, -2), "kg": (0, 1, 0), "s": (0, 0, 1),
-         "s2": (0, 0, 2), "Hz": (0, 0, -1), "Pa": (-1, 1, -2), "J": (2, 1, -2), "rad": (0, 0, 0)}
+         "s2": (0, 0, 2), "Hz": (0, 0, -1), "Pa": (-1, 1, -2), "J": (2, 1, -2), "W": (2, 1, -3), "rad": (0, 0, 0)}
 
 
 class Skip(Exception):
@@ -32,8 +32,16 @@ def dimensions(name):
 
 
 def plane_only(case):
-    if "nodes" not in case.get("model", {}):
-        raise Skip("the model is not one of plain nodes")
+    """Returns model and analysis of a model in the plane: of nodes, or a manipulator."""
+    model = case.get("model", {})
+    if "nodes" not in model and "manipulator" not in model:
+        raise Skip("there is no model in the plane")
+    return model, case["analysis"]
+
+
+def nodes_only(case):
+    if "nodes" not in case.get("model", {}) or "manipulator" in case["model"]:
+        raise Skip("the model is a manipulator, whose parts and names are fixed")
     return case["model"], case["analysis"]
 
 
@@ -65,10 +73,12 @@ def move(case, point, vector, angle, mirrored=False):
                 value[key] = vector(item)
             elif key in POINTS:
                 value[key] = point(item)
-            elif key in ("direction_rad", "initial_rad"):
+            elif key == "direction_rad":
                 value[key] = sign * item + angle
-            elif key in ("moment_N_m", "speed_per_s", "travel", "rotation_rad_per_s"):
+            elif key in ("moment_N_m", "speed_per_s", "travel", "rotation_rad_per_s", "initial_rad"):
                 value[key] = sign * item
+            elif key == "torque_N_m":
+                value[key] = [sign * torque for torque in item]
             else:
                 visit(item)
         for item in value if isinstance(value, list) else []:
@@ -76,8 +86,7 @@ def move(case, point, vector, angle, mirrored=False):
 
     if any("ellipse" in edge for edge in model.get("edges", {}).values()):
         raise Skip("an ellipse lies along the world axes")
-    if analysis_value(analysis, "track") or "trajectory" in model:
-        raise Skip("the manipulator follows a path")
+    move_manipulator(case, point, sign, angle)
     if analysis_value(analysis, "drives") and (mirrored or axis_bound(model, analysis)):
         raise Skip("the drive acts along an axis")
     if isinstance(analysis_value(analysis, "initial_velocities"), dict):
@@ -89,10 +98,155 @@ def move(case, point, vector, angle, mirrored=False):
         rotating["center_m"] = [0, 0]
     if rotating and (mirrored or rotating.get("axis", "normal") != "normal"):
         raise Skip("the axis of rotation is bound to the plane")
-    for name, place in model["nodes"].items():
+    for name, place in model.get("nodes", {}).items():
         model["nodes"][name] = point(place)
     visit(model)
     visit(analysis)
+
+
+def axis_bound_map(case):
+    return "sensitivity-map" in case["analysis"]
+
+
+def move_manipulator(case, point, sign, angle):
+    """Applies a motion of the plane to the base, the pose and the path of a manipulator."""
+    def move_pose(pose):
+        pose["x_m"], pose["y_m"] = point([pose["x_m"], pose["y_m"]])
+        pose["phi_rad"] = sign * pose["phi_rad"] + angle
+
+    model = case["model"]
+    if "manipulator" not in model:
+        return
+    manipulator, path = model["manipulator"], model.get("trajectory", {})
+    if "circle" in path and (sign < 0 or angle != 0):
+        raise Skip("a circle starts to the right of its centre")
+    manipulator["base_m"] = [point(corner) for corner in base_corners(manipulator)]
+    if sign < 0:
+        manipulator["platform"]["vertices_m"] = [[x, -y] for x, y in platform_corners(manipulator["platform"])]
+        manipulator["working_mode"] = [-side for side in manipulator.get("working_mode", [-1] * 3)]
+    if "pose" in model:
+        move_pose(model["pose"])
+    if axis_bound_map(case) and (sign < 0 or angle != 0):
+        raise Skip("the positions of the map lie along the world axes")
+    for key in ("line", "rest_to_rest"):
+        for end in ("from", "to") if key in path else ():
+            move_pose(path[key][end])
+    for knot in path.get("spline", {}).get("knots", ()):
+        move_pose(knot)
+
+
+def base_corners(manipulator):
+    """Returns A1, A2, A3, and removes what stated them."""
+    if "base_m" in manipulator:
+        return manipulator.pop("base_m")
+    side = manipulator.pop("base_side_m")
+    return [[0.0, 0.0], [side, 0.0], [side / 2, math.sqrt(3) / 2 * side]]
+
+
+def platform_corners(platform):
+    """Returns C1, C2, C3 from P, and removes what stated them."""
+    if "vertices_m" in platform:
+        return platform.pop("vertices_m")
+    radius = platform.pop("side_m") / math.sqrt(3)
+    return [[radius * math.cos(math.radians(a)), radius * math.sin(math.radians(a))] for a in (210, 330, 90)]
+
+
+def next_limb(text):
+    """Returns a name of the manipulator's parts with the limbs 1, 2, 3 called 2, 3, 1."""
+    return re.sub(r"(?<![A-Za-z0-9])([ABC])([123])(?![A-Za-z0-9])", lambda m: m[1] + "231"[int(m[2]) - 1], text)
+
+
+def relabel(case):
+    """Gives every limb of a manipulator the number of the next one."""
+    model, _ = plane_only(case)
+    if "manipulator" not in model:
+        raise Skip("there is no manipulator")
+    parameters = analysis_value(case["analysis"], "parameters", {})
+    if any(p.get("property") == "base_side" for p in parameters.values()):
+        raise Skip("the base grows about the first joint")
+    manipulator = model["manipulator"]
+    manipulator["base_m"] = base_corners(manipulator)
+    manipulator["platform"]["vertices_m"] = platform_corners(manipulator["platform"])
+
+    def last_first(value):
+        return [value[2], value[0], value[1]]
+
+    def visit(value):
+        """Of limbs there are three of everything; of links, the proximal and the distal three."""
+        if isinstance(value, dict):
+            return {next_limb(key): visit(item) for key, item in value.items()}
+        if isinstance(value, list):
+            return [visit(item) for item in value]
+        return next_limb(value) if isinstance(value, str) else value
+
+    for holder, keys in ((manipulator, ("base_m", "working_mode")), (manipulator["platform"], ("vertices_m",)),
+                         (manipulator["joints"], ("active", "elbow", "platform")),
+                         (manipulator["links"], ("proximal_length_m", "distal_length_m"))):
+        for key in keys:
+            if isinstance(holder.get(key), list):
+                holder[key] = last_first(holder[key])
+    for options in case["analysis"].values():
+        if "torque_N_m" in options:
+            options["torque_N_m"] = last_first(options["torque_N_m"])
+    case["model"], case["analysis"] = visit(model), visit(case["analysis"])
+    return case, Law(rename=lambda name: next_limb(name))
+
+
+# What the schema says of an absent key, by the definition it belongs to.
+DEFAULTS = {
+    "model": {"elements": 1},
+    "member": {"ends": ["welded", "welded"], "end_inertia_kg_m2": [0, 0]},
+    "point_mass": {"inertia_kg_m2": 0},
+    "slider": {"keeps_angle": False},
+    "circle": {"angular_speed_rad_s": 1, "phi_rad": 0},
+    "spline": {"ends": "natural"},
+    "statics": {"second_order": False},
+    "modes": {"prestressed": False, "eigensolver": "automatic"},
+    "buckling": {"count": 3, "eigensolver": "automatic"},
+    "large-statics": {"degree": 3, "switch_branch": False, "whole_path": False, "points": 2000},
+    "large-motion": {"degree": 3, "integrator": "generalized-alpha", "extrapolated": False, "steps": 100000000},
+    "harmonic": {"points": 101},
+    "transient": {"initial_state": "at-rest"},
+    "elastodynamics": {"step_errors": False, "modal_superposition": False},
+    "rotating": {"axis": "normal", "coriolis": True},
+    "inverse-dynamics": {"bodies": False},
+    "sensitivity": {"method": "energies", "differences": False},
+    "grnn": {"surrogate": "network", "split": "first", "scaling": "none"},
+}
+
+
+def defaults(case):
+    """States what an absent key means."""
+    model, analysis = plane_only(case)
+    kind, options = next(iter(analysis.items()))
+    if kind not in DEFAULTS:
+        raise Skip("the analysis has no optional keys")
+    holders = [(kind, options), ("rotating", options.get("rotating"))]
+    if "nodes" in model and "manipulator" not in model:
+        holders += [("model", model)]
+        holders += [("member", member) for member in model.get("members", {}).values()]
+        holders += [("point_mass", mass) for mass in model.get("point_masses", {}).values()]
+        holders += [("slider", slider) for slider in model.get("sliders", {}).values()]
+    path = model.get("trajectory", {})
+    holders += [(key, path.get(key)) for key in ("circle", "spline")]
+    for name, holder in holders:
+        for key, value in DEFAULTS[name].items() if holder is not None else ():
+            if stated(name, holder, key, "effects" in case):
+                holder.setdefault(key, copy.deepcopy(value))
+    return case, Law()
+
+
+def stated(name, holder, key, has_effects):
+    """Returns whether a default may be written out where other keys forbid some."""
+    if name == "large-motion" and key == "extrapolated":
+        return "tolerance" not in holder and "track" not in holder
+    if key == "initial_state":
+        return "rotating_frame" not in holder
+    if key in ("second_order", "prestressed", "coriolis"):
+        return not has_effects  # which say it
+    if name == "grnn":
+        return holder.get("surrogate") != "spline" and (key != "split" or "train" in holder)
+    return True
 
 
 def rotate(case):
@@ -112,7 +266,7 @@ def rotate(case):
     if analysis_value(analysis, "outputs"):
         raise Skip("the outputs name single components")
     move(case, turn, turn, angle)
-    return case, Law(rotation=(c, s))
+    return case, Law(rotation=(c, s), offset={"angle": angle})
 
 
 def swap_axes(model):
@@ -150,7 +304,7 @@ def mirror(case):
 
 def rename(case):
     """Gives every part a new name and stores the parts in the opposite order."""
-    model, _ = plane_only(case)
+    model, _ = nodes_only(case)
     old = {name for key in KEYED for name in model.get(key, {})}
     new = {name: f"{chr(122 - i % 26)}{i}_{re.sub('[^A-Za-z0-9]', '_', name)}" for i, name in enumerate(sorted(old))}
 
@@ -183,7 +337,7 @@ def rename(case):
 
 def reverse(case):
     """Swaps the ends of every member, with its releases and sections."""
-    model, _ = plane_only(case)
+    model, _ = nodes_only(case)
     if not model.get("members"):
         raise Skip("the model has no members")
     without_arcs(model)
@@ -206,7 +360,7 @@ def other_end(name):
 
 def split(case):
     """Splits every prismatic straight member with an even number of elements at its middle."""
-    model, _ = plane_only(case)
+    model, _ = nodes_only(case)
     pieces = {}
     for name, member in list(model.get("members", {}).items()):
         n = member.get("elements", 1)
@@ -238,8 +392,8 @@ def rescale(base, power):
             return 2.0 ** (power * dimensions(key)[base])
 
         def visit(value, key):
-            if isinstance(value, dict):
-                return {k: visit(v, k if any(dimensions(k)) or not any(dimensions(key)) else key)
+            if isinstance(value, dict):  # a range of a quantity has the unit of its name, but for its number of points
+                return {k: visit(v, k if any(dimensions(k)) or not any(dimensions(key)) or k == "points" else key)
                         for k, v in value.items()}
             if isinstance(value, list):
                 return [visit(item, key) for item in value]
@@ -249,18 +403,33 @@ def rescale(base, power):
         model, analysis = plane_only(case)
         if analysis_value(analysis, "drives") or analysis_value(analysis, "rotating_frame"):
             raise Skip("the unit of a law depends on its motion")
+        if "model-probabilities" in analysis:
+            raise Skip("the frequencies that were observed are references in Hz")
         model = {key: visit(value, "") for key, value in model.items() if key not in ("nodes", "gravity_m_s2")}
-        model["nodes"] = {k: [c * factor("at_m") for c in p] for k, p in case["model"]["nodes"].items()}
+        if "nodes" in case["model"]:
+            model["nodes"] = {k: [c * factor("at_m") for c in p] for k, p in case["model"]["nodes"].items()}
         if "gravity_m_s2" in case["model"]:
             model["gravity_m_s2"] = [g * factor("g_m_per_s2") for g in case["model"]["gravity_m_s2"]]
         case["model"], case["analysis"] = model, visit(analysis, "")
-        return case, Law(units=(lambda name: factor(name)))
+        in_torques = "grnn" in analysis and analysis_value(analysis, "scaling", "none") == "none"
+
+        def of_quantity(name):  # without scaling, a network's sigma is in the unit of its inputs
+            return factor("sigma_N_m" if in_torques and name in ("sigma", "grid_sigma") else name)
+
+        for options in case["analysis"].values() if in_torques else ():
+            for key in ("sigma", "spread"):
+                if key in options:
+                    options[key] *= factor("sigma_N_m")
+            for key in ("from", "to"):
+                if key in options.get("search", {}):
+                    options["search"][key] *= factor("sigma_N_m")
+        return case, Law(units=of_quantity)
     return scaled
 
 
 def inert(case):
     """Adds a massless unloaded tail to a node that a member is welded to, and a load of zero."""
-    model, analysis = plane_only(case)
+    model, analysis = nodes_only(case)
     for member in model.get("members", {}).values():
         for node, end in zip(member["nodes"], member.get("ends", ["welded"] * 2)):
             if end == "welded" and member.get("axial") != "rigid":
@@ -286,7 +455,7 @@ def inert(case):
 def scale_loads(case):
     """Doubles every load of linear statics."""
     model, analysis = plane_only(case)
-    if "statics" not in analysis or analysis["statics"].get("second_order"):
+    if "statics" not in analysis or analysis["statics"].get("second_order") or "effects" in case:
         raise Skip("the analysis is not linear in the loads")
 
     def visit(value):
@@ -303,4 +472,4 @@ def scale_loads(case):
 
 ALL = {"rotate": rotate, "translate": translate, "mirror": mirror, "rename": rename, "reverse": reverse,
        "split": split, "length": rescale(0, -10), "mass": rescale(1, -10), "time": rescale(2, 7), "inert": inert,
-       "loads": scale_loads}
+       "loads": scale_loads, "defaults": defaults, "relabel": relabel}

@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+"""Runs neighbors of inputs that once gave wrong results: other numbers, angles, schemes and steps. Prints obtained and
+right values, which follow from closed forms; exit status 1 if one is missed."""
+
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from store import read_run
+
+STEEL = {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}}
+BAR = {"b": {"material": "steel", "rectangle": {"thickness_m": 0.1, "width_m": 0.05}}}
+
+
+def turned(point, angle):
+    return [math.cos(angle) * point[0] - math.sin(angle) * point[1], math.sin(angle) * point[0] + math.cos(angle) * point[1]]
+
+
+class Neighbor:
+    """One input: what is looked at, and what is right."""
+
+    def __init__(self, kind, what, model, analysis, quantity, right, tolerance=1e-6, index=-1):
+        self.kind, self.what, self.model, self.analysis = kind, what, model, analysis
+        self.quantity, self.right, self.tolerance, self.index = quantity, right, tolerance, index
+
+    def obtained(self, run, folder):
+        """Returns the value, or the text of a warning, of a reason or of the status."""
+        if self.quantity == "warning":
+            return "; ".join(run.get("warnings", [])) or "none"
+        if run["status"] != "solved":
+            return f"{run['status']}: {run.get('reason', '')}"
+        return read_run(folder / "store" / run["stored"])[0][self.quantity][self.index]
+
+    def agrees(self, value):
+        if isinstance(self.right, str):
+            return isinstance(value, str) and self.right in value
+        size = abs(self.right) or 1.0
+        return not isinstance(value, str) and abs(value - self.right) <= self.tolerance * size
+
+
+def branches():
+    """Four-bar linkages near a change point: the triangle of the branch in which they start."""
+    for speed, step, crank, turn in ((6, 0.01, 0.5, 0.0), (6, 0.004, 0.5, 0.7), (3, 0.02, 0.499, -1.0), (-6, 0.01, 0.5, 2.0),
+                                     (4, 0.01, 0.4995, 0.3), (9, 0.01, 0.4999, 1.2)):
+        coupler, rocker, ground, start = 1.0, 0.5, 1.0, 1.0
+
+        def place(angle):
+            a = [crank * math.cos(angle), crank * math.sin(angle)]
+            d = math.dist(a, [ground, 0])
+            along = (d * d + coupler ** 2 - rocker ** 2) / (2 * d)
+            side = math.sqrt(coupler ** 2 - along ** 2)
+            e = [(ground - a[0]) / d, -a[1] / d]
+            return a, [a[0] + along * e[0] - side * e[1], a[1] + along * e[1] + side * e[0]]
+
+        (a, b), end = place(start), 1.0
+        nodes = {"O": [0, 0], "A": a, "A2": a, "B": b, "B2": b, "C": [ground, 0]}
+        mass = {n: {"node": n, "mass_kg": 1, "inertia_kg_m2": 0.1} for n in ("A", "A2", "B2")}
+        model = {"nodes": {n: turned(p, turn) for n, p in nodes.items()}, "point_masses": mass,
+                 "rigid_bodies": {"c": {"reference": "O", "nodes": ["A"]}, "k": {"reference": "A2", "nodes": ["B"]},
+                                  "r": {"reference": "C", "nodes": ["B2"]}},
+                 "pins": {"p": {"nodes": ["A", "A2"]}, "q": {"nodes": ["B", "B2"]}},
+                 "supports": {"O": ["x", "y"], "C": ["x", "y"]}}
+        drive = {"m": {"node": "O", "motion": "rotation", "law": {"constant_speed": {"speed_per_s": speed}}}}
+        analysis = {"large-motion": {"end_time_s": end, "step_s": step, "output_step_s": 0.1, "drives": drive}}
+        yield Neighbor("assembly branch", f"{speed} rad/s, step {step} s, crank {crank} m, turned {turn} rad", model, analysis,
+                       "position_x_m:B", turned(place(start + speed * end)[1], turn)[0])
+
+
+def torques():
+    """An arm that a drive turns evenly: m g L cos(w t)."""
+    for mass, length, speed, step, turn in ((1, 1, 5, 0.01, 0), (3, 0.2, 5, 0.01, 0), (1, 1, 40, 0.001, 0.4),
+                                            (0.01, 5, 1, 0.02, -0.9), (1, 1, -5, 0.005, 1.2)):
+        model = {"nodes": {"O": [0, 0], "B": turned([length, 0], turn)}, "supports": {"O": ["x", "y"]},
+                 "point_masses": {"b": {"node": "B", "mass_kg": mass}}, "gravity_m_s2": [0, -9.81],
+                 "rigid_bodies": {"arm": {"reference": "O", "nodes": ["B"]}}}
+        drive = {"mot": {"node": "O", "motion": "rotation", "law": {"constant_speed": {"speed_per_s": speed}}}}
+        for scheme in ("energy-momentum", "generalized-alpha"):
+            analysis = {"large-motion": {"end_time_s": 0.2, "step_s": step, "drives": drive, "integrator": scheme,
+                                         "initial_velocities": {"O": {"rotation_rad_per_s": speed}}}}
+            yield Neighbor("torque of energy-momentum", f"{scheme}, {mass} kg, {length} m, {speed} rad/s, step {step} s", model,
+                           analysis, "drive_torque_N_m:mot", mass * 9.81 * length * math.cos(turn + 0.2 * speed),
+                           1e-5 if scheme == "energy-momentum" else (speed * step) ** 2)
+
+
+def stresses():
+    """A bar that hangs in a pull without moment: the force at its root over the area, beside the element's own share."""
+    for turn in (0.0, 0.3, 0.7, -0.87, 1.3, math.pi / 2):
+        model = {"materials": {"soft": {"E_Pa": 1e6, "rho_kg_m3": 1000, "nu": 0.3}},
+                 "sections": {"s": {"material": "soft", "area_m2": 0.01, "second_moment_m4": 1e-5}},
+                 "nodes": {"A": [0, 0], "B": turned([2, 0], turn)}, "supports": {"A": ["x", "y", "rotation"]},
+                 "members": {"AB": {"nodes": ["A", "B"], "section": "s", "elements": 2}},
+                 "loads": {"P": {"node": "B", "force_N": turned([0.05, 0], turn)}}}
+        yield Neighbor("stress with a rounded moment", f"turned {turn:.3g} rad", model, {"statics": {}}, "stress_Pa:AB", 5.0)
+
+
+def rests():
+    """A drive that has come to rest."""
+    for step, radius, travel, inertia in ((1e-3, 0.9, 1, 0.1), (1e-4, 0.9, 1, 0.1), (1e-3, 0.0, 1, 0.1), (1e-3, 0.5, 1e-3, 1e-6),
+                                          (2e-3, 1.0, -3, 40), (1e-3, 0.8, 1, 1e-9)):
+        model = {"nodes": {"H": [0, 0]}, "supports": {"H": ["x", "y"]},
+                 "point_masses": {"B": {"node": "H", "mass_kg": 1, "inertia_kg_m2": inertia}}}
+        drive = {"d": {"node": "H", "motion": "rotation", "law": {"rest_to_rest": {"travel": travel, "duration_s": 0.5}}}}
+        analysis = {"large-motion": {"end_time_s": 1.0, "step_s": step, "output_step_s": 0.1, "spectral_radius": radius,
+                                     "drives": drive}}
+        yield Neighbor("drive that comes to rest", f"step {step} s, spectral radius {radius}, {inertia} kg m2", model, analysis,
+                       "rotation_rad:H", travel)
+
+
+def small_models():
+    """A model of springs and masses in every size."""
+    for size in (1.0, 0.3, 1e-2, 1e-3, 1e3, 1e5):
+        length = 0.5 * size
+        model = {"nodes": {"O": [0, 0], "D": [length, 0]}, "supports": {"O": ["x", "y"], "D": ["x"]},
+                 "point_masses": {"D": {"node": "D", "mass_kg": 1.0}},
+                 "sliders": {"d": {"node": "D", "rail": "O", "direction_rad": 0}},
+                 "springs": {"O": {"nodes": ["O"], "rotational_stiffness_N_m_per_rad": 30.0 * size ** 2}}}
+        right = math.sqrt(30 / 0.25) / (2 * math.pi)
+        yield Neighbor("small models", f"size {size:g}", model, {"large-statics": {"vibration_modes": 1}}, "frequency_Hz", right)
+
+
+def mechanisms():
+    """An arm that turns freely, pulled: singular, and named."""
+    for turn, pull in ((0, 1), (0.4, 1), (1.1, 1e-6), (-2.2, 1e4), (3.0, -1)):
+        model = {"materials": STEEL, "sections": BAR, "supports": {"P": ["x", "y", "rotation"]},
+                 "nodes": {n: turned(p, turn) for n, p in {"P": [0, 0], "Q": [2, 0], "R": [2.3, 0.2]}.items()},
+                 "members": {"PQ": {"nodes": ["P", "Q"], "section": "b", "elements": 2, "ends": ["welded", "hinged"]},
+                             "QR": {"nodes": ["Q", "R"], "section": "b"}},
+                 "loads": {"pull": {"node": "Q", "force_N": turned([pull, 0], turn)}}}
+        yield Neighbor("mechanism in large statics", f"turned {turn} rad, {pull:g} N", model, {"large-statics": {}},
+                       "status", "singular: free motion: rotation of node Q")
+
+
+def tails():
+    """A massless tail changes nothing: sqrt(k / (m L^2 / 3)) / 2 pi of a rigid arm with lumped ends."""
+    for spring, length, angle in ((0.05, 0.18, 0.29), (0.05, 2.0, 1.0), (5.0, 0.01, -2.0), (1e-3, 0.4, 3.0), (500.0, 0.3, 0.1)):
+        mass = 1000 * 0.01 * 1.2
+        stiff = {"E_Pa": 1e13, "rho_kg_m3": 1000, "nu": 0.3}
+        section = {"area_m2": 0.01, "second_moment_m4": 1e-5}
+        model = {"materials": {"m": stiff, "light": dict(stiff, rho_kg_m3=0)},
+                 "sections": {"s": dict(section, material="m"), "t": dict(section, material="light")},
+                 "nodes": {"O": [0, 0], "E": [1.2, 0], "T": [1.2 + length * math.cos(angle), length * math.sin(angle)]},
+                 "springs": {"O": {"nodes": ["O"], "rotational_stiffness_N_m_per_rad": spring}}, "supports": {"O": ["x", "y"]},
+                 "members": {"OE": {"nodes": ["O", "E"], "section": "s", "mass_matrix": "lumped", "axial": "inextensible"},
+                             "ET": {"nodes": ["E", "T"], "section": "t"}},
+                 "loads": {"O": {"node": "O", "force_N": [1, 0]}}}
+        right = math.sqrt(spring / (mass * 1.2 ** 2 / 3)) / (2 * math.pi)
+        yield Neighbor("massless tail", f"{spring:g} N m/rad, tail of {length} m at {angle} rad", model,
+                       {"large-statics": {"vibration_modes": 1}}, "frequency_Hz", right, 2e-4)
+
+
+def reduced_members():
+    """Section forces of a reduced cantilever under line loads at 0 Hz: q L at the clamp."""
+    for axial, across, elements, modes, turn in ((40, -300, 8, 2, 0), (40, -300, 8, 0, 0.6), (-7, 1e3, 4, 1, -1.1), (1e4, 1, 16, 4, 2.5),
+                                                 (0, 50, 2, 1, 0.2)):
+        model = {"materials": STEEL, "sections": BAR, "nodes": {"A": [0, 0], "B": turned([2, 0], turn)},
+                 "supports": {"A": ["x", "y", "rotation"]},
+                 "members": {"AB": {"nodes": ["A", "B"], "section": "b", "elements": elements,
+                                    "load_N_per_m": turned([axial, across], turn)}}}
+        analysis = {"harmonic": {"from_Hz": 0, "to_Hz": 1, "points": 2, "reduction": {"fixed_interface_modes": modes},
+                                 "outputs": ["axial_force_N:AB.start", "shear_force_N:AB.start"]}}
+        for output, load in (("axial_force_N:AB.start", axial), ("shear_force_N:AB.start", across)):
+            yield Neighbor("reduced member under a load", f"{output}, {elements} elements, {modes} modes, turned {turn} rad", model,
+                           analysis, output, 2.0 * abs(load), 1e-6, 0)
+
+
+def free_arms():
+    """An arm on which no load acts is neither stable nor unstable."""
+    for turn, place, elements in ((0, 0, 4), (0.9, 0, 4), (-1.7, 3, 2), (0.3, -20, 4), (2.6, 0.7, 6)):
+        nodes = {"A": [0.0, 0.0], "B": [0.5, 0.0], "C": [0.9, 0.3]}
+        section = {"s": {"material": "steel", "rectangle": {"thickness_m": 0.02, "width_m": 0.02}}}
+        model = {"materials": STEEL, "sections": section, "supports": {"A": ["x", "y", "rotation"]},
+                 "nodes": {n: [c + place for c in turned(p, turn)] for n, p in nodes.items()},
+                 "members": {"AB": {"nodes": ["A", "B"], "section": "s", "elements": elements},
+                             "BC": {"nodes": ["B", "C"], "section": "s", "elements": elements, "ends": ["hinged", "welded"]}},
+                 "loads": {"l": {"node": "B", "force_N": turned([1e-5, 0.0], turn)}}}
+        what = f"turned {turn} rad, moved {place} m, {elements} elements"
+        for quantity in ("unstable_directions", "frequency_Hz"):
+            yield Neighbor("free part", f"{quantity}, {what}", model, {"large-statics": {"vibration_modes": 2}}, quantity, 0.0, 1e-9,
+                           0)
+
+
+def redundant():
+    """Parallel cranks that a coupler joins: every crank beyond the second is redundant."""
+    for cranks, turn, kind in ((3, 0.0, "large-motion"), (4, 0.5, "large-motion"), (3, -1.3, "large-statics"),
+                               (5, 0.2, "large-statics"), (3, 0.8, "energy-momentum")):
+        nodes, bodies, masses, pins, supports = {}, {}, {}, {}, {}
+        for i in range(cranks):
+            nodes |= {f"O{i}": [i, 0], f"K{i}": [i, 0.5], f"T{i}": [i, 0.5]}
+            bodies[f"crank{i}"] = {"reference": f"O{i}", "nodes": [f"K{i}"]}
+            masses[f"crank{i}"] = {"node": f"O{i}", "mass_kg": 1, "inertia_kg_m2": 0.2}
+            pins[f"pin{i}"], supports[f"O{i}"] = {"nodes": [f"K{i}", f"T{i}"]}, ["x", "y"]
+        bodies["coupler"] = {"reference": "T0", "nodes": [f"T{i}" for i in range(1, cranks)]}
+        masses["coupler"] = {"node": "T1", "mass_kg": 3, "inertia_kg_m2": 0.1}
+        model = {"nodes": {n: turned(p, turn) for n, p in nodes.items()}, "rigid_bodies": bodies, "point_masses": masses,
+                 "pins": pins, "supports": supports}
+        if kind == "large-statics":
+            model["springs"] = {"s": {"nodes": ["O0"], "rotational_stiffness_N_m_per_rad": 10}}
+            model["loads"] = {"push": {"node": "K0", "force_N": turned([1, 0], turn)}}
+            analysis = {"large-statics": {}}
+        else:
+            model["follower_loads"] = {"push": {"node": "K0", "force_N": turned([4, 0], turn)}}
+            analysis = {"large-motion": {"end_time_s": 0.1, "step_s": 0.01}}
+            if kind == "energy-momentum":
+                analysis["large-motion"]["integrator"] = kind
+        yield Neighbor("redundant reactions", f"{cranks} cranks, turned {turn} rad, {kind}", model, analysis, "warning",
+                       f"the number of redundant constraints is {cranks - 2}")
+
+
+def coarse():
+    """Meshes that are too coarse for the highest mode or for a taper."""
+    cantilever = {"materials": STEEL, "sections": BAR, "nodes": {"A": [0, 0], "B": [2, 0]}, "supports": {"A": ["x", "y", "rotation"]}}
+    tip = {"t": {"material": "steel", "rectangle": {"thickness_m": 0.01, "width_m": 0.05}}}
+    for elements, modes, warned in ((1, 1, True), (1, 3, True), (2, 4, True), (16, 3, False), (32, 4, False)):
+        member = {"AB": {"nodes": ["A", "B"], "section": "b", "elements": elements}}
+        yield Neighbor("coarse mesh", f"modes, {elements} elements, {modes} modes", dict(cantilever, members=member),
+                       {"modes": {"count": modes}}, "warning", "dimensionless wave number" if warned else "none")
+    for elements, kind, warned in ((1, "statics", True), (2, "statics", True), (2, "buckling", True), (1, "modes", True),
+                                   (64, "statics", False)):
+        member = {"AB": {"nodes": ["A", "B"], "section": "b", "end_section": "t", "elements": elements}}
+        model = dict(cantilever, members=member, sections=BAR | tip, loads={"p": {"node": "B", "force_N": [-1, 0]}})
+        options = {"statics": {}, "buckling": {"count": 1}, "modes": {"count": 1}}[kind]
+        yield Neighbor("coarse mesh", f"{kind} of a taper, {elements} elements", model, {kind: options}, "warning",
+                       "ratio of stiffness at the ends of an element" if warned else "none")
+
+
+KINDS = (branches, torques, stresses, rests, small_models, mechanisms, tails, reduced_members, free_arms, redundant, coarse)
+
+
+def main():
+    neighbors = [n for kind in KINDS for n in kind()]
+    missed = 0
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        files = []
+        for i, neighbor in enumerate(neighbors):
+            files.append(folder / f"n{i}.json")
+            files[-1].write_text(json.dumps({"id": f"n{i}", "title": neighbor.kind, "model": neighbor.model,
+                                             "analysis": neighbor.analysis}))
+        answer = subprocess.run([sys.argv[1], "run", *files, "--out", folder / "out"], capture_output=True, text=True, check=False)
+        if not (folder / "out" / "results.json").exists():
+            print(answer.stderr)
+            return 1
+        runs = {run["case"]: run for run in json.loads((folder / "out" / "results.json").read_text())["runs"]}
+        print("| kind | neighbor | obtained | right |\n|---|---|---|---|")
+        for i, neighbor in enumerate(neighbors):
+            value = neighbor.obtained(runs[f"n{i}"], folder / "out")
+            shown = value[:60] if isinstance(value, str) else f"{value:.9g}"
+            right = neighbor.right if isinstance(neighbor.right, str) else f"{neighbor.right:.9g}"
+            missed += not neighbor.agrees(value)
+            print(f"| {neighbor.kind} | {neighbor.what} | {shown} | {right} |{'' if neighbor.agrees(value) else ' MISSED'}")
+    print(f"{len(neighbors)} neighbors, {missed} missed")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
