@@ -268,6 +268,10 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     return found;
   }
   const MatrixXd M = mass_matrix(system, state), L = mass_factor(M);
+  if (L.cols() == 0) {
+    found.outcome = {Status::singular, "nothing vibrates, for nothing that moves has mass"};
+    return found;
+  }
   Spectrum modes = spectrum(K, L, 0, system.symmetric());
   std::optional<ShiftedStiffness> stiffened;
   double above = lowest_above_soft(modes);

@@ -63,6 +63,16 @@ BOOST_AUTO_TEST_CASE(a_hanging_pendulum_swings_by_its_weight_alone) {
              boost::test_tools::tolerance(1e-10));
 }
 
+BOOST_AUTO_TEST_CASE(without_mass_nothing_vibrates) {
+  Model model = elastica(4);
+  for (Section* section : {&model.members[0].section, &model.members[0].end_section})
+    section->mass_per_length = section->inertia_per_length = 0;
+  const GeometricallyExactSystem system(model);
+  const SmallVibration found = large_motion::small_vibration(system, system.reference_state(), 1);
+  BOOST_TEST((found.outcome.status == Status::singular));
+  BOOST_TEST(found.outcome.reason == "nothing vibrates, for nothing that moves has mass");
+}
+
 BOOST_AUTO_TEST_CASE(a_force_that_keeps_its_direction_buckles_and_one_that_follows_flutters) {
   const double euler = std::pow(std::numbers::pi / 2, 2);
   const SmallVibration dead = loaded_column(1.1 * euler, false);
