@@ -274,10 +274,11 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   }
   Spectrum modes = spectrum(K, L, 0, system.symmetric());
   std::optional<ShiftedStiffness> stiffened;
-  double above = lowest_above_soft(modes);
-  if (above == 0 && !modes.x.empty()) {
+  double above = 0;
+  if (!modes.x.empty()) {
     const Extended lowest = K.solve((M * modes.x.front().real()).cast<long double>());
-    if (K.energy_over_roundoff(lowest) <= 1) above = lowest_above_free(system, state, L, modes);
+    above = K.energy_over_roundoff(lowest) <= 1 ? lowest_above_free(system, state, L, modes)
+                                                : lowest_above_soft(modes);
   }
   if (above > 0) {
     stiffened.emplace(system, state, -above);
