@@ -4,7 +4,6 @@
 
 #include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
-#include "solver/sensitivity/frequency_complex_step.h"
 #include "solver/sensitivity/frequency_differences.h"
 
 namespace trammel::harness {
@@ -16,17 +15,10 @@ struct Named {
 };
 
 std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& case_model) {
-  const auto method = analysis.find("method");
-  const bool complex = method && method->json() == "complex-step";
   std::vector<Named> read;
   for (const auto& [name, place] : analysis["parameters"].entries()) {
     read.push_back({name, read_design_parameter(place)});
-    const solver::DesignParameter& parameter = read.back().parameter;
-    if (complex && !solver::is_seeded(parameter.kind))
-      throw place["property"].error(
-          "expected another 'method': complex-step knows lengths, "
-          "thickness, width, E and density");
-    if (!(solver::parameter_value(*case_model.manipulator, parameter) > 0))
+    if (!(solver::parameter_value(*case_model.manipulator, read.back().parameter) > 0))
       throw place["property"].error("expected a property that the manipulator has");
   }
   return read;
@@ -63,11 +55,6 @@ Derivatives derive_by(const JsonView& method, const CaseModel& case_model,
                       const std::vector<solver::DesignParameter>& parameters, solver::Index count) {
   const solver::ManipulatorDesign& design = *case_model.manipulator;
   const solver::Pose& pose = case_model.motion.front().pose;
-  if (method.json() == "complex-step") {
-    const solver::FrequencyComplexStep found =
-        solver::differentiate_by_complex_step(design, pose, parameters, count);
-    return {found.outcome, found.evidence, found.frequency, found.derivative, found.counters};
-  }
   if (method.json() == "extrapolated-differences") {
     return one_by_one(parameters, [&](const solver::DesignParameter& parameter) {
       return solver::differentiate_frequencies(design, pose, parameter, count);

@@ -186,24 +186,16 @@ Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
 
 template double shear_ratio(const SectionOf<double>&, BeamTheory, const double&);
 template Dual shear_ratio(const SectionOf<Dual>&, BeamTheory, const Dual&);
-template Complex shear_ratio(const SectionOf<Complex>&, BeamTheory, const Complex&);
 template Matrix36<double> frame_deformation_matrix(const Eigen::Vector2<double>&, const double&);
 template Matrix36<Dual> frame_deformation_matrix(const Eigen::Vector2<Dual>&, const Dual&);
-template Matrix36<Complex> frame_deformation_matrix(const Eigen::Vector2<Complex>&, const Complex&);
 template Eigen::Vector3<double> frame_rigidity(const SectionOf<double>&, BeamTheory, const double&);
 template Eigen::Vector3<Dual> frame_rigidity(const SectionOf<Dual>&, BeamTheory, const Dual&);
-template Eigen::Vector3<Complex> frame_rigidity(const SectionOf<Complex>&, BeamTheory,
-                                                const Complex&);
 template Matrix36<double> frame_interpolation(const double&, const double&, double);
 template Matrix36<Dual> frame_interpolation(const Dual&, const Dual&, double);
-template Matrix36<Complex> frame_interpolation(const Complex&, const Complex&, double);
 template Matrix6<double> frame_mass(const SectionOf<double>&, BeamTheory, MassMatrix,
                                     const double&);
 template Matrix6<Dual> frame_mass(const SectionOf<Dual>&, BeamTheory, MassMatrix, const Dual&);
-template Matrix6<Complex> frame_mass(const SectionOf<Complex>&, BeamTheory, MassMatrix,
-                                     const Complex&);
 template Matrix6<double> frame_rotation(const Eigen::Vector2<double>&);
 template Matrix6<Dual> frame_rotation(const Eigen::Vector2<Dual>&);
-template Matrix6<Complex> frame_rotation(const Eigen::Vector2<Complex>&);
 
 }  // namespace trammel::solver

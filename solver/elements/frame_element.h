@@ -20,7 +20,7 @@
 /// taken from d keep the digits of bending beside a much stiffer axial part; the entries of k in
 /// world axes do not.
 ///
-/// Functions of T exist for double, Dual and Complex.
+/// Functions of T exist for double and Dual.
 namespace trammel::solver {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;

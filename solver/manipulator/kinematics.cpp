@@ -46,7 +46,6 @@ T not_negative(const T& x) {
 
 template <Real T>
 LimbAngles<T> solve_limb(const T& a, const T& b, double r) {
-  using solver::atan2;
   using std::atan2;
   using std::sqrt;
   const T stretch = not_negative<T>((a + b) - r);
@@ -172,8 +171,6 @@ template Eigen::Vector2<double> elbow_position(const Vector2d&, const Vector2d&,
                                                const double&, int);
 template Eigen::Vector2<Dual> elbow_position(const Vector2d&, const Vector2d&, const Dual&,
                                              const Dual&, int);
-template Eigen::Vector2<Complex> elbow_position(const Vector2d&, const Vector2d&, const Complex&,
-                                                const Complex&, int);
 
 ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
                                      const std::array<double, 3>& active, const Pose& start) {

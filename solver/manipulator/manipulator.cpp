@@ -260,16 +260,12 @@ PlatformMass platform_mass(const ManipulatorDesign& design) {
 
 template double link_mass(const LinkDesignOf<double>&, const double&);
 template Dual link_mass(const LinkDesignOf<Dual>&, const Dual&);
-template Complex link_mass(const LinkDesignOf<Complex>&, const Complex&);
 template SectionOf<double> link_section(const LinkDesignOf<double>&, const double&);
 template SectionOf<Dual> link_section(const LinkDesignOf<Dual>&, const Dual&);
-template SectionOf<Complex> link_section(const LinkDesignOf<Complex>&, const Complex&);
 template PlatformMassOf<double> platform_mass(const PlatformDesignOf<double>&,
                                               const std::array<Vector2d, 3>&);
 template PlatformMassOf<Dual> platform_mass(const PlatformDesignOf<Dual>&,
                                             const std::array<Vector2d, 3>&);
-template PlatformMassOf<Complex> platform_mass(const PlatformDesignOf<Complex>&,
-                                               const std::array<Vector2d, 3>&);
 
 Model build_manipulator(const ManipulatorDesign& design, const Pose& pose) {
   const Posture posture = inverse_kinematics(design.geometry, pose);

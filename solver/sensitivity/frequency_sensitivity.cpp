@@ -64,8 +64,7 @@ void differentiate_numerically(const ManipulatorDesign& design, const Pose& pose
 /// Derivatives of one set of equal frequencies by the parameters with a seeded design.
 /// @param shown  of the set, the first
 Outcome differentiate_set(const System& system, const ModalSolution& modes, const FrequencySet& set,
-                          Index shown,
-                          const std::vector<std::optional<SeededDesign<Dual>>>& designs,
+                          Index shown, const std::vector<std::optional<SeededDesign>>& designs,
                           FrequencySensitivity& result) {
   const double omega = 2 * std::numbers::pi * modes.frequency[set.first];
   const MatrixXd U = system.T * modes.shape.middleCols(set.first, set.count);
@@ -107,7 +106,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
   result.gap = VectorXd::Constant(kept, std::numeric_limits<double>::infinity());
   if (!modes.outcome.solved()) return result;
 
-  std::vector<std::optional<SeededDesign<Dual>>> designs(parameters.size());
+  std::vector<std::optional<SeededDesign>> designs(parameters.size());
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (is_seeded(parameters[p].kind)) designs[p].emplace(design, posture, parameters[p]);
   }

@@ -35,7 +35,7 @@ SetDerivative::SetDerivative(const System& system, const MatrixXd& U, double ome
   }
 }
 
-MatrixXd SetDerivative::of(const SeededDesign<Dual>& design) const {
+MatrixXd SetDerivative::of(const SeededDesign& design) const {
   MatrixXd sum = MatrixXd::Zero(U_.cols(), U_.cols());
   for (const FrameElement& e : system_.mesh.frame) add_element(e, design.link(e.member), sum);
   if (inextensible_) add_constraints(design, sum);
@@ -43,7 +43,7 @@ MatrixXd SetDerivative::of(const SeededDesign<Dual>& design) const {
   return (sum + sum.transpose()) / 2;
 }
 
-void SetDerivative::add_element(const FrameElement& e, const SeededLink<Dual>& link,
+void SetDerivative::add_element(const FrameElement& e, const SeededLink& link,
                                 MatrixXd& sum) const {
   const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
   const Eigen::Matrix<double, 6, Eigen::Dynamic> local = gather_modes(e.coordinates, U_);
@@ -75,12 +75,12 @@ void SetDerivative::add_element(const FrameElement& e, const SeededLink<Dual>& l
 }
 
 /// With C u = 0 and C depending on p, the eliminated coordinates move: - mu^T dC/dp u, twice.
-void SetDerivative::add_constraints(const SeededDesign<Dual>& design, MatrixXd& sum) const {
+void SetDerivative::add_constraints(const SeededDesign& design, MatrixXd& sum) const {
   for (std::size_t r = 0; r < system_.constraints.rows.size(); ++r) {
     const ConstraintRow& row = system_.constraints.rows[r];
     if (row.source != ConstraintRow::Source::inextensible) continue;
     const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(row.index)];
-    const SeededLink<Dual>& link = design.link(e.member);
+    const SeededLink& link = design.link(e.member);
     const Vector2d turn(derivative(link.direction.x()), derivative(link.direction.y()));
     const Eigen::Matrix<double, 6, Eigen::Dynamic> u = gather_modes(e.coordinates, U_);
     const Eigen::RowVectorXd gap = turn.transpose() * (u.middleRows<2>(3) - u.topRows<2>());
@@ -89,7 +89,7 @@ void SetDerivative::add_constraints(const SeededDesign<Dual>& design, MatrixXd& 
   }
 }
 
-void SetDerivative::add_platform(const SeededDesign<Dual>& design, MatrixXd& sum) const {
+void SetDerivative::add_platform(const SeededDesign& design, MatrixXd& sum) const {
   const double stiffness = design.log_stiffness_derivative();
   const double mass = design.log_mass_derivative();
   if (stiffness == 0 && mass == 0) return;

@@ -13,12 +13,12 @@ class SetDerivative {
   SetDerivative(const System& system, const Eigen::MatrixXd& U, double omega_squared);
 
   /// @returns mode x mode, symmetric; not finite where a limb is straight or folded
-  [[nodiscard]] Eigen::MatrixXd of(const SeededDesign<Dual>& design) const;
+  [[nodiscard]] Eigen::MatrixXd of(const SeededDesign& design) const;
 
  private:
-  void add_element(const FrameElement& e, const SeededLink<Dual>& link, Eigen::MatrixXd& sum) const;
-  void add_constraints(const SeededDesign<Dual>& design, Eigen::MatrixXd& sum) const;
-  void add_platform(const SeededDesign<Dual>& design, Eigen::MatrixXd& sum) const;
+  void add_element(const FrameElement& e, const SeededLink& link, Eigen::MatrixXd& sum) const;
+  void add_constraints(const SeededDesign& design, Eigen::MatrixXd& sum) const;
+  void add_platform(const SeededDesign& design, Eigen::MatrixXd& sum) const;
 
   const System& system_;
   const Eigen::MatrixXd& U_;

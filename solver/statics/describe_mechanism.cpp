@@ -1,69 +1,96 @@
 #include "solver/statics/describe_mechanism.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
-#include "solver/model/plane.h"
-#include "solver/statics/free_motions.h"
+#include "solver/assembly/length_scales.h"
 
 namespace trammel::solver {
 namespace {
 
-constexpr std::size_t kMaxParts = 3;  // of one mode
-constexpr std::size_t kMaxModes = 6;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-/// @param size  what lies a million times below it is 0
-std::string pair_of(const Vector2d& value, double size) {
-  char text[64];
-  const auto rounded = [size](double x) { return std::abs(x) < 1e-6 * size ? 0 : x; };
-  std::snprintf(text, sizeof text, "(%.4g, %.4g)", rounded(value.x()), rounded(value.y()));
-  return text;
-}
+constexpr std::size_t kMaxEntries = 3;  // of one mode
+constexpr Index kMaxMotions = 6;
+/// Entries below this share of the largest are round-off, and so are differences of equal ones.
+constexpr double kRoundoff = 1e-6;
 
-std::string axis_of(const Vector2d& direction) {
-  if (std::abs(direction.y()) < 1e-6) return "x";
-  if (std::abs(direction.x()) < 1e-6) return "y";
-  return pair_of(direction, 1);
-}
+/// A coordinate that has a name, and its row of u.
+struct NamedRow {
+  std::string name;
+  Index row;
+};
 
-/// All that is said of a motion.
-std::string message(const FreeMotion& motion, double model_size) {
-  using Kind = FreeMotion::Kind;
-  const std::string& part = motion.part;
-  switch (motion.kind) {
-    case Kind::in_plane:
-      return part + " moves freely in the plane (along x, along y and in rotation)";
-    case Kind::in_translation:
-      return part + " moves freely along x and along y";
-    case Kind::along:
-      return part + " moves freely along " + axis_of(motion.vector);
-    case Kind::about:
-      return "rotation of " + part + " about " + pair_of(motion.vector, model_size) + " m";
-    case Kind::turning:
-      return part + " turns freely";
+std::vector<NamedRow> named_rows(const System& system) {
+  const Model& model = system.model;
+  std::vector<NamedRow> rows;
+  const auto add = [&rows](const std::string& name, Index row) {
+    if (row >= 0) rows.push_back({name, row});
+  };
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const std::string node = "node " + model.nodes[i].name;
+    const std::array<Index, 3>& of_node = system.coordinates.node[i];
+    add(node + " along x", of_node[0]);
+    add(node + " along y", of_node[1]);
+    add("rotation of " + node, of_node[2]);
   }
-  return part;
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    const std::array<Index, 2>& ends = system.coordinates.member_end[i];
+    add("rotation of the start of member " + model.members[i].name, ends[0]);
+    add("rotation of the end of member " + model.members[i].name, ends[1]);
+  }
+  return rows;
 }
 
-std::string listed(const std::vector<std::string>& messages, std::size_t most) {
+/// The first of the largest entries, but for round-off.
+Index first_largest(const VectorXd& x) {
+  const double enough = (1 - kRoundoff) * x.cwiseAbs().maxCoeff();
+  Index i = 0;
+  while (std::abs(x[i]) < enough) ++i;
+  return i;
+}
+
+/// Reduced echelon form of the columns: each has 1 where the others have 0.
+void reduce(MatrixXd& U) {
+  for (Index j = 0; j < U.cols(); ++j) {
+    const Index pivot = first_largest(U.col(j));
+    if (U(pivot, j) == 0) continue;
+    U.col(j) /= U(pivot, j);
+    for (Index k = 0; k < U.cols(); ++k)
+      if (k != j) U.col(k) -= U(pivot, k) * U.col(j);
+  }
+}
+
+std::string describe(const VectorXd& mode, const std::vector<NamedRow>& rows) {
+  VectorXd left = mode / mode[first_largest(mode)];
   std::string text;
-  for (std::size_t i = 0; i < messages.size() && i < most; ++i)
-    text += (i ? "; " : "") + messages[i];
-  if (messages.size() > most) text += "; and " + std::to_string(messages.size() - most) + " more";
+  for (std::size_t entry = 0; entry < std::min(kMaxEntries, rows.size()); ++entry) {
+    const Index i = first_largest(left);
+    if (std::abs(left[i]) < kRoundoff) break;
+    char value[32];
+    std::snprintf(value, sizeof value, " %.3g", left[i]);
+    text += (entry > 0 ? ", " : "free motion: ") + rows[to_size(i)].name + value;
+    left[i] = 0;
+  }
   return text;
 }
 
 }  // namespace
 
 std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes) {
-  const double size = box_diagonal(system.mesh.positions);
-  std::vector<std::string> of_modes;
-  for (const std::vector<FreeMotion>& motions : find_free_motions(system, modes.basis)) {
-    std::vector<std::string> of_parts;
-    for (const FreeMotion& motion : motions) of_parts.push_back(message(motion, size));
-    of_modes.push_back(listed(of_parts, kMaxParts));
-  }
-  std::string text = listed(of_modes, kMaxModes);
+  const std::vector<NamedRow> rows = named_rows(system);
+  const MatrixXd u = free_length_scales(system) * modes.basis;
+  MatrixXd U(std::ssize(rows), u.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) U.row(static_cast<Index>(i)) = u.row(rows[i].row);
+  if (U.size() > 0) reduce(U);
+  std::string text;
+  for (Index j = 0; j < std::min(U.cols(), kMaxMotions); ++j)
+    text += (j > 0 ? "; " : "") + describe(U.col(j), rows);
+  if (U.cols() > kMaxMotions) text += "; and " + std::to_string(U.cols() - kMaxMotions) + " more";
   if (!modes.all_found) text += "; and others";
   return text;
 }

@@ -6,7 +6,9 @@
 
 namespace trammel::solver {
 
-/// "rotation of the platform about (0.25, 0.144) m; node B turns freely"; empty without modes.
+/// "free motion: node B along x 1, rotation of node A -0.5"; several are separated by semicolons.
+/// Empty without modes. Each names its three largest entries, rotations times the model's size,
+/// relative to the largest; the motions are those of the basis in echelon form, which have few.
 [[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
 }  // namespace trammel::solver

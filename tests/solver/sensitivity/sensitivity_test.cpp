@@ -2,7 +2,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "solver/sensitivity/frequency_complex_step.h"
 #include "solver/sensitivity/sensitivity_map.h"
 #include "solver/sensitivity/workspace_curves.h"
 #include "tests/support/solver/sensitivity_differences.h"
@@ -100,30 +99,6 @@ BOOST_AUTO_TEST_CASE(every_variant_of_the_model_agrees_with_differences) {
   }
 }
 
-/// Two routes that share the elements' functions, but not how an eigenvalue's derivative is found.
-BOOST_AUTO_TEST_CASE(complex_steps_of_the_eigenvalue_problem_agree_with_its_energies) {
-  std::vector<ManipulatorDesign> designs(3, coarse_design());
-  designs[1].platform.kind = PlatformKind::rigid;
-  for (LinkDesign& link : designs[1].proximal) link.theory = BeamTheory::timoshenko;
-  designs[2].active.fill({ActiveKind::sprung, 5});
-  for (LinkDesign& link : designs[2].distal) link.mass_matrix = MassMatrix::lumped;
-  const std::vector<DesignParameter> parameters = {all(Kind::length), all(Kind::thickness),
-                                                   all(Kind::E), all(Kind::density),
-                                                   one_length(1, false)};
-  const Pose pose{0.26, 0.15, 0.1};
-  for (const ManipulatorDesign& design : designs) {
-    const FrequencySensitivity energies = frequency_sensitivity(design, pose, parameters, 6);
-    const FrequencyComplexStep steps = differentiate_by_complex_step(design, pose, parameters, 6);
-    BOOST_TEST_REQUIRE(steps.outcome.solved());
-    for (Index p = 0; p < energies.derivative.cols(); ++p) {
-      const double scale = energies.derivative.col(p).cwiseAbs().maxCoeff();
-      const double off =
-          (steps.derivative.col(p) - energies.derivative.col(p)).cwiseAbs().maxCoeff();
-      BOOST_TEST(off < 1e-9 * scale);
-    }
-  }
-}
-
 /// A frequency goes with the root of all stiffness, and with one over the root of all inertia.
 BOOST_AUTO_TEST_CASE(derivatives_with_every_parameter_add_up_as_dimensions_say) {
   ManipulatorDesign design = coarse_design();
@@ -165,17 +140,6 @@ BOOST_AUTO_TEST_CASE(what_a_design_lacks_has_no_value_and_none_is_changed_but_wh
   const DesignInPose turned = perturbed(design, pose, {.kind = Kind::orientation}, 0.2);
   BOOST_TEST(turned.pose.phi == pose.phi + 0.2);
   BOOST_TEST(turned.design.geometry.base[1] == design.geometry.base[1]);
-}
-
-BOOST_AUTO_TEST_CASE(complex_steps_say_where_they_cannot_tell) {
-  ManipulatorDesign design = coarse_design();
-  const FrequencyComplexStep repeated =
-      differentiate_by_complex_step(design, centred_pose(0.1), {all(Kind::length)}, 6);
-  BOOST_TEST(static_cast<int>(repeated.outcome.status) == static_cast<int>(Status::singular));
-  design.proximal[0].axially_flexible = false;
-  BOOST_CHECK_THROW(
-      (void)differentiate_by_complex_step(design, {0.26, 0.15, 0.1}, {all(Kind::length)}, 6),
-      ModelError);
 }
 
 BOOST_AUTO_TEST_CASE(difference_quotients_are_of_first_and_second_order) {
