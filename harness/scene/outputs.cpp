@@ -77,6 +77,14 @@ Output read_output(const JsonView& place, const solver::Model& model) {
     part.resize(dot);
   }
   output.item = find_part(place, model.members, part, "member");
+  const solver::Member& member = model.members[solver::to_size(output.item)];
+  const bool has_depth =
+      member.section.section_modulus > 0 && member.end_section.section_modulus > 0;
+  if (output.kind != Output::Kind::resultant && !has_depth) {
+    throw place.error(
+        "expected a member whose sections have a depth: a shape, or 'half_depth_m' "
+        "beside 'area_m2'");
+  }
   return output;
 }
 
