@@ -29,7 +29,6 @@
 #include "harness/cli/command_references.h"
 #include "harness/cli/command_run.h"
 #include "harness/cli/command_shards.h"
-#include "harness/input/former_names.h"
 #include "harness/printing/printable_stream.h"
 #include "trammel_build.h"
 
@@ -103,7 +102,7 @@ class CommandLine {
       std::vector<std::string> names;
       for (const Command& command : kCommands) names.emplace_back(command.name);
       return "expected a command (got '" + printable(first) + "')" +
-             did_you_mean(current_command(first), names);
+             did_you_mean(first, names);
     }
     std::string line = printable(error.what(), 200);
     return line + " (see trammel " + (is_command(first) ? first + " " : "") + "--help)";

@@ -7,7 +7,6 @@
 
 #include "harness/base/contains.h"
 #include "harness/base/text.h"
-#include "harness/input/former_names.h"
 
 namespace trammel::harness {
 namespace {
@@ -152,7 +151,7 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
     const bool known = contains(allowed, item.key());
     if (allowed.empty() || known) continue;
     path.push_back(item.key());
-    const std::string guess = did_you_mean(current_key(path), allowed);
+    const std::string guess = did_you_mean(item.key(), allowed);
     return {pointer_to(path),
             "expected no key of that name" +
                 (guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess)};

@@ -7,7 +7,6 @@
 
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
-#include "harness/input/former_names.h"
 #include "harness/judge/evaluate_order_check.h"
 
 namespace trammel::harness {
@@ -48,7 +47,7 @@ const std::vector<double>& find_quantity(const Quantities& quantities, const std
                                          const std::string& where) {
   const auto found = quantities.find(name);
   if (found != quantities.end()) return found->second.values;
-  const std::string guess = did_you_mean(current_quantity(name), names_of(quantities));
+  const std::string guess = did_you_mean(name, names_of(quantities));
   throw NotComparable{
       "no quantity '" + name + "'" + where + (guess.empty() ? known_kinds(quantities) : guess),
       true};

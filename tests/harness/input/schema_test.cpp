@@ -8,7 +8,6 @@
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/input/catalogue.h"
-#include "harness/input/former_names.h"
 #include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 
@@ -47,20 +46,6 @@ BOOST_AUTO_TEST_CASE(a_misspelt_key_is_answered_with_the_nearest_right_one) {
   BOOST_TEST(contains(robot_fault("/model/manipulator/links/thicknes_m", 1),
                       "did you mean 'thickness_m'?"));
   BOOST_TEST(contains(robot_fault("/model/manipulator/qqqq", 1), "known here: 'base_m'"));
-}
-
-BOOST_AUTO_TEST_CASE(a_former_key_is_answered_with_the_present_one) {
-  BOOST_TEST(contains(robot_fault("/battery", Json::object()), "did you mean 'stress_suite'?"));
-  BOOST_TEST(contains(robot_fault("/analysis/modes/path", "dense"), "did you mean 'eigensolver'?"));
-  Json claims = {{"title", "t"}, {"source", "s"}, {"claims", {{"1", Json::object()}}}};
-  claims["claims"]["1"]["interpretations"]["r"]["take"] = "ratio";
-  BOOST_TEST(contains(find_schema_fault(claims, "claims").value().message, "'metric'?"));
-}
-
-BOOST_AUTO_TEST_CASE(the_names_of_quantities_within_others_are_renamed_too) {
-  BOOST_TEST(current_quantity("relative_error:serial_distance") ==
-             "relative_error:serial_singularity_distance");
-  BOOST_TEST(current_quantity("frequency_Hz") == "frequency_Hz");
 }
 
 BOOST_AUTO_TEST_CASE(a_misspelt_word_is_answered_with_the_nearest_right_one) {

@@ -165,8 +165,7 @@ BOOST_AUTO_TEST_CASE(a_velocity_outside_the_reduced_basis_is_told) {
                         {"initial_state", {{"velocity_m_per_s", {0, -1}}}},
                         {"reduction", {{"modes", 1}}},
                         {"outputs", {"velocity_y_m_per_s:B"}}}}};
-  const std::string outside = "the part of the initial velocity outside the reduced basis is 0.61";
-  BOOST_TEST(warns(result_of(json), outside));
+  BOOST_TEST(warns(result_of(json), "outside the reduced basis is 0.61"));
   json["analysis"]["transient"].erase("reduction");
   BOOST_TEST(!warns(result_of(json), "outside the reduced basis"));
 }
