@@ -33,12 +33,13 @@ long code_lines(const fs::path& file, const std::string& comment) {
   return count;
 }
 
-/// Folders that a build or a run makes, as in .gitignore.
+/// Folders that a build or a run makes, as in .gitignore, and hidden ones of other programs.
 bool is_made(const fs::path& folder) {
-  static const std::set<std::string> made = {".git",          "build",         "out",
-                                             "__pycache__",   "fuzz-findings", "trammel-results",
-                                             "trammel-grade", "trammel-cost"};
-  return made.count(folder.filename().string()) > 0;
+  static const std::set<std::string> made = {"build",          "out",          "__pycache__",
+                                             "fuzz-findings",  "trammel-cost", "trammel-grade",
+                                             "trammel-results"};
+  const std::string name = folder.filename().string();
+  return made.count(name) > 0 || (name.front() == '.' && name != ".ci");
 }
 
 Sizes sizes_of(const fs::path& root) {
