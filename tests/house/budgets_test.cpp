@@ -35,11 +35,10 @@ long code_lines(const fs::path& file, const std::string& comment) {
 
 /// Folders that a build or a run makes, as in .gitignore, and hidden ones of other programs.
 bool is_made(const fs::path& folder) {
-  static const std::set<std::string> made = {"build",          "out",          "__pycache__",
-                                             "fuzz-findings",  "trammel-cost", "trammel-grade",
-                                             "trammel-results"};
+  static const std::set<std::string> made = {"build", "out", "__pycache__", "fuzz-findings"};
   const std::string name = folder.filename().string();
-  return made.count(name) > 0 || (name.front() == '.' && name != ".ci");
+  return made.count(name) > 0 || name.rfind("trammel-", 0) == 0 ||
+         (name[0] == '.' && name != ".ci");
 }
 
 Sizes sizes_of(const fs::path& root) {
