@@ -80,7 +80,7 @@ Output read_output(const JsonView& place, const solver::Model& model) {
   const solver::Member& member = model.members[solver::to_size(output.item)];
   const bool has_depth =
       member.section.section_modulus > 0 && member.end_section.section_modulus > 0;
-  if (output.kind != Output::Kind::resultant && !has_depth) {
+  if (output.kind == Output::Kind::bending_stress && !has_depth) {
     throw place.error(
         "expected a member whose sections have a depth: a shape, or 'half_depth_m' "
         "beside 'area_m2'");
