@@ -177,8 +177,9 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
   const Index n = system_.coordinates();
   predict(h);
   StepConvergence convergence;
+  // Between the estimate for one rounding of each force and what several of them add up to.
+  constexpr double kRoundoffErrors = 10;
   bool fresh = false;
-  double roundoff = 0;
   for (int i = 0; i < 20; ++i) {
     if (exact || factored_step_ != h || (!fresh && convergence.slow())) {
       if (!factor(h)) return report;
@@ -192,9 +193,9 @@ StepReport GeneralizedAlpha::newton(double h, bool exact) {
         weighted_rms_norm(system_, position_correction_.head(n) - velocity_correction_.head(n)));
     report.correction = convergence.last();
     const double acceleration = beta_ * h * h * weighted_rms_norm(system_, A1_);
-    if (roundoff == 0 && convergence.stalled()) roundoff = correction_roundoff(h);
     if (convergence.converged(acceleration, h * weighted_rms_norm(system_, to_.v),
-                              weighted_rms_norm(system_, to_.q), 1e-13 * acceleration, roundoff)) {
+                              weighted_rms_norm(system_, to_.q), 1e-13 * acceleration) ||
+        (convergence.stalled() && convergence.last() <= kRoundoffErrors * correction_roundoff(h))) {
       report.converged = true;
       // Many iterations: the factorization is out of date, the next step makes a new one.
       if (i > 3) factored_step_ = 0;

@@ -18,15 +18,11 @@ class StepConvergence {
   /// @param acceleration  h^2 beta a, what the accelerations contribute to the step; velocity: h v;
   ///                     position: q; all over the scale.
   /// @param limit  of the next correction of the motion
-  /// @param roundoff  of a correction, by the round-off error of the forces
-  [[nodiscard]] bool converged(double acceleration, double velocity, double position, double limit,
-                               double roundoff = 0) const {
-    const bool stalled = this->stalled();
+  [[nodiscard]] bool converged(double acceleration, double velocity, double position,
+                               double limit) const {
     const double next = next_of(step_correction_, previous_step_correction_);
     const bool motion_met = next <= limit || step_correction_ <= 1e-16 * velocity ||
-                            (stalled && step_correction_ <= 1e-11 * (velocity + acceleration) +
-                                                                kRoundoffNearSingular * position +
-                                                                kRoundoffErrors * roundoff);
+                            (stalled() && step_correction_ <= 1e-11 * (velocity + acceleration));
     const double next_projection = next_of(projection_, previous_projection_);
     const bool constraints_met =
         next_projection <= 1e-15 * position || next_projection <= 1e-13 * velocity ||
@@ -41,13 +37,6 @@ class StepConvergence {
   [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
-  /// Round-off of the positions that near a singular one, where rows of constraints depend on each
-  /// other, corrections multiply; far below what a step may err by.
-  static constexpr double kRoundoffNearSingular = 1e-13;
-
-  /// Between the estimate for one rounding of each force and what several of them add up to.
-  static constexpr double kRoundoffErrors = 10;
-
   /// What the same ratio makes of a correction; the correction itself where there was none before.
   [[nodiscard]] double next_of(double correction, double previous) const {
     return count_ > 1 && correction < previous ? correction * (correction / previous) : correction;
