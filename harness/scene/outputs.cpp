@@ -83,7 +83,7 @@ Output read_output(const JsonView& place, const solver::Model& model) {
   if (output.kind == Output::Kind::bending_stress && !has_depth) {
     throw place.error(
         "expected a member whose sections have a depth: a shape, or 'half_depth_m' "
-        "beside 'area_m2'");
+        "with 'area_m2'");
   }
   return output;
 }

@@ -159,7 +159,7 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
     }
     return error;
   };
-  // Of the logarithm of sigma over the middle of the bracket, in any unit of the inputs: sigma to
+  // Relative to the middle of the bracket, so that the unit of the inputs does not matter: sigma to
   // better than 1e-3.
   constexpr int kBits = 12;
   std::uintmax_t evaluations = 100;

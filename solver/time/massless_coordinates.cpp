@@ -11,8 +11,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The least ratio of two diagonals where both are positive: with a step of many periods, what is
-/// added to the mass is small beside every mass.
+/// The least ratio of two diagonals where both are positive, so that what is added is small
+/// compared with every mass, also if a step lasts many periods.
 double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
   double least = std::numeric_limits<double>::infinity();
   const VectorXd mass = M.diagonal(), other = added.diagonal();

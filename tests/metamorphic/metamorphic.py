@@ -23,7 +23,7 @@ from transformations import ALL, Skip
 
 HERE = pathlib.Path(__file__).parent
 CASES = HERE.parent.parent / "cases"
-# Relative to the scale of the kind of quantity, beside the round-off error that the program states. Where it states
+# Relative to the scale of the kind of quantity, in addition to the round-off error that the program states. Where it states
 # one, 1e-9 is for quantities that are differences of others. Where it states none, round-off error grows with the
 # condition number and with the number of steps; searches (peaks, sensitivities by differences) stop at 1e-7, and the
 # iterations of large motion and paths at up to 1e-6 of small responses.
@@ -113,7 +113,7 @@ def reason_of_exception(exceptions, name, transformation, lines):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("program")
-    parser.add_argument("--sample", type=int, help="so many computations, drawn by the seed, none of a slow case")
+    parser.add_argument("--sample", type=int, help="number of computations, drawn by the seed, without slow cases")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cases", default="", help="regular expression of CASE:VARIANT, CASE:VARIANT:LEVEL")
     parser.add_argument("--transformations", nargs="*", default=list(ALL), choices=list(ALL))

@@ -95,7 +95,7 @@ def torques():
 
 
 def stresses():
-    """A bar that hangs in a pull without moment: the force at its root over the area, beside the element's own share."""
+    """A bar under a pull without moment: force over area."""
     for turn in (0.0, 0.3, 0.7, -0.87, 1.3, math.pi / 2):
         model = {"materials": {"soft": {"E_Pa": 1e6, "rho_kg_m3": 1000, "nu": 0.3}},
                  "sections": {"s": {"material": "soft", "area_m2": 0.01, "second_moment_m4": 1e-5}},
@@ -318,7 +318,7 @@ def collisions():
 
 
 def tensions():
-    """A column beside a tie in large tension: pi^2 EI / 4 L^2 over its force."""
+    """A column and a tie in large tension: pi^2 EI / 4 L^2 over its force."""
     inertia, area = 0.05 * 0.1**3 / 12, 0.005
     for pull, push, length, turn in (
         (1e3, 1, 2, 0),
@@ -343,7 +343,7 @@ def tensions():
             },
         }
         yield Neighbor(
-            "buckling beside tension",
+            "buckling with large tension",
             f"pull {pull:g} N, push {push:g} N, {length} m, turned {turn} rad",
             model,
             {"buckling": {"count": 1}},

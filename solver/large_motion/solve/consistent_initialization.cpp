@@ -35,7 +35,7 @@ class ConsistentInitialization {
     return {};
   }
 
-  /// What the velocities that fit best leave of the rates of the constraints.
+  /// Rates of the constraints that remain with the velocities that fit best.
   VectorXd rate_defect() {
     state_.v.setZero(n_);
     if (!solve_velocities({})) return VectorXd::Zero(m_);

@@ -22,7 +22,7 @@ using PrescribedVelocities = std::vector<std::pair<Index, double>>;
                                       const PrescribedVelocities& given, double step);
 
 /// Half a sentence for the reason of a failure: the drives whose motions the constraints and the
-/// other drives do not admit half a step beside a state; empty if there are none.
+/// other drives do not admit half a step before or after a state; empty if there are none.
 [[nodiscard]] std::string contradictory_drives(const GeometricallyExactSystem& system,
                                                const State& state, double step);
 

@@ -156,9 +156,9 @@ void GeneralizedAlpha::correct(double h) {
   to_.lambda += per_acceleration * velocity_correction_.tail(m);
 }
 
-/// Of a correction, by the round-off errors of constraint forces and residuals, with arbitrary
-/// signs: beside large forces that balance each other, or near a singular position, a small motion
-/// is known no better.
+/// Size of a correction by the round-off errors of constraint forces and residuals, with arbitrary
+/// signs. A small motion under large forces that balance each other, or near a singular position,
+/// is not known better.
 double GeneralizedAlpha::correction_roundoff(double h) const {
   const Index n = system_.coordinates(), m = system_.constraints();
   const double per_acceleration = (1 - alpha_m_) / ((1 - alpha_f_) * beta_ * h * h);
