@@ -397,7 +397,6 @@ class PathFollower {
       bracket.update(std::move(found));
       return true;
     };
-    constexpr double kEnough = 1e-13;
     std::optional<double> load;
     // At a bifurcation itself the equations are singular.
     const auto solve_beside = [&](double root, PathPoint& trial) {
@@ -415,7 +414,7 @@ class PathFollower {
         critical = trial;
         const double left =
             load_reversed ? bracket.distance_to_extremum(f) : critical.state.load - last;
-        if (std::abs(left) > kEnough * std::abs(last)) continue;
+        if (std::abs(left) > 1e-13 * std::abs(last)) continue;
         load = critical.state.load;
       }
       if (!solve_beside(root, trial)) return {};

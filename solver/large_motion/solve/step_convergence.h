@@ -21,8 +21,10 @@ class StepConvergence {
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
                                double limit) const {
     const double next = next_of(step_correction_, previous_step_correction_);
+    // Near a singular position corrections multiply the round-off error of positions.
+    const double least = 1e-11 * (velocity + acceleration) + 1e-13 * position;
     const bool motion_met = next <= limit || step_correction_ <= 1e-16 * velocity ||
-                            (stalled() && step_correction_ <= 1e-11 * (velocity + acceleration));
+                            (stalled() && step_correction_ <= least);
     const double next_projection = next_of(projection_, previous_projection_);
     const bool constraints_met =
         next_projection <= 1e-15 * position || next_projection <= 1e-13 * velocity ||
@@ -43,8 +45,8 @@ class StepConvergence {
   }
   [[nodiscard]] double previous() const { return previous_step_correction_ + previous_projection_; }
 
-  double step_correction_ = 0, projection_ = 0, previous_step_correction_ = 0,
-         previous_projection_ = 0;
+  double step_correction_ = 0, projection_ = 0;
+  double previous_step_correction_ = 0, previous_projection_ = 0;
   int count_ = 0;
 };
 
