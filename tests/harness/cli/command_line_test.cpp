@@ -357,7 +357,6 @@ BOOST_AUTO_TEST_CASE(another_build_is_slower_or_faster_by_what_it_takes) {
 BOOST_AUTO_TEST_CASE(a_misspelt_case_or_command_is_answered_with_the_nearest) {
   const Folder folder;
   BOOST_TEST(contains(run(folder, "rnu x").err, "did you mean 'run'?"));
-  BOOST_TEST(contains(run(folder, "ledger").err, "did you mean 'claims'?"));
   (void)folder.write(judged(101));
   const Outcome outcome = run(folder, "run cantilever.json --variant bse");
   BOOST_TEST(contains(outcome.err, "did you mean 'base'?"));
