@@ -101,8 +101,7 @@ class CommandLine {
     if (!is_command(first) && first.front() != '-') {
       std::vector<std::string> names;
       for (const Command& command : kCommands) names.emplace_back(command.name);
-      return "expected a command (got '" + printable(first) + "')" +
-             did_you_mean(first, names);
+      return "expected a command (got '" + printable(first) + "')" + did_you_mean(first, names);
     }
     std::string line = printable(error.what(), 200);
     return line + " (see trammel " + (is_command(first) ? first + " " : "") + "--help)";
