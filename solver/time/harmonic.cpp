@@ -96,8 +96,8 @@ void HarmonicSolver::superpose(Index damped) {
   } else if (free.count() > 0 && free.all_found) {
     const Eigen::MatrixXd mass = free.basis.transpose() * system_.M * free.basis;
     const Eigen::LLT<Eigen::MatrixXd> factor(mass);
-    // Of a motion without mass the rounding of those that have some; masses of rotations are
-    // counted as inertia over the square of the model's size.
+    // The round-off error of a motion without mass is relative to the others; masses of rotations
+    // are counted as inertia over the square of the model's size.
     const VectorXd squared_length = squared_lengths(system_);
     const double least = 1e-20 * system_.M.diagonal().cwiseQuotient(squared_length).maxCoeff();
     const VectorXd moved = free.basis.cwiseAbs2().transpose() * squared_length;

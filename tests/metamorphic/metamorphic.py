@@ -69,10 +69,6 @@ def solve(program, folder, cases, seconds):
     return results
 
 
-def kept_path(options):
-    return options.get("whole_path", False)
-
-
 def compare(analysis, options, law, before, after, model):
     """Returns lines that describe what differs from the law, and the largest difference over the scale."""
     if before["status"] != after["status"]:
@@ -87,7 +83,7 @@ def compare(analysis, options, law, before, after, model):
     expected, obtained = law.expected(before["quantities"]), after["quantities"]
     if analysis in SIGN_FREE:
         expected = {n: v for n, v in expected.items() if re.match(r"frequency|load_factor|critical|mass_kg|growth", n)}
-    if kept_path(options):  # step control chooses the points of a path; what it passes and reaches has a law
+    if options.get("whole_path"):  # step control chooses the points of a path; what it passes and reaches has a law
         expected = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in expected.items()}
         obtained = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in obtained.items()}
     if analysis == "harmonic":  # amplitudes, without phase

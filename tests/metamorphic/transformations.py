@@ -104,10 +104,6 @@ def move(case, point, vector, angle, mirrored=False):
     visit(analysis)
 
 
-def axis_bound_map(case):
-    return "sensitivity-map" in case["analysis"]
-
-
 def move_manipulator(case, point, sign, angle):
     """Applies a motion of the plane to the base, the pose and the path of a manipulator."""
     def move_pose(pose):
@@ -126,7 +122,7 @@ def move_manipulator(case, point, sign, angle):
         manipulator["working_mode"] = [-side for side in manipulator.get("working_mode", [-1] * 3)]
     if "pose" in model:
         move_pose(model["pose"])
-    if axis_bound_map(case) and (sign < 0 or angle != 0):
+    if "sensitivity-map" in case["analysis"] and (sign < 0 or angle != 0):
         raise Skip("the positions of the map lie along the world axes")
     for key in ("line", "rest_to_rest"):
         for end in ("from", "to") if key in path else ():
