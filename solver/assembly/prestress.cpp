@@ -80,30 +80,20 @@ Eigen::MatrixX3d no_stress(const Model& model) {
   return Eigen::MatrixX3d::Zero(rows, 3);
 }
 
-/// The rail of a row that is a slider's on a turning one; null otherwise.
-const LinearConstraint::Rail* rail_of(const Model& model, const ConstraintRow& row) {
-  if (row.source != ConstraintRow::Source::linear) return nullptr;
-  const auto& rail = model.constraints[to_size(row.index)].rail;
-  return rail ? &*rail : nullptr;
-}
-
 /// A slider on a line of direction t and normal n, at d from the node whose rotation θ turns it:
 /// n . w - θ t . d = 0 for small displacements w from that node, and to the second order
 /// n . w - θ t . (d + w) - θ^2 n . d / 2. The rail's force times that is the work.
-template <class Visit>
-void visit_rail(const System& system, const LinearConstraint::Rail& rail, double force,
-                Visit&& visit) {
+TurningPart rail_part(const System& system, const LinearConstraint::Rail& rail, double force) {
   const auto& node = system.coordinates.node[to_size(rail.node)];
   const auto& slider = system.coordinates.node[to_size(rail.slider)];
-  if (node[2] < 0) return;
   const Vector2d& t = rail.direction;
   const Vector2d d =
       system.mesh.positions[to_size(rail.slider)] - system.mesh.positions[to_size(rail.node)];
-  Eigen::Matrix<double, 2, 5> B;
-  B << 1, 0, 0, 0, 0, 0, t.x(), t.y(), -t.x(), -t.y();
-  Eigen::Matrix2d H;
-  H << force * perpendicular(t).dot(d), force, force, 0;
-  visit(std::array<Index, 5>{node[2], slider[0], slider[1], node[0], node[1]}, B, H);
+  TurningPart part;
+  part.coordinates = {node[2], slider[0], slider[1], node[0], node[1]};
+  part.B << 1, 0, 0, 0, 0, 0, t.x(), t.y(), -t.x(), -t.y();
+  part.H << force * perpendicular(t).dot(d), force, force, 0;
+  return part;
 }
 
 /// Calls visit(coordinates, B, H) for every part B^T H B of the geometric stiffness.
@@ -133,44 +123,28 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
           visit(system.coordinates.of_triangle<6>(triangle), part.B, part.H);
         }
       });
-  using Matrix1d = Eigen::Matrix<double, 1, 1>;
-  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
-    if (state.arm_moment[static_cast<Index>(i)] == 0) continue;
-    const Index rotation = system.constraints.rows[i].terms[2].first;
-    visit(std::array<Index, 1>{rotation}, Matrix1d(1),
-          Matrix1d(state.arm_moment[static_cast<Index>(i)]));
-  }
-  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
-    if (state.rail_force[static_cast<Index>(i)] != 0)
-      visit_rail(system, *rail_of(model, system.constraints.rows[i]),
-                 state.rail_force[static_cast<Index>(i)], visit);
-  }
-  for (std::size_t i = 0; i < model.masses.size(); ++i) {
-    if (state.offset_moment[static_cast<Index>(i)] == 0) continue;
-    const auto& node = system.coordinates.node[static_cast<std::size_t>(model.masses[i].node)];
-    visit(std::array<Index, 1>{node[2]}, Matrix1d(1),
-          Matrix1d(state.offset_moment[static_cast<Index>(i)]));
-  }
+  for (const TurningPart& part : state.turning) visit(part.coordinates, part.B, part.H);
+}
+
+void add_turning(Index rotation, double moment, std::vector<TurningPart>& parts) {
+  if (moment == 0) return;
+  parts.emplace_back().coordinates[0] = rotation;
+  parts.back().H(0, 0) = moment;
 }
 
 /// A rigid arm R carries its end to x_r + R: turning by θ shifts the end by -R θ^2 / 2 as well, so
 /// that the force F which the arm's end feels does the work -F R θ^2 / 2. The constraint's
 /// multiplier is the opposite of F.
-VectorXd arm_moments(const System& system, const VectorXd& multipliers) {
-  VectorXd arm = VectorXd::Zero(static_cast<Index>(system.constraints.rows.size()));
-  for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
-    const ConstraintRow& row = system.constraints.rows[i];
-    if (row.source != ConstraintRow::Source::rigid_body || row.terms.size() != 3) continue;
-    const Index attached = row.terms[0].first;
-    const Index node = system.coordinates.node_of[static_cast<std::size_t>(attached)];
-    const Index reference =
-        system.coordinates.node_of[static_cast<std::size_t>(row.terms[1].first)];
-    const Vector2d R = system.mesh.positions[static_cast<std::size_t>(node)] -
-                       system.mesh.positions[static_cast<std::size_t>(reference)];
-    const bool x = system.coordinates.node[static_cast<std::size_t>(node)][0] == attached;
-    arm[static_cast<Index>(i)] = -multipliers[static_cast<Index>(i)] * (x ? R.x() : R.y());
-  }
-  return arm;
+/// @returns the moment F R of a constraint row; 0 where it is not that of an arm's end
+double arm_moment(const System& system, const ConstraintRow& row, double multiplier) {
+  if (row.source != ConstraintRow::Source::rigid_body || row.terms.size() != 3) return 0;
+  const Index attached = row.terms[0].first;
+  const Index node = system.coordinates.node_of[to_size(attached)];
+  const Index reference = system.coordinates.node_of[to_size(row.terms[1].first)];
+  const Vector2d R =
+      system.mesh.positions[to_size(node)] - system.mesh.positions[to_size(reference)];
+  const bool x = system.coordinates.node[to_size(node)][0] == attached;
+  return -multiplier * (x ? R.x() : R.y());
 }
 
 }  // namespace
@@ -227,16 +201,19 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
                                           double) {
     state.stress.row(row) = plate_stress(system, triangle, corners(system.model, triangle), at, u);
   });
-  state.arm_moment = arm_moments(system, multipliers);
-  state.rail_force.setZero(multipliers.size());
   for (Index i = 0; i < multipliers.size(); ++i) {
-    if (rail_of(system.model, system.constraints.rows[to_size(i)]) != nullptr)
-      state.rail_force[i] = multipliers[i];
+    const ConstraintRow& row = system.constraints.rows[to_size(i)];
+    const double moment = arm_moment(system, row, multipliers[i]);
+    if (moment != 0) add_turning(row.terms[2].first, moment, state.turning);
+    if (row.source != ConstraintRow::Source::linear) continue;
+    const auto& rail = system.model.constraints[to_size(row.index)].rail;
+    if (rail && system.coordinates.node[to_size(rail->node)][2] >= 0)
+      state.turning.push_back(rail_part(system, *rail, multipliers[i]));
   }
-  state.offset_moment.setZero(static_cast<Index>(system.model.masses.size()));
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
-    state.offset_moment[static_cast<Index>(i)] =
-        body.point_mass[i].dot(system.model.masses[i].offset);
+    const PointMass& point_mass = system.model.masses[i];
+    add_turning(system.coordinates.node[to_size(point_mass.node)][2],
+                body.point_mass[i].dot(point_mass.offset), state.turning);
   }
   return state;
 }
@@ -262,12 +239,10 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
             plate_stress_roundoff(system, triangle, corners(system.model, triangle), at, u));
       });
   const VectorXd force = internal_force_roundoff(system, u);
-  const std::vector<ConstraintRow>& rows = system.constraints.rows;
-  VectorXd of_row(std::ssize(rows));
-  for (Index i = 0; i < of_row.size(); ++i) of_row[i] = force[rows[to_size(i)].terms.front().first];
-  roundoff.arm_moment = arm_moments(system, of_row).cwiseAbs();
-  roundoff.rail_force.setZero(of_row.size());
-  roundoff.offset_moment.setZero(std::ssize(system.model.masses));
+  for (const ConstraintRow& row : system.constraints.rows) {
+    const double moment = std::abs(arm_moment(system, row, force[row.terms.front().first]));
+    if (moment != 0) add_turning(row.terms[2].first, moment, roundoff.turning);
+  }
   return roundoff;
 }
 

@@ -12,6 +12,14 @@
 /// stiffness it is a sum of B^T H B over a few motions of each element.
 namespace trammel::solver {
 
+/// The work to the second order that a force does on a point which a rotation moves, d^T H d / 2
+/// with d = B u: d is the rotation, and for a slider also its way along the turning rail.
+struct TurningPart {
+  std::array<Index, 5> coordinates{-1, -1, -1, -1, -1};  ///< unconstrained; -1: not used
+  Eigen::Matrix<double, 2, 5> B = Eigen::Matrix<double, 2, 5>::Identity();
+  Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
+};
+
 /// The forces of a state.
 struct Prestress {
   Eigen::VectorXd axial;  ///< frame element: mean axial force, tension positive [N]
@@ -20,9 +28,7 @@ struct Prestress {
   /// (sxx, syy, sxy) of the triangles in turn, at the centroid or, of a six-node one, at its
   /// integration points [Pa]
   Eigen::MatrixX3d stress;
-  Eigen::VectorXd arm_moment;  ///< constraint row: force on a rigid body's arm times the arm [N m]
-  Eigen::VectorXd rail_force;  ///< constraint row of a slider: force of its turning rail on it [N]
-  Eigen::VectorXd offset_moment;  ///< point mass: force on its centre times its offset [N m]
+  std::vector<TurningPart> turning;  ///< forces whose points the turning of a node shifts
 };
 
 /// What acts on masses: the model's gravity, and more (the centrifugal forces of a rotating frame).

@@ -48,10 +48,9 @@ Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const 
 }
 
 /// integral rho I N^T N of the rotation of a frame element's sections, in world axes.
-Matrix6d rotary_mass(const FrameElement& e, const Member& member) {
-  FrameElement light = e;
-  light.section.inertia_per_length = 0;
-  return world_mass(e, member) - world_mass(light, member);
+Matrix6d rotary_mass(FrameElement e, const Member& member) {
+  e.section.mass_per_length = 0;
+  return world_mass(e, member);
 }
 
 /// What a section of unit rotary inertia feels about an axis in the plane. Its points at a height y
@@ -74,15 +73,12 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
   for (const FrameElement& e : system.mesh.frame) {
     if (e.section.mass_per_length == 0) continue;
     const Member& member = model.members[static_cast<std::size_t>(e.member)];
-    FrameElement light = e;
-    light.section.inertia_per_length = 0;
     const Matrix6d R = frame_rotation(e.direction);
     const auto world = [&](const Eigen::Matrix2d& A) -> Matrix6d {
       return R.transpose() * frame_mass_with(A, e, member) * R;
     };
     const auto r = R.topLeftCorner<2, 2>();
-    Matrix6d S =
-        axis == RotationAxis::normal ? world_mass(light, member) : world(r * P * r.transpose());
+    Matrix6d S = world(r * P * r.transpose());
     if (axis != RotationAxis::normal)
       S += section_pull(P, e.direction).stiffness * rotary_mass(e, member);
     visit(e.coordinates, S, world(perpendicular_matrix()));

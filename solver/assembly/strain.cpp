@@ -5,6 +5,16 @@
 namespace trammel::solver {
 namespace {
 
+/// Sums up forces(B, c, the element's coordinates) of all elements.
+template <class Forces>
+Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, Forces&& forces) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.size());
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    detail::scatter(coordinates, forces(B, c, detail::gather(coordinates, u)), sum);
+  });
+  return sum;
+}
+
 /// Stress of the deformation that `apply` makes of a triangle's matrix and displacements.
 template <class Apply>
 Vector3d stress_by_deformation(const System& system, const Triangle& triangle,
@@ -22,21 +32,15 @@ Vector3d stress_by_deformation(const System& system, const Triangle& triangle,
 }  // namespace
 
 Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
-  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
-    const auto local = (B.transpose() * c.cwiseProduct(B * detail::gather(coordinates, u))).eval();
-    detail::scatter(coordinates, local, force);
+  return sum_of_elements(system, u, [](const auto& B, const auto& c, const auto& local) {
+    return (B.transpose() * c.cwiseProduct(B * local)).eval();
   });
-  return force;
 }
 
 Eigen::VectorXd internal_force_roundoff(const System& system, const Eigen::VectorXd& u) {
-  Eigen::VectorXd roundoff = Eigen::VectorXd::Zero(u.size());
-  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
-    detail::scatter(coordinates, detail::force_roundoff(B, c, detail::gather(coordinates, u)),
-                    roundoff);
+  return sum_of_elements(system, u, [](const auto& B, const auto& c, const auto& local) {
+    return detail::force_roundoff(B, c, local);
   });
-  return roundoff;
 }
 
 Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) {

@@ -1,7 +1,10 @@
 #include "solver/mesh/distorted_mesh.h"
 
-#include <map>
+#include <set>
 #include <string>
+
+#include "solver/mesh/block_mesh.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 namespace {
@@ -11,82 +14,39 @@ double pattern(Index n) {
   return static_cast<double>(n % 3) - 1;
 }
 
-class Rectangle {
- public:
-  Rectangle(const RectangleMesh& mesh, const Plate& plate) : mesh_(mesh) {
-    model_.plates.push_back(plate);
-  }
-
-  Model build() {
-    for (Index j = 0; j <= mesh_.cells; ++j) {
-      for (Index i = 0; i <= mesh_.cells; ++i) add_node(corner(i, j));
-    }
-    for (Index j = 0; j < mesh_.cells; ++j) {
-      for (Index i = 0; i < mesh_.cells; ++i) add_cell(i, j);
-    }
-    return std::move(model_);
-  }
-
- private:
-  [[nodiscard]] Vector2d corner(Index i, Index j) const {
-    Vector2d at(static_cast<double>(i), static_cast<double>(j));
-    const bool inside = i > 0 && j > 0 && i < mesh_.cells && j < mesh_.cells;
-    if (inside) at += mesh_.distortion * Vector2d(pattern(i + 2 * j), pattern(2 * i + j + i * j));
-    return at.cwiseProduct(Vector2d(mesh_.length, mesh_.height)) / static_cast<double>(mesh_.cells);
-  }
-
-  Index add_node(const Vector2d& position) {
-    model_.nodes.push_back({std::to_string(model_.nodes.size()), position});
-    return static_cast<Index>(model_.nodes.size()) - 1;
-  }
-
-  void add_cell(Index i, Index j) {
-    const Index a = i + j * (mesh_.cells + 1);
-    const Index b = a + 1;
-    const Index d = a + mesh_.cells + 1;
-    const Index c = d + 1;
-    if ((i + j) % 2 == 0) {
-      add_triangle(a, b, c);
-      add_triangle(a, c, d);
-    } else {
-      add_triangle(a, b, d);
-      add_triangle(b, c, d);
-    }
-  }
-
-  void add_triangle(Index a, Index b, Index c) {
-    Triangle triangle;
-    triangle.nodes = {a, b, c, -1, -1, -1};
-    if (mesh_.six_nodes) {
-      triangle.nodes[3] = middle(a, b);
-      triangle.nodes[4] = middle(b, c);
-      triangle.nodes[5] = middle(c, a);
-    }
-    model_.triangles.push_back(triangle);
-  }
-
-  Index middle(Index a, Index b) {
-    const auto [entry, added] = middle_.try_emplace(std::minmax(a, b), 0);
-    if (added) {
-      const Vector2d sum = model_.nodes[static_cast<std::size_t>(a)].position +
-                           model_.nodes[static_cast<std::size_t>(b)].position;
-      entry->second = add_node(sum / 2);
-    }
-    return entry->second;
-  }
-
-  RectangleMesh mesh_;
-  Model model_;
-  std::map<std::pair<Index, Index>, Index> middle_;
-};
-
 }  // namespace
 
 Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   if (!(mesh.distortion >= 0 && mesh.distortion < 0.3)) {
     throw ModelError("the distortion of a rectangle's mesh must lie between 0 and 0.3");
   }
-  return Rectangle(mesh, plate).build();
+  const auto cells = static_cast<double>(mesh.cells);
+  const Vector2d size(mesh.length, mesh.height);
+  const Vector2d x = size.x() * Vector2d::UnitX(), y = size.y() * Vector2d::UnitY();
+  BlockMesh block = mesh_blocks(
+      {{{Vector2d::Zero(), x, size, y}, {}, {mesh.cells, mesh.cells}, {1, 1}}}, mesh.six_nodes);
+  const auto distort = [&](Vector2d& position) {
+    Vector2d at = (cells * position.cwiseQuotient(size)).array().round();  // its row and column
+    const auto i = static_cast<Index>(at.x()), j = static_cast<Index>(at.y());
+    const bool inside = i > 0 && j > 0 && i < mesh.cells && j < mesh.cells;
+    if (inside) at += mesh.distortion * Vector2d(pattern(i + 2 * j), pattern(2 * i + j + i * j));
+    position = at.cwiseProduct(size) / cells;
+  };
+  std::set<Index> corners;
+  for (const auto& nodes : block.triangles) corners.insert(nodes.begin(), nodes.begin() + 3);
+  for (const Index corner : corners) distort(block.positions[to_size(corner)]);
+  for (const auto& nodes : block.triangles) {
+    for (std::size_t k = 3; k < 6 && mesh.six_nodes; ++k) {
+      block.positions[to_size(nodes[k])] =
+          (block.positions[to_size(nodes[k - 3])] + block.positions[to_size(nodes[(k - 2) % 3])]) /
+          2;
+    }
+  }
+  Model model;
+  model.plates.push_back(plate);
+  append(model, 0, block);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) model.nodes[i].name = std::to_string(i);
+  return model;
 }
 
 Model mesh_line(const DistortedLine& mesh, const Member& member) {
