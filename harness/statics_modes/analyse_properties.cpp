@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "solver/elements/frame_element.h"
-#include "solver/elements/triangle_interpolation.h"
+#include "solver/elements/triangle_element.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 #include "solver/model/quadrature.h"

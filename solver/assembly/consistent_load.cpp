@@ -8,7 +8,7 @@
 #include "solver/assembly/strain.h"
 #include "solver/elements/edge_load.h"
 #include "solver/elements/frame_element.h"
-#include "solver/elements/triangle_interpolation.h"
+#include "solver/elements/triangle_element.h"
 #include "solver/model/quadrature.h"
 
 namespace trammel::solver {

@@ -2,9 +2,7 @@
 
 #include "solver/assembly/system.h"
 #include "solver/elements/frame_element.h"
-#include "solver/elements/triangle6_element.h"
 #include "solver/elements/triangle_element.h"
-#include "solver/model/quadrature.h"
 
 namespace trammel::solver {
 
@@ -18,15 +16,11 @@ namespace trammel::solver {
 /// Calls visit(coordinates, mass matrix) for every triangle.
 template <class Visit>
 void for_each_plate_mass(const System& system, Visit&& visit) {
-  const Model& model = system.model;
-  for (const Triangle& triangle : model.triangles) {
-    if (triangle.quadratic()) {
-      visit(system.coordinates.of_triangle<12>(triangle), triangle6_mass(model, triangle));
-    } else {
-      visit(system.coordinates.of_triangle<6>(triangle),
-            triangle_mass(corners(model, triangle),
-                          model.plates[static_cast<std::size_t>(triangle.plate)]));
-    }
+  for (const Triangle& triangle : system.model.triangles) {
+    const Plate& plate = system.model.plates[to_size(triangle.plate)];
+    visit_nodes(system.model, triangle, [&]<std::size_t n>(const TriangleNodes<n>& nodes) {
+      visit(system.coordinates.of_triangle<2 * n>(triangle), triangle_mass(nodes, plate));
+    });
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/assembly/strain.h"
-#include "solver/elements/triangle_interpolation.h"
+#include "solver/elements/triangle_element.h"
 #include "solver/model/quadrature.h"
 
 namespace trammel::solver {

@@ -6,7 +6,7 @@
 
 #include "solver/assembly/length_scales.h"
 #include "solver/assembly/projection.h"
-#include "solver/elements/triangle_interpolation.h"
+#include "solver/elements/triangle_element.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 
@@ -29,17 +29,13 @@ Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, dou
   return e.length * H;
 }
 
-/// Gradients of u and v along the principal axes of the stress, at one point of a triangle.
-template <int n>
-struct PlateGeometricStiffness {
-  Eigen::Matrix<double, 4, n> B = Eigen::Matrix<double, 4, n>::Zero();
-  Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
-};
-
-template <int n>
-PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation& at,
-                                                     const Eigen::RowVector3d& stress,
-                                                     double volume) {
+/// Visits the gradients B of u and v along the principal axes of the stress at one point of a
+/// triangle, and their diagonal H.
+template <std::size_t n, class Visit>
+void visit_plate_geometric_stiffness(const std::array<Index, n>& coordinates,
+                                     const TriangleInterpolation& at,
+                                     const Eigen::RowVector3d& stress, double volume,
+                                     Visit&& visit) {
   Eigen::Matrix2d tensor;
   tensor << stress[0], stress[2], stress[2], stress[1];
   Eigen::JacobiRotation<double> to_principal;
@@ -48,14 +44,13 @@ PlateGeometricStiffness<n> plate_geometric_stiffness(const TriangleInterpolation
   tensor.applyOnTheLeft(0, 1, to_principal.adjoint());
   Eigen::Matrix<double, 2, 6> along = at.gradient;
   along.applyOnTheLeft(0, 1, to_principal.adjoint());
-  PlateGeometricStiffness<n> part;
-  for (Index i = 0; i < n / 2; ++i) {
-    part.B(0, 2 * i) = part.B(1, 2 * i + 1) = along(0, i);
-    part.B(2, 2 * i) = part.B(3, 2 * i + 1) = along(1, i);
+  Eigen::Matrix<double, 4, static_cast<int>(n)> B = Eigen::Matrix<double, 4, n>::Zero();
+  for (Index i = 0; i < at.nodes; ++i) {
+    B(0, 2 * i) = B(1, 2 * i + 1) = along(0, i);
+    B(2, 2 * i) = B(3, 2 * i + 1) = along(1, i);
   }
   const Vector2d s = volume * tensor.diagonal();
-  part.H.diagonal() << s[0], s[0], s[1], s[1];
-  return part;
+  visit(coordinates, B, Eigen::Matrix4d(Eigen::Vector4d(s[0], s[0], s[1], s[1]).asDiagonal()));
 }
 
 /// Calls visit(row, triangle, at, weight) for the points at which stresses of plates are taken: row
@@ -68,7 +63,7 @@ void for_each_stress_point(const Model& model, Visit&& visit) {
       visit(row++, triangle, Vector3d(Vector3d::Constant(1 / 3.0)), 1.0);
       continue;
     }
-    for (const TriangleQuadraturePoint& point : triangle6_quadrature())
+    for (const TriangleQuadraturePoint& point : triangle_quadrature_of_degree_4())
       visit(row++, triangle, point.area_coordinates, point.weight);
   }
 }
@@ -115,13 +110,10 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
         if (stress.isZero(0)) return;
         const TriangleInterpolation point = interpolate(model, triangle, at);
         const double volume = model.plates[to_size(triangle.plate)].thickness * point.area * weight;
-        if (triangle.quadratic()) {
-          const auto part = plate_geometric_stiffness<12>(point, stress, volume);
-          visit(system.coordinates.of_triangle<12>(triangle), part.B, part.H);
-        } else {
-          const auto part = plate_geometric_stiffness<6>(point, stress, volume);
-          visit(system.coordinates.of_triangle<6>(triangle), part.B, part.H);
-        }
+        visit_nodes(model, triangle, [&]<std::size_t n>(const TriangleNodes<n>&) {
+          visit_plate_geometric_stiffness(system.coordinates.of_triangle<2 * n>(triangle), point,
+                                          stress, volume, visit);
+        });
       });
   for (const TurningPart& part : state.turning) visit(part.coordinates, part.B, part.H);
 }
@@ -197,10 +189,10 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
         -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
   }
   state.stress = no_stress(system.model);
-  for_each_stress_point(system.model, [&](Index row, const Triangle& triangle, const Vector3d& at,
-                                          double) {
-    state.stress.row(row) = plate_stress(system, triangle, corners(system.model, triangle), at, u);
-  });
+  for_each_stress_point(system.model,
+                        [&](Index row, const Triangle& triangle, const Vector3d& at, double) {
+                          state.stress.row(row) = plate_stress(system, triangle, at, u);
+                        });
   for (Index i = 0; i < multipliers.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[to_size(i)];
     const double moment = arm_moment(system, row, multipliers[i]);
@@ -233,11 +225,10 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
   }
   roundoff.stress = no_stress(system.model);
-  for_each_stress_point(
-      system.model, [&](Index row, const Triangle& triangle, const Vector3d& at, double) {
-        roundoff.stress.row(row).head<2>().setConstant(
-            plate_stress_roundoff(system, triangle, corners(system.model, triangle), at, u));
-      });
+  for_each_stress_point(system.model, [&](Index row, const Triangle& triangle, const Vector3d& at,
+                                          double) {
+    roundoff.stress.row(row).head<2>().setConstant(plate_stress_roundoff(system, triangle, at, u));
+  });
   const VectorXd force = internal_force_roundoff(system, u);
   for (const ConstraintRow& row : system.constraints.rows) {
     const double moment = std::abs(arm_moment(system, row, force[row.terms.front().first]));

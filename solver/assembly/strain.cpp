@@ -17,16 +17,14 @@ Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, 
 
 /// Stress of the deformation that `apply` makes of a triangle's matrix and displacements.
 template <class Apply>
-Vector3d stress_by_deformation(const System& system, const Triangle& triangle,
-                               const TrianglePoints& corners, const Vector3d& at,
+Vector3d stress_by_deformation(const System& system, const Triangle& triangle, const Vector3d& at,
                                const Eigen::VectorXd& u, Apply&& apply) {
-  const Coordinates& coordinates = system.coordinates;
-  const Vector3d deformation = triangle.quadratic()
-                                   ? apply(triangle6_deformation_matrix(system.model, triangle, at),
-                                           detail::gather(coordinates.of_triangle<12>(triangle), u))
-                                   : apply(triangle_deformation(corners),
-                                           detail::gather(coordinates.of_triangle<6>(triangle), u));
-  return membrane_stress(system.model.plates[to_size(triangle.plate)].material, deformation);
+  const auto deform = [&]<std::size_t n>(const TriangleNodes<n>& nodes) -> Vector3d {
+    return apply(triangle_deformation<n>(interpolate(nodes, at)),
+                 detail::gather(system.coordinates.of_triangle<2 * n>(triangle), u));
+  };
+  return membrane_stress(system.model.plates[to_size(triangle.plate)].material,
+                         visit_nodes(system.model, triangle, deform));
 }
 
 }  // namespace
@@ -79,19 +77,18 @@ double strain_magnitude(const System& system, const Eigen::VectorXd& u) {
   return sum;
 }
 
-Vector3d plate_stress(const System& system, const Triangle& triangle, const TrianglePoints& corners,
-                      const Vector3d& at, const Eigen::VectorXd& u) {
+Vector3d plate_stress(const System& system, const Triangle& triangle, const Vector3d& at,
+                      const Eigen::VectorXd& u) {
   const auto deformation = [](const auto& B, const auto& local) -> Vector3d { return B * local; };
-  return stress_by_deformation(system, triangle, corners, at, u, deformation);
+  return stress_by_deformation(system, triangle, at, u, deformation);
 }
 
-double plate_stress_roundoff(const System& system, const Triangle& triangle,
-                             const TrianglePoints& corners, const Vector3d& at,
+double plate_stress_roundoff(const System& system, const Triangle& triangle, const Vector3d& at,
                              const Eigen::VectorXd& u) {
   const auto size = [](const auto& B, const auto& local) -> Vector3d {
     return B.cwiseAbs() * local.cwiseAbs();
   };
-  const Vector3d stress = stress_by_deformation(system, triangle, corners, at, u, size);
+  const Vector3d stress = stress_by_deformation(system, triangle, at, u, size);
   return kEps * stress.lpNorm<Eigen::Infinity>();
 }
 

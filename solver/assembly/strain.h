@@ -5,7 +5,6 @@
 
 #include "solver/assembly/system.h"
 #include "solver/elements/frame_element.h"
-#include "solver/elements/triangle6_element.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/linalg/refinement.h"
 #include "solver/model/numbers.h"
@@ -48,16 +47,11 @@ void scatter(const std::array<Index, n>& coordinates, const Vector& local, Eigen
 template <class Visit>
 void for_each_plate_deformation(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
-    if (triangle.quadratic()) {
-      const Triangle6Stiffness k = triangle6_stiffness(system.model, triangle);
-      visit(system.coordinates.of_triangle<12>(triangle), k.deformation, k.rigidity);
-      continue;
-    }
-    const TrianglePoints points = corners(system.model, triangle);
-    const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
-    const double volume = plate.thickness * std::abs(signed_area(points));
-    visit(system.coordinates.of_triangle<6>(triangle), triangle_deformation(points),
-          membrane_rigidity(plate.material, volume));
+    const Plate& plate = system.model.plates[to_size(triangle.plate)];
+    visit_nodes(system.model, triangle, [&]<std::size_t n>(const TriangleNodes<n>& nodes) {
+      const TriangleStiffness<n> k = triangle_stiffness(nodes, plate);
+      visit(system.coordinates.of_triangle<2 * n>(triangle), k.B, k.c);
+    });
   }
 }
 
@@ -101,13 +95,11 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// (sxx, syy, sxy) of a triangle [Pa] at a point in area coordinates.
 /// @param corners  where they are; of a six-node triangle those of the model
 [[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
-                                    const TrianglePoints& corners, const Vector3d& at,
-                                    const Eigen::VectorXd& u);
+                                    const Vector3d& at, const Eigen::VectorXd& u);
 
 /// What rounding of u changes in that, at most [Pa].
 [[nodiscard]] double plate_stress_roundoff(const System& system, const Triangle& triangle,
-                                           const TrianglePoints& corners, const Vector3d& at,
-                                           const Eigen::VectorXd& u);
+                                           const Vector3d& at, const Eigen::VectorXd& u);
 
 /// K x from the elements' deformations.
 [[nodiscard]] Operator stiffness_operator(const System& system);

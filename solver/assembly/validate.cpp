@@ -5,7 +5,6 @@
 
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_element.h"
-#include "solver/elements/triangle_interpolation.h"
 #include "solver/model/labels.h"
 
 namespace trammel::solver {

@@ -83,7 +83,8 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
     const TrianglePoints points = corners(system.model, triangle);
     element.coordinates = system.coordinates.of_triangle<6>(triangle);
     const Plate& plate = system.model.plates[element.part_index];
-    element.k = triangle_stiffness(points, plate);
+    const TriangleStiffness<3> k = triangle_stiffness(points, plate);
+    element.k = k.B.transpose() * k.c.asDiagonal() * k.B;
     element.m = triangle_mass(points, plate);  // the interpolation is isotropic: W does not turn
     elements.push_back(element);
   }

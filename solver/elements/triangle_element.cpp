@@ -1,34 +1,72 @@
 #include "solver/elements/triangle_element.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "solver/model/plane.h"
 
 namespace trammel::solver {
+namespace {
 
-TrianglePoints corners(const Model& model, const Triangle& triangle) {
-  TrianglePoints points;
-  for (std::size_t i = 0; i < 3; ++i) {
-    points[i] = model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
+/// Derivatives with respect to L_0 and L_1, with L_2 = 1 - L_0 - L_1.
+Eigen::Matrix<double, 2, 6> local_gradient(bool six_nodes, const Vector3d& L) {
+  Eigen::Matrix<double, 2, 6> d = Eigen::Matrix<double, 2, 6>::Zero();
+  if (!six_nodes) {
+    d.leftCols<3>() << 1, 0, -1, 0, 1, -1;
+    return d;
   }
-  return points;
+  d << 4 * L[0] - 1, 0, 1 - 4 * L[2], 4 * L[1], -4 * L[1], 4 * (L[2] - L[0]),  //
+      0, 4 * L[1] - 1, 1 - 4 * L[2], 4 * L[0], 4 * (L[2] - L[1]), -4 * L[0];
+  return d;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 6, 1> triangle_shape_functions(const Vector3d& L, bool six_nodes) {
+  Eigen::Matrix<double, 6, 1> N = Eigen::Matrix<double, 6, 1>::Zero();
+  if (six_nodes) {
+    N << L[0] * (2 * L[0] - 1), L[1] * (2 * L[1] - 1), L[2] * (2 * L[2] - 1), 4 * L[0] * L[1],
+        4 * L[1] * L[2], 4 * L[2] * L[0];
+  } else {
+    N.head<3>() = L;
+  }
+  return N;
+}
+
+TriangleInterpolation interpolate(std::span<const Vector2d> nodes, const Vector3d& at) {
+  TriangleInterpolation result;
+  result.nodes = std::ssize(nodes);
+  result.N = triangle_shape_functions(at, nodes.size() == 6);
+  const Eigen::Matrix<double, 2, 6> local = local_gradient(nodes.size() == 6, at);
+  Eigen::Matrix2d J = Eigen::Matrix2d::Zero();  // d(x, y) / d(L_0, L_1), by rows of L
+  for (Index i = 0; i < result.nodes; ++i) {
+    const Vector2d& p = nodes[to_size(i)];
+    result.position += result.N[i] * p;
+    J += local.col(i) * p.transpose();
+  }
+  result.gradient = J.inverse() * local;
+  result.signed_area = J.determinant() / 2;
+  result.area = std::abs(result.signed_area);
+  return result;
+}
+
+TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
+                                  const Vector3d& at) {
+  return visit_nodes(model, triangle, [&](const auto& nodes) { return interpolate(nodes, at); });
 }
 
 double signed_area(const TrianglePoints& points) {
   return cross(points[1] - points[0], points[2] - points[0]) / 2;
 }
 
-TriangleDeformation triangle_deformation(const TrianglePoints& points) {
+Eigen::Matrix<double, 3, 6> triangle_deformation(const TrianglePoints& points) {
   const double twice = 2 * signed_area(points);
-  TriangleDeformation B;
+  TriangleInterpolation at;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector2d edge = points[(i + 2) % 3] - points[(i + 1) % 3];
-    const double dx = -edge.y() / twice;  // dN_i/dx
-    const double dy = edge.x() / twice;
-    B.col(static_cast<Index>(2 * i)) << dx, dx, dy;
-    B.col(static_cast<Index>(2 * i + 1)) << dy, -dy, dx;
+    at.gradient.col(static_cast<Index>(i)) << -edge.y() / twice, edge.x() / twice;
   }
-  return B;
+  return triangle_deformation<3>(at);
 }
 
 Vector3d membrane_rigidity(const Material& material, double volume) {
@@ -41,17 +79,48 @@ Vector3d membrane_stress(const Material& material, const Vector3d& deformation) 
   return {force[0] + force[1], force[0] - force[1], force[2]};
 }
 
-Matrix6d triangle_stiffness(const TrianglePoints& points, const Plate& plate) {
-  const TriangleDeformation B = triangle_deformation(points);
-  const double volume = plate.thickness * std::abs(signed_area(points));
-  return B.transpose() * membrane_rigidity(plate.material, volume).asDiagonal() * B;
+template <>
+TriangleStiffness<3> triangle_stiffness(const TrianglePoints& nodes, const Plate& plate) {
+  return {triangle_deformation(nodes),
+          membrane_rigidity(plate.material, plate.thickness * std::abs(signed_area(nodes)))};
 }
 
-Matrix6d triangle_mass(const TrianglePoints& points, const Plate& plate) {
-  const double m = plate.material.rho * plate.thickness * std::abs(signed_area(points)) / 12;
+template <>
+TriangleStiffness<6> triangle_stiffness(const TriangleNodes<6>& nodes, const Plate& plate) {
+  TriangleStiffness<6> k;
+  Index row = 0;
+  for (const TriangleQuadraturePoint& point : triangle_quadrature_of_degree_4()) {
+    const TriangleInterpolation at = interpolate(nodes, point.area_coordinates);
+    k.B.middleRows<3>(row) = triangle_deformation<6>(at);
+    k.c.segment<3>(row) =
+        membrane_rigidity(plate.material, point.weight * at.area * plate.thickness);
+    row += 3;
+  }
+  return k;
+}
+
+template <>
+TriangleMatrix<3> triangle_mass(const TrianglePoints& nodes, const Plate& plate) {
+  const double m = plate.material.rho * plate.thickness * std::abs(signed_area(nodes)) / 12;
   Matrix6d M = Matrix6d::Zero();
   for (Index i = 0; i < 6; ++i) {
     for (Index j = i % 2; j < 6; j += 2) M(i, j) = i == j ? 2 * m : m;
+  }
+  return M;
+}
+
+template <>
+TriangleMatrix<6> triangle_mass(const TriangleNodes<6>& nodes, const Plate& plate) {
+  TriangleMatrix<6> M = TriangleMatrix<6>::Zero();
+  for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
+    const TriangleInterpolation at = interpolate(nodes, point.area_coordinates);
+    const double dm = plate.material.rho * plate.thickness * at.area * point.weight;
+    for (Index i = 0; i < 6; ++i) {
+      for (Index j = 0; j < 6; ++j) {
+        M(2 * i, 2 * j) += dm * at.N[i] * at.N[j];
+        M(2 * i + 1, 2 * j + 1) += dm * at.N[i] * at.N[j];
+      }
+    }
   }
   return M;
 }

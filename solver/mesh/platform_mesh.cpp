@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "solver/model/plane.h"
-#include "solver/model/triangle_shape.h"
+#include "solver/elements/triangle_element.h"
 
 namespace trammel::solver {
 

@@ -30,6 +30,19 @@ std::array<TriangleQuadraturePoint, 25> conical_product() {
   return points;
 }
 
+std::array<TriangleQuadraturePoint, 6> dunavant() {
+  constexpr double a = 0.44594849091596488631832925388305;
+  constexpr double b = 0.09157621350977074345957146340220;
+  constexpr double wa = 0.22338158967801146569500700843312;
+  constexpr double wb = 0.10995174365532186764832632490021;
+  return {{{{1 - 2 * a, a, a}, wa},
+           {{a, 1 - 2 * a, a}, wa},
+           {{a, a, 1 - 2 * a}, wa},
+           {{1 - 2 * b, b, b}, wb},
+           {{b, 1 - 2 * b, b}, wb},
+           {{b, b, 1 - 2 * b}, wb}}};
+}
+
 }  // namespace
 
 const std::array<LineQuadraturePoint, 5>& line_quadrature() {
@@ -39,6 +52,11 @@ const std::array<LineQuadraturePoint, 5>& line_quadrature() {
 
 const std::array<TriangleQuadraturePoint, 25>& triangle_quadrature() {
   static const std::array<TriangleQuadraturePoint, 25> points = conical_product();
+  return points;
+}
+
+const std::array<TriangleQuadraturePoint, 6>& triangle_quadrature_of_degree_4() {
+  static const std::array<TriangleQuadraturePoint, 6> points = dunavant();
   return points;
 }
 

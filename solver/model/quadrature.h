@@ -24,4 +24,7 @@ struct TriangleQuadraturePoint {
 /// Source: Stroud & Secrest (1966), conical product.
 [[nodiscard]] const std::array<TriangleQuadraturePoint, 25>& triangle_quadrature();
 
+/// Exact to degree 4.   Source: Dunavant (1985).
+[[nodiscard]] const std::array<TriangleQuadraturePoint, 6>& triangle_quadrature_of_degree_4();
+
 }  // namespace trammel::solver

@@ -253,7 +253,7 @@ class Postprocessor {
       const Triangle& triangle = model_.triangles[i];
       const TrianglePoints corner = corners(model_, triangle);
       const auto stress = [&](const Vector3d& at) {
-        return plate_stress(system_, triangle, corner, at, u_);
+        return plate_stress(system_, triangle, at, u_);
       };
       const double size = std::abs(signed_area(corner));
       solution.triangle_stress.row(static_cast<Index>(i)) = stress(Vector3d::Constant(1 / 3.0));

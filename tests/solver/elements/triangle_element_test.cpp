@@ -21,10 +21,15 @@ Vector6d sample(const TrianglePoints& points, const Vector2d& shift, const Eigen
   return u;
 }
 
+Matrix6d stiffness(const TrianglePoints& points, const Plate& plate) {
+  const TriangleStiffness<3> k = triangle_stiffness(points, plate);
+  return k.B.transpose() * k.c.asDiagonal() * k.B;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
-  const Matrix6d k = triangle_stiffness(kPoints, kPlate);
+  const Matrix6d k = stiffness(kPoints, kPlate);
   Eigen::Matrix2d turn;
   turn << 0, -1, 1, 0;
   for (const Vector6d& u :
@@ -54,7 +59,7 @@ BOOST_AUTO_TEST_CASE(a_uniform_strain_is_reproduced_with_its_stress_and_energy) 
   BOOST_TEST(stress[0] == c * (exx + m.nu * eyy), boost::test_tools::tolerance(1e-12));
   BOOST_TEST(stress[1] == c * (eyy + m.nu * exx), boost::test_tools::tolerance(1e-12));
   BOOST_TEST(stress[2] == m.E / (2 * (1 + m.nu)) * gxy, boost::test_tools::tolerance(1e-12));
-  const double energy = u.dot(triangle_stiffness(kPoints, kPlate) * u);
+  const double energy = u.dot(stiffness(kPoints, kPlate) * u);
   const double volume = kPlate.thickness * signed_area(kPoints);
   BOOST_TEST(energy == volume * (stress[0] * exx + stress[1] * eyy + stress[2] * gxy),
              boost::test_tools::tolerance(1e-9));
@@ -64,8 +69,8 @@ BOOST_AUTO_TEST_CASE(the_order_of_the_corners_does_not_matter) {
   const TrianglePoints clockwise = {kPoints[0], kPoints[2], kPoints[1]};
   Eigen::PermutationMatrix<6> swap;
   swap.indices() << 0, 1, 4, 5, 2, 3;
-  const Matrix6d k = swap * triangle_stiffness(clockwise, kPlate) * swap.transpose();
-  BOOST_TEST((k - triangle_stiffness(kPoints, kPlate)).norm() < 1e-14 * k.norm());
+  const Matrix6d k = swap * stiffness(clockwise, kPlate) * swap.transpose();
+  BOOST_TEST((k - stiffness(kPoints, kPlate)).norm() < 1e-14 * k.norm());
   BOOST_TEST(signed_area(clockwise) == -signed_area(kPoints));
 }
 

@@ -1,4 +1,4 @@
-#include "solver/elements/triangle_interpolation.h"
+#include "solver/elements/triangle_element.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -88,18 +88,6 @@ BOOST_AUTO_TEST_CASE(six_straight_nodes_hold_any_quadratic) {
   BOOST_TEST(value == f(p), boost::test_tools::tolerance(1e-14));
   BOOST_TEST(gradient.x() == 2 + 6 * p.x() - 4 * p.y(), boost::test_tools::tolerance(1e-13));
   BOOST_TEST(gradient.y() == -1 - 4 * p.x() + 10 * p.y(), boost::test_tools::tolerance(1e-13));
-}
-
-BOOST_AUTO_TEST_CASE(a_bent_side_adds_the_area_of_its_parabola) {
-  const double bend = 0.05;
-  double area = 0;
-  for (const auto& point : t::triangle_quadrature()) {
-    area += point.weight * at(one_triangle(true, bend), point.area_coordinates).area;
-  }
-  const Vector2d a(1.2, -0.1), b(0.3, 0.7), side(-0.9, 0.8);
-  const double straight = (a.x() * b.y() - a.y() * b.x()) / 2;
-  const double bulge = 2.0 / 3 * (bend * (side.y() - side.x()));  // 2/3 of chord times height
-  BOOST_TEST(area == straight + bulge, boost::test_tools::tolerance(1e-13));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

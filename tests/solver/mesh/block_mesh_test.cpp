@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/elements/triangle_interpolation.h"
+#include "solver/elements/triangle_element.h"
 #include "solver/modes/modes.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/side_loads.h"
