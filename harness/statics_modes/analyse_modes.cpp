@@ -8,7 +8,6 @@
 #include "harness/statics_modes/rotating_state.h"
 #include "solver/model/numbers.h"
 #include "solver/modes/modes.h"
-#include "solver/modes/prestressed_modes.h"
 #include "solver/modes/reduction.h"
 #include "solver/poses/pose_modes.h"
 
@@ -47,7 +46,7 @@ solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_m
     return solver::solve_modes(system, options);
   refuse(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
          "it counts the modes of the unloaded model");
-  return solver::solve_prestressed_modes(system, options).modes;
+  return solver::solve_prestressed_modes(system, options);
 }
 
 /// @param item  the mode, along a path

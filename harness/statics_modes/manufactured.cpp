@@ -1,7 +1,7 @@
 #include "harness/statics_modes/manufactured.h"
 
 #include "solver/assembly/consistent_load.h"
-#include "solver/assembly/equation_rows.h"
+#include "solver/assembly/row_balance.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/refinement.h"
@@ -13,10 +13,10 @@ namespace {
 /// Residuals of (K - omega^2 M) q = f with the matrices formed afresh.
 void judge(const solver::System& system, double omega, ManufacturedSolution& solution) {
   const Eigen::VectorXd u = system.T * solution.q;
-  solver::EquationRows rows(system);
+  solver::RowBalance<double> rows(system);
   rows.add_stiffness(u);
-  if (omega != 0) rows.add_inertia(u, -omega * omega);
-  rows.add_load(system.load, -1);
+  if (omega != 0) rows.add_inertia(-omega * omega * u);
+  rows.add_load(-system.load);
   solution.evidence.add(solver::Residual::equilibrium, rows.backward_error());
   solution.evidence.add(solver::Residual::load, rows.residual_over_load());
   solution.outcome = solver::outcome_by_evidence(solution.outcome, solution.evidence);

@@ -1,5 +1,6 @@
 #include "harness/studies/mode_match.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -8,7 +9,6 @@
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
 #include "harness/scene/with_model_errors.h"
-#include "solver/linalg/dense_qr.h"
 #include "solver/modes/modes.h"
 
 namespace trammel::harness {
@@ -89,7 +89,8 @@ Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>&
     const double norm = shapes.col(column).norm();
     if (norm > 0) shapes.col(column) /= norm;
   }
-  return solver::range_basis(shapes);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(shapes);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(shapes.rows(), qr.rank());
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <vector>
 
 #include "solver/assembly/system.h"
 #include "solver/elastodynamics/nominal_motion.h"
-#include "solver/linalg/dense_lu.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver {
@@ -48,7 +47,7 @@ class MovingConstraints {
   RowMajorMatrix T_dot_, T_ddot_;
   std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
   std::vector<Index> dependent_row_of_;      // ... of each coordinate that they eliminate, or -1
-  DenseLu pivots_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
 };
 
 }  // namespace trammel::solver

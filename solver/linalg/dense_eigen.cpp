@@ -1,56 +1,55 @@
 #include "solver/linalg/dense_eigen.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 
 #include "solver/model/numbers.h"
 
 namespace trammel::solver {
-namespace {
 
-template <class Matrix, class Eigensolver>
-SymmetricEigenpairs<Matrix> result_of(const Eigensolver& solver, Index size, bool positive) {
-  SymmetricEigenpairs<Matrix> pairs;
-  pairs.converged = positive && solver.info() == Eigen::Success;
-  if (pairs.converged) {
-    pairs.value = solver.eigenvalues();
-    pairs.vector = solver.eigenvectors();
-  } else {
-    pairs.value.setConstant(size, kNaN);
-    pairs.vector.setConstant(size, size, kNaN);
-  }
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+SymmetricEigenpairs symmetric_eigenpairs(const MatrixXd& A) {
+  if (A.size() == 0) return {true, {}, {}};
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(A);
+  if (solver.info() == Eigen::Success) return {true, solver.eigenvalues(), solver.eigenvectors()};
+  const Index n = A.rows();
+  return {false, VectorXd::Constant(n, kNaN), MatrixXd::Constant(n, n, kNaN)};
+}
+
+SymmetricEigenpairs symmetric_eigenpairs(const MatrixXd& A, const MatrixXd& B) {
+  const Eigen::LLT<MatrixXd> cholesky(B);
+  const Index n = A.rows();
+  if (cholesky.info() != Eigen::Success)
+    return {false, VectorXd::Constant(n, kNaN), MatrixXd::Constant(n, n, kNaN)};
+  MatrixXd C = A.selfadjointView<Eigen::Lower>();
+  cholesky.matrixL().solveInPlace<Eigen::OnTheLeft>(C);
+  cholesky.matrixU().solveInPlace<Eigen::OnTheRight>(C);
+  SymmetricEigenpairs pairs = symmetric_eigenpairs(C);
+  cholesky.matrixU().solveInPlace(pairs.vector);
   return pairs;
 }
 
-}  // namespace
-
-template <class Matrix>
-SymmetricEigenpairs<Matrix> symmetric_eigenpairs(const Matrix& A) {
-  if (A.size() == 0) return {true, {}, {}};
-  return result_of<Matrix>(Eigen::SelfAdjointEigenSolver<Matrix>(A), A.rows(), true);
-}
-template SymmetricEigenpairs<Eigen::Matrix3d> symmetric_eigenpairs(const Eigen::Matrix3d&);
-template SymmetricEigenpairs<Eigen::MatrixXd> symmetric_eigenpairs(const Eigen::MatrixXd&);
-template SymmetricEigenpairs<Eigen::MatrixXcd> symmetric_eigenpairs(const Eigen::MatrixXcd&);
-
-SymmetricEigenpairs<Eigen::MatrixXd> symmetric_eigenpairs(const Eigen::MatrixXd& A,
-                                                          const Eigen::MatrixXd& B) {
-  if (A.size() == 0) return {true, {}, {}};
-  // Eigen factors B too, but does not say whether that succeeded.
-  const bool positive = Eigen::LLT<Eigen::MatrixXd>(B).info() == Eigen::Success;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(A, B);
-  return result_of<Eigen::MatrixXd>(solver, A.rows(), positive);
-}
-
-ComplexEigenpairs eigenpairs(const Eigen::MatrixXd& A) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+ComplexEigenpairs eigenpairs(const MatrixXd& A) {
+  const Eigen::EigenSolver<MatrixXd> solver(A);
   if (solver.info() == Eigen::Success) return {true, solver.eigenvalues(), solver.eigenvectors()};
-  return {false, Eigen::VectorXcd::Constant(A.rows(), kNaN),
-          Eigen::MatrixXcd::Constant(A.rows(), A.rows(), kNaN)};
+  const Index n = A.rows();
+  return {false, Eigen::VectorXcd::Constant(n, kNaN), Eigen::MatrixXcd::Constant(n, n, kNaN)};
 }
 
-double spectral_radius(const Eigen::MatrixXd& A) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A, false);
-  return solver.info() == Eigen::Success ? solver.eigenvalues().cwiseAbs().maxCoeff() : kNaN;
+PivotedSolution pivoted_solve(const Matrix3d& A, const Vector3d& b) {
+  const Eigen::ColPivHouseholderQR<Matrix3d> qr(A);
+  return {qr.solve(b), std::abs(qr.matrixR()(2, 2)) / std::abs(qr.matrixR()(0, 0))};
+}
+
+Vector3d singular_values(const Matrix3d& A) {
+  const Eigen::JacobiSVD<Matrix3d> svd(A);
+  return svd.info() == Eigen::Success ? Vector3d(svd.singularValues()) : Vector3d::Constant(kNaN);
 }
 
 }  // namespace trammel::solver

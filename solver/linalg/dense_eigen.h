@@ -2,35 +2,41 @@
 
 #include <Eigen/Core>
 
-/// Eigen's dense eigenvalue solvers, compiled once. Where an iteration has not converged, or the
-/// matrix of the right-hand side is not positive definite, every number of the result is NaN.
+/// Eigen's dense decompositions, compiled once. If an iteration does not converge, or the matrix of
+/// the right-hand side is not positive definite, every number of the result is NaN.
 namespace trammel::solver {
 
-template <class Matrix>
 struct SymmetricEigenpairs {
   bool converged = false;
-  Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1> value;  ///< ascending
-  Matrix vector;                                              ///< one a column
+  Eigen::VectorXd value;   ///< ascending
+  Eigen::MatrixXd vector;  ///< one per column
 };
 
-/// A x = lambda x, A Hermitian, x^H x = 1; for Matrix3d, MatrixXd and MatrixXcd.
-template <class Matrix>
-[[nodiscard]] SymmetricEigenpairs<Matrix> symmetric_eigenpairs(const Matrix& A);
+/// A x = lambda x, A symmetric, x^T x = 1.
+[[nodiscard]] SymmetricEigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& A);
 
-/// A x = lambda B x, both symmetric, B positive definite, x^T B x = 1.
-[[nodiscard]] SymmetricEigenpairs<Eigen::MatrixXd> symmetric_eigenpairs(const Eigen::MatrixXd& A,
-                                                                        const Eigen::MatrixXd& B);
+/// A x = lambda B x, both symmetric, B positive definite, x^T B x = 1. Of A the lower triangle is
+/// read.
+[[nodiscard]] SymmetricEigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& A,
+                                                       const Eigen::MatrixXd& B);
 
 struct ComplexEigenpairs {
   bool converged = false;
   Eigen::VectorXcd value;
-  Eigen::MatrixXcd vector;  ///< one a column, norm 1
+  Eigen::MatrixXcd vector;  ///< one per column, norm 1
 };
 
 /// A x = lambda x for any square A, in no order.
 [[nodiscard]] ComplexEigenpairs eigenpairs(const Eigen::MatrixXd& A);
 
-/// Largest |lambda| of A.
-[[nodiscard]] double spectral_radius(const Eigen::MatrixXd& A);
+struct PivotedSolution {
+  Eigen::Vector3d x;                     ///< meaningless if A is singular
+  double smallest_to_largest_pivot = 0;  ///< |R_33| / |R_11|, near zero if A is singular
+};
+/// Solves A x = b by column-pivoted QR.
+[[nodiscard]] PivotedSolution pivoted_solve(const Eigen::Matrix3d& A, const Eigen::Vector3d& b);
+
+/// Singular values, descending; NaN if A is not finite.
+[[nodiscard]] Eigen::Vector3d singular_values(const Eigen::Matrix3d& A);
 
 }  // namespace trammel::solver

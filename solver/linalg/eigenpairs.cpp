@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/lanczos.h"
-#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 namespace {
@@ -13,123 +15,22 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr const char* kIllConditioned =
-    "the stiffness matrix is too ill-conditioned for double precision";
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Index kDenseSize = 64;  // free coordinates; above, Lanczos is faster for a few modes
 constexpr double kConvergenceTolerance =
     1e-11;                            // relative change of an eigenvalue in one inverse iteration
 constexpr double kClusterGap = 1e-3;  // between neighbours that are certainly not copies
 
-// K and B are symmetric: times a vector they stand as transposed, for rows add up in registers.
+// K and B are symmetric. Products use their transpose, whose rows are summed in registers.
 
-/// y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the columns of `known`.
-class LanczosOperator {
- public:
-  LanczosOperator(const SparseMatrix& B, const Factorization& factorization, const MatrixXd& known,
-                  Counters& counters)
-      : B_(B), factorization_(factorization), known_(known), counters_(counters) {}
-
-  [[nodiscard]] VectorXd apply(const Eigen::Ref<const VectorXd>& x) const {
-    const VectorXd p = factorization_.solve_half_transposed(complement(x));
-    ++counters_.solves;
-    return complement(factorization_.solve_half(B_.transpose() * p));
-  }
-  [[nodiscard]] VectorXd complement(VectorXd x) const {
-    if (known_.cols() > 0) x.noalias() -= known_ * (known_.transpose() * x);
-    return x;
-  }
-
- private:
-  const SparseMatrix& B_;
-  const Factorization& factorization_;
-  const MatrixXd& known_;
-  Counters& counters_;
-};
-
-/// Provides the eigenvectors of the largest mu, dense or by Lanczos; more can be asked for, again
-/// and again.
-class EigenpairProvider {
- public:
-  EigenpairProvider(const Pencil& pencil, bool dense, Counters& counters)
-      : pencil_(pencil), dense_(dense), counters_(counters) {}
-
-  /// Vectors of the `count` largest mu > 0 beyond the null vectors, or of all there are; fewer
-  /// where Lanczos gave up.
-  MatrixXd first_block(const Factorization& factorization, Index count, const MatrixXd& null) {
-    if (!dense_) return lanczos(factorization, count, null);
-    all_ = dense_vectors();
-    taken_ = std::min(null.cols(), all_.cols());  // their mu is the largest
-    return take_dense(count);
-  }
-
-  /// About `count` more in the complement of X, whose columns are orthogonal in K - s B.
-  MatrixXd next_block(const Factorization& factorization, Index count, const MatrixXd& X) {
-    return dense_ ? take_dense(count) : lanczos(factorization, count, X);
-  }
-
-  /// Whether there are no more than what is given; Lanczos may have given up.
-  [[nodiscard]] bool gives_all() const { return dense_; }
-  /// Whether the dense eigenvalue iteration failed.
-  [[nodiscard]] bool failed() const { return failed_; }
-
- private:
-  [[nodiscard]] Index size() const { return pencil_.K->rows(); }
-
-  MatrixXd take_dense(Index count) {
-    const Index kept = std::min(count, all_.cols() - taken_);
-    taken_ += kept;
-    return all_.middleCols(taken_ - kept, kept);
-  }
-
-  /// All with mu > 0, the largest first.
-  [[nodiscard]] MatrixXd dense_vectors() {
-    const MatrixXd A = MatrixXd(*pencil_.K) - pencil_.shift * MatrixXd(*pencil_.B);
-    const VectorXd scale = A.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
-    const MatrixXd scaled_A = scale.asDiagonal() * A * scale.asDiagonal();
-    const MatrixXd scaled_B = scale.asDiagonal() * MatrixXd(*pencil_.B) * scale.asDiagonal();
-    const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(scaled_B, scaled_A);
-    failed_ = !pairs.converged;
-    if (failed_) return MatrixXd(size(), 0);
-    const VectorXd& mu = pairs.value;
-    const double zero = static_cast<double>(size()) * kEps * mu.cwiseAbs().maxCoeff();
-    const Index kept = (mu.array() > zero).count();
-    return scale.asDiagonal() * pairs.vector.rightCols(kept).rowwise().reverse();
-  }
-
-  MatrixXd lanczos(const Factorization& factorization, Index count, const MatrixXd& X) {
-    const Index dimension = size() - X.cols();
-    const Index wanted = std::min(count, dimension - 1);
-    if (wanted < 1 || pencil_.B->norm() == 0) return MatrixXd(size(), 0);
-    MatrixXd known(size(), X.cols());  // in Lanczos' coordinates y = F^T x, where they are F^-1 A x
-    for (Index j = 0; j < X.cols(); ++j) {
-      known.col(j) =
-          factorization.solve_half(*pencil_.K * X.col(j) - pencil_.shift * (*pencil_.B * X.col(j)));
-      for (int pass = 0; pass < 2; ++pass) {
-        known.col(j) -= known.leftCols(j) * (known.leftCols(j).transpose() * known.col(j));
-      }
-      known.col(j).normalize();
-    }
-    const LanczosOperator op(*pencil_.B, factorization, known, counters_);
-    const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
-    const auto [mu, Y] = largest_eigenpairs([&op](const auto& x) { return op.apply(x); },
-                                            op.complement(start_vectors(size(), 1, X.cols())),
-                                            {.wanted = wanted, .subspace = subspace});
-    const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
-    MatrixXd found(size(), 0);
-    for (Index j = 0; j < mu.size(); ++j) {
-      if (!(mu[j] > zero)) continue;
-      found.conservativeResize(Eigen::NoChange, found.cols() + 1);
-      found.rightCols<1>() = factorization.solve_half_transposed(op.complement(Y.col(j)));
-    }
-    return found;
-  }
-
-  const Pencil& pencil_;
-  bool dense_, failed_ = false;
-  Counters& counters_;
-  MatrixXd all_;     // dense: every vector
-  Index taken_ = 0;  // dense: how many have been handed out
-};
+/// A x = lambda B x in coordinates scaled to a unit diagonal of B.
+SymmetricEigenpairs scaled_eigenpairs(const MatrixXd& A, const MatrixXd& B) {
+  const VectorXd scale = B.diagonal().cwiseSqrt().cwiseInverse();
+  SymmetricEigenpairs pairs = symmetric_eigenpairs(scale.asDiagonal() * A * scale.asDiagonal(),
+                                                   scale.asDiagonal() * B * scale.asDiagonal());
+  pairs.vector = scale.asDiagonal() * pairs.vector;
+  return pairs;
+}
 
 class Solver {
  public:
@@ -138,71 +39,128 @@ class Solver {
       : pencil_(pencil),
         null_(null),
         count_(count),
+        size_(pencil.K->rows()),
+        dense_(method == EigenMethod::dense || size_ < 4 ||
+               (method == EigenMethod::automatic && size_ <= kDenseSize)),
         counters_(counters),
-        provider_(pencil,
-                  method == EigenMethod::dense ||
-                      (method == EigenMethod::automatic && pencil.K->rows() <= kDenseSize) ||
-                      pencil.K->rows() < 4,
-                  counters),
-        factorization_(factorization) {}
+        factorization_(factorization),
+        X_(size_, 0) {}
 
   Eigenpairs run() {
     constexpr int kRounds = 40, kUncertainRounds = 8;
     if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return no_eigenpairs();
-    const Index guard = 3 + count_ / 4;
-    add(provider_.first_block(factorization_, count_ + guard, null_));
-    if (provider_.failed()) return no_eigenpairs();
+    add(next_block(count_ + 3 + count_ / 4));
     for (int round = 0; round < kRounds; ++round) {
       iterate_to_convergence();
-      if (inverse_iteration_failed_) return no_eigenpairs();
+      if (failed_) return no_eigenpairs();
       const Index expected = sturm_check();
       if (clear_of_rounding_) {
         if (expected == checked_) break;
-        if (expected < checked_ || round + 1 == kRounds) return report_missing_eigenpairs(expected);
+        if (expected < checked_ || round + 1 == kRounds) return missing_eigenpairs(expected);
       } else if (round + 1 >= kUncertainRounds) {
         return no_eigenpairs();
       }
-      factor();
-      const Index before = X_.cols(), missing = std::max<Index>(0, expected - checked_);
-      add(provider_.next_block(factorization_, missing + 2, with_null()));
+      factor(pencil_.shift);
+      const Index before = X_.cols();
+      add(next_block(std::max<Index>(0, expected - checked_) + 2));
       if (X_.cols() > before) continue;
-      if (expected != checked_) return report_missing_eigenpairs(expected);
-      if (!provider_.gives_all()) return no_eigenpairs();
+      if (expected != checked_) return missing_eigenpairs(expected);
+      if (!dense_) return no_eigenpairs();
       break;
     }
-    if (some_are_hidden()) return report_hidden_eigenpairs();
+    if (some_are_hidden()) return hidden_eigenpairs();
     iterate_beside_each();
-    finish();
-    return pairs_;
+    return finish({});
   }
 
  private:
-  void factor() {
-    factorization_.compute(shifted(*pencil_.K, *pencil_.B, pencil_.shift));
+  void factor(double t) {
+    if (!pencil_.B) return;
+    factorization_.compute(shifted(*pencil_.K, *pencil_.B, t));
     ++counters_.factorizations;
   }
 
+  [[nodiscard]] MatrixXd times_B(const MatrixXd& X) const {
+    if (pencil_.B) return pencil_.B->transpose() * X;
+    MatrixXd BX(X.rows(), X.cols());
+    for (Index j = 0; j < X.cols(); ++j) BX.col(j) = pencil_.B_times(X.col(j));
+    return BX;
+  }
+
+  /// (K - s B) x.
   [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     VectorXd y = pencil_.K_times(x);
-    if (pencil_.shift != 0) y -= pencil_.shift * (pencil_.B->transpose() * x);
+    if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
     return y;
+  }
+
+  /// About `count` vectors of the largest mu > 0 that are not known yet, or all that remain; fewer
+  /// if Lanczos' method gave up.
+  MatrixXd next_block(Index count) {
+    if (!dense_) return lanczos(count);
+    if (all_.rows() == 0) {
+      all_ = dense_vectors();
+      taken_ = std::min(null_.cols(), all_.cols());  // their mu is the largest
+    }
+    const Index kept = std::min(count, all_.cols() - taken_);
+    taken_ += kept;
+    return all_.middleCols(taken_ - kept, kept);
+  }
+
+  /// All with mu > 0, the largest first.
+  MatrixXd dense_vectors() {
+    const MatrixXd B = times_B(MatrixXd::Identity(size_, size_));
+    const SymmetricEigenpairs pairs =
+        scaled_eigenpairs(B, MatrixXd(*pencil_.K) - pencil_.shift * B);
+    failed_ = !pairs.converged;
+    if (failed_) return MatrixXd(size_, 0);
+    const double zero = static_cast<double>(size_) * kEps * pairs.value.cwiseAbs().maxCoeff();
+    return pairs.vector.rightCols((pairs.value.array() > zero).count()).rowwise().reverse();
+  }
+
+  /// Of y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the known vectors.
+  [[nodiscard]] MatrixXd lanczos(Index count) const {
+    const Index known_count = null_.cols() + X_.cols(), dimension = size_ - known_count;
+    const Index wanted = std::min(count, dimension - 1);
+    if (wanted < 1 || (pencil_.B && pencil_.B->norm() == 0)) return MatrixXd(size_, 0);
+    MatrixXd known(size_, known_count);  // y = F^T x = F^-1 (K - s B) x
+    known << null_, X_;
+    for (Index j = 0; j < known_count; ++j) {
+      VectorXd image = *pencil_.K * known.col(j);
+      if (pencil_.shift != 0) image -= pencil_.shift * times_B(known.col(j));
+      known.col(j) = factorization_.solve_half(image);
+      for (int pass = 0; pass < 2; ++pass) {
+        known.col(j) -= known.leftCols(j) * (known.leftCols(j).transpose() * known.col(j));
+      }
+      known.col(j).normalize();
+    }
+    const auto complement = [&known](VectorXd x) {
+      if (known.cols() > 0) x.noalias() -= known * (known.transpose() * x);
+      return x;
+    };
+    const auto apply = [&](const Eigen::Ref<const VectorXd>& x) -> VectorXd {
+      const VectorXd p = factorization_.solve_half_transposed(complement(x));
+      ++counters_.solves;
+      return complement(factorization_.solve_half(times_B(p)));
+    };
+    const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
+    const auto [mu, Y] = largest_eigenpairs(apply, complement(start_vectors(size_, 1, known_count)),
+                                            {.wanted = wanted, .subspace = subspace});
+    const double zero = 1e3 * kEps * (mu.size() > 0 ? std::abs(mu[0]) : 0.0);
+    MatrixXd found(size_, (mu.array() > zero).count());
+    for (Index j = 0; j < found.cols(); ++j)
+      found.col(j) = factorization_.solve_half_transposed(complement(Y.col(j)));
+    return found;
   }
 
   /// B-orthogonal to the null vectors.
   void remove_null(Eigen::Ref<VectorXd> x) const {
-    if (null_.cols() > 0) x -= null_ * (null_.transpose() * (*pencil_.B * x));
-  }
-
-  [[nodiscard]] MatrixXd with_null() const {
-    MatrixXd all(X_.rows(), null_.cols() + X_.cols());
-    all.leftCols(null_.cols()) = null_;
-    all.rightCols(X_.cols()) = X_;
-    return all;
+    if (null_.cols() > 0) x -= null_ * (null_.transpose() * times_B(x));
   }
 
   void add(const MatrixXd& found) {
     const Index old = X_.cols();
-    X_.conservativeResize(pencil_.K->rows(), old + found.cols());
+    X_.conservativeResize(Eigen::NoChange, old + found.cols());
     X_.rightCols(found.cols()) = found;
     for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
   }
@@ -216,15 +174,14 @@ class Solver {
     constexpr int kPasses = 4;
     constexpr double kEnough = 1e-9;  // a pass divides what other vectors leave by 1 / kAside
     const Index wanted = std::min(count_, X_.cols());
-    if (wanted == 0) return;
+    if (wanted == 0 || !pencil_.B) return;
     bool moved = false;
     const double first = null_.cols() > 0 ? 0 : pairs_.value[0];
     for (Index j = 0; j < wanted; ++j) {
       const double spread = (pairs_.value[j] - pencil_.shift) / (first - pencil_.shift);
       if (!pencil_.indefinite && !(spread > kWideSpread)) continue;
       const double t = pairs_.value[j] * (1 - kAside);
-      factorization_.compute(shifted(*pencil_.K, *pencil_.B, t));
-      ++counters_.factorizations;
+      factor(t);
       if (!factorization_.is_reliable()) continue;
       const Operator beside = [&](const VectorXd& x) -> VectorXd {
         return pencil_.K_times(x) - t * (pencil_.B->transpose() * x);
@@ -267,26 +224,23 @@ class Solver {
   /// One inverse iteration of the whole block with refined solutions, then Rayleigh-Ritz with K's
   /// exact products, in the form (K - s B)^-1 B so that the lowest values keep all their digits.
   void inverse_iteration() {
-    const Index p = X_.cols();
-    MatrixXd Y(X_.rows(), p);
-    for (Index j = 0; j < p; ++j) {
+    const MatrixXd BX = times_B(X_);
+    MatrixXd Y(size_, X_.cols());
+    for (Index j = 0; j < Y.cols(); ++j) {
       const RefinedSolution y =
-          refined_solve([this](const VectorXd& x) { return apply(x); }, factorization_,
-                        pencil_.B->transpose() * X_.col(j),
+          refined_solve([this](const VectorXd& x) { return apply(x); }, factorization_, BX.col(j),
                         X_.col(j) / (pairs_.value[j] - pencil_.shift), counters_);
-      inverse_iteration_failed_ = inverse_iteration_failed_ || !(y.correction < 0.1);
+      failed_ = failed_ || !(y.correction < 0.1);
       Y.col(j) = y.x;
       remove_null(Y.col(j));
       orthogonalise(Y, j);
     }
     MatrixXd A = pencil_.K_products(Y);
-    const MatrixXd B = Y.transpose() * (pencil_.B->transpose() * Y);
+    const MatrixXd B = Y.transpose() * times_B(Y);
     if (pencil_.shift != 0) A -= pencil_.shift * B;
-    const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
-    const SymmetricEigenpairs<MatrixXd> ritz = symmetric_eigenpairs(
-        scale.asDiagonal() * B * scale.asDiagonal(), scale.asDiagonal() * A * scale.asDiagonal());
-    inverse_iteration_failed_ = inverse_iteration_failed_ || !ritz.converged;
-    X_ = Y * (scale.asDiagonal() * ritz.vector.rowwise().reverse());
+    const SymmetricEigenpairs ritz = scaled_eigenpairs(B, A);
+    failed_ = failed_ || !ritz.converged;
+    X_ = Y * ritz.vector.rowwise().reverse();
     values();
   }
 
@@ -295,7 +249,7 @@ class Solver {
   void orthogonalise(MatrixXd& Y, Index j) const {
     for (const bool first : {true, false}) {
       VectorXd image = pencil_.K->transpose() * Y.col(j);
-      if (pencil_.shift != 0) image -= pencil_.shift * (pencil_.B->transpose() * Y.col(j));
+      if (pencil_.shift != 0) image -= pencil_.shift * times_B(Y.col(j));
       const VectorXd part = Y.leftCols(j).transpose() * image;
       const double whole = Y.col(j).dot(image), left = whole - part.squaredNorm();
       Y.col(j) -= Y.leftCols(j) * part;
@@ -308,23 +262,16 @@ class Solver {
   /// Rayleigh quotients, ascending.
   void values() {
     if (pencil_.indefinite) keep_positive();
-    const Index p = X_.cols();
     const VectorXd energy = pencil_.K_products(X_).diagonal();
-    const MatrixXd BX = pencil_.B->transpose() * X_;
-    const VectorXd norm = X_.cwiseProduct(BX).colwise().sum();
+    const VectorXd norm = X_.cwiseProduct(times_B(X_)).colwise().sum();
     const VectorXd value = energy.cwiseQuotient(norm);
     X_ *= norm.cwiseAbs().cwiseSqrt().cwiseInverse().asDiagonal();
-    std::vector<Index> order(static_cast<std::size_t>(p));
-    for (Index j = 0; j < p; ++j) order[static_cast<std::size_t>(j)] = j;
+    std::vector<Index> order(to_size(value.size()));
+    std::iota(order.begin(), order.end(), Index{0});
     std::stable_sort(order.begin(), order.end(),
                      [&value](Index a, Index b) { return value[a] < value[b]; });
-    pairs_.value.resize(p);
-    MatrixXd sorted(X_.rows(), p);
-    for (Index j = 0; j < p; ++j) {
-      pairs_.value[j] = value[order[static_cast<std::size_t>(j)]];
-      sorted.col(j) = X_.col(order[static_cast<std::size_t>(j)]);
-    }
-    X_ = std::move(sorted);
+    pairs_.value = value(order);
+    X_ = X_(Eigen::all, order).eval();
   }
 
   /// Without the vectors whose x^T B x is not positive but by rounding: where there are no more
@@ -353,37 +300,46 @@ class Solver {
     return (value - pairs_.value).cwiseQuotient(pairs_.value).cwiseAbs().maxCoeff();
   }
 
-  /// How many eigenvalues there are below a shift that cuts no cluster; `checked_` were found.
+  /// Counts the eigenvalues below a shift into `counted_`; false if it is not reliable.
+  bool count_below(double t) {
+    if (pencil_.count_below) {
+      const std::optional<Index> count = pencil_.count_below(t);
+      counted_ = count.value_or(-1);
+      return count.has_value();
+    }
+    factor(t);
+    counted_ = factorization_.exists() ? factorization_.negative_pivots() : -1;
+    return factorization_.is_reliable();
+  }
+
+  /// Number of eigenvalues below a shift that splits no cluster; `checked_` of them were found.
   Index sturm_check() {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
     const double rounding = rounding_of_values();
     const Index cut = cluster_boundary(rounding);
     checked_ = cut + null_.cols();
+    double& shift = pairs_.check_shift;
     for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
       if (p == 0) {
-        pairs_.check_shift = std::abs(pencil_.shift) * fraction;
-      } else if (cut == p) {
-        pairs_.check_shift = v[p - 1] * (1 + 2e-6 * fraction);
+        shift = std::abs(pencil_.shift) * fraction;
       } else {
-        pairs_.check_shift = v[cut - 1] + fraction * (v[cut] - v[cut - 1]);
+        shift = cut == p ? v[p - 1] * (1 + 2e-6 * fraction)
+                         : v[cut - 1] + fraction * (v[cut] - v[cut - 1]);
       }
-      factorization_.compute(shifted(*pencil_.K, *pencil_.B, pairs_.check_shift));
-      ++counters_.factorizations;
-      if (factorization_.is_reliable()) break;
+      if (count_below(shift)) break;
     }
-    const auto distance = [&](Index j) { return std::abs(pairs_.check_shift / v[j] - 1); };
+    const auto distance = [&](Index j) { return std::abs(shift / v[j] - 1); };
     clear_of_rounding_ =
         p == 0 || (distance(cut - 1) > rounding && (cut == p || distance(cut) > rounding));
-    pairs_.inertia_count = factorization_.exists() ? factorization_.negative_pivots() : -1;
-    return pairs_.inertia_count;
+    return counted_;
   }
 
   /// Whether B has more positive eigenvalues than pairs were found, which are fewer than wanted:
   /// the others are so far from the first that its rounding hides them.
   [[nodiscard]] bool some_are_hidden() {
     constexpr double kNoMass = 1e-12;  // of B scaled to a unit diagonal
-    if (X_.cols() >= count_ || pencil_.indefinite) return false;
+    if (X_.cols() >= count_ || pencil_.indefinite || !pencil_.B) return false;
     const VectorXd diagonal = pencil_.B->diagonal();
     SparseMatrix B = *pencil_.B;
     for (Index i = 0; i < B.rows(); ++i) {
@@ -407,50 +363,57 @@ class Solver {
     return cut < p && gap(cut) < 1e-7 ? p : cut;
   }
 
-  /// No pair at all, also where values stood already.
+  /// No pairs, also if some values have converged.
   Eigenpairs no_eigenpairs() {
     pairs_ = {};
-    pairs_.outcome = {Status::not_converged, kIllConditioned};
-    pairs_.vector.resize(pencil_.K->rows(), 0);
-    return pairs_;
+    X_.resize(size_, 0);
+    return finish("the stiffness matrix is too ill-conditioned for double precision");
   }
 
-  Eigenpairs report_missing_eigenpairs(Index expected) {
-    pairs_.outcome = {Status::not_converged, std::to_string(checked_) +
-                                                 " eigenvalues were found where the inertia of the "
-                                                 "matrices counts " +
-                                                 std::to_string(expected)};
-    finish();
-    return pairs_;
+  Eigenpairs missing_eigenpairs(Index expected) {
+    return finish(std::to_string(checked_) +
+                  " eigenvalues were found where the inertia of the matrices counts " +
+                  std::to_string(expected));
   }
 
-  Eigenpairs report_hidden_eigenpairs() {
-    pairs_.outcome = {Status::not_converged, "only " + std::to_string(checked_) +
-                                                 " eigenvalues were found: the others are too far "
-                                                 "from the first for double precision"};
-    finish();
-    return pairs_;
+  Eigenpairs hidden_eigenpairs() {
+    return finish("only " + std::to_string(checked_) +
+                  " eigenvalues were found: the others are too far from the first for double "
+                  "precision");
   }
 
-  void finish() {
-    const Index kept = std::min(count_, X_.cols());
+  Eigenpairs finish(const std::string& failure) {
+    if (!failure.empty()) pairs_.outcome = {Status::not_converged, failure};
+    const Index kept = std::min(pencil_.B ? count_ : std::max(count_, checked_), X_.cols());
     pairs_.value.conservativeResize(kept);
     pairs_.vector = X_.leftCols(kept);
     pairs_.error.conservativeResize(kept);
+    return pairs_;
   }
 
   const Pencil& pencil_;
   const MatrixXd& null_;
-  Index count_;
+  Index count_, size_;
+  bool dense_;
   Counters& counters_;
-  EigenpairProvider provider_;
   Factorization& factorization_;
   MatrixXd X_;
-  Index checked_ = 0;
-  bool clear_of_rounding_ = true;          // the shift of the last count, from what is found
-  bool inverse_iteration_failed_ = false;  // an inverse iteration that does not converge
+  MatrixXd all_;     // dense: every vector
+  Index taken_ = 0;  // dense: number of vectors returned so far
+  Index checked_ = 0, counted_ = 0;
+  bool clear_of_rounding_ = true;  // distance of the last check shift from the values
+  bool failed_ = false;            // an eigenvalue or inverse iteration has not converged
   Eigenpairs pairs_;
 };
+
+/// A shift far above all eigenvalues that can matter, in coordinates scaled to a unit diagonal of
+/// A, so that units of length and rotation do not mix.
+double shift_above_all(const SparseMatrix& A, const SparseMatrix& B) {
+  const VectorXd scale =
+      A.diagonal().cwiseAbs().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
+  const double size = (scale.asDiagonal() * B * scale.asDiagonal()).norm();
+  return size > 0 ? std::sqrt(static_cast<double>(A.rows())) / size : 0;
+}
 
 }  // namespace
 
@@ -471,6 +434,45 @@ SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
   SparseMatrix A = K;
   A.coeffs() -= t * B.coeffs();
   return A;
+}
+
+double miscounted_eigenvalues(const VectorXd& found,
+                              const std::function<std::optional<Index>(double)>& count_below) {
+  constexpr double kClearGap = 1e-6;  // rounding leaves much less between repeated values
+  for (Index below = found.size() - 1; below >= 0; --below) {
+    const double low = below > 0 ? found[below - 1] : 0;
+    const double gap = found[below] - low;
+    if (!(gap > kClearGap * found[below])) continue;
+    for (const double fraction : {0.5, 0.37, 0.61, 0.83}) {
+      if (const std::optional<Index> counted = count_below(low + fraction * gap))
+        return static_cast<double>(std::abs(*counted - below));
+    }
+  }
+  const bool nothing_swings = found.size() == 0 || found[found.size() - 1] == 0;
+  return nothing_swings ? 0 : kInfinity;
+}
+
+double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B, const VectorXd& found,
+                              Factorization&& spent, double shift_above) {
+  if (A.rows() == 0) return static_cast<double>(found.size());
+  Factorization factorization = std::move(spent);
+  const auto count_below = [&](double t) { return factorization.inertia(shifted(A, B, t)); };
+  if (found.size() == 0) {  // none at all, however large the shift
+    const std::optional<Index> counted = count_below(shift_above_all(A, B));
+    return counted ? static_cast<double>(*counted) : kInfinity;
+  }
+  if (shift_above > found[found.size() - 1] && count_below(shift_above) == found.size()) return 0;
+  return miscounted_eigenvalues(found, count_below);
+}
+
+Index dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
+  if (X.cols() == 0) return 0;
+  constexpr double kDependent = 1e-3;  // eigenvectors leave 1, twice the same rounding
+  const MatrixXd products = X.transpose() * (metric * X);
+  const VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
+  const SymmetricEigenpairs pairs =
+      symmetric_eigenpairs(scale.asDiagonal() * products * scale.asDiagonal());
+  return X.cols() - (pairs.value.array() > kDependent).count();  // all if they are not numbers
 }
 
 }  // namespace trammel::solver

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/refinement.h"
@@ -18,40 +19,62 @@ enum class EigenMethod { automatic, dense, sparse };
 /// eigenvalue).
 struct Pencil {
   const SparseMatrix* K = nullptr;
-  const SparseMatrix* B = nullptr;
+  const SparseMatrix* B = nullptr;  ///< null: `B_times` and `count_below`, with s = 0
   double shift = 0;
   bool indefinite = false;  ///< B: there are negative eigenvalues, too
   Operator K_times;         ///< x -> K x, more exact than the assembled K
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;  ///< X -> X^T K X, the same
+  Operator B_times;  ///< x -> B x of a B that is not assembled
+  /// Number of eigenvalues below a shift; nothing if round-off dominates it.
+  std::function<std::optional<Index>(double)> count_below;
 };
 
 /// The lowest positive eigenvalues (above s), copies of repeated ones included.
 struct Eigenpairs {
-  Outcome outcome;  ///< not_converged: fewer than the inertia count says there are
+  Outcome outcome;  ///< not_converged: fewer than the inertia count
   Eigen::VectorXd value;
-  Eigen::MatrixXd vector;   ///< q x pair, x^T |B| x = 1
-  Eigen::VectorXd error;    ///< relative, from the residual; second order in the vector's error
-  Index inertia_count = 0;  ///< eigenvalues in (s, check shift) by LDL^T, `null` included
-  double check_shift = 0;
+  Eigen::MatrixXd vector;  ///< q x pair, x^T |B| x = 1
+  Eigen::VectorXd error;   ///< relative, from the residual; second order in the vector's error
+  double check_shift = 0;  ///< above them and below all others, by the inertia of LDL^T
 };
 
-/// Dense or sparse: B x = mu (K - s B) x, largest mu first, mu =
-/// 1 / (lambda - s). B is never factored. Every answer is improved by inverse iteration with
-/// residuals of `K_times`, and counted: K - t B with t just above the last one, between clusters,
-/// must have as many negative pivots as were found (Sylvester). Lanczos may miss copies of a
-/// repeated value; then it goes on in the complement of what it has until the count agrees.
+/// Solves B x = mu (K - s B) x for the largest mu = 1 / (lambda - s), dense or by Lanczos' method.
+/// B is never factored. Every pair is improved by inverse iteration with residuals of `K_times`,
+/// and counted: K - t B with t just above the last one, between clusters, must have as many
+/// negative pivots as pairs were found (Sylvester). Lanczos' method may miss copies of a repeated
+/// value; it then continues in the complement of the known vectors until the count agrees.
 ///
-/// @param null  q x r, vectors with K x = 0 and B-orthonormal, known beforehand; they count
-///              as the first eigenvalues, 0, and are not among those returned.
-/// @param factorization  has `shifted(K, B, s)` factored; used up.
+/// @param null  q x r, known vectors with K x = 0, B-orthonormal; they count as the first
+///              eigenvalues, 0, and are not returned.
+/// @param count  number of pairs; of a B that is not assembled all below `check_shift` are returned
+/// @param factorization  of `shifted(K, B, s)`; overwritten.
 [[nodiscard]] Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null,
                                            Index count, EigenMethod method,
                                            Factorization& factorization, Counters& counters);
 
-/// Whether both are compressed and hold entries at the same places.
+/// True if both are compressed and hold entries at the same places.
 [[nodiscard]] bool same_pattern(const SparseMatrix& A, const SparseMatrix& B);
 
-/// K - t B, with the pattern of both whatever t is.
+/// K - t B, with the pattern of both for any t.
 [[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
+
+/// Number of eigenvalues that are missing or too many among those found, judged at the last clear
+/// gap among them; infinite if no gap can be counted.
+/// @param found  ascending, >= 0; 0 of free motions
+/// @param count_below  as of `Pencil`
+[[nodiscard]] double miscounted_eigenvalues(
+    const Eigen::VectorXd& found, const std::function<std::optional<Index>(double)>& count_below);
+
+/// The same of A x = t B x, A positive semidefinite, by the negative pivots of A - t B (Sylvester):
+/// at the given shift above all found, if the two agree there, otherwise at the last clear gap.
+/// @param spent  a factorization that is no longer needed, reused for its ordering and, if it is of
+///               A - shift_above B, for its factors
+[[nodiscard]] double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
+                                            const Eigen::VectorXd& found,
+                                            Factorization&& spent = {}, double shift_above = 0);
+
+/// Number of eigenvectors that depend on the others, by their products in a metric in which they
+/// are orthogonal: a mode that was found twice counts once.
+[[nodiscard]] Index dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
 
 }  // namespace trammel::solver

@@ -17,8 +17,13 @@ void Factorization::compute(const SparseMatrix& A) {
   exists_ = ldlt_.factorize(scaled);
 }
 
+std::optional<Index> Factorization::inertia(const SparseMatrix& A) {
+  compute(A);
+  return is_reliable() ? std::optional(negative_pivots()) : std::nullopt;
+}
+
 double Factorization::smallest_pivot() const {
-  const VectorXd D = ldlt_.pivots();
+  const VectorXd& D = ldlt_.pivots();
   return D.size() == 0 ? 1.0 : D.minCoeff();
 }
 

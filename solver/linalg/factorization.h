@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "solver/linalg/sparse_ldlt.h"
 #include "solver/model/counters.h"
@@ -22,6 +23,9 @@ class Factorization {
   [[nodiscard]] double smallest_pivot() const;
   /// Sylvester: the number of negative eigenvalues.
   [[nodiscard]] Index negative_pivots() const { return ldlt_.negative_pivots(); }
+  /// Factors A and returns the number of its negative eigenvalues, or nothing if it is not
+  /// reliable.
+  std::optional<Index> inertia(const SparseMatrix& A);
   /// Whether the signs of the pivots can be believed: where |L| exceeds about 1e8, an indefinite
   /// matrix without row exchanges has lost its digits.
   [[nodiscard]] bool is_reliable() const { return exists_ && ldlt_.element_growth() < 1e8; }

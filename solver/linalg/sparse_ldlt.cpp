@@ -74,19 +74,13 @@ struct SparseLdlt::Factors {
   SparseMatrix upper;               // upper triangle in that order
   std::vector<Index> from, mirror;  // entry of upper -> that of A, and the one across its diagonal
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
-  VectorXd pivots;
-  mutable VectorXd ordered, solved, root;
+  VectorXd pivots, root;  // D and, for half solves, |D|^(1/2)
+  mutable VectorXd ordered, solved;
 
   [[nodiscard]] bool has_pattern_of(const SparseMatrix& A) const {
     return columns.size() == to_size(A.cols()) + 1 &&
            std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
            std::equal(rows.begin(), rows.end(), A.innerIndexPtr());
-  }
-
-  /// D^(1/2), once for all half solves.
-  [[nodiscard]] const VectorXd& pivot_roots() const {
-    if (root.size() == 0) root = pivots.cwiseSqrt();
-    return root;
   }
 
   void analyze(const SparseMatrix& A) {
@@ -112,13 +106,10 @@ struct SparseLdlt::Factors {
 };
 
 SparseLdlt::SparseLdlt(Triangle triangle, Ordering ordering)
-    : factors_(std::make_unique<Factors>()) {
+    : factors_(new Factors, [](Factors* factors) { delete factors; }) {
   factors_->ordering = ordering;
   factors_->triangle = triangle;
 }
-SparseLdlt::~SparseLdlt() = default;
-SparseLdlt::SparseLdlt(SparseLdlt&&) noexcept = default;
-SparseLdlt& SparseLdlt::operator=(SparseLdlt&&) noexcept = default;
 
 bool SparseLdlt::factorize(const SparseMatrix& A) {
   Factors& f = *factors_;
@@ -134,12 +125,12 @@ bool SparseLdlt::factorize(const SparseMatrix& A) {
   if (!same) {
     f.ldlt.factorize(f.upper);
     f.pivots = f.ldlt.vectorD();
-    f.root.resize(0);
+    f.root = f.pivots.cwiseAbs().cwiseSqrt();
   }
   return f.ldlt.info() == Eigen::Success && f.pivots.allFinite();
 }
 
-VectorXd SparseLdlt::pivots() const {
+const VectorXd& SparseLdlt::pivots() const {
   return factors_->pivots;
 }
 
@@ -148,7 +139,7 @@ Index SparseLdlt::negative_pivots() const {
 }
 
 double SparseLdlt::smallest_to_largest_pivot() const {
-  const VectorXd D = pivots();
+  const VectorXd& D = pivots();
   double smallest = 1;
   for (Index j = 0; j < D.size(); ++j) {
     for (SparseMatrix::InnerIterator it(factors_->upper, j); it; ++it) {
@@ -184,12 +175,12 @@ void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {
 VectorXd SparseLdlt::solve_half(const VectorXd& b) const {
   VectorXd y = factors_->P * b;
   factors_->ldlt.matrixL().solveInPlace(y);
-  y.array() /= factors_->pivot_roots().array();
+  y.array() /= factors_->root.array();
   return y;
 }
 
 VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
-  VectorXd x = y.cwiseQuotient(factors_->pivot_roots());
+  VectorXd x = y.cwiseQuotient(factors_->root);
   solve_transposed(factors_->ldlt.matrixL().nestedExpression(), x);
   return factors_->P.transpose() * x;
 }
@@ -198,12 +189,6 @@ SparseMatrix SparseLdlt::square_root() const {
   const VectorXd root = factors_->pivots.cwiseMax(0).cwiseSqrt();
   const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->ldlt.matrixU());
   return U * factors_->P;
-}
-
-Index negative_pivots(const Eigen::SparseMatrix<std::complex<double>>& H) {
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<std::complex<double>>> ldlt(H);
-  if (ldlt.info() != Eigen::Success) return -1;
-  return (ldlt.vectorD().real().array() < 0).count();
 }
 
 }  // namespace trammel::solver

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <complex>
 #include <memory>
 
 #include "solver/model/counters.h"
@@ -26,18 +25,13 @@ class SparseLdlt {
 
   explicit SparseLdlt(Triangle triangle = Triangle::lower,
                       Ordering ordering = Ordering::fill_reducing);
-  ~SparseLdlt();
-  SparseLdlt(SparseLdlt&&) noexcept;
-  SparseLdlt& operator=(SparseLdlt&&) noexcept;
-  SparseLdlt(const SparseLdlt&) = delete;
-  SparseLdlt& operator=(const SparseLdlt&) = delete;
 
-  /// Of the matrix factored last the factors stay. False where a pivot was zero or not finite; then
-  /// nothing else may be asked.
+  /// Keeps the factors if the matrix is the last one. Returns false if a pivot was zero or not
+  /// finite; then no other function may be called.
   /// @param A  compressed, with the pattern of both triangles
   [[nodiscard]] bool factorize(const SparseMatrix& A);
 
-  [[nodiscard]] Eigen::VectorXd pivots() const;
+  [[nodiscard]] const Eigen::VectorXd& pivots() const;
   /// Sylvester: the number of negative eigenvalues.
   [[nodiscard]] Index negative_pivots() const;
   /// Smallest |pivot| over its diagonal entry: near zero where A is singular.
@@ -54,10 +48,7 @@ class SparseLdlt {
 
  private:
   struct Factors;
-  std::unique_ptr<Factors> factors_;
+  std::unique_ptr<Factors, void (*)(Factors*)> factors_;
 };
-
-/// Negative eigenvalues of a Hermitian matrix; -1 where a pivot is zero.
-[[nodiscard]] Index negative_pivots(const Eigen::SparseMatrix<std::complex<double>>& H);
 
 }  // namespace trammel::solver

@@ -12,13 +12,7 @@ struct SparseLu<Scalar>::Factors {
 };
 
 template <class Scalar>
-SparseLu<Scalar>::SparseLu() : factors_(std::make_unique<Factors>()) {}
-template <class Scalar>
-SparseLu<Scalar>::~SparseLu() = default;
-template <class Scalar>
-SparseLu<Scalar>::SparseLu(SparseLu&&) noexcept = default;
-template <class Scalar>
-SparseLu<Scalar>& SparseLu<Scalar>::operator=(SparseLu&&) noexcept = default;
+SparseLu<Scalar>::SparseLu() : factors_(new Factors, [](Factors* factors) { delete factors; }) {}
 
 template <class Scalar>
 bool SparseLu<Scalar>::factorize(const Eigen::SparseMatrix<Scalar>& A) {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "solver/linalg/dense_qr.h"
+#include "solver/linalg/dense_eigen.h"
 #include "solver/model/numbers.h"
 #include "solver/model/plane.h"
 

@@ -4,13 +4,13 @@
 #include <numbers>
 #include <utility>
 
-#include "solver/assembly/equation_rows.h"
 #include "solver/assembly/length_scales.h"
+#include "solver/assembly/row_balance.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/dense_eigen.h"
-#include "solver/linalg/eigenvalue_count.h"
 #include "solver/linalg/lanczos.h"
 #include "solver/statics/describe_mechanism.h"
+#include "solver/statics/statics.h"
 #include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
@@ -18,26 +18,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// M-orthonormal basis of the free motions; false where one of them moves no mass.
-bool orthonormalise(const System& system, MatrixXd& Z) {
-  if (Z.cols() == 0) return true;
-  const SparseMatrix& M = system.M;
-  // Masses of rotations are counted as inertia over the square of the model's size.
-  const VectorXd squared_length = squared_lengths(system);
-  VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
-  const double largest = mass.maxCoeff();
-  if (!(largest > 0)) return false;
-  mass = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
-  const VectorXd weight = mass.cwiseProduct(squared_length);
-  const MatrixXd gram = Z.transpose() * (M * Z);
-  const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
-  const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(gram, size);
-  if (!(pairs.value[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
-  const VectorXd inverse = pairs.value.cwiseSqrt().cwiseInverse();
-  Z = Z * pairs.vector * inverse.asDiagonal();
-  return true;
-}
 
 /// Whether a motion beyond the free ones moves mass: otherwise there is nothing that swings.
 bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
@@ -76,80 +56,19 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
   return quotient > 0 && std::isfinite(quotient) ? -quotient : -1;
 }
 
-void fill(const System& system, const Eigenpairs& pairs, const MatrixXd& Z, Index count,
-          ModalSolution& solution) {
-  const Index rigid = std::min(Z.cols(), count);
-  const Index elastic = std::min(pairs.value.size(), count - rigid);
-  solution.frequency.setZero(rigid + elastic);
-  solution.roundoff.setZero(rigid + elastic);
-  solution.shape.resize(system.K.rows(), rigid + elastic);
-  solution.shape.leftCols(rigid) = Z.leftCols(rigid);
-  for (Index j = 0; j < elastic; ++j) {
-    const double w2 = pairs.value[j];
-    solution.frequency[rigid + j] = std::sqrt(w2) / (2 * std::numbers::pi);
-    const double rounding = strain_roundoff(system, system.T * pairs.vector.col(j)) / w2;
-    solution.roundoff[rigid + j] =
-        0.5 * (rounding + pairs.error[j]) + 4 * std::numeric_limits<double>::epsilon();
-    solution.shape.col(rigid + j) = pairs.vector.col(j);
-  }
-}
-
-}  // namespace
-
-ModalSolution solve_modes(const System& system, const ModesOptions& options) {
-  ModalSolution solution;
-  solution.counters = system.counters;
-  Counters& counters = solution.counters;
-  if (system.K.rows() == 0) {  // nothing can move
-    judge_modes(system, nullptr, solution);
-    return solution;
-  }
-  Factorization factorization;
-  factorization.compute(shifted(system.K, system.M, 0));
-  ++counters.factorizations;
-  ZeroEnergyModes free = find_zero_energy_modes(system, factorization, counters);
-  solution.zero_energy_mode_count = free.count();
-  solution.zero_energy_mode_text = describe_mechanism(system, free);
-  if (!orthonormalise(system, free.basis)) {
-    solution.outcome = {Status::singular,
-                        "a part without mass moves freely: " + solution.zero_energy_mode_text};
-    return solution;
-  }
-  if (free.count() > 0 && !has_elastic_inertia(system.M, free.basis)) {
-    solution.inertia_count = free.count();
-    fill(system, {}, free.basis, options.count, solution);
-    judge_modes(system, nullptr, solution);
-    return solution;
-  }
-  Pencil pencil;
-  pencil.K = &system.K;
-  pencil.B = &system.M;
-  if (free.count() > 0) {
-    pencil.shift = floating_shift(system, free.basis, counters);
-    factorization.compute(shifted(system.K, system.M, pencil.shift));
-    ++counters.factorizations;
-  }
-  pencil.K_times = stiffness_operator(system);
-  pencil.K_products = [&system](const MatrixXd& X) {
-    return strain_products(system, system.T * X);
-  };
-  const Index elastic = std::max<Index>(0, options.count - free.count());
-  const Eigenpairs pairs =
-      lowest_eigenpairs(pencil, free.basis, elastic, options.method, factorization, counters);
-  solution.outcome = pairs.outcome;
-  solution.inertia_count = pairs.inertia_count;
-  fill(system, pairs, free.basis, options.count, solution);
-  judge_modes(system, nullptr, solution, std::move(factorization), pairs.check_shift);
-  return solution;
-}
-
-void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
-                 Factorization&& spent, double shift_above) {
+/// Largest backward error of (K + K_G) x = w^2 M x over the modes, and the number of modes.
+void judge(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
+           Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
   const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
-  if (w2.size() > 0)
-    solution.evidence.add(Residual::eigenvalue_equation,
-                          mode_backward_error(system, K_G, solution.shape, w2));
+  if (w2.size() > 0) {
+    const MatrixXd u = system.T * solution.shape;
+    RowBalance<double> rows(system, u.cols());
+    rows.add_stiffness(u);
+    rows.add_inertia(u * (-w2).asDiagonal());
+    if (K_G) rows.add(*K_G, solution.shape);
+    solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
+  }
   const SparseMatrix loaded = K_G ? SparseMatrix(system.K + *K_G) : SparseMatrix();
   const double missed =
       miscounted_eigenvalues(K_G ? loaded : system.K, system.M, w2, std::move(spent), shift_above);
@@ -158,12 +77,128 @@ void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& s
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
 }
 
+/// The modes of (K + K_G) x = w^2 M x.
+/// @param state  that K_G is of; null: unloaded, without K_G
+ModalSolution solve(const System& system, const ModesOptions& options,
+                    const StaticSolution* state) {
+  ModalSolution solution;
+  solution.counters = system.counters;
+  Counters& counters = solution.counters;
+  SparseMatrix K_G, loaded;
+  if (state && system.K.rows() > 0) {
+    K_G = geometric_stiffness(system, state->forces);
+    loaded = system.K + K_G;
+  }
+  const SparseMatrix* const added = state ? &K_G : nullptr;
+  const SparseMatrix& K = state ? loaded : system.K;
+  if (system.K.rows() == 0) {  // nothing can move
+    judge(system, added, solution);
+    return solution;
+  }
+  Factorization factorization;
+  factorization.compute(shifted(K, system.M, 0));
+  ++counters.factorizations;
+  ZeroEnergyModes free{MatrixXd(K.rows(), 0)};
+  if (!state) {
+    free = find_zero_energy_modes(system, factorization, counters);
+    solution.zero_energy_mode_count = free.count();
+    if (!orthonormalise(system, free.basis)) {
+      solution.outcome = {Status::singular,
+                          "a part without mass moves freely: " + describe_mechanism(system, free)};
+      return solution;
+    }
+  } else if (!factorization.exists() || factorization.smallest_pivot() <= 0) {
+    solution.outcome = {Status::singular, "the loads reach or exceed the buckling load"};
+    return solution;
+  }
+  Eigenpairs pairs;
+  const bool swings = free.count() == 0 || has_elastic_inertia(system.M, free.basis);
+  if (swings) {
+    Pencil pencil;
+    pencil.K = &K;
+    pencil.B = &system.M;
+    if (free.count() > 0) {
+      pencil.shift = floating_shift(system, free.basis, counters);
+      factorization.compute(shifted(system.K, system.M, pencil.shift));
+      ++counters.factorizations;
+    }
+    pencil.K_times = [&, elastic = stiffness_operator(system)](const VectorXd& x) -> VectorXd {
+      return added ? elastic(x) + K_G * x : elastic(x);
+    };
+    pencil.K_products = [&](const MatrixXd& X) -> MatrixXd {
+      const MatrixXd elastic = strain_products(system, system.T * X);
+      return added ? elastic + X.transpose() * (K_G * X) : elastic;
+    };
+    const Index elastic = std::max<Index>(0, options.count - free.count());
+    pairs = lowest_eigenpairs(pencil, free.basis, elastic, options.method, factorization, counters);
+  }
+  solution.outcome = pairs.outcome;
+  const Index rigid = std::min(free.count(), options.count);
+  const Index elastic = std::min(pairs.value.size(), options.count - rigid);
+  solution.frequency.setZero(rigid + elastic);
+  solution.roundoff.setZero(rigid + elastic);
+  solution.shape.resize(K.rows(), rigid + elastic);
+  solution.shape.leftCols(rigid) = free.basis.leftCols(rigid);
+  const Prestress of_forces = state ? prestress_roundoff(system, state->q) : Prestress();
+  for (Index j = 0; j < elastic; ++j) {
+    const double w2 = pairs.value[j];
+    const VectorXd x = pairs.vector.col(j);
+    double rounding = strain_roundoff(system, system.T * x);
+    if (state) rounding += geometric_energy_roundoff(system, K_G, of_forces, x);
+    solution.frequency[rigid + j] = std::sqrt(w2) / (2 * std::numbers::pi);
+    solution.roundoff[rigid + j] = 0.5 * (rounding / w2 + pairs.error[j]) + 4 * kEps;
+    solution.shape.col(rigid + j) = x;
+  }
+  if (swings) {
+    judge(system, added, solution, std::move(factorization), pairs.check_shift);
+  } else {
+    judge(system, added, solution);
+  }
+  return solution;
+}
+
+}  // namespace
+
+bool orthonormalise(const System& system, MatrixXd& Z) {
+  if (Z.cols() == 0) return true;
+  const SparseMatrix& M = system.M;
+  // Masses of rotations are counted as inertia over the square of the model's size.
+  const VectorXd squared_length = squared_lengths(system);
+  VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
+  const double largest = mass.maxCoeff();
+  if (!(largest > 0)) return false;
+  mass = mass.unaryExpr([largest](double m) { return m > 0 ? m : largest; });
+  const VectorXd weight = mass.cwiseProduct(squared_length);
+  const MatrixXd gram = Z.transpose() * (M * Z);
+  const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs(gram, size);
+  if (!(pairs.value[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
+  const VectorXd inverse = pairs.value.cwiseSqrt().cwiseInverse();
+  Z = Z * pairs.vector * inverse.asDiagonal();
+  return true;
+}
+
+ModalSolution solve_modes(const System& system, const ModesOptions& options) {
+  return solve(system, options, nullptr);
+}
+
+ModalSolution solve_prestressed_modes(const System& system, const ModesOptions& options) {
+  const StaticSolution state = solve_statics(system, {.second_order = true});
+  ModalSolution modes;
+  modes.outcome = state.outcome;
+  modes.counters = state.counters;
+  if (!state.outcome.solved()) return modes;
+  modes = solve(system, options, &state);
+  modes.evidence.add(state.evidence);
+  const Counters solved = std::exchange(modes.counters, state.counters);
+  modes.counters.factorizations += solved.factorizations;
+  modes.counters.solves += solved.solves;
+  return modes;
+}
+
 std::optional<Index> sturm_count(const System& system, double frequency) {
   const double w = 2 * std::numbers::pi * frequency;
-  Factorization factorization;
-  factorization.compute(system.K - w * w * system.M);
-  if (!factorization.is_reliable()) return std::nullopt;
-  return factorization.negative_pivots();
+  return Factorization().inertia(system.K - w * w * system.M);
 }
 
 }  // namespace trammel::solver

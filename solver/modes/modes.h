@@ -2,11 +2,9 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 
 #include "solver/assembly/system.h"
 #include "solver/linalg/eigenpairs.h"
-#include "solver/linalg/factorization.h"
 #include "solver/model/evidence.h"
 
 namespace trammel::solver {
@@ -33,22 +31,23 @@ struct ModalSolution {
   /// over w^2 (what rounding the mode to doubles can do to its strain energy), and the error left
   /// by the residual.
   Eigen::VectorXd roundoff;
-  Eigen::MatrixXd shape;              ///< free coordinate x mode; use node_motion, mesh_motion
-  Index zero_energy_mode_count = 0;   ///< how many leading frequencies are zero
-  std::string zero_energy_mode_text;  ///< what they are, in words
-  Index inertia_count = 0;            ///< eigenvalues below the check shift, by sparse LDL^T
+  Eigen::MatrixXd shape;             ///< free coordinate x mode; use node_motion, mesh_motion
+  Index zero_energy_mode_count = 0;  ///< how many leading frequencies are zero
   Evidence evidence;
   Counters counters;
 };
 
 [[nodiscard]] ModalSolution solve_modes(const System& system, const ModesOptions& options);
 
-/// Takes the residuals of what is claimed, (K + K_G) x = w^2 M x for every mode and their number,
-/// and lets them decide.
-/// @param K_G  null: none
-/// @param spent, shift_above  as of miscounted_eigenvalues
-void judge_modes(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
-                 Factorization&& spent = {}, double shift_above = 0);
+/// Small vibration about the state in which the model's loads hold it: (K + K_G) x = w^2 M x, K_G
+/// from the forces of second-order statics. The state's displacements are small: the geometry is
+/// the undeformed one. Singular without a stable state, for the reason given by statics.
+[[nodiscard]] ModalSolution solve_prestressed_modes(const System& system,
+                                                    const ModesOptions& options);
+
+/// Makes the columns of Z, free motions of a system, orthonormal in its mass; returns false if one
+/// of them moves no mass.
+[[nodiscard]] bool orthonormalise(const System& system, Eigen::MatrixXd& Z);
 
 /// Natural frequencies below `frequency` [Hz], copies of repeated ones and rigid motions included,
 /// by the negative pivots of K - (2 pi f)^2 M (Sylvester); nothing where the factorization loses

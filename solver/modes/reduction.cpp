@@ -1,9 +1,7 @@
 #include "solver/modes/reduction.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "solver/linalg/eigenpairs.h"
 #include "solver/linalg/factorization.h"
@@ -15,121 +13,61 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Free coordinates of the nodes that cut the members.
-std::vector<bool> interior_coordinates(const System& system) {
-  std::vector<bool> interior(static_cast<std::size_t>(system.K.rows()), false);
+/// The free coordinates of the nodes that cut the members, in sets that nothing couples: one for
+/// each member.
+std::vector<std::vector<Index>> interior_sets(const System& system) {
+  const auto free_coordinate = [&system](Index u) {
+    return u < 0 ? Index{-1} : system.constraints.free[to_size(u)];
+  };
+  std::vector<Index> root(to_size(system.K.rows()), -1);  // -1 on the boundary
   for (std::size_t n = system.model.nodes.size(); n < system.coordinates.node.size(); ++n) {
     for (const Index u : system.coordinates.node[n]) {
-      const Index q = u < 0 ? -1 : system.constraints.free[static_cast<std::size_t>(u)];
-      if (q >= 0) interior[static_cast<std::size_t>(q)] = true;
+      const Index q = free_coordinate(u);
+      if (q >= 0) root[to_size(q)] = q;
     }
   }
-  return interior;
-}
-
-/// The inside coordinates in sets that nothing couples: a member's each.
-std::vector<std::vector<Index>> components(const System& system,
-                                           const std::vector<bool>& interior) {
-  std::vector<Index> root(interior.size());
-  std::iota(root.begin(), root.end(), Index{0});
-  const auto find = [&](Index i) {
-    while (root[static_cast<std::size_t>(i)] != i) {
-      Index& up = root[static_cast<std::size_t>(i)];
-      i = up = root[static_cast<std::size_t>(up)];
-    }
+  const auto find = [&root](Index i) {
+    while (root[to_size(i)] != i) i = root[to_size(i)] = root[to_size(root[to_size(i)])];
     return i;
   };
+  const auto join = [&](Index i, Index j) {
+    if (root[to_size(i)] >= 0 && root[to_size(j)] >= 0) root[to_size(find(i))] = find(j);
+  };
   for (const SparseMatrix* matrix : {&system.K, &system.M}) {
-    for (Index j = 0; j < matrix->outerSize(); ++j) {
-      if (!interior[static_cast<std::size_t>(j)]) continue;
-      for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) {
-        const Index i = entry.row();
-        if (interior[static_cast<std::size_t>(i)])
-          root[static_cast<std::size_t>(find(i))] = find(j);
-      }
-    }
+    for (Index j = 0; j < matrix->outerSize(); ++j)
+      for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) join(entry.row(), j);
   }
-  // Bending and stretching of a member that lies along an axis are not coupled, and yet its own.
+  // Bending and stretching of a member along an axis are not coupled, but belong to one set.
   std::vector<Index> first(system.model.members.size(), -1);
   for (const FrameElement& element : system.mesh.frame) {
+    Index& own = first[to_size(element.member)];
     for (const Index u : element.coordinates) {
-      const Index q = u < 0 ? -1 : system.constraints.free[static_cast<std::size_t>(u)];
-      if (q < 0 || !interior[static_cast<std::size_t>(q)]) continue;
-      Index& own = first[static_cast<std::size_t>(element.member)];
+      const Index q = free_coordinate(u);
+      if (q < 0 || root[to_size(q)] < 0) continue;
       if (own < 0) own = q;
-      root[static_cast<std::size_t>(find(q))] = find(own);
+      join(q, own);
     }
   }
   std::vector<std::vector<Index>> sets;
-  std::vector<Index> set_of(interior.size(), -1);
-  for (std::size_t q = 0; q < interior.size(); ++q) {
-    if (!interior[q]) continue;
-    const auto r = static_cast<std::size_t>(find(static_cast<Index>(q)));
-    if (set_of[r] < 0) {
-      set_of[r] = static_cast<Index>(sets.size());
+  std::vector<Index> set_of(root.size(), -1);
+  for (Index q = 0; q < std::ssize(root); ++q) {
+    if (root[to_size(q)] < 0) continue;
+    Index& set = set_of[to_size(find(q))];
+    if (set < 0) {
+      set = std::ssize(sets);
       sets.emplace_back();
     }
-    sets[static_cast<std::size_t>(set_of[r])].push_back(static_cast<Index>(q));
+    sets[to_size(set)].push_back(q);
   }
   return sets;
 }
 
-/// Rows and columns of a matrix.
-class IndexSubset {
- public:
-  IndexSubset(Index size, const std::vector<Index>& chosen)
-      : local_index_(static_cast<std::size_t>(size), -1) {
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      local_index_[static_cast<std::size_t>(chosen[i])] = static_cast<Index>(i);
-    }
-    count_ = static_cast<Index>(chosen.size());
-  }
-  [[nodiscard]] Index local_index(Index q) const {
-    return local_index_[static_cast<std::size_t>(q)];
-  }
-
-  [[nodiscard]] SparseMatrix submatrix(const SparseMatrix& matrix,
-                                       const std::vector<Index>& chosen) const {
-    Triplets entries;
-    for (const Index j : chosen) {
-      for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
-        if (local_index(entry.row()) >= 0) {
-          entries.emplace_back(local_index(entry.row()), local_index(j), entry.value());
-        }
-      }
-    }
-    SparseMatrix part(count_, count_);
-    part.setFromTriplets(entries.begin(), entries.end());
-    return part;
-  }
-
- private:
-  std::vector<Index> local_index_;
-  Index count_ = 0;
-};
-
-/// Boundary coordinates that K couples with the set, each once.
-std::vector<Index> neighbours(const SparseMatrix& K, const std::vector<Index>& set,
-                              const IndexSubset& part) {
-  std::vector<Index> found;
-  for (const Index j : set) {
-    for (SparseMatrix::InnerIterator entry(K, j); entry; ++entry) {
-      if (part.local_index(entry.row()) < 0) found.push_back(entry.row());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
-
-/// Column of K at a boundary coordinate, its rows in the set.
-VectorXd coupling(const SparseMatrix& K, Index boundary, const std::vector<Index>& set,
-                  const IndexSubset& part) {
-  VectorXd column = VectorXd::Zero(static_cast<Index>(set.size()));
-  for (SparseMatrix::InnerIterator entry(K, boundary); entry; ++entry) {
-    if (part.local_index(entry.row()) >= 0) column[part.local_index(entry.row())] = entry.value();
-  }
-  return column;
+/// Columns of the identity matrix.
+SparseMatrix selection(Index size, const std::vector<Index>& chosen) {
+  SparseMatrix S(size, std::ssize(chosen));
+  for (Index j = 0; j < S.cols(); ++j) S.insert(chosen[to_size(j)], j) = 1;
+  S.makeCompressed();
+  return S;
 }
 
 /// The lowest modes with the boundary held.
@@ -173,35 +111,38 @@ MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const Matrix
   return parts;
 }
 
-/// R in q = R p.
+/// R in q = R p: the boundary coordinates, then modes and responses of one set after the other.
 SparseMatrix reduction(const System& system, Index modes, const std::vector<VectorXd>& loads,
                        Counters& counters) {
-  const std::vector<bool> interior = interior_coordinates(system);
-  const std::vector<std::vector<Index>> sets = components(system, interior);
+  const std::vector<std::vector<Index>> sets = interior_sets(system);
   const Index size = system.K.rows();
-  std::vector<Index> kept(interior.size(), -1);
-  Index columns = 0;
-  for (std::size_t q = 0; q < interior.size(); ++q) {
-    if (!interior[q]) kept[q] = columns++;
-  }
+  std::vector<bool> interior(to_size(size), false);
+  for (const std::vector<Index>& set : sets)
+    for (const Index q : set) interior[to_size(q)] = true;
+  std::vector<Index> boundary;
   Triplets entries;
-  for (std::size_t q = 0; q < interior.size(); ++q) {
-    if (!interior[q]) entries.emplace_back(static_cast<Index>(q), kept[q], 1.0);
+  for (Index q = 0; q < size; ++q) {
+    if (interior[to_size(q)]) continue;
+    entries.emplace_back(q, boundary.size(), 1.0);
+    boundary.push_back(q);
   }
+  const SparseMatrix to_boundary = selection(size, boundary).transpose();
+  Index columns = std::ssize(boundary);
   for (const std::vector<Index>& set : sets) {
-    if (modes >= static_cast<Index>(set.size())) {
+    if (modes >= std::ssize(set)) {
       for (const Index q : set) entries.emplace_back(q, columns++, 1.0);
       continue;
     }
-    const IndexSubset part(size, set);
-    const SparseMatrix K = part.submatrix(system.K, set), M = part.submatrix(system.M, set);
+    const SparseMatrix S = selection(size, set), K_of_set = system.K * S;
+    const SparseMatrix K = S.transpose() * K_of_set, M = S.transpose() * (system.M * S);
+    const SparseMatrix coupling = SparseMatrix(to_boundary * K_of_set).transpose();
     Factorization factorization;
     factorization.compute(shifted(K, M, 0));
     ++counters.factorizations;
-    for (const Index boundary : neighbours(system.K, set, part)) {
-      const VectorXd follows = -factorization.solve(coupling(system.K, boundary, set, part));
+    for (Index j = 0; j < coupling.cols(); ++j) {
+      if (coupling.col(j).nonZeros() == 0) continue;
+      add_column(-factorization.solve(coupling.col(j)), set, j, entries);
       ++counters.solves;
-      add_column(follows, set, kept[static_cast<std::size_t>(boundary)], entries);
     }
     std::vector<VectorXd> responses;
     for (const VectorXd& load : loads) {
@@ -249,7 +190,6 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
                        const std::vector<VectorXd>& loads) {
   constexpr double kShift = 1e-4;  // below the modes that are left out
   const MatrixXd& shape = modes.shape;
-  MatrixXd basis = shape;
   Counters counters = modes.counters;
   SparseMatrix K = system.K;
   if (modes.zero_energy_mode_count > 0) {
@@ -258,6 +198,7 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
     K += kShift * (highest > 0 ? highest * highest : mean) * system.M;
   }
   Factorization factorization;
+  std::vector<VectorXd> responses;
   for (const VectorXd& load : loads) {
     const VectorXd rest = load - system.M * (shape * (shape.transpose() * load));
     if (!(rest.norm() > kCarried * load.norm())) continue;
@@ -269,16 +210,12 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
     VectorXd answer = factorization.solve(rest);
     answer += factorization.solve(rest - system.K * answer);  // without the shift
     counters.solves += 2;
-    answer -= shape * (shape.transpose() * (system.M * answer));
-    const MatrixXd others = basis.rightCols(basis.cols() - shape.cols());
-    const double energy = answer.dot(system.K * answer);
-    answer -= others * (others.transpose() * (system.K * answer));
-    const double own = answer.dot(system.K * answer);
-    if (!(own > kCarried * energy)) continue;  // one before it does the same
-    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-    // Of one strain energy, not of one mass: coordinates without mass may answer too.
-    basis.rightCols<1>() = answer / std::sqrt(own);
+    responses.push_back(answer);
   }
+  // Of unit strain energy, not of unit mass: coordinates without mass may respond too.
+  const MatrixXd beyond = beyond_modes(system.K, system.M, shape, responses);
+  MatrixXd basis(shape.rows(), shape.cols() + beyond.cols());
+  basis << shape, beyond;
   System reduced = in_coordinates(system, basis.sparseView());
   reduced.counters = counters;
   return reduced;

@@ -4,17 +4,20 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/assembly/equation_rows.h"
 #include "solver/assembly/length_scales.h"
+#include "solver/assembly/row_balance.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/gyroscopic.h"
 #include "solver/linalg/refinement.h"
 #include "solver/statics/describe_mechanism.h"
-#include "solver/statics/zero_energy_modes.h"
+#include "solver/statics/second_order.h"
 
 namespace trammel::solver {
 namespace {
 
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 /// The steady state and K + K_G - W^2 S in it.
@@ -22,9 +25,8 @@ class SteadyState {
  public:
   SteadyState(const System& system, const RotatingOptions& options, Counters& counters)
       : system_(system),
+        options_(options),
         frame_(options.frame),
-        prestress_at_steady_state_(options.prestress_at_steady_state),
-        geometric_stiffening_(options.stiffening),
         counters_(counters),
         softening_(-frame_.speed * frame_.speed * centrifugal_softening(system, frame_.axis)),
         elastic_(stiffness_operator(system)),
@@ -37,8 +39,8 @@ class SteadyState {
         system_.f + system_.T.transpose() *
                         centrifugal_forces(system_, frame_, VectorXd::Zero(system_.T.rows()));
     added_ = softening_;
-    if (!geometric_stiffening_) return solve(added_, rhs);
-    if (!prestress_at_steady_state_) {
+    if (!options_.stiffening) return solve(added_, rhs);
+    if (!options_.prestress_at_steady_state) {
       if (!solve(SparseMatrix(system_.K.rows(), system_.K.rows()), rhs)) return false;
       update(VectorXd::Zero(system_.T.rows()));
       return solve(added_, rhs);
@@ -64,9 +66,11 @@ class SteadyState {
   /// K_G - W^2 S.
   [[nodiscard]] const SparseMatrix& added() const { return added_; }
 
-  /// x^T (K + K_G - W^2 S) x, the elastic part from the elements' deformations.
-  [[nodiscard]] double energy(const VectorXd& x) const {
-    return strain_products(system_, system_.T * x)(0, 0) + x.dot(added_ * x);
+  /// (K + K_G - W^2 S) x and X^T (K + K_G - W^2 S) X, the elastic part from the elements'
+  /// deformations.
+  [[nodiscard]] VectorXd times(const VectorXd& x) const { return elastic_(x) + added_ * x; }
+  [[nodiscard]] MatrixXd products(const MatrixXd& X) const {
+    return strain_products(system_, system_.T * X) + X.transpose() * (added_ * X);
   }
 
  private:
@@ -83,19 +87,17 @@ class SteadyState {
 
   /// K_G of the forces in the state q, which the centrifugal forces of a shape u hold.
   void update(const VectorXd& shape) {
-    const VectorXd u = system_.T * q;
-    VectorXd force =
-        internal_forces(system_, u) - system_.load - centrifugal_forces(system_, frame_, shape);
-    if (geometric_.axial.size() > 0) force += geometric_stiffness_forces(system_, geometric_, u);
+    const Prestress* const before = geometric_.axial.size() > 0 ? &geometric_ : nullptr;
     counters_.count(Effect::geometric_stiffening, 1);
-    geometric_ = prestress(system_, u, system_.constraints.multipliers(force),
-                           body_forces(system_, frame_, shape));
+    geometric_ =
+        forces_of(system_, system_.T * q, system_.load + centrifugal_forces(system_, frame_, shape),
+                  body_forces(system_, frame_, shape), before);
     added_ = softening_ + geometric_stiffness(system_, geometric_);
   }
 
   const System& system_;
-  RotatingFrame frame_;
-  bool prestress_at_steady_state_, geometric_stiffening_;
+  const RotatingOptions& options_;
+  const RotatingFrame& frame_;
   Counters& counters_;
   SparseMatrix softening_;
   SparseMatrix added_;
@@ -110,61 +112,44 @@ class SteadyState {
 /// Equilibrium of the steady state: (K + K_G - W^2 S) q = f + W^2 f_c.
 double steady_backward_error(const System& system, const SteadyState& steady,
                              const RotatingFrame& frame) {
-  EquationRows rows(system);
+  RowBalance<double> rows(system);
   rows.add_stiffness(system.T * steady.q);
   rows.add(steady.added(), steady.q);
-  rows.add_load(system.load, -1);
-  rows.add_load(centrifugal_forces(system, frame, VectorXd::Zero(system.T.rows())), -1);
+  rows.add_load(-system.load);
+  rows.add_load(-centrifugal_forces(system, frame, VectorXd::Zero(system.T.rows())));
   return rows.backward_error();
 }
 
-/// (K + K_G - W^2 S + s 2 W G + s^2 M) x = 0, s = growth rate + i w.
+/// (K + K_G - W^2 S + s 2 W G + s^2 M) x = 0, s = growth rate + i w, of all modes.
 double mode_backward_error(const System& system, const SteadyState& steady, const SparseMatrix& C,
-                           const Eigen::VectorXcd& x, std::complex<double> s) {
-  const Eigen::VectorXcd u = system.T * x;
-  EquationRows rows(system);
+                           const MatrixXcd& x, const VectorXcd& s) {
+  const MatrixXcd u = system.T * x;
+  RowBalance<std::complex<double>> rows(system, x.cols());
   rows.add_stiffness(u);
-  rows.add_inertia(u, s * s);
+  rows.add_inertia(u * s.cwiseProduct(s).asDiagonal());
   rows.add(steady.added(), x);
-  rows.add(C, x, s);
+  rows.add(C, x * s.asDiagonal());
   return rows.backward_error();
 }
 
 /// Modes missed or too many: of a stable state those below the last clear gap, of an unstable one
-/// all, as many as the mass matrix has ranks.
+/// all, as many as the rank of the mass matrix.
 double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
   const VectorXd& w = modes.omega;
-  if (!stable) {
-    const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
-    Factorization beyond;
-    beyond.compute(shifted(pencil.K, pencil.M, 1e4 * last));
-    return beyond.is_reliable() ? std::abs(static_cast<double>(beyond.negative_pivots() - w.size()))
-                                : kNaN;
+  if (stable) {
+    return miscounted_eigenvalues(
+        w, [&pencil](double omega) { return gyroscopic_sturm_count(pencil, omega); });
   }
-  for (Index below = w.size() - 1; below >= 0; --below) {
-    const double low = below > 0 ? w[below - 1] : 0;
-    if (!(w[below] - low > 1e-6 * w[below])) continue;
-    const Index counted = gyroscopic_sturm_count(pencil, (low + w[below]) / 2);
-    return counted < 0 ? kNaN : std::abs(static_cast<double>(counted - below));
-  }
-  return w.size() == 0 ? 0 : kNaN;
-}
-
-Outcome require_held(const System& system, Counters& counters) {
-  Factorization K;
-  K.compute(system.K);
-  ++counters.factorizations;
-  const ZeroEnergyModes free = find_zero_energy_modes(system, K, counters);
-  if (free.count() > 0) return {Status::singular, describe_mechanism(system, free)};
-  return {};
+  const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
+  const auto counted = Factorization().inertia(shifted(pencil.K, pencil.M, 1e4 * last));
+  return counted ? std::abs(static_cast<double>(*counted - w.size())) : kNaN;
 }
 
 GyroscopicModes gyroscopic_modes(const GyroscopicPencil& pencil, const SteadyState& steady,
                                  const RotatingOptions& options, Counters& counters) {
   constexpr Index kLargestUnstable = 400;
   if (steady.factorization.smallest_pivot() > 0) {
-    return stable_gyroscopic_modes(pencil, steady.factorization, options.count, options.method,
-                                   counters);
+    return stable_gyroscopic_modes(pencil, options.count, options.method, counters);
   }
   if (pencil.K.rows() <= kLargestUnstable) return all_gyroscopic_modes(pencil);
   GyroscopicModes modes;
@@ -180,7 +165,10 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   RotatingModes result;
   result.counters = system.counters;
   if (system.K.rows() == 0) return result;
-  result.outcome = require_held(system, result.counters);
+  Factorization K;
+  K.compute(system.K);
+  ++result.counters.factorizations;
+  result.outcome = require_held(system, K, result.counters);
   if (result.outcome.solved() && options.stiffening)
     result.outcome = require_determined_stiffening(system);
   if (!result.outcome.solved()) return result;
@@ -199,21 +187,23 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
     result.counters.count(Effect::gyroscopic, 1);
   }
   const GyroscopicPencil pencil{steady.tangent(), C, system.M,
-                                [&steady](const VectorXd& x) { return steady.energy(x); }};
+                                [&steady](const VectorXd& x) { return steady.times(x); },
+                                [&steady](const MatrixXd& X) { return steady.products(X); }};
   if (system.M.coeffs().isZero(0)) return result;  // nothing swings
   const GyroscopicModes modes = gyroscopic_modes(pencil, steady, options, result.counters);
   result.outcome = modes.outcome;
-  result.inertia_count = modes.inertia_count;
   const Index kept = std::min(options.count, modes.omega.size());
   result.frequency = modes.omega.head(kept) / (2 * std::numbers::pi);
   result.growth_rate = modes.growth_rate.head(kept);
   result.shape = modes.shape.leftCols(kept);
   result.stable = modes.growth_rate.size() == 0 || modes.growth_rate.maxCoeff() <= 0;
   if (!result.outcome.solved()) return result;
-  for (Index j = 0; j < kept; ++j) {
+  if (kept > 0) {
+    VectorXcd exponent(kept);
+    exponent.real() = modes.growth_rate.head(kept);
+    exponent.imag() = modes.omega.head(kept);
     result.evidence.add(Residual::eigenvalue_equation,
-                        mode_backward_error(system, steady, C, result.shape.col(j),
-                                            {modes.growth_rate[j], modes.omega[j]}));
+                        mode_backward_error(system, steady, C, result.shape, exponent));
   }
   const bool definite = steady.factorization.smallest_pivot() > 0;
   result.evidence.add(Residual::mode_count, miscounted_modes(pencil, modes, definite));

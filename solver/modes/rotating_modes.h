@@ -36,7 +36,6 @@ struct RotatingModes {
   Eigen::VectorXd frequency;    ///< ascending [Hz]; 0 for what grows without turning over
   Eigen::VectorXd growth_rate;  ///< of each [1/s]; 0 in a stable state
   Eigen::MatrixXcd shape;       ///< free coordinate x mode, q(t) = Re(x e^{i w t}), |x| = 1
-  Index inertia_count = 0;      ///< frequencies below the check, by Hermitian LDL^T; 0 if unstable
   Evidence evidence;
   Counters counters;
 };

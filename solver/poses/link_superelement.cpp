@@ -51,7 +51,7 @@ MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinat
   const MatrixXd K = chain.strain_products(unit);
   const MatrixXd M = unit.transpose() * chain.mass_times(unit);
   const VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
-  const SymmetricEigenpairs<MatrixXd> pairs = symmetric_eigenpairs(
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs(
       scale.asDiagonal() * M * scale.asDiagonal(), scale.asDiagonal() * K * scale.asDiagonal());
   const double zero = 1e-13 * pairs.value.cwiseAbs().maxCoeff();
   const Index kept = (pairs.value.array() > zero).count();

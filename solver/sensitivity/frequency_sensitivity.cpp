@@ -79,7 +79,7 @@ Outcome differentiate_set(const System& system, const ModalSolution& modes, cons
               "a limb is straight or folded: its angles, and with them the frequencies, change "
               "infinitely fast with the link lengths"};
     }
-    const SymmetricEigenpairs<MatrixXd> rates = symmetric_eigenpairs(small);
+    const SymmetricEigenpairs rates = symmetric_eigenpairs(small);
     if (!rates.converged)
       return {Status::not_converged, "the rates of repeated frequencies did not converge"};
     result.derivative.col(p).segment(set.first, shown) =

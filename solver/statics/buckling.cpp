@@ -5,12 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "solver/assembly/equation_rows.h"
+#include "solver/assembly/row_balance.h"
 #include "solver/assembly/strain.h"
-#include "solver/linalg/eigenvalue_count.h"
 #include "solver/linalg/refinement.h"
 #include "solver/model/numbers.h"
-#include "solver/statics/postprocessing.h"
+#include "solver/statics/second_order.h"
 #include "solver/statics/statics.h"
 
 namespace trammel::solver {
@@ -32,20 +31,13 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   // Entries of B over those of K scaled to a unit diagonal: `least` without round-off of the
   // largest.
   constexpr double kRoundoff = 1e4 * kEps;
-  double largest = 0, least = 0;
   const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
-  const auto visit = [&](auto&& take) {
-    for (Index j = 0; j < B.cols(); ++j) {
-      for (SparseMatrix::InnerIterator it(B, j); it; ++it)
-        take(std::abs(it.value()) * scale[it.row()] * scale[j]);
-    }
-  };
-  visit([&](double size) { largest = std::max(largest, size); });
+  const SparseMatrix scaled = (scale.asDiagonal() * B * scale.asDiagonal()).cwiseAbs();
+  const double largest = scaled.nonZeros() > 0 ? scaled.coeffs().maxCoeff() : 0;
   if (largest == 0) return {.determined = true};
-  least = largest;
-  visit([&](double size) {
+  double least = largest;
+  for (const double size : scaled.coeffs())
     if (size > kRoundoff * largest) least = std::min(least, size);
-  });
   // The loads dominate each entry a thousandfold, while ten digits are left of the stiffness that
   // they do not change.
   const double farthest = std::min(1e3 / least, 1e10 / largest);
@@ -53,9 +45,9 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   const auto has_factor_below = [&](double t) -> std::optional<bool> {
     for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot comes near zero
       counted = share * t;
-      factorization.compute(shifted(K, B, counted));
       ++counters.factorizations;
-      if (factorization.is_reliable()) return factorization.negative_pivots() > 0;
+      if (const std::optional<Index> count = factorization.inertia(shifted(K, B, counted)))
+        return *count > 0;
     }
     return {};
   };
@@ -84,10 +76,8 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
   solution.outcome = require_determined_stiffening(system);
   if (!solution.outcome.solved()) return solution;
-  ElasticState state;
-  state.u = system.T * statics.q;
   const Prestress forces =
-      prestress(system, state.u, constraint_forces(system, state), body_forces(system));
+      forces_of(system, system.T * statics.q, system.load, body_forces(system));
   const SparseMatrix softening = -geometric_stiffness(system, forces);
   Factorization factorization;
   const FirstFactor first =
@@ -121,20 +111,19 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.outcome = pairs.outcome;
   solution.load_factor = pairs.value;
   solution.shape = pairs.vector;
-  solution.inertia_count = pairs.inertia_count;
   solution.roundoff.resize(pairs.value.size());
   const Prestress roundoff = prestress_roundoff(system, statics.q);
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Eigen::VectorXd x = pairs.vector.col(j);
-    const Eigen::VectorXd u = system.T * x;
-    const double elastic = strain_roundoff(system, u) / pairs.value[j];
+    const double elastic = strain_roundoff(system, system.T * x) / pairs.value[j];
     const double geometric = geometric_energy_roundoff(system, softening, roundoff, x);
     solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
-    EquationRows rows(system);
-    rows.add_stiffness(u);
-    rows.add(softening, x, -solution.load_factor[j]);
-    solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
+  RowBalance<double> rows(system, pairs.value.size());
+  rows.add_stiffness(system.T * pairs.vector);
+  rows.add(softening, pairs.vector * (-pairs.value).asDiagonal());
+  if (pairs.value.size() > 0)
+    solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   if (!solution.outcome.solved()) return solution;
   const double missed = miscounted_eigenvalues(system.K, softening, solution.load_factor,
                                                std::move(factorization), pairs.check_shift);

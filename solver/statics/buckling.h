@@ -23,8 +23,7 @@ struct BucklingSolution {
   double checked_factor = 0;
   /// Estimate of each factor's relative round-off error [-], as in ModalSolution.
   Eigen::VectorXd roundoff;
-  Eigen::MatrixXd shape;    ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
-  Index inertia_count = 0;  ///< factors below the check shift, by sparse LDL^T
+  Eigen::MatrixXd shape;  ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
   Evidence evidence;
   Counters counters;
 };

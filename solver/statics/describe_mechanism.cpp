@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "solver/assembly/length_scales.h"
@@ -19,17 +20,14 @@ constexpr Index kMaxMotions = 6;
 /// Entries below this share of the largest are round-off, and so are differences of equal ones.
 constexpr double kRoundoff = 1e-6;
 
-/// A coordinate that has a name, and its row of u.
-struct NamedRow {
-  std::string name;
-  Index row;
-};
+using NamedRows = std::vector<std::pair<std::string, Index>>;
 
-std::vector<NamedRow> named_rows(const System& system) {
+/// The coordinates that have a name, and their rows of u.
+NamedRows named_rows(const System& system) {
   const Model& model = system.model;
-  std::vector<NamedRow> rows;
+  NamedRows rows;
   const auto add = [&rows](const std::string& name, Index row) {
-    if (row >= 0) rows.push_back({name, row});
+    if (row >= 0) rows.emplace_back(name, row);
   };
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const std::string node = "node " + model.nodes[i].name;
@@ -65,7 +63,7 @@ void reduce(MatrixXd& U) {
   }
 }
 
-std::string describe(const VectorXd& mode, const std::vector<NamedRow>& rows) {
+std::string describe(const VectorXd& mode, const NamedRows& rows) {
   VectorXd left = mode / mode[first_largest(mode)];
   std::string text;
   for (std::size_t entry = 0; entry < std::min(kMaxEntries, rows.size()); ++entry) {
@@ -73,7 +71,7 @@ std::string describe(const VectorXd& mode, const std::vector<NamedRow>& rows) {
     if (std::abs(left[i]) < kRoundoff) break;
     char value[32];
     std::snprintf(value, sizeof value, " %.3g", left[i]);
-    text += (entry > 0 ? ", " : "free motion: ") + rows[to_size(i)].name + value;
+    text += (entry > 0 ? ", " : "free motion: ") + rows[to_size(i)].first + value;
     left[i] = 0;
   }
   return text;
@@ -82,10 +80,11 @@ std::string describe(const VectorXd& mode, const std::vector<NamedRow>& rows) {
 }  // namespace
 
 std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes) {
-  const std::vector<NamedRow> rows = named_rows(system);
+  const NamedRows rows = named_rows(system);
   const MatrixXd u = free_length_scales(system) * modes.basis;
   MatrixXd U(std::ssize(rows), u.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i) U.row(static_cast<Index>(i)) = u.row(rows[i].row);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    U.row(static_cast<Index>(i)) = u.row(rows[i].second);
   if (U.size() > 0) reduce(U);
   std::string text;
   for (Index j = 0; j < std::min(U.cols(), kMaxMotions); ++j)
@@ -93,6 +92,12 @@ std::string describe_mechanism(const System& system, const ZeroEnergyModes& mode
   if (U.cols() > kMaxMotions) text += "; and " + std::to_string(U.cols() - kMaxMotions) + " more";
   if (!modes.all_found) text += "; and others";
   return text;
+}
+
+Outcome require_held(const System& system, const Factorization& K, Counters& counters) {
+  const ZeroEnergyModes free = find_zero_energy_modes(system, K, counters);
+  if (free.count() == 0) return {};
+  return {Status::singular, describe_mechanism(system, free)};
 }
 
 }  // namespace trammel::solver

@@ -10,22 +10,18 @@
 #include "solver/linalg/forward_error.h"
 #include "solver/linalg/refinement.h"
 #include "solver/statics/describe_mechanism.h"
-#include "solver/statics/zero_energy_modes.h"
 
 namespace trammel::solver {
 
 using Eigen::VectorXd;
 
-LinearSolution solve_linear_statics(const System& system, Counters& counters) {
-  LinearSolution solution;
+StaticState solve_linear_statics(const System& system, Counters& counters) {
+  StaticState solution;
   Factorization factorization;
   factorization.compute(system.K);
   ++counters.factorizations;
-  const ZeroEnergyModes free = find_zero_energy_modes(system, factorization, counters);
-  if (free.count() > 0) {
-    solution.outcome = {Status::singular, describe_mechanism(system, free)};
-    return solution;
-  }
+  solution.outcome = require_held(system, factorization, counters);
+  if (!solution.outcome.solved()) return solution;
   const StiffnessFactors factors = stiffness_factors(system);
   const SparseMatrix R = free_length_scales(system);
   const auto take = [&](const VectorXd& q, double left, const Operator& inverse) {

@@ -2,20 +2,23 @@
 
 #include <Eigen/Core>
 
+#include "solver/assembly/prestress.h"
 #include "solver/assembly/system.h"
 #include "solver/model/outcome.h"
 
 namespace trammel::solver {
 
-/// K q = f, refined with residuals from the elements. Where K has lost too many digits to be
-/// factored, from the deformations of the elements and their forces (augmented_system.h).
-struct LinearSolution {
-  Outcome outcome;  ///< singular with the free motion in words; not converged below one digit
-  Eigen::VectorXd q;
-  double error = 1;  ///< bound of max |du| / max |u|, rotations times the size of the model
+/// Displacements of a static state.
+struct StaticState {
+  Outcome outcome;    ///< singular with the free motion in words; not converged below one digit
+  Eigen::VectorXd q;  ///< free coordinates [m, rad]
+  Prestress forces;   ///< second-order theory: of q
+  double error = 1;   ///< bound of max |du| / max |u|, rotations times the size of the model
 };
 
-[[nodiscard]] LinearSolution solve_linear_statics(const System& system, Counters& counters);
+/// K q = f, refined with residuals from the elements. If K has lost too many digits to be factored,
+/// q is solved for from the deformations of the elements and their forces (augmented_system.h).
+[[nodiscard]] StaticState solve_linear_statics(const System& system, Counters& counters);
 
 /// Not converged where a relative error of the displacements leaves less than one digit.
 [[nodiscard]] Outcome outcome_by_error(double error);

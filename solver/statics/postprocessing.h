@@ -28,24 +28,25 @@ struct ElasticState {
 [[nodiscard]] Vector2d acting_load(const System& system, const ElasticState& state,
                                    const FrameElement& element);
 
+/// Forces that the nodes exert on each frame element, in its axes, one column per element; in turn
+/// along, across and the moment at its first and at its second node [N, N, N m].
+using ElementForces = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
 /// Forces on the frame elements and in the constraints of a state, by whatever theory.
 struct RecoveredForces {
   const std::vector<Vector2d>& position;  ///< of the model's nodes [m]
   const Eigen::VectorXd& u;               ///< of the unconstrained coordinates [m, rad]
   const Constraints& constraints;
-  Eigen::VectorXd multipliers;                       ///< of the constraint rows [N, N m]
-  Eigen::Matrix<double, 6, Eigen::Dynamic> element;  ///< what its nodes do to each frame element,
-                                                     ///< in its axes [N, N, N m]
+  Eigen::VectorXd multipliers;  ///< of the constraint rows [N, N m]
+  ElementForces element;
 };
 
 /// Forces and moments of a state that are round-off [N, N m].
 struct ForceRoundoff {
   double force = 0, moment = 0;
 };
-/// @param ends  end forces of the elements, a column each: N, V, M at both ends [N, N, N m]
 /// @param size  of the model [m]
-[[nodiscard]] ForceRoundoff force_roundoff(const Eigen::Matrix<double, 6, Eigen::Dynamic>& ends,
-                                           double size);
+[[nodiscard]] ForceRoundoff force_roundoff(const ElementForces& ends, double size);
 
 /// Force over area or moment over section modulus: 0 for a force that is round-off if the section
 /// does not state what resists it, NaN for any other there.
@@ -65,9 +66,11 @@ void recover(const System& system, const RecoveredForces& forces, StaticSolution
 /// members, which balance elastic and inertia forces and the loads.
 [[nodiscard]] Eigen::VectorXd constraint_forces(const System& system, const ElasticState& state);
 
-/// Frame element x (N, V, M at its first node, N, V, M at its second) [N, N, N m].
-[[nodiscard]] Eigen::Matrix<double, Eigen::Dynamic, 6> element_resultants(
-    const System& system, const ElasticState& state);
+/// Forces on the frame elements of a state: k u + k_G u + m a - f.
+[[nodiscard]] ElementForces end_forces(const System& system, const ElasticState& state);
+
+/// Column of `StaticSolution::reaction` that a support's constraint row belongs to.
+[[nodiscard]] Index support_component(const System& system, const ConstraintRow& row);
 
 /// Fills displacements, forces, stresses and residuals. With an acceleration, section forces hold
 /// the inertia of their element; reactions and residuals do not.

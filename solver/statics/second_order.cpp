@@ -11,7 +11,6 @@
 #include "solver/linalg/forward_error.h"
 #include "solver/linalg/refinement.h"
 #include "solver/statics/linear_solution.h"
-#include "solver/statics/postprocessing.h"
 
 namespace trammel::solver {
 namespace {
@@ -27,13 +26,13 @@ class SecondOrderTheory {
         lengths_(free_length_scales(system)),
         elastic_(stiffness_operator(system)) {}
 
-  SecondOrderState run() {
-    SecondOrderState reached;
+  StaticState run() {
+    StaticState reached;
     double load = 0;
     double step = 1;
     while (load < 1) {
       const double target = std::min(1.0, load + step);
-      SecondOrderState next = load > 0 ? reached : first_order(target);
+      StaticState next = load > 0 ? reached : first_order(target);
       iterate(target, next);
       if (next.outcome.solved()) {
         reached = std::move(next);
@@ -53,7 +52,7 @@ class SecondOrderTheory {
  private:
   static constexpr double kSmallestStep = 1e-4;
 
-  [[nodiscard]] SecondOrderState failed(double load) const {
+  [[nodiscard]] StaticState failed(double load) const {
     std::ostringstream reason;
     reason.precision(4);
     reason << whole_.reason << ": second-order theory has no stable equilibrium beyond " << load
@@ -61,26 +60,21 @@ class SecondOrderTheory {
     return {{whole_.status, reason.str()}, {}, {}};
   }
 
-  /// Forces of q under a share of the loads; those of the constraints with the second-order terms
-  /// of `before`, where given.
-  [[nodiscard]] Prestress forces_of(const VectorXd& q, double load, const Prestress* before) const {
-    ElasticState state;
-    state.u = system_.T * q;
-    state.load_factor = state.weight_factor = load;
-    state.prestress = before;
+  /// Forces of q under a share of the loads.
+  [[nodiscard]] Prestress forces_at(double load, const VectorXd& q, const Prestress* before) const {
     BodyForces weights = body_forces(system_);
     for (Vector2d& weight : weights.element) weight *= load;
     for (Vector2d& weight : weights.point_mass) weight *= load;
-    return prestress(system_, state.u, constraint_forces(system_, state), weights);
+    return forces_of(system_, system_.T * q, load * system_.load, weights, before);
   }
 
-  [[nodiscard]] SecondOrderState first_order(double load) const {
+  [[nodiscard]] StaticState first_order(double load) const {
     const VectorXd q = load * linear_;
-    return {{}, q, forces_of(q, load, nullptr)};
+    return {{}, q, forces_at(load, q, nullptr)};
   }
 
   /// K + K_G of the latest forces until they repeat, from a state nearby.
-  void iterate(double load, SecondOrderState& state) {
+  void iterate(double load, StaticState& state) {
     constexpr int kIterations = 60;
     const VectorXd f = load * system_.f;
     double last_change = std::numeric_limits<double>::infinity();
@@ -88,7 +82,7 @@ class SecondOrderTheory {
     for (int k = 0; k < kIterations && growing < 4; ++k) {
       const VectorXd before = state.q;
       if (!solve(f, state)) return;
-      state.forces = forces_of(state.q, load, &state.forces);
+      state.forces = forces_at(load, state.q, &state.forces);
       const double size = measure(state.q);
       const double change = measure(state.q - before);
       const double ratio = change / last_change;
@@ -111,7 +105,7 @@ class SecondOrderTheory {
   }
 
   /// What rounding of the state's forces does to the displacements.
-  [[nodiscard]] double force_rounding(const SecondOrderState& state) {
+  [[nodiscard]] double force_rounding(const StaticState& state) {
     const VectorXd u = system_.T * state.q;
     const VectorXd change =
         geometric_stiffness_forces(system_, prestress_roundoff(system_, state.q), u);
@@ -119,8 +113,8 @@ class SecondOrderTheory {
     return measure(factorization_.solve(system_.T.transpose() * change));
   }
 
-  /// SecondOrderState::error of the state that was solved last.
-  [[nodiscard]] double error(const SecondOrderState& state) {
+  /// StaticState::error of the state that was solved last.
+  [[nodiscard]] double error(const StaticState& state) {
     const Operator inverse = [&](const VectorXd& b) -> VectorXd {
       ++counters_.solves;
       return factorization_.solve(b);
@@ -131,7 +125,7 @@ class SecondOrderTheory {
   }
 
   /// (K + K_G) q = f; false with the outcome where there is no stable solution.
-  bool solve(const VectorXd& f, SecondOrderState& state) {
+  bool solve(const VectorXd& f, StaticState& state) {
     const SparseMatrix K_G = geometric_stiffness(system_, state.forces);
     const std::size_t elements = system_.mesh.frame.size() + system_.model.triangles.size();
     counters_.count(Effect::geometric_stiffening, static_cast<std::int64_t>(elements));
@@ -161,8 +155,14 @@ class SecondOrderTheory {
 
 }  // namespace
 
-SecondOrderState solve_second_order(const System& system, const VectorXd& linear,
-                                    Counters& counters) {
+Prestress forces_of(const System& system, const VectorXd& u, const VectorXd& load,
+                    const BodyForces& body, const Prestress* before) {
+  VectorXd force = internal_forces(system, u) - load;
+  if (before) force += geometric_stiffness_forces(system, *before, u);
+  return prestress(system, u, system.constraints.multipliers(force), body);
+}
+
+StaticState solve_second_order(const System& system, const VectorXd& linear, Counters& counters) {
   const Outcome determined = require_determined_stiffening(system);
   if (!determined.solved()) return {determined, {}, {}};
   return SecondOrderTheory(system, linear, counters).run();

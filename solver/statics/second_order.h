@@ -5,26 +5,27 @@
 #include "solver/assembly/prestress.h"
 #include "solver/assembly/system.h"
 #include "solver/model/counters.h"
-#include "solver/model/outcome.h"
+#include "solver/statics/linear_solution.h"
 
 namespace trammel::solver {
 
-/// Second-order theory: (K + K_G) q = f, K_G from the forces that hold q itself.
-struct SecondOrderState {
-  Outcome outcome;  ///< singular: a motion buckles on the way; not_converged: no equilibrium beyond
-                    ///< the share of the loads that the reason names
-  Eigen::VectorXd q;  ///< free coordinates [m, rad]
-  Prestress forces;   ///< of q
-  double error = 1;  ///< estimate of max |du| / max |u| as in linear_solution.h, with what rounding
-                     ///< of the state's forces and the last iteration leave
-};
+/// Forces of a state under loads.
+/// @param u, load  of the unconstrained coordinates
+/// @param before  if given, the constraint forces include the second-order terms of these
+[[nodiscard]] Prestress forces_of(const System& system, const Eigen::VectorXd& u,
+                                  const Eigen::VectorXd& load, const BodyForces& body,
+                                  const Prestress* before = nullptr);
 
+/// Second-order theory: (K + K_G) q = f, K_G from the forces that hold q itself. Singular if a
+/// motion buckles on the way; not converged if there is no equilibrium beyond the share of the
+/// loads that the reason names. The error includes rounding of the state's forces and the last
+/// iteration.
+///
 /// Follows the equilibria from the unloaded state: where K + K_G of the latest forces, solved again
 /// and again, does not settle under the whole load, the load is put on in steps. The state found is
 /// stable: K + K_G has no negative pivot (Sylvester) in any step.
 /// @param linear  solution of K q = f
-[[nodiscard]] SecondOrderState solve_second_order(const System& system,
-                                                  const Eigen::VectorXd& linear,
-                                                  Counters& counters);
+[[nodiscard]] StaticState solve_second_order(const System& system, const Eigen::VectorXd& linear,
+                                             Counters& counters);
 
 }  // namespace trammel::solver

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/assembly/equation_rows.h"
+#include "solver/assembly/row_balance.h"
 #include "solver/assembly/strain.h"
 #include "solver/model/numbers.h"
 #include "solver/statics/linear_solution.h"
@@ -24,7 +24,7 @@ double digits(double error) {
 /// What second-order theory adds to the first is d = -(K + K_G)^-1 K_G q: the stiffness K of that
 /// motion over what the forces leave of it, d^T K d / d^T (K + K_G) d. Of one buckling shape it is
 /// 1 / (1 - share of its load), whatever else the loads move.
-double amplification(const System& system, const VectorXd& first, const SecondOrderState& second) {
+double amplification(const System& system, const VectorXd& first, const StaticState& second) {
   const VectorXd added = second.q - first;
   const double stiffness = strain_products(system, system.T * added)(0, 0);
   const double roundoff = second.error * second.error;
@@ -33,20 +33,11 @@ double amplification(const System& system, const VectorXd& first, const SecondOr
   return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
 
-/// q and its digits, or the outcome that keeps them from being.
-void solve_linear(const System& system, StaticSolution& solution) {
-  const LinearSolution linear = solve_linear_statics(system, solution.counters);
-  solution.outcome = linear.outcome;
-  if (!linear.outcome.solved()) return;
-  solution.q = linear.q;
-  solution.estimated_correct_digits = digits(linear.error);
-}
-
 /// The claimed state's equation with K and K_G formed afresh, and the equilibrium of its forces.
 void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
-  EquationRows rows(system);
+  RowBalance<double> rows(system);
   rows.add_stiffness(state.u);
-  rows.add_load(system.load, -1);
+  rows.add_load(-system.load);
   if (state.prestress) {
     rows.add(geometric_stiffness(system, *state.prestress), solution.q);
     // The forces of the state are differences of larger ones.
@@ -64,24 +55,20 @@ void take_residuals(const System& system, const ElasticState& state, StaticSolut
 StaticSolution solve_statics(const System& system, const StaticsOptions& options) {
   StaticSolution solution;
   solution.counters = system.counters;
-  solution.q.setZero(system.K.rows());
-  solution.estimated_correct_digits = digits(0);
-  if (solution.q.size() > 0) solve_linear(system, solution);
-  SecondOrderState second;
+  StaticState reached{{}, VectorXd::Zero(system.K.rows()), {}, 0};
+  if (reached.q.size() > 0) reached = solve_linear_statics(system, solution.counters);
   ElasticState state;
-  if (options.second_order && solution.outcome.solved() && solution.q.size() > 0) {
-    second = solve_second_order(system, solution.q, solution.counters);
-    solution.outcome = second.outcome;
-    if (second.outcome.solved()) solution.amplification = amplification(system, solution.q, second);
-    solution.q = second.q;
-    solution.estimated_correct_digits = digits(second.error);
-    solution.forces = second.forces;
+  if (options.second_order && reached.outcome.solved() && reached.q.size() > 0) {
+    const VectorXd linear = reached.q;
+    reached = solve_second_order(system, linear, solution.counters);
+    if (reached.outcome.solved()) solution.amplification = amplification(system, linear, reached);
+    solution.forces = reached.forces;
     state.prestress = &solution.forces;
   }
-  if (!solution.outcome.solved()) {
-    solution.q.resize(0);
-    return solution;
-  }
+  solution.outcome = reached.outcome;
+  if (!solution.outcome.solved()) return solution;
+  solution.q = reached.q;
+  solution.estimated_correct_digits = digits(reached.error);
   state.u = system.T * solution.q;
   state.constraint_forces = constraint_forces(system, state);
   postprocess(system, state, solution);

@@ -15,16 +15,15 @@ using Eigen::VectorXd;
 /// Forces that the nodes exert on the members by their section forces, less the members' loads.
 void add_members(const System& system, const ElasticState& state, const StaticSolution& solution,
                  VectorXd& sum) {
-  const auto resultants = element_resultants(system, state);
+  const ElementForces forces = end_forces(system, state);
   const auto& frame = system.mesh.frame;
   for (std::size_t i = 0; i < frame.size(); ++i) {
     const FrameElement& e = frame[i];
     const bool first = i == 0 || frame[i - 1].member != e.member;
     const bool last = i + 1 == frame.size() || frame[i + 1].member != e.member;
-    Vector6d force = resultants.row(static_cast<Index>(i)).transpose();
-    if (first) force.head<3>() = solution.resultant_start.row(e.member).transpose();
+    Vector6d force = forces.col(static_cast<Index>(i));
+    if (first) force.head<3>() = -solution.resultant_start.row(e.member).transpose();
     if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
-    force.head<3>() *= -1;
     force = frame_rotation(e.direction).transpose() * force;
     // A bar's section forces hold its loads already; a beam's are those at its very ends.
     detail::scatter(e.coordinates, (force + element_load(e, acting_load(system, state, e))).eval(),
@@ -32,22 +31,18 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
   }
 }
 
-/// Of springs and triangles.
-void add_other_elements(const System& system, const VectorXd& u, VectorXd& sum) {
-  std::size_t left_out = system.mesh.frame.size();
-  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
-    if (left_out > 0) {
-      --left_out;
-      return;
-    }
-    detail::scatter(coordinates,
-                    (B.transpose() * c.cwiseProduct(B * detail::gather(coordinates, u))).eval(),
-                    sum);
-  });
-}
-
-/// Second-order forces of all but the members, whose section forces hold theirs.
-void add_geometric(const System& system, const ElasticState& state, VectorXd& sum) {
+/// Of springs and triangles; second-order forces of all but the members, whose section forces hold
+/// theirs.
+void add_other_elements(const System& system, const ElasticState& state, VectorXd& sum) {
+  const auto add = [&](const auto& coordinates, const auto& B, const auto& c) {
+    const auto deformation = (B * detail::gather(coordinates, state.u)).eval();
+    detail::scatter(coordinates, (B.transpose() * c.cwiseProduct(deformation)).eval(), sum);
+  };
+  for_each_plate_deformation(system, add);
+  for (const SpringElement& spring : system.springs) {
+    add(spring.coordinates, Eigen::RowVector2d(-1, 1),
+        Eigen::Matrix<double, 1, 1>(spring.stiffness));
+  }
   if (!state.prestress) return;
   Prestress rest = *state.prestress;
   rest.axial.setZero();
@@ -87,12 +82,8 @@ void add_constraints(const System& system, const ElasticState& state,
     for (const auto& [coordinate, coefficient] : row.terms)
       magnitudes[coordinate] += std::abs(coefficient) * carried[static_cast<Index>(i)];
     if (row.source == ConstraintRow::Source::inextensible) continue;  // the members have it
-    if (row.source == ConstraintRow::Source::support) {
-      const Index u = row.terms.front().first;
-      const auto& node = system.coordinates.node[static_cast<std::size_t>(
-          system.model.supports[static_cast<std::size_t>(row.index)].node)];
-      force = solution.reaction(row.index, u == node[0] ? 0 : u == node[1] ? 1 : 2);
-    }
+    if (row.source == ConstraintRow::Source::support)
+      force = solution.reaction(row.index, support_component(system, row));
     for (const auto& [coordinate, coefficient] : row.terms) sum[coordinate] -= coefficient * force;
   }
 }
@@ -104,8 +95,7 @@ double unbalanced_forces(const System& system, const ElasticState& state,
   VectorXd sum = -acting_load(system, state);
   VectorXd magnitudes = terms;
   add_members(system, state, solution, sum);
-  add_other_elements(system, state.u, sum);
-  add_geometric(system, state, sum);
+  add_other_elements(system, state, sum);
   add_constraints(system, state, solution, sum, magnitudes);
   return largest_ratio(sum, magnitudes);
 }

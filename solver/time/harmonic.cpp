@@ -1,6 +1,5 @@
 #include "solver/time/harmonic.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
@@ -10,8 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/assembly/equation_rows.h"
-#include "solver/assembly/length_scales.h"
+#include "solver/assembly/row_balance.h"
 #include "solver/linalg/factorization.h"
 #include "solver/linalg/sparse_lu.h"
 #include "solver/model/plane.h"
@@ -94,20 +92,12 @@ void HarmonicSolver::superpose(Index damped) {
                        std::to_string(modes_.frequency.size()) + " modes");
     }
   } else if (free.count() > 0 && free.all_found) {
-    const Eigen::MatrixXd mass = free.basis.transpose() * system_.M * free.basis;
-    const Eigen::LLT<Eigen::MatrixXd> factor(mass);
-    // The round-off error of a motion without mass is relative to the others; masses of rotations
-    // are counted as inertia over the square of the model's size.
-    const VectorXd squared_length = squared_lengths(system_);
-    const double least = 1e-20 * system_.M.diagonal().cwiseQuotient(squared_length).maxCoeff();
-    const VectorXd moved = free.basis.cwiseAbs2().transpose() * squared_length;
-    const bool moves_mass = (mass.diagonal().array() > least * moved.array()).all();
-    if (!moves_mass || factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) {
+    modes_.shape = free.basis;
+    if (!orthonormalise(system_, modes_.shape)) {
       outcome_ = {Status::singular,
                   "a part without mass moves freely: " + describe_mechanism(system_, free)};
       return;
     }
-    modes_.shape = factor.matrixU().solve<Eigen::OnTheRight>(free.basis);
     modes_.frequency.setZero(free.count());
   }
 }
@@ -137,10 +127,10 @@ VectorXcd HarmonicSolver::at(double frequency) const {
 double HarmonicSolver::backward_error(const VectorXcd& q, double frequency) const {
   const double omega = kTwoPi * frequency;
   const Complex i(0, 1);
-  EquationRows rows(system_);
-  rows.add_stiffness(system_.T * q, 1.0 + i * omega * damping_.rayleigh.stiffness);
-  rows.add_inertia(system_.T * acceleration(q, omega), 1.0);
-  rows.add_load(load_, -1);
+  RowBalance<Complex> rows(system_);
+  rows.add_stiffness((1.0 + i * omega * damping_.rayleigh.stiffness) * (system_.T * q));
+  rows.add_inertia(system_.T * acceleration(q, omega));
+  rows.add_load(-load_.cast<Complex>());
   return rows.backward_error();
 }
 
@@ -162,7 +152,7 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
     state.load_factor = load;
     state.weight_factor = 0;
     state.acceleration = acceleration;
-    return element_resultants(system_, state);
+    return end_forces(system_, state).transpose().eval();
   };
   const auto amplitude = [](const auto& a, const auto& b) {
     return (a.array().square() + b.array().square()).sqrt().matrix().eval();

@@ -108,7 +108,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
     basis.outcome = {Status::singular, "a coordinate has neither stiffness nor mass"};
     return basis;
   }
-  const SymmetricEigenpairs<Eigen::MatrixXd> pairs = symmetric_eigenpairs(mass, shifted);
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs(mass, shifted);
   if (!pairs.converged) {
     basis.outcome = {Status::not_converged, "the dense eigenvalue iteration did not converge"};
     return basis;

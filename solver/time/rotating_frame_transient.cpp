@@ -1,12 +1,10 @@
 #include "solver/time/rotating_frame_transient.h"
 
 #include "solver/assembly/inertia.h"
-#include "solver/assembly/prestress.h"
 #include "solver/assembly/rotating_frame.h"
-#include "solver/assembly/strain.h"
 #include "solver/linalg/factorization.h"
 #include "solver/statics/describe_mechanism.h"
-#include "solver/statics/zero_energy_modes.h"
+#include "solver/statics/second_order.h"
 
 namespace trammel::solver {
 namespace {
@@ -36,15 +34,13 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
   Factorization factorization;
   factorization.compute(system.K);
   Counters counters;
-  const ZeroEnergyModes free = find_zero_energy_modes(system, factorization, counters);
-  if (free.count() > 0) {
-    return {Status::singular, "the centrifugal forces that stiffen are held by nothing: " +
-                                  describe_mechanism(system, free)};
+  if (Outcome held = require_held(system, factorization, counters); !held.solved()) {
+    held.reason = "the centrifugal forces that stiffen are held by nothing: " + held.reason;
+    return held;
   }
   const VectorXd u = system.T * factorization.solve(on_q);
-  const VectorXd held = internal_forces(system, u) - force;
-  K_1 = geometric_stiffness(system, prestress(system, u, system.constraints.multipliers(held),
-                                              body_forces(system, unit, VectorXd::Zero(u.size()))));
+  const BodyForces body = body_forces(system, unit, VectorXd::Zero(u.size()));
+  K_1 = geometric_stiffness(system, forces_of(system, u, force, body));
   return {};
 }
 

@@ -59,7 +59,7 @@ double spectral_radius(const TimeScheme& s, double phase_step) {
   right << 1, 1, 0.5 - s.beta,  //
       0, 1, 1 - s.gamma,        //
       -s.alpha_f * k, 0, -s.alpha_m;
-  return spectral_radius(left.partialPivLu().solve(right));
+  return eigenpairs(left.partialPivLu().solve(right)).value.cwiseAbs().maxCoeff();
 }
 
 double stability_limit(const TimeScheme& scheme) {

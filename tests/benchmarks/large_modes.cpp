@@ -81,9 +81,10 @@ int run(const std::string& kind, Index size) {
   std::printf("%s of %td: %td free coordinates, assembled in %.2f s, ten modes in %.2f s\n",
               kind.c_str(), size, system.K.rows(), assembled - begin, end - assembled);
   std::printf(
-      "  %s%td found, inertia %td, %lld factorizations, %lld solves; f1 = %.10g Hz, "
+      "  %s%td found, %g missed, %lld factorizations, %lld solves; f1 = %.10g Hz, "
       "f10 = %.10g Hz, round-off %.1e\n",
-      modes.outcome.reason.c_str(), modes.frequency.size(), modes.inertia_count,
+      modes.outcome.reason.c_str(), modes.frequency.size(),
+      modes.evidence.largest(Residual::mode_count),
       static_cast<long long>(modes.counters.factorizations),
       static_cast<long long>(modes.counters.solves), modes.frequency[0],
       modes.frequency[modes.frequency.size() - 1], modes.roundoff.maxCoeff());

@@ -104,7 +104,7 @@ class ShiftedStiffness {
   [[nodiscard]] bool converged() const { return last_correction_ < 1e-6; }
 
   /// Row by row, K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a mode; a coordinate
-  /// counts with at least a thousandth of the largest motion, as in equation_rows.h, and a row with
+  /// counts with at least a thousandth of the largest motion, as in row_balance.h, and a row with
   /// at least 1e-9 of the largest of its kind.
   [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
     constexpr double kLeastRow = 1e-9;
@@ -145,7 +145,7 @@ class ShiftedStiffness {
 MatrixXd mass_factor(const MatrixXd& M) {
   const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
-  const SymmetricEigenpairs<MatrixXd> pairs =
+  const SymmetricEigenpairs pairs =
       symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
   const double rounding = static_cast<double>(M.rows()) * kEps;  // of a unit diagonal
   const Index rank = (pairs.value.array() > rounding).count();
@@ -171,8 +171,7 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   const MatrixXd A = L.transpose() * flexibility;
   ComplexEigenpairs pairs;
   if (symmetric) {
-    const SymmetricEigenpairs<MatrixXd> real =
-        symmetric_eigenpairs((0.5 * (A + A.transpose())).eval());
+    const SymmetricEigenpairs real = symmetric_eigenpairs((0.5 * (A + A.transpose())).eval());
     pairs = {real.converged, real.value, real.vector};
   } else {
     pairs = eigenpairs(A);

@@ -1,6 +1,6 @@
-#include "solver/linalg/eigenvalue_count.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "solver/linalg/eigenpairs.h"
 
 BOOST_AUTO_TEST_SUITE(eigenvalue_count)
 

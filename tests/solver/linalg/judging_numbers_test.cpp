@@ -3,7 +3,7 @@
 
 #include "solver/assembly/stiffness_factors.h"
 #include "solver/linalg/backward_error.h"
-#include "solver/linalg/dense_qr.h"
+#include "solver/linalg/dense_eigen.h"
 #include "solver/model/numbers.h"
 #include "tests/support/solver/frames.h"
 

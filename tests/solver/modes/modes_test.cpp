@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/assembly/equation_rows.h"
+#include "solver/assembly/row_balance.h"
 #include "tests/support/solver/frames.h"
 #include "tests/support/solver/table_1.h"
 
@@ -123,7 +123,6 @@ BOOST_AUTO_TEST_CASE(both_paths_find_every_copy_in_the_pinned_double_cross) {
   for (const EigenMethod path : kPaths) {
     const ModalSolution m = solve_modes(system, {16, path});
     BOOST_REQUIRE(m.outcome.solved());
-    BOOST_TEST(m.inertia_count == 16);
     const double expected[] = {11.3392, 17.6919, 17.6919, 17.7206, 17.7206, 17.7206,
                                17.7206, 17.7206, 45.5240, 57.4271, 57.4271, 57.7477,
                                57.7477, 57.7477, 57.7477, 57.7477};
@@ -147,8 +146,6 @@ BOOST_AUTO_TEST_CASE(the_paths_agree_on_a_cut_through_a_cluster) {
     BOOST_REQUIRE(sparse.frequency.size() == count);
     BOOST_TEST((dense.frequency - sparse.frequency).cwiseAbs().maxCoeff() <
                1e-12 * dense.frequency.maxCoeff());
-    BOOST_TEST(dense.inertia_count >= count);
-    BOOST_TEST(sparse.inertia_count == dense.inertia_count);
   }
 }
 
@@ -161,7 +158,6 @@ BOOST_AUTO_TEST_CASE(the_ansys_free_rod_vm61_is_free_and_stretches) {
     const ModalSolution m = solve(model, 3, path);
     BOOST_TEST(m.zero_energy_mode_count == 1);
     BOOST_TEST(m.frequency[0] == 0);
-    BOOST_TEST(m.zero_energy_mode_text == "free motion: node A along x 1, node B along x 1");
   }
 }
 
@@ -173,7 +169,6 @@ BOOST_AUTO_TEST_CASE(a_free_beam_has_three_zeros_and_the_clamped_beams_frequenci
     BOOST_TEST(m.zero_energy_mode_count == 3);
     BOOST_TEST(m.frequency.head(3).isZero(0));
     BOOST_TEST(m.frequency[3] == expected, tolerance(1e-6));
-    BOOST_TEST(m.inertia_count == 5);
   }
 }
 
@@ -332,8 +327,11 @@ BOOST_AUTO_TEST_CASE(
   const ModalSolution modes = solve_modes(system, {4});
   VectorXd w2 = (2 * kPi * modes.frequency).cwiseAbs2();
   const auto error_of = [&](Index first, Index count) {
-    return mode_backward_error(system, nullptr, modes.shape.middleCols(first, count),
-                               w2.segment(first, count));
+    const Eigen::MatrixXd u = system.T * modes.shape.middleCols(first, count);
+    RowBalance<double> rows(system, count);
+    rows.add_stiffness(u);
+    rows.add_inertia(u * (-w2.segment(first, count)).asDiagonal());
+    return rows.backward_error();
   };
   double largest = 0;
   for (Index mode = 0; mode < 4; ++mode) largest = std::max(largest, error_of(mode, 1));

@@ -54,7 +54,6 @@ BOOST_AUTO_TEST_CASE(a_mass_on_springs_in_a_rotating_frame_is_that_of_friswell) 
     BOOST_TEST(r.frequency[0] == row[1], tolerance(1e-4));
     BOOST_TEST(r.frequency[1] == row[2], tolerance(1e-4));
     BOOST_TEST(r.q[1] == row[3], tolerance(4e-4));
-    BOOST_TEST(r.inertia_count == 2);
   }
 }
 
@@ -76,7 +75,6 @@ BOOST_AUTO_TEST_CASE(at_rest_the_modes_are_the_ordinary_ones) {
   for (const EigenMethod path : {EigenMethod::dense, EigenMethod::sparse}) {
     const RotatingModes r = rotate(model, 0, 16, path);
     BOOST_REQUIRE_MESSAGE(r.outcome.solved(), r.outcome.reason);
-    BOOST_TEST(r.inertia_count >= 16);
     for (Index i = 0; i < 16; ++i) {
       BOOST_TEST(r.frequency[i] == ordinary.frequency[i], tolerance(1e-9));
     }
@@ -178,7 +176,6 @@ BOOST_AUTO_TEST_CASE(both_paths_and_mass_matrices_agree_in_a_rotating_frame) {
     const RotatingModes sparse = rotate(model, 1.5, 6, EigenMethod::sparse);
     BOOST_REQUIRE_MESSAGE(dense.outcome.solved(), dense.outcome.reason);
     BOOST_REQUIRE_MESSAGE(sparse.outcome.solved(), sparse.outcome.reason);
-    BOOST_TEST(dense.inertia_count == 6);
     for (Index i = 0; i < 6; ++i) {
       BOOST_TEST(dense.frequency[i] == sparse.frequency[i], tolerance(1e-9));
     }

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cfenv>
 
-#include "solver/assembly/equation_rows.h"
+#include "solver/assembly/row_balance.h"
 #include "solver/manipulator/manipulator.h"
 #include "solver/statics/statics.h"
 #include "tests/support/solver/frames.h"
@@ -22,9 +22,9 @@ struct Solved {
   ElasticState state;
 
   [[nodiscard]] double unbalanced() const {
-    EquationRows rows(system);
+    RowBalance<double> rows(system);
     rows.add_stiffness(state.u);
-    rows.add_load(system.load, -1);
+    rows.add_load(-system.load);
     return trammel::solver::unbalanced_forces(system, state, solution, rows.terms());
   }
 };
@@ -89,9 +89,9 @@ BOOST_AUTO_TEST_CASE(a_wrong_sign_or_place_at_recovery_is_seen) {
 BOOST_AUTO_TEST_CASE(a_stale_load_leaves_rows_unbalanced) {
   Solved s = manipulator();
   s.system.load *= 1.0001;
-  EquationRows rows(s.system);
+  RowBalance<double> rows(s.system);
   rows.add_stiffness(s.state.u);
-  rows.add_load(s.system.load, -1);
+  rows.add_load(-s.system.load);
   BOOST_TEST(rows.backward_error() > 1e-9);
 }
 
