@@ -275,7 +275,7 @@ class MotionEstimates {
         rotation = std::max(rotation, std::abs(u[i]));
     }
     const VectorXd still = VectorXd::Zero(q.size());
-    const MovingSystem::Forces forces = moving.forces(q, still, still, 0, 0, true);
+    const MovingSystem::Forces forces = moving.forces(q, still, still, {}, true);
     const VectorXd axial = axial_forces(system, u, moving.constraints().multipliers(forces.total));
     for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
       const FrameElement& e = system.mesh.frame[i];

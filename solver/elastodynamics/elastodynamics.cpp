@@ -47,7 +47,7 @@ EquationOfMotion equation_of(const ElastodynamicsOptions& options, PathFollower&
   if (options.gyroscopic) {
     equation.working_motion = [&follower](double time, const VectorXd& q, const VectorXd& v) {
       follower.update_to(time);  // where there is no pose the numbers have ended before
-      return follower.working_motion(q, v);
+      return follower.forces(q, v, VectorXd::Zero(q.size())).working;
     };
   }
   if (!follower.stands_still()) {
@@ -168,7 +168,8 @@ Outcome start_with_rates(const ElastodynamicsOptions& options, PathFollower& fol
   time.v0.setZero(equation.K.rows());
   Outcome outcome = start_quasi_statically(matrices, options.time, time.q0, time.v0, counters);
   if (!outcome.solved() || !follower.damped() || !follower.update_to(time.start)) return outcome;
-  const VectorXd drag = follower.working_motion(time.q0, time.v0).drag;
+  const VectorXd drag =
+      follower.forces(time.q0, time.v0, VectorXd::Zero(time.q0.size())).working.drag;
   const VectorXd f = follower.load() - follower.system().constraints().T.transpose() * drag;
   // T. q changes with q: of the velocities that suit it, take the one whose strains stay.
   VectorXd q, change;

@@ -37,10 +37,7 @@ void set_path_errors(ElastodynamicsSolution& solution) {
 
 StaticSolution ElastodynamicsRecorder::state_of(const VectorXd& q, const VectorXd& v,
                                                 const VectorXd& a, WholeBalance& balance) const {
-  const MovingSystem& moving = follower_.system();
-  const MovingSystem::Forces forces = moving.forces(
-      q, v, a, options_.damping.mass, options_.damping.stiffness, options_.nominal_inertia);
-  return postprocess_motion(moving, q, forces, balance);
+  return postprocess_motion(follower_.system(), q, follower_.forces(q, v, a), balance);
 }
 
 void ElastodynamicsRecorder::add_balance(double load_time, const VectorXd& q, const VectorXd& v,

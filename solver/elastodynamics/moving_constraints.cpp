@@ -79,6 +79,18 @@ void MovingConstraints::find_dependent_rows() {
         static_cast<Index>(dependent_rows_.size());
     dependent_rows_.push_back(r);
   }
+  const auto columns = [](const std::vector<Index>& column_of, Index count) {
+    std::vector<Eigen::Triplet<double>> ones;
+    for (int u = 0; u < static_cast<int>(column_of.size()); ++u) {
+      const int column = static_cast<int>(column_of[to_size(u)]);
+      if (column >= 0) ones.emplace_back(u, column, 1.0);
+    }
+    RowMajorMatrix matrix(std::ssize(column_of), count);
+    matrix.setFromTriplets(ones.begin(), ones.end());
+    return matrix;
+  };
+  select_free_ = columns(constraints_.free, constraints_.T.cols());
+  select_dependent_ = columns(dependent_row_of_, std::ssize(dependent_rows_));
 }
 
 /// T with every entry that some pose needs: those that do not vanish at three turns of the parts in
@@ -135,36 +147,26 @@ bool MovingConstraints::change(const System& start, const NominalMotion& from,
   return false;
 }
 
-/// X of C_p X = - C_f: what the eliminated coordinates are of the free ones: row x q.
-MatrixXd MovingConstraints::dependent_coordinates(const System& start,
-                                                  const NominalMotion& motion) {
-  const auto k = static_cast<Index>(dependent_rows_.size());
-  MatrixXd pivots = MatrixXd::Zero(k, k);
-  MatrixXd rhs = MatrixXd::Zero(k, constraints_.T.cols());
-  for (Index i = 0; i < k; ++i) {
-    const ConstraintRow& row = constraints_.rows[dependent_rows_[static_cast<std::size_t>(i)]];
-    for (std::size_t t = 0; t < row.terms.size(); ++t) {
-      const auto u = static_cast<std::size_t>(row.terms[t].first);
-      const double c = coefficient(start, row, t, motion, 0);
-      if (dependent_row_of_[u] >= 0) pivots(i, dependent_row_of_[u]) += c;
-      if (constraints_.free[u] >= 0) rhs(i, constraints_.free[u]) -= c;
-    }
-  }
-  pivots_.compute(pivots);
-  return pivots_.solve(rhs);
-}
-
+/// C^(order) times a matrix with a row for each coordinate: dependent row x column.
 MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
                                     const RowMajorMatrix& matrix) const {
-  MatrixXd sum = MatrixXd::Zero(static_cast<Index>(dependent_rows_.size()), matrix.cols());
+  MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
   for (Index i = 0; i < sum.rows(); ++i) {
     const ConstraintRow& row = constraints_.rows[dependent_rows_[to_size(i)]];
     for (std::size_t t = 0; t < row.terms.size(); ++t) {
       const double c = coefficient(start, row, t, motion, order);
-      if (c != 0) sum.row(i) += c * matrix.row(row.terms[t].first);
+      for (RowMajorMatrix::InnerIterator entry(matrix, row.terms[t].first); entry; ++entry)
+        sum(i, entry.col()) += c * entry.value();
     }
   }
   return sum;
+}
+
+/// X of C_p X = - C_f, the eliminated coordinates of the free ones: row x q.
+MatrixXd MovingConstraints::dependent_coordinates(const System& start,
+                                                  const NominalMotion& motion) {
+  pivots_.compute(product(start, motion, 0, select_dependent_));
+  return pivots_.solve(-product(start, motion, 0, select_free_));
 }
 
 void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) const {

@@ -48,6 +48,7 @@ class MovingConstraints {
   RowMajorMatrix T_dot_, T_ddot_;
   std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
   std::vector<Index> dependent_row_of_;      // ... of each coordinate that they eliminate, or -1
+  RowMajorMatrix select_free_, select_dependent_;  // u x q and u x row: ones where they are u
   DenseLu pivots_;
 };
 

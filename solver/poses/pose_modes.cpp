@@ -116,13 +116,13 @@ class BlockSolver {
     Y_ = MX_;
     stiffness_.solve_in_place(Y_.ends);
     counters.solves += rows;
-    pencil_.mass_times(Y_, MY_, space_);
+    pencil_.mass_times(Y_, MY_);
   }
 
   /// Until the eigenvalues stand still; false where they do not.
   bool iterate(bool warm) {
     constexpr int kSteps = 60;
-    pencil_.mass_times(X_, MX_, space_);
+    pencil_.mass_times(X_, MX_);
     const Index wanted = task_.options.count;
     for (int step = 0; step < kSteps; ++step) {
       for (int k = 0; warm && step == 0 && k < plain_; ++k) {
