@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "solver/elastodynamics/elastodynamics_options.h"
+#include "solver/elastodynamics/elastodynamics.h"
 #include "solver/elastodynamics/moving_system.h"
 #include "solver/linalg/sparse_ldlt.h"
 
