@@ -4,7 +4,8 @@
 
 #include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
-#include "solver/sensitivity/frequency_differences.h"
+#include "harness/statics_modes/frequency_differences.h"
+#include "solver/sensitivity/frequency_sensitivity.h"
 
 namespace trammel::harness {
 namespace {
@@ -39,7 +40,7 @@ Derivatives one_by_one(const std::vector<solver::DesignParameter>& parameters,
                        const Difference& difference) {
   Derivatives all;
   for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
-    const solver::FrequencyDifferences one = difference(parameters[p]);
+    const FrequencyDifferences one = difference(parameters[p]);
     all.counters += one.counters;
     all.outcome = one.outcome;
     all.evidence.add(one.evidence);
@@ -57,15 +58,36 @@ Derivatives derive_by(const JsonView& method, const CaseModel& case_model,
   const solver::Pose& pose = case_model.motion.front().pose;
   if (method.json() == "extrapolated-differences") {
     return one_by_one(parameters, [&](const solver::DesignParameter& parameter) {
-      return solver::differentiate_frequencies(design, pose, parameter, count);
+      return differentiate_frequencies(design, pose, parameter, count);
     });
   }
   const auto [name, numbers] = method.entries().front();
   const double step = numbers.number("relative_step");
   return one_by_one(parameters, [&, central = name == "central-difference"](
                                     const solver::DesignParameter& parameter) {
-    return solver::difference_quotient(design, pose, parameter, count, step, central);
+    return difference_quotient(design, pose, parameter, count, step, central);
   });
+}
+
+/// Of parameters that elements have no derivatives of.
+void differentiate_numerically(const CaseModel& case_model,
+                               const std::vector<solver::DesignParameter>& parameters,
+                               solver::FrequencySensitivity& result) {
+  for (std::size_t p = 0; p < parameters.size() && result.outcome.solved(); ++p) {
+    if (solver::is_seeded(parameters[p].kind)) continue;
+    const FrequencyDifferences found =
+        differentiate_frequencies(*case_model.manipulator, case_model.motion.front().pose,
+                                  parameters[p], result.frequency.size());
+    result.outcome = found.outcome;
+    result.evidence.add(found.evidence);
+    result.counters += found.counters;
+    if (!result.outcome.solved()) return;
+    result.derivative.col(static_cast<solver::Index>(p)) = found.derivative;
+    if (!found.derivative.allFinite()) {
+      result.outcome = {solver::Status::singular,
+                        "a limb is straight or folded: no step leaves it in reach"};
+    }
+  }
 }
 
 /// Error of the derivative against extrapolated differences, as a share of frequency over
@@ -74,7 +96,7 @@ void record_differences(const CaseModel& case_model, const Named& named,
                         const solver::FrequencySensitivity& found, solver::Index column,
                         Recorder& record, StepResult& result) {
   const solver::Index count = found.frequency.size();
-  const solver::FrequencyDifferences differences = solver::differentiate_frequencies(
+  const FrequencyDifferences differences = differentiate_frequencies(
       *case_model.manipulator, case_model.motion.front().pose, named.parameter, count);
   if (!differences.outcome.solved()) {
     result.outcome = differences.outcome;
@@ -106,6 +128,7 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
   if (exactly) {
     found = solver::frequency_sensitivity(*case_model.manipulator, case_model.motion.front().pose,
                                           parameters, count);
+    differentiate_numerically(case_model, parameters, found);
   } else {
     const Derivatives other = derive_by(*method, case_model, parameters, count);
     found.outcome = other.outcome;

@@ -102,6 +102,8 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     parameter = read_design_parameter(*given);
     if (!(solver::parameter_value(design, parameter) > 0))
       throw(*given)["property"].error("expected a property that the manipulator has");
+    if (!solver::is_seeded(parameter.kind))
+      throw(*given)["property"].error("expected a length, thickness, width, E or density");
   }
   const std::string quantity = sensitivity_name(parameter.kind);
   const double margin = analysis.get("serial_margin", 0.1);

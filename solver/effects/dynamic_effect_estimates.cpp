@@ -14,7 +14,7 @@
 #include "solver/effects/energy_shares.h"
 #include "solver/elastodynamics/nominal_motion.h"
 #include "solver/elastodynamics/path_follower.h"
-#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/manipulator/manipulator.h"
 #include "solver/modes/modes.h"
 
 namespace trammel::solver {

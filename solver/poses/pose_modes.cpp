@@ -13,7 +13,7 @@
 
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/linalg/lanczos.h"
-#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/manipulator/manipulator.h"
 #include "solver/modes/modes.h"
 #include "solver/poses/moving_pencil.h"
 

@@ -7,7 +7,6 @@
 
 #include "solver/linalg/dense_eigen.h"
 #include "solver/model/numbers.h"
-#include "solver/sensitivity/frequency_differences.h"
 #include "solver/sensitivity/set_derivative.h"
 
 namespace trammel::solver {
@@ -16,6 +15,10 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// Frequencies nearer than this to each other, relatively, are one set. Shapes of modes farther
+/// apart are good to the modes' round-off over it.
+constexpr double kSameFrequency = 1e-7;
 
 /// Modes enough that the last set wanted is whole.
 ModalSolution whole_sets(const System& system, Index count) {
@@ -38,27 +41,6 @@ double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   if (set.first > 0) gap = f - frequency[set.first - 1];
   if (end < frequency.size()) gap = std::min(gap, frequency[end] - f);
   return f > 0 ? gap / f : gap;
-}
-
-/// Parameters that no element's derivative knows.
-void differentiate_numerically(const ManipulatorDesign& design, const Pose& pose,
-                               const std::vector<DesignParameter>& parameters,
-                               FrequencySensitivity& result) {
-  for (std::size_t p = 0; p < parameters.size() && result.outcome.solved(); ++p) {
-    if (is_seeded(parameters[p].kind)) continue;
-    const FrequencyDifferences found =
-        differentiate_frequencies(design, pose, parameters[p], result.frequency.size());
-    result.outcome = found.outcome;
-    result.evidence.add(found.evidence);
-    result.counters += found.counters;
-    if (!result.outcome.solved()) return;
-    if (!found.derivative.allFinite()) {
-      result.outcome = {Status::singular,
-                        "a limb is straight or folded: no step leaves it in reach"};
-      return;
-    }
-    result.derivative.col(static_cast<Index>(p)) = found.derivative;
-  }
 }
 
 /// Derivatives of one set of equal frequencies by the parameters with a seeded design.
@@ -89,6 +71,20 @@ Outcome differentiate_set(const System& system, const ModalSolution& modes, cons
 }
 
 }  // namespace
+
+std::vector<FrequencySet> equal_frequencies(const Eigen::VectorXd& frequency) {
+  std::vector<FrequencySet> sets;
+  for (Index i = 0; i < frequency.size(); ++i) {
+    const bool repeated =
+        !sets.empty() && frequency[i] - frequency[i - 1] <= kSameFrequency * frequency[i];
+    if (repeated) {
+      ++sets.back().count;
+    } else {
+      sets.push_back({i, 1});
+    }
+  }
+  return sets;
+}
 
 FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, const Pose& pose,
                                            const std::vector<DesignParameter>& parameters,
@@ -125,7 +121,6 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
       return result;
     }
   }
-  differentiate_numerically(design, pose, parameters, result);
   return result;
 }
 

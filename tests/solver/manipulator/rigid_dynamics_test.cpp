@@ -7,7 +7,6 @@
 #include <random>
 
 #include "solver/manipulator/inverse_dynamics.h"
-#include "solver/manipulator/motion_map.h"
 #include "solver/manipulator/rigid_terms.h"
 #include "solver/manipulator/trajectory.h"
 #include "tests/support/solver/differences.h"
