@@ -4,6 +4,7 @@
 
 #include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
+#include "harness/statics_modes/design_change.h"
 #include "harness/statics_modes/frequency_differences.h"
 #include "solver/sensitivity/frequency_sensitivity.h"
 
@@ -19,7 +20,7 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   std::vector<Named> read;
   for (const auto& [name, place] : analysis["parameters"].entries()) {
     read.push_back({name, read_design_parameter(place)});
-    if (!(solver::parameter_value(*case_model.manipulator, read.back().parameter) > 0))
+    if (!(parameter_value(*case_model.manipulator, read.back().parameter) > 0))
       throw place["property"].error("expected a property that the manipulator has");
   }
   return read;
@@ -102,7 +103,7 @@ void record_differences(const CaseModel& case_model, const Named& named,
     result.outcome = differences.outcome;
     return;
   }
-  const double value = solver::parameter_value(*case_model.manipulator, named.parameter);
+  const double value = parameter_value(*case_model.manipulator, named.parameter);
   for (solver::Index i = 0; i < count; ++i) {
     if (found.frequency[i] == 0) continue;  // rigid motions
     const double error = std::abs(found.derivative(i, column) - differences.derivative[i]);
@@ -151,7 +152,7 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
   }
   for (std::size_t p = 0; p < named.size(); ++p) {
     const auto column = static_cast<solver::Index>(p);
-    const double value = solver::parameter_value(*case_model.manipulator, named[p].parameter);
+    const double value = parameter_value(*case_model.manipulator, named[p].parameter);
     for (solver::Index i = 0; i < found.frequency.size(); ++i) {
       const double derivative = found.derivative(i, column);
       record.add(sensitivity_name(named[p].parameter.kind), named[p].name, derivative);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "harness/statics_modes/design_change.h"
 #include "solver/modes/modes.h"
 #include "solver/sensitivity/frequency_sensitivity.h"
 
@@ -12,7 +13,6 @@ namespace trammel::harness {
 namespace {
 
 using Eigen::VectorXd;
-using solver::DesignInPose;
 using solver::DesignParameter;
 using solver::FrequencySet;
 using solver::Index;
@@ -36,14 +36,14 @@ class Differences {
   FrequencyDifferences run(double relative_step) {
     const VectorXd all = begin();
     if (!result_.outcome.solved()) return result_;
-    extrapolate(first_step(all, relative_step * solver::parameter_value(design_, parameter_)));
+    extrapolate(first_step(all, relative_step * parameter_value(design_, parameter_)));
     return result_;
   }
 
   FrequencyDifferences single_quotient(double relative_step, bool is_central) {
     const VectorXd all = begin();
     if (!result_.outcome.solved()) return result_;
-    const double step = relative_step * solver::parameter_value(design_, parameter_);
+    const double step = relative_step * parameter_value(design_, parameter_);
     if (is_central) {
       result_.derivative = central(step);
     } else {
@@ -67,7 +67,7 @@ class Differences {
   }
 
   VectorXd frequencies(double change) {
-    const DesignInPose changed = solver::perturbed(design_, pose_, parameter_, change);
+    const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
     const ModalSolution modes = solver::solve_modes(
         solver::assemble(solver::build_manipulator(changed.design, changed.pose)),
         {.count = count_ + kExtraModes});
@@ -78,7 +78,7 @@ class Differences {
   }
 
   [[nodiscard]] bool within_reach(double change) const {
-    const DesignInPose changed = solver::perturbed(design_, pose_, parameter_, change);
+    const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
     return solver::inverse_kinematics(changed.design.geometry, changed.pose).outcome.solved();
   }
 

@@ -128,25 +128,6 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   T_ddot_ = T_dot_;
 }
 
-bool MovingConstraints::change(const System& start, const NominalMotion& from,
-                               const NominalMotion& to) const {
-  const auto moves = [this](const PartMotion& a, const PartMotion& b) {
-    return a.angle != b.angle ||
-           (derivatives_ && (a.rate != b.rate || a.acceleration != b.acceleration));
-  };
-  for (const ConstraintRow& row : constraints_.rows) {
-    if (row.source == ConstraintRow::Source::inextensible) {
-      const auto member =
-          static_cast<std::size_t>(start.mesh.frame[static_cast<std::size_t>(row.index)].member);
-      if (moves(to.member[member], from.member[member])) return true;
-    } else if (row.source == ConstraintRow::Source::rigid_body) {
-      const auto body = static_cast<std::size_t>(row.index);
-      if (moves(to.rigid_body[body], from.rigid_body[body])) return true;
-    }
-  }
-  return false;
-}
-
 /// C^(order) times a matrix with a row for each coordinate: dependent row x column.
 MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
                                     const RowMajorMatrix& matrix) const {
@@ -179,9 +160,8 @@ void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) co
   }
 }
 
-Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
-                                const NominalMotion& to) {
-  if (!variable_ || !change(start, from, to)) return {};
+Outcome MovingConstraints::move(const System& start, const NominalMotion& to) {
+  if (!variable_) return {};
   const MatrixXd X = dependent_coordinates(start, to);
   if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,

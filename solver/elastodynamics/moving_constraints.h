@@ -21,8 +21,7 @@ class MovingConstraints {
 
   /// singular: the coordinates that the constraints eliminate do not suit this pose; nothing
   /// changes.
-  [[nodiscard]] Outcome move(const System& start, const NominalMotion& from,
-                             const NominalMotion& to);
+  [[nodiscard]] Outcome move(const System& start, const NominalMotion& to);
 
   /// Of the present pose; T has every entry that some pose needs.
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
@@ -35,8 +34,6 @@ class MovingConstraints {
  private:
   void find_dependent_rows();
   void extend_pattern(const System& start, const NominalMotion& motion);
-  [[nodiscard]] bool change(const System& start, const NominalMotion& from,
-                            const NominalMotion& to) const;
   [[nodiscard]] Eigen::MatrixXd dependent_coordinates(const System& start,
                                                       const NominalMotion& motion);
   [[nodiscard]] Eigen::MatrixXd product(const System& start, const NominalMotion& motion, int order,

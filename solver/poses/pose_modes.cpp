@@ -96,19 +96,18 @@ class BlockSolver {
     if (!(stiffness_.compute(pencil_.K()) && stiffness_.smallest_pivot() > kSmallestPivot))
       return false;
     for (int trial = warm_ ? 0 : 1; trial < 2; ++trial) {  // the second from nothing
-      warm_ = trial == 0 || begin();
-      if (iterate(trial == 0) && certify(at)) return true;
+      if (trial > 0) begin();
+      if (iterate(trial == 0) && certify(at)) return warm_ = true;
     }
     return warm_ = false;
   }
 
-  bool begin() {
+  void begin() {
     const Index n = pencil_.ends();
     X_.ends = start_vectors(rows, n);
     // Strain energies of the joints' unit motions are m^2 or 1 times a stiffness; inside it is 1.
     X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
     X_.inside = start_vectors(rows, pencil_.inside(), 1);
-    return true;
   }
 
   /// X <- K^-1 M X, and M X of it.

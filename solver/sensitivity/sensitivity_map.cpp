@@ -59,8 +59,7 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
   map.reachable.setConstant(grid.rows, grid.columns, false);
   for (Index j = 0; j < grid.rows; ++j) {
     for (Index i = 0; i < grid.columns; ++i) {
-      const Pose pose{grid.x0 + static_cast<double>(i) * grid.dx,
-                      grid.y0 + static_cast<double>(j) * grid.dy, grid.phi};
+      const Pose pose = grid.pose(j, i);
       const Posture posture = inverse_kinematics(design.geometry, pose);
       if (!posture.outcome.solved()) continue;
       map.reachable(j, i) = true;
