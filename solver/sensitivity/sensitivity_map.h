@@ -38,14 +38,13 @@ struct PoseGrid {
                                       Index columns);
 
 /// row x column; NaN where there is no value. At a pose on the boundary of the reach, where the
-/// derivative is infinite, only the frequency and the distances have values.
+/// derivative is infinite, only the frequency and the distance have values.
 struct SensitivityMap {
   PoseGrid grid;
-  Eigen::MatrixXd frequency;   ///< f_1 [Hz]
-  Eigen::MatrixXd derivative;  ///< d f_1 / dp [Hz / unit], as the parameter grows
-  Eigen::MatrixXd parallel_distance, serial_distance;  ///< as in Jacobians [-]
-  Eigen::ArrayXX<bool> reachable;
-  Evidence evidence;  ///< of the modes at all poses with a value
+  Eigen::MatrixXd frequency;        ///< f_1 [Hz]
+  Eigen::MatrixXd derivative;       ///< d f_1 / dp [Hz / unit], as the parameter grows
+  Eigen::MatrixXd serial_distance;  ///< as in Jacobians [-]
+  Evidence evidence;                ///< of the modes at all poses with a value
   Counters counters;
 };
 
