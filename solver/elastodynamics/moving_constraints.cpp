@@ -25,13 +25,22 @@ Vector2d derivative(const Vector2d& at_start, const PartMotion& part, int order)
   return part.acceleration * perpendicular(now) - part.rate * part.rate * now;
 }
 
+/// The part whose motion changes the row; null: none.
+const PartMotion* part_of(const System& start, const ConstraintRow& row,
+                          const NominalMotion& motion) {
+  if (row.source == ConstraintRow::Source::inextensible)
+    return &motion.member[to_size(start.mesh.frame[to_size(row.index)].member)];
+  if (row.source == ConstraintRow::Source::rigid_body)
+    return &motion.rigid_body[to_size(row.index)];
+  return nullptr;
+}
+
 /// The coefficient of a term in a row, or its derivative in time.
 double coefficient(const System& start, const ConstraintRow& row, std::size_t term,
                    const NominalMotion& motion, int order) {
   if (row.source == ConstraintRow::Source::inextensible) {
-    const FrameElement& e = start.mesh.frame[static_cast<std::size_t>(row.index)];
-    const Vector2d d =
-        derivative(e.direction, motion.member[static_cast<std::size_t>(e.member)], order);
+    const FrameElement& e = start.mesh.frame[to_size(row.index)];
+    const Vector2d d = derivative(e.direction, *part_of(start, row, motion), order);
     const Index u = row.terms[term].first;
     const auto at = std::find(e.coordinates.begin(), e.coordinates.end(), u);
     const auto local = at - e.coordinates.begin();
@@ -47,7 +56,7 @@ double coefficient(const System& start, const ConstraintRow& row, std::size_t te
   const Vector2d arm =
       start.mesh.positions[static_cast<std::size_t>(node)] -
       start.mesh.positions[static_cast<std::size_t>(start.model.rigid_bodies[body].reference)];
-  const Vector2d now = derivative(arm, motion.rigid_body[body], order);
+  const Vector2d now = derivative(arm, *part_of(start, row, motion), order);
   return first == coordinates.node[static_cast<std::size_t>(node)][0] ? now.y() : -now.x();
 }
 
@@ -160,8 +169,13 @@ void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) co
   }
 }
 
-Outcome MovingConstraints::move(const System& start, const NominalMotion& to) {
-  if (!variable_) return {};
+Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
+                                const NominalMotion& to) {
+  const bool changes = std::ranges::any_of(constraints_.rows, [&](const ConstraintRow& row) {
+    const PartMotion *before = part_of(start, row, from), *after = part_of(start, row, to);
+    return before != nullptr && *before != *after;
+  });
+  if (!variable_ || !changes) return {};
   const MatrixXd X = dependent_coordinates(start, to);
   if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,

@@ -21,7 +21,8 @@ class MovingConstraints {
 
   /// singular: the coordinates that the constraints eliminate do not suit this pose; nothing
   /// changes.
-  [[nodiscard]] Outcome move(const System& start, const NominalMotion& to);
+  [[nodiscard]] Outcome move(const System& start, const NominalMotion& from,
+                             const NominalMotion& to);
 
   /// Of the present pose; T has every entry that some pose needs.
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }

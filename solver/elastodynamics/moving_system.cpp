@@ -176,7 +176,7 @@ Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& dire
 }
 
 Outcome MovingSystem::move_to(const NominalMotion& motion) {
-  const Outcome outcome = constraints_.move(start_, motion);
+  const Outcome outcome = constraints_.move(start_, motion_, motion);
   if (!outcome.solved()) return outcome;
   motion_ = motion;
   for (SparseMatrix* A : {&K_, &M_, &C_gyroscopic_, &K_centrifugal_euler_, &K_T_dot_, &M_T_dot_})

@@ -129,15 +129,22 @@ Index MovingPencil::eigenvalues_below(double shift) {
 
 template <int rows>
 void MovingPencil::mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) const {
+  using Vector = Eigen::Matrix<double, rows, 1>;
   const Index n = ends();
   Y.ends.setZero(rows, n);
   for (Index j = 0; j < n; ++j) {
-    for (Index i = 0; i < n; ++i) {
-      if (M_(i, j) != 0) Y.ends.col(j) += M_(i, j) * X.ends.col(i);
+    const Vector x = X.ends.col(j);
+    Vector y = Y.ends.col(j) + M_(j, j) * x;
+    for (Index i = j + 1; i < n; ++i) {
+      const double m = M_(i, j);
+      if (m == 0) continue;
+      Y.ends.col(i) += m * x;
+      y += m * X.ends.col(i);
     }
+    Y.ends.col(j) = y;
   }
   Y.inside.resize(rows, inside());
-  using Vector = Eigen::Matrix<double, rows, 1>;
+  if (inside() == 0) return;
   for (const Link& link : links_) {
     for (Index j = link.first; j < link.last; ++j) {
       Vector y = mu_[j] * X.inside.col(j);
