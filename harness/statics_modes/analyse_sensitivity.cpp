@@ -26,22 +26,23 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   return read;
 }
 
-/// What the route says of the frequencies and their derivatives.
-struct Derivatives {
-  solver::Outcome outcome;
-  solver::Evidence evidence;
-  Eigen::VectorXd frequency;
-  Eigen::MatrixXd derivative;  ///< mode x parameter
-  solver::Counters counters;
-};
-
-/// Differences, parameter by parameter.
-template <class Difference>
-Derivatives one_by_one(const std::vector<solver::DesignParameter>& parameters,
-                       const Difference& difference) {
-  Derivatives all;
+/// Differences of each parameter in turn: extrapolated, or one quotient where the method has a
+/// step.
+solver::FrequencySensitivity derive_by(const JsonView& method, const CaseModel& case_model,
+                                       const std::vector<solver::DesignParameter>& parameters,
+                                       solver::Index count) {
+  const solver::ManipulatorDesign& design = *case_model.manipulator;
+  const solver::Pose& pose = case_model.motion.front().pose;
+  solver::FrequencySensitivity all;
   for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
-    const FrequencyDifferences one = difference(parameters[p]);
+    FrequencyDifferences one;
+    if (method.json() == "extrapolated-differences") {
+      one = differentiate_frequencies(design, pose, parameters[p], count);
+    } else {
+      const auto [name, numbers] = method.entries().front();
+      one = difference_quotient(design, pose, parameters[p], count, numbers.number("relative_step"),
+                                name == "central-difference");
+    }
     all.counters += one.counters;
     all.outcome = one.outcome;
     all.evidence.add(one.evidence);
@@ -50,24 +51,6 @@ Derivatives one_by_one(const std::vector<solver::DesignParameter>& parameters,
     all.derivative.col(static_cast<solver::Index>(p)) = one.derivative;
   }
   return all;
-}
-
-/// By another route than Eq. 35.
-Derivatives derive_by(const JsonView& method, const CaseModel& case_model,
-                      const std::vector<solver::DesignParameter>& parameters, solver::Index count) {
-  const solver::ManipulatorDesign& design = *case_model.manipulator;
-  const solver::Pose& pose = case_model.motion.front().pose;
-  if (method.json() == "extrapolated-differences") {
-    return one_by_one(parameters, [&](const solver::DesignParameter& parameter) {
-      return differentiate_frequencies(design, pose, parameter, count);
-    });
-  }
-  const auto [name, numbers] = method.entries().front();
-  const double step = numbers.number("relative_step");
-  return one_by_one(parameters, [&, central = name == "central-difference"](
-                                    const solver::DesignParameter& parameter) {
-    return difference_quotient(design, pose, parameter, count, step, central);
-  });
 }
 
 /// Of parameters that elements have no derivatives of.
@@ -131,12 +114,7 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
                                           parameters, count);
     differentiate_numerically(case_model, parameters, found);
   } else {
-    const Derivatives other = derive_by(*method, case_model, parameters, count);
-    found.outcome = other.outcome;
-    found.evidence = other.evidence;
-    found.frequency = other.frequency;
-    found.derivative = other.derivative;
-    found.counters = other.counters;
+    found = derive_by(*method, case_model, parameters, count);
   }
   StepResult result{found.outcome, found.counters, std::nullopt, {}, found.evidence};
   if (draw) result.drawing = draw_model(solver::assemble(build_model(case_model, 0)), true);

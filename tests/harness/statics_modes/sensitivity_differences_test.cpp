@@ -8,12 +8,7 @@
 BOOST_AUTO_TEST_SUITE(sensitivity_differences)
 
 using namespace trammel::solver;
-using trammel::harness::DesignInPose;
-using trammel::harness::difference_quotient;
-using trammel::harness::differentiate_frequencies;
-using trammel::harness::FrequencyDifferences;
-using trammel::harness::parameter_value;
-using trammel::harness::perturbed;
+using namespace trammel::harness;
 
 BOOST_AUTO_TEST_CASE(every_variant_of_the_model_agrees_with_differences) {
   std::vector<ManipulatorDesign> designs;
