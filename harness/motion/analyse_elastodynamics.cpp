@@ -10,7 +10,7 @@
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/elastodynamics/elastodynamics.h"
 #include "solver/large_motion/manipulator/large_elastodynamics.h"
-#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/manipulator/manipulator.h"
 #include "solver/modes/modes.h"
 
 namespace trammel::harness {

@@ -11,8 +11,8 @@
 #include "harness/scene/with_model_errors.h"
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/large_motion/elements/linear_joints.h"
-#include "solver/manipulator/path_error.h"
-#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/manipulator/manipulator.h"
+#include "solver/manipulator/trajectory.h"
 #include "solver/model/labels.h"
 
 namespace trammel::harness {

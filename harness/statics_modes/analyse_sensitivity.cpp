@@ -4,7 +4,9 @@
 
 #include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
-#include "solver/sensitivity/frequency_differences.h"
+#include "harness/statics_modes/design_change.h"
+#include "harness/statics_modes/frequency_differences.h"
+#include "solver/sensitivity/frequency_sensitivity.h"
 
 namespace trammel::harness {
 namespace {
@@ -18,28 +20,29 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   std::vector<Named> read;
   for (const auto& [name, place] : analysis["parameters"].entries()) {
     read.push_back({name, read_design_parameter(place)});
-    if (!(solver::parameter_value(*case_model.manipulator, read.back().parameter) > 0))
+    if (!(parameter_value(*case_model.manipulator, read.back().parameter) > 0))
       throw place["property"].error("expected a property that the manipulator has");
   }
   return read;
 }
 
-/// What the route says of the frequencies and their derivatives.
-struct Derivatives {
-  solver::Outcome outcome;
-  solver::Evidence evidence;
-  Eigen::VectorXd frequency;
-  Eigen::MatrixXd derivative;  ///< mode x parameter
-  solver::Counters counters;
-};
-
-/// Differences, parameter by parameter.
-template <class Difference>
-Derivatives one_by_one(const std::vector<solver::DesignParameter>& parameters,
-                       const Difference& difference) {
-  Derivatives all;
+/// Differences of each parameter in turn: extrapolated, or one quotient where the method has a
+/// step.
+solver::FrequencySensitivity derive_by(const JsonView& method, const CaseModel& case_model,
+                                       const std::vector<solver::DesignParameter>& parameters,
+                                       solver::Index count) {
+  const solver::ManipulatorDesign& design = *case_model.manipulator;
+  const solver::Pose& pose = case_model.motion.front().pose;
+  solver::FrequencySensitivity all;
   for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
-    const solver::FrequencyDifferences one = difference(parameters[p]);
+    FrequencyDifferences one;
+    if (method.json() == "extrapolated-differences") {
+      one = differentiate_frequencies(design, pose, parameters[p], count);
+    } else {
+      const auto [name, numbers] = method.entries().front();
+      one = difference_quotient(design, pose, parameters[p], count, numbers.number("relative_step"),
+                                name == "central-difference");
+    }
     all.counters += one.counters;
     all.outcome = one.outcome;
     all.evidence.add(one.evidence);
@@ -50,22 +53,25 @@ Derivatives one_by_one(const std::vector<solver::DesignParameter>& parameters,
   return all;
 }
 
-/// By another route than Eq. 35.
-Derivatives derive_by(const JsonView& method, const CaseModel& case_model,
-                      const std::vector<solver::DesignParameter>& parameters, solver::Index count) {
-  const solver::ManipulatorDesign& design = *case_model.manipulator;
-  const solver::Pose& pose = case_model.motion.front().pose;
-  if (method.json() == "extrapolated-differences") {
-    return one_by_one(parameters, [&](const solver::DesignParameter& parameter) {
-      return solver::differentiate_frequencies(design, pose, parameter, count);
-    });
+/// Of parameters that elements have no derivatives of.
+void differentiate_numerically(const CaseModel& case_model,
+                               const std::vector<solver::DesignParameter>& parameters,
+                               solver::FrequencySensitivity& result) {
+  for (std::size_t p = 0; p < parameters.size() && result.outcome.solved(); ++p) {
+    if (solver::is_seeded(parameters[p].kind)) continue;
+    const FrequencyDifferences found =
+        differentiate_frequencies(*case_model.manipulator, case_model.motion.front().pose,
+                                  parameters[p], result.frequency.size());
+    result.outcome = found.outcome;
+    result.evidence.add(found.evidence);
+    result.counters += found.counters;
+    if (!result.outcome.solved()) return;
+    result.derivative.col(static_cast<solver::Index>(p)) = found.derivative;
+    if (!found.derivative.allFinite()) {
+      result.outcome = {solver::Status::singular,
+                        "a limb is straight or folded: no step leaves it in reach"};
+    }
   }
-  const auto [name, numbers] = method.entries().front();
-  const double step = numbers.number("relative_step");
-  return one_by_one(parameters, [&, central = name == "central-difference"](
-                                    const solver::DesignParameter& parameter) {
-    return solver::difference_quotient(design, pose, parameter, count, step, central);
-  });
 }
 
 /// Error of the derivative against extrapolated differences, as a share of frequency over
@@ -74,13 +80,13 @@ void record_differences(const CaseModel& case_model, const Named& named,
                         const solver::FrequencySensitivity& found, solver::Index column,
                         Recorder& record, StepResult& result) {
   const solver::Index count = found.frequency.size();
-  const solver::FrequencyDifferences differences = solver::differentiate_frequencies(
+  const FrequencyDifferences differences = differentiate_frequencies(
       *case_model.manipulator, case_model.motion.front().pose, named.parameter, count);
   if (!differences.outcome.solved()) {
     result.outcome = differences.outcome;
     return;
   }
-  const double value = solver::parameter_value(*case_model.manipulator, named.parameter);
+  const double value = parameter_value(*case_model.manipulator, named.parameter);
   for (solver::Index i = 0; i < count; ++i) {
     if (found.frequency[i] == 0) continue;  // rigid motions
     const double error = std::abs(found.derivative(i, column) - differences.derivative[i]);
@@ -106,13 +112,9 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
   if (exactly) {
     found = solver::frequency_sensitivity(*case_model.manipulator, case_model.motion.front().pose,
                                           parameters, count);
+    differentiate_numerically(case_model, parameters, found);
   } else {
-    const Derivatives other = derive_by(*method, case_model, parameters, count);
-    found.outcome = other.outcome;
-    found.evidence = other.evidence;
-    found.frequency = other.frequency;
-    found.derivative = other.derivative;
-    found.counters = other.counters;
+    found = derive_by(*method, case_model, parameters, count);
   }
   StepResult result{found.outcome, found.counters, std::nullopt, {}, found.evidence};
   if (draw) result.drawing = draw_model(solver::assemble(build_model(case_model, 0)), true);
@@ -128,7 +130,7 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
   }
   for (std::size_t p = 0; p < named.size(); ++p) {
     const auto column = static_cast<solver::Index>(p);
-    const double value = solver::parameter_value(*case_model.manipulator, named[p].parameter);
+    const double value = parameter_value(*case_model.manipulator, named[p].parameter);
     for (solver::Index i = 0; i < found.frequency.size(); ++i) {
       const double derivative = found.derivative(i, column);
       record.add(sensitivity_name(named[p].parameter.kind), named[p].name, derivative);

@@ -8,7 +8,8 @@
 #include "harness/base/text.h"
 #include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
-#include "solver/sensitivity/workspace_curves.h"
+#include "harness/statics_modes/design_change.h"
+#include "solver/sensitivity/sensitivity_map.h"
 
 namespace trammel::harness {
 namespace {
@@ -44,10 +45,9 @@ double for_map(double value) {
 
 void record_position(const solver::SensitivityMap& map, solver::Index j, solver::Index i,
                      const std::string& quantity, const std::string& item, Recorder& record) {
-  const double x = map.grid.x0 + static_cast<double>(i) * map.grid.dx;
-  const double y = map.grid.y0 + static_cast<double>(j) * map.grid.dy;
-  record.add("position_x_m", item, for_map(x));
-  record.add("position_y_m", item, for_map(y));
+  const solver::Pose pose = map.grid.pose(j, i);
+  record.add("position_x_m", item, for_map(pose.x));
+  record.add("position_y_m", item, for_map(pose.y));
   record.add("frequency_Hz", item, for_map(map.frequency(j, i)));
   record.add(quantity, item, for_map(map.derivative(j, i)));
 }
@@ -100,8 +100,10 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
   solver::DesignParameter parameter;
   if (const auto given = analysis.find("parameter")) {
     parameter = read_design_parameter(*given);
-    if (!(solver::parameter_value(design, parameter) > 0))
+    if (!(parameter_value(design, parameter) > 0))
       throw(*given)["property"].error("expected a property that the manipulator has");
+    if (!solver::is_seeded(parameter.kind))
+      throw(*given)["property"].error("expected a length, thickness, width, E or density");
   }
   const std::string quantity = sensitivity_name(parameter.kind);
   const double margin = analysis.get("serial_margin", 0.1);

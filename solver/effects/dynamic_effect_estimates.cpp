@@ -5,16 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include "solver/assembly/prestress.h"
 #include "solver/effects/energy_shares.h"
 #include "solver/elastodynamics/nominal_motion.h"
 #include "solver/elastodynamics/path_follower.h"
-#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/manipulator/manipulator.h"
 #include "solver/modes/modes.h"
 
 namespace trammel::solver {
@@ -65,22 +63,6 @@ struct ResponseSize {
   }
 };
 
-/// Largest over the poses.
-struct LargestSizes {
-  ResponseSize response;
-  std::map<Effect, ResponseSize> change;
-  std::map<Effect, double> share;  ///< of the strain energy, or of that of all loads
-};
-
-/// The motion without an effect; what follows it refers to it.
-struct Light {
-  Light(const ElastodynamicsOptions& whole, Effect effect) : options(whole) {
-    options.design = restrict_effects(options.design, Effects::all().without(effect));
-  }
-  ElastodynamicsOptions options;
-  std::optional<PathFollower> follower;
-};
-
 /// One mode, as far as it vibrates.
 struct Vibration {
   double translation = 0;          ///< amplitude over the largest of the response
@@ -95,7 +77,10 @@ struct Vibration {
 class MotionEstimates {
  public:
   MotionEstimates(const ElastodynamicsOptions& options, Effects applicable)
-      : options_(coarsened(options)), applicable_(applicable), rate_(path_rate(options)) {}
+      : options_(coarsened(options)),
+        applicable_(applicable),
+        rate_(path_rate(options)),
+        duration_(options.time.end - options.time.start) {}
 
   EffectEstimates run() {
     const std::set<double> extremes = estimate_along_path();
@@ -122,7 +107,7 @@ class MotionEstimates {
   }
 
   void record_change(Effect effect, const ResponseSize& change) {
-    if (applicable_.has(effect)) sizes_.change[effect].take_max(change);
+    if (applicable_.has(effect)) change_[effect].take_max(change);
   }
 
   /// K q = F + f; empty where it has no solution.
@@ -162,8 +147,7 @@ class MotionEstimates {
   /// Inertia, damping and gyroscopic forces; at an end of the path, within it.
   /// @returns the size of the response
   ResponseSize estimate_rates_at(PathFollower& pose, double sample) {
-    const double duration = options_.time.end - options_.time.start;
-    const double step = rate_ > 0 ? std::min(1e-3 / rate_, duration / 4) : 1e-4 * duration;
+    const double step = rate_ > 0 ? std::min(1e-3 / rate_, duration_ / 4) : 1e-4 * duration_;
     const auto [first, last] = time_span(options_.path);
     const double time = std::clamp(sample, first + step, last - step);
     std::array<VectorXd, 3> q;  // before, after, now
@@ -178,12 +162,16 @@ class MotionEstimates {
     const VectorXd inertia = system.M() * a;
     const VectorXd damping =
         options_.damping.mass * (system.M() * v) + options_.damping.stiffness * (system.K() * v);
-    record_drag(system, solve(pose, damping), solve(pose, inertia));
+    const VectorXd drag = solve(pose, damping), lag = solve(pose, inertia);
+    // The same loads hold what drags: only displacements change.
+    record_change(Effect::damping, {translation_of(system, drag), 0});
+    record_change(Effect::inertia,
+                  {translation_of(system, drag + lag), size_of(system, lag).energy});
     record_change(Effect::gyroscopic,
                   size_of(system, solve(pose, system.gyroscopic_matrix() * v +
                                                   system.centrifugal_and_euler_matrix() * q[2])));
     const ResponseSize size = size_of(system, q[2]);
-    sizes_.response.take_max(size);
+    response_.take_max(size);
     return size;
   }
 
@@ -202,12 +190,12 @@ class MotionEstimates {
     if (!estimates_.outcome.solved()) return;
     const MovingSystem& system = pose.system();
     const ResponseSize total = size_of(system, q);
-    sizes_.response.take_max(total);
+    response_.take_max(total);
     const double energy = q.dot(system.K() * q);
     const EnergyShares shares(system.start(), q, energy);
     for (const Effect effect : flexibilities()) {
       const double share = energy > 0 ? shares.elastic(effect) : 0;
-      sizes_.share[effect] = std::max(sizes_.share[effect], share);
+      share_[effect] = std::max(share_[effect], share);
       const VectorXd lost = solve(pose, system.start().T.transpose() * shares.forces(effect));
       record_change(effect, {translation_of(system, lost), share * total.energy});
     }
@@ -220,23 +208,12 @@ class MotionEstimates {
     if (applicable_.has(Effect::gravity) && estimates_.outcome.solved()) {
       estimates_.outcome = pose.move_to(time, Vector2d::Zero());
       if (!estimates_.outcome.solved()) return;
-      record_weight(pose, solve(pose, load - pose.load()), total.energy);
+      const ResponseSize weight = size_of(system, solve(pose, load - pose.load()));
+      double& of_all = share_[Effect::gravity];
+      if (total.energy > 0) of_all = std::max(of_all, weight.energy / total.energy);
+      record_change(Effect::gravity, weight);
     }
     estimates_.counters += pose.counters();
-  }
-
-  /// What drags is held by the same loads: only displacements change.
-  void record_drag(const MovingSystem& system, const VectorXd& damping, const VectorXd& inertia) {
-    record_change(Effect::damping, {translation_of(system, damping), 0});
-    record_change(Effect::inertia,
-                  {translation_of(system, damping + inertia), size_of(system, inertia).energy});
-  }
-
-  void record_weight(const PathFollower& pose, const VectorXd& response, double total_energy) {
-    const ResponseSize weight = size_of(pose.system(), response);
-    double& of_all = sizes_.share[Effect::gravity];
-    if (total_energy > 0) of_all = std::max(of_all, weight.energy / total_energy);
-    record_change(Effect::gravity, weight);
   }
 
   [[nodiscard]] std::vector<Effect> flexibilities() const {
@@ -252,14 +229,12 @@ class MotionEstimates {
   void without_masses(double time, const VectorXd& load, PathFollower& pose) {
     for (const Effect effect : {Effect::link_mass, Effect::rotary_inertia}) {
       if (!applicable_.has(effect)) continue;
-      auto& light = light_[effect];
-      if (!light) {
-        light = std::make_unique<Light>(options_, effect);
-        light->follower.emplace(light->options, time);
-      }
-      estimates_.outcome = light->follower->move_to(time, options_.gravity);
+      ElastodynamicsOptions options = options_;
+      options.design = restrict_effects(options.design, Effects::all().without(effect));
+      PathFollower light(options, time);
+      estimates_.outcome = light.move_to(time, options.gravity);
       if (!estimates_.outcome.solved()) return;
-      record_change(effect, size_of(pose.system(), solve(pose, load - light->follower->load())));
+      record_change(effect, size_of(pose.system(), solve(pose, load - light.load())));
     }
   }
 
@@ -275,7 +250,7 @@ class MotionEstimates {
         rotation = std::max(rotation, std::abs(u[i]));
     }
     const VectorXd still = VectorXd::Zero(q.size());
-    const MovingSystem::Forces forces = moving.forces(q, still, still, 0, 0, true);
+    const MovingSystem::Forces forces = moving.forces(q, still, still, {}, true);
     const VectorXd axial = axial_forces(system, u, moving.constraints().multipliers(forces.total));
     for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
       const FrameElement& e = system.mesh.frame[i];
@@ -324,8 +299,8 @@ class MotionEstimates {
     if (from_rest && energy_left > kRounding) beyond_modes_ = std::sqrt(energy_left);
     const EnergyShares shares(system, modes.shape.col(first), frequency_ * frequency_);
     const double rotary = shares.kinetic(true);
-    sizes_.share[Effect::link_mass] = shares.kinetic(false) - rotary;
-    sizes_.share[Effect::rotary_inertia] = rotary;
+    share_[Effect::link_mass] = shares.kinetic(false) - rotary;
+    share_[Effect::rotary_inertia] = rotary;
   }
 
   /// How far a mode of unit modal mass is out of step at last without each effect [rad], and what
@@ -342,10 +317,9 @@ class MotionEstimates {
     const double rotary = shares.kinetic(true), all = shares.kinetic(false);
     one.phase[Effect::link_mass] = phase * frequency_change_without(all - rotary);
     one.phase[Effect::rotary_inertia] = phase * frequency_change_without(rotary);
-    one.damped = -std::expm1(-ratio * omega * (options_.time.end - options_.time.start));
+    one.damped = -std::expm1(-ratio * omega * duration_);
     if (std::pow(rate_ / omega, 2) > kSlow) {
-      const double duration = options_.time.end - options_.time.start;
-      const double age = ratio > 0 ? std::min(duration / 2, 1 / (ratio * omega)) : duration / 2;
+      const double age = ratio > 0 ? std::min(duration_ / 2, 1 / (ratio * omega)) : duration_ / 2;
       one.resonant_share = age / vibration_duration(omega, ratio);
     }
     return one;
@@ -370,30 +344,17 @@ class MotionEstimates {
     return coupling;
   }
 
-  /// How long a vibration lasts.
+  /// Duration of a vibration.
   [[nodiscard]] double vibration_duration(double omega, double damping) const {
-    const double time = options_.time.end - options_.time.start;
-    return damping > 0 ? std::min(time, 1 / (std::numbers::e * damping * omega)) : time;
+    return damping > 0 ? std::min(duration_, 1 / (std::numbers::e * damping * omega)) : duration_;
   }
 
-  /// How long a resonance grows.
-  [[nodiscard]] double resonance_duration() const {
-    const double time = options_.time.end - options_.time.start;
-    return damping_ > 0 ? std::min(time, 1 / (damping_ * frequency_)) : time;
-  }
-
-  /// Of a change that the quasi-static response shows; nothing moves without a load.
-  [[nodiscard]] double of_response(Effect effect) const {
-    const auto found = sizes_.change.find(effect);
-    const ResponseSize& total = sizes_.response;
-    if (found == sizes_.change.end() || !(total.translation > 0 && total.energy > 0)) return 0;
-    return std::max(found->second.translation / total.translation,
-                    found->second.energy / total.energy);
-  }
-  [[nodiscard]] double translation_share(Effect effect) const {
-    const auto found = sizes_.change.find(effect);
-    if (found == sizes_.change.end() || !(sizes_.response.translation > 0)) return 0;
-    return found->second.translation / sizes_.response.translation;
+  /// A change over the quasi-static response; nothing moves without a load.
+  [[nodiscard]] ResponseSize relative_change(Effect effect) const {
+    const auto found = change_.find(effect);
+    if (found == change_.end() || !(response_.translation > 0 && response_.energy > 0)) return {};
+    return {found->second.translation / response_.translation,
+            found->second.energy / response_.energy};
   }
 
   /// A stiff part has a mode of its own beyond those looked at, in which the force it carries
@@ -442,7 +403,7 @@ class MotionEstimates {
     if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping))
       change += options_.damping.stiffness * max_angular_velocity_;
     if (effect == Effect::platform_flexibility || effect == Effect::joint_compliance)
-      change += stiff_part_vibration(sizes_.share.at(effect), vibration_share);
+      change += stiff_part_vibration(share_.at(effect), vibration_share);
     return change;
   }
 
@@ -451,12 +412,14 @@ class MotionEstimates {
     const double amplified = std::max(1.0, 1 / std::hypot(1 - r * r, 2 * damping_ * r));
     const bool resonates = r * r > kSlow;
     // A load that may be in resonance grows so far; what changes the frequency alone does not.
-    const double growth = resonates ? std::max(1.0, frequency_ * resonance_duration() / 2) : 1;
+    const double lasts =
+        damping_ > 0 ? std::min(duration_, 1 / (damping_ * frequency_)) : duration_;
+    const double growth = resonates ? std::max(1.0, frequency_ * lasts / 2) : 1;
     // Half a period later what started on q_s is twice as far from the response beside it.
     const double from_start = 1 + std::exp(-std::numbers::pi * damping_);
     double vibration_share = 1;
     if (options_.time.quasi_static_start && !vibrations_.empty()) {
-      vibration_share = std::min(1.0, translation_share(Effect::inertia) * amplified);
+      vibration_share = std::min(1.0, relative_change(Effect::inertia).translation * amplified);
       vibrations_.front().translation = vibrations_.front().energy = vibration_share;
     }
     const double amplitude = amplified * (1 + vibration_share);
@@ -465,8 +428,9 @@ class MotionEstimates {
     estimates_.large_displacement_beside = 2 * options_.damping.stiffness * max_angular_velocity_;
     for (const Effect effect : applicable_.list()) {
       if (effect == Effect::large_displacement) continue;  // the caller can tell more of it
-      double change = of_response(effect) * amplified;
-      double number = sizes_.share[effect];
+      const ResponseSize relative = relative_change(effect);
+      double change = std::max(relative.translation, relative.energy) * amplified;
+      double number = share_[effect];
       switch (effect) {
         case Effect::inertia:
           number = r * r;
@@ -498,8 +462,11 @@ class MotionEstimates {
   ElastodynamicsOptions options_;
   Effects applicable_;
   double rate_;
-  std::map<Effect, std::unique_ptr<Light>> light_;
-  LargestSizes sizes_;
+  double duration_;
+  // Largest over the poses.
+  ResponseSize response_;
+  std::map<Effect, ResponseSize> change_;
+  std::map<Effect, double> share_;  // of the strain energy, or of that of all loads
   double frequency_ = 0, damping_ = 0, max_angular_velocity_ = 0;
   std::vector<Vibration> vibrations_;
   double beyond_modes_ = 0;  ///< of what vibrates from rest, by energy

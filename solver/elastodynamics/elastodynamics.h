@@ -3,9 +3,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/elastodynamics/elastodynamics_options.h"
+#include "solver/assembly/damping.h"
+#include "solver/manipulator/manipulator.h"
+#include "solver/manipulator/trajectory.h"
 #include "solver/model/numbers.h"
 #include "solver/statics/statics.h"
+#include "solver/time/load_history.h"
+#include "solver/time/transient.h"
 
 /// Elastic vibration of the manipulator about its nominal rigid motion along a path (paper Eq.
 /// 12-19, with the rigid platform of Eq. 20-27):
@@ -14,6 +18,25 @@
 /// nominal motion, and G and S the gyroscopic, centrifugal and Euler terms of the moving links
 /// (moving_system.h), an effect of their own.
 namespace trammel::solver {
+
+struct ElastodynamicsOptions {
+  ManipulatorDesign design;
+  Path path;
+  Vector3d wrench = Vector3d::Zero();   ///< on the platform at P, world axes (Fx, Fy [N], M [N m])
+  LoadHistory load_history;             ///< on the wrench, not on weight and inertia
+  Vector2d gravity = Vector2d::Zero();  ///< in the plane [m/s^2]
+  RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed, Eq. 19
+
+  bool nominal_inertia = true;  ///< f, Eq. 14-17
+  bool elastic_inertia = true;  ///< M q.., and with it damping; off: quasi-static, K q = F + f
+  bool gyroscopic = false;      ///< G and S; a part of elastic inertia, without which it is refused
+
+  /// start, end, step, scheme, error control, samples; `quasi_static_start` or at rest.
+  TransientOptions time;
+  /// The exact response instead of a scheme: all modes superposed. Only where the platform stands
+  /// still, so that the matrices are constant.
+  bool modal_superposition = false;
+};
 
 /// Numbers without dimension that say when an effect matters; the largest over the samples. NaN
 /// where there is no such number: no elastic mode was found, or the stiffness is singular.
@@ -52,5 +75,9 @@ struct ElastodynamicsSolution {
 /// @throws ModelError  as `build_manipulator`, `at` and `solve_transient`; for modal superposition
 ///                     of a platform that moves; for gyroscopic terms without elastic inertia.
 [[nodiscard]] ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options);
+
+/// Fills deflection, path errors, platform rotation and actuator torques from states and nominal
+/// motion.
+void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolution& solution);
 
 }  // namespace trammel::solver

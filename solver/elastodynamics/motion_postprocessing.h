@@ -6,9 +6,9 @@
 
 namespace trammel::solver {
 
-/// Balance of all forces, and of all moments, on the whole: the largest over the samples of what is
-/// left and of the sum of magnitudes [N], [N m]. Rows of the equation of motion are held to terms
-/// that rounding of a very stiff part belongs to; here that part has none.
+/// Balance of all forces, and of all moments, on the whole: the largest residual and the largest
+/// sum of magnitudes over the samples [N], [N m]. Rows of the equation of motion are held to terms
+/// that include the rounding of a very stiff part; this balance has no such terms.
 struct WholeBalance {
   Vector2d residual = Vector2d::Zero(), terms = Vector2d::Zero();
 
@@ -26,11 +26,5 @@ struct WholeBalance {
                                                 const Eigen::VectorXd& q,
                                                 const MovingSystem::Forces& forces,
                                                 WholeBalance& balance);
-
-/// Rotation that best fits the displacements of C1 C2 C3 [rad].
-/// @param position  where they are without it, model node x (x, y) [m]
-/// @param displacement  model node x (ux, uy [m], rotation [rad])
-[[nodiscard]] double mean_platform_rotation(const Model& model, const Eigen::MatrixX2d& position,
-                                            const Eigen::MatrixX3d& displacement);
 
 }  // namespace trammel::solver

@@ -25,13 +25,22 @@ Vector2d derivative(const Vector2d& at_start, const PartMotion& part, int order)
   return part.acceleration * perpendicular(now) - part.rate * part.rate * now;
 }
 
+/// The part whose motion changes the row; null: none.
+const PartMotion* part_of(const System& start, const ConstraintRow& row,
+                          const NominalMotion& motion) {
+  if (row.source == ConstraintRow::Source::inextensible)
+    return &motion.member[to_size(start.mesh.frame[to_size(row.index)].member)];
+  if (row.source == ConstraintRow::Source::rigid_body)
+    return &motion.rigid_body[to_size(row.index)];
+  return nullptr;
+}
+
 /// The coefficient of a term in a row, or its derivative in time.
 double coefficient(const System& start, const ConstraintRow& row, std::size_t term,
                    const NominalMotion& motion, int order) {
   if (row.source == ConstraintRow::Source::inextensible) {
-    const FrameElement& e = start.mesh.frame[static_cast<std::size_t>(row.index)];
-    const Vector2d d =
-        derivative(e.direction, motion.member[static_cast<std::size_t>(e.member)], order);
+    const FrameElement& e = start.mesh.frame[to_size(row.index)];
+    const Vector2d d = derivative(e.direction, *part_of(start, row, motion), order);
     const Index u = row.terms[term].first;
     const auto at = std::find(e.coordinates.begin(), e.coordinates.end(), u);
     const auto local = at - e.coordinates.begin();
@@ -47,7 +56,7 @@ double coefficient(const System& start, const ConstraintRow& row, std::size_t te
   const Vector2d arm =
       start.mesh.positions[static_cast<std::size_t>(node)] -
       start.mesh.positions[static_cast<std::size_t>(start.model.rigid_bodies[body].reference)];
-  const Vector2d now = derivative(arm, motion.rigid_body[body], order);
+  const Vector2d now = derivative(arm, *part_of(start, row, motion), order);
   return first == coordinates.node[static_cast<std::size_t>(node)][0] ? now.y() : -now.x();
 }
 
@@ -79,6 +88,18 @@ void MovingConstraints::find_dependent_rows() {
         static_cast<Index>(dependent_rows_.size());
     dependent_rows_.push_back(r);
   }
+  const auto columns = [](const std::vector<Index>& column_of, Index count) {
+    std::vector<Eigen::Triplet<double>> ones;
+    for (int u = 0; u < static_cast<int>(column_of.size()); ++u) {
+      const int column = static_cast<int>(column_of[to_size(u)]);
+      if (column >= 0) ones.emplace_back(u, column, 1.0);
+    }
+    RowMajorMatrix matrix(std::ssize(column_of), count);
+    matrix.setFromTriplets(ones.begin(), ones.end());
+    return matrix;
+  };
+  select_free_ = columns(constraints_.free, constraints_.T.cols());
+  select_dependent_ = columns(dependent_row_of_, std::ssize(dependent_rows_));
 }
 
 /// T with every entry that some pose needs: those that do not vanish at three turns of the parts in
@@ -116,55 +137,26 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   T_ddot_ = T_dot_;
 }
 
-bool MovingConstraints::change(const System& start, const NominalMotion& from,
-                               const NominalMotion& to) const {
-  const auto moves = [this](const PartMotion& a, const PartMotion& b) {
-    return a.angle != b.angle ||
-           (derivatives_ && (a.rate != b.rate || a.acceleration != b.acceleration));
-  };
-  for (const ConstraintRow& row : constraints_.rows) {
-    if (row.source == ConstraintRow::Source::inextensible) {
-      const auto member =
-          static_cast<std::size_t>(start.mesh.frame[static_cast<std::size_t>(row.index)].member);
-      if (moves(to.member[member], from.member[member])) return true;
-    } else if (row.source == ConstraintRow::Source::rigid_body) {
-      const auto body = static_cast<std::size_t>(row.index);
-      if (moves(to.rigid_body[body], from.rigid_body[body])) return true;
-    }
-  }
-  return false;
-}
-
-/// X of C_p X = - C_f: what the eliminated coordinates are of the free ones: row x q.
-MatrixXd MovingConstraints::dependent_coordinates(const System& start,
-                                                  const NominalMotion& motion) {
-  const auto k = static_cast<Index>(dependent_rows_.size());
-  MatrixXd pivots = MatrixXd::Zero(k, k);
-  MatrixXd rhs = MatrixXd::Zero(k, constraints_.T.cols());
-  for (Index i = 0; i < k; ++i) {
-    const ConstraintRow& row = constraints_.rows[dependent_rows_[static_cast<std::size_t>(i)]];
-    for (std::size_t t = 0; t < row.terms.size(); ++t) {
-      const auto u = static_cast<std::size_t>(row.terms[t].first);
-      const double c = coefficient(start, row, t, motion, 0);
-      if (dependent_row_of_[u] >= 0) pivots(i, dependent_row_of_[u]) += c;
-      if (constraints_.free[u] >= 0) rhs(i, constraints_.free[u]) -= c;
-    }
-  }
-  pivots_.compute(pivots);
-  return pivots_.solve(rhs);
-}
-
+/// C^(order) times a matrix with a row for each coordinate: dependent row x column.
 MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
                                     const RowMajorMatrix& matrix) const {
-  MatrixXd sum = MatrixXd::Zero(static_cast<Index>(dependent_rows_.size()), matrix.cols());
+  MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
   for (Index i = 0; i < sum.rows(); ++i) {
     const ConstraintRow& row = constraints_.rows[dependent_rows_[to_size(i)]];
     for (std::size_t t = 0; t < row.terms.size(); ++t) {
       const double c = coefficient(start, row, t, motion, order);
-      if (c != 0) sum.row(i) += c * matrix.row(row.terms[t].first);
+      for (RowMajorMatrix::InnerIterator entry(matrix, row.terms[t].first); entry; ++entry)
+        sum(i, entry.col()) += c * entry.value();
     }
   }
   return sum;
+}
+
+/// X of C_p X = - C_f, the eliminated coordinates of the free ones: row x q.
+MatrixXd MovingConstraints::dependent_coordinates(const System& start,
+                                                  const NominalMotion& motion) {
+  pivots_.compute(product(start, motion, 0, select_dependent_));
+  return pivots_.solve(-product(start, motion, 0, select_free_));
 }
 
 void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) const {
@@ -179,7 +171,11 @@ void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) co
 
 Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
                                 const NominalMotion& to) {
-  if (!variable_ || !change(start, from, to)) return {};
+  const bool changes = std::ranges::any_of(constraints_.rows, [&](const ConstraintRow& row) {
+    const PartMotion *before = part_of(start, row, from), *after = part_of(start, row, to);
+    return before != nullptr && *before != *after;
+  });
+  if (!variable_ || !changes) return {};
   const MatrixXd X = dependent_coordinates(start, to);
   if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,

@@ -34,8 +34,6 @@ class MovingConstraints {
  private:
   void find_dependent_rows();
   void extend_pattern(const System& start, const NominalMotion& motion);
-  [[nodiscard]] bool change(const System& start, const NominalMotion& from,
-                            const NominalMotion& to) const;
   [[nodiscard]] Eigen::MatrixXd dependent_coordinates(const System& start,
                                                       const NominalMotion& motion);
   [[nodiscard]] Eigen::MatrixXd product(const System& start, const NominalMotion& motion, int order,
@@ -47,6 +45,7 @@ class MovingConstraints {
   RowMajorMatrix T_dot_, T_ddot_;
   std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
   std::vector<Index> dependent_row_of_;      // ... of each coordinate that they eliminate, or -1
+  RowMajorMatrix select_free_, select_dependent_;  // u x q and u x row: ones where they are u
   Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
 };
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/assembly/element_mass.h"
 #include "solver/assembly/inertia.h"
-#include "solver/assembly/strain.h"
+#include "solver/model/plane.h"
 #include "solver/model/quadrature.h"
 
 namespace trammel::solver {
@@ -25,52 +24,38 @@ Matrix6d generator6() {
   return J;
 }
 
-struct RotationDerivatives {
-  Matrix6d first = Matrix6d::Zero(), second = Matrix6d::Zero();
-
-  /// Adds int rho N^T X and int rho N^T (J X - X J6), with X = J N - N J6 the derivative of
-  /// W = R N R6^T; weights are rho times (1, 1, radius of gyration squared).
-  void add(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights) {
-    const Matrix6d J6 = generator6();
-    const Eigen::Matrix<double, 3, 6> X = generator() * N - N * J6;
-    const Eigen::Matrix<double, 3, 6> Y = generator() * X - X * J6;
-    first += N.transpose() * weights.asDiagonal() * X;
-    second += N.transpose() * weights.asDiagonal() * Y;
-  }
-};
-
-RotationDerivatives rotation_derivatives(const FrameElement& e, const Member& member) {
-  RotationDerivatives result;
-  if (e.is_bar() || member.mass == MassMatrix::lumped) return result;  // W does not turn
-  const double phi = shear_ratio(e.section, member.theory, e.length);
-  const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
-  const Matrix6d T = frame_rotation(e.direction);
-  for (const LineQuadraturePoint& point : line_quadrature()) {
-    const double w = point.weight * e.length;
-    const Eigen::Matrix<double, 3, 6> N =
-        T.topLeftCorner<3, 3>().transpose() * frame_interpolation(phi, e.length, point.xi) * T;
-    result.add(N, w * Vector3d(e.section.mass_per_length, e.section.mass_per_length, rotary));
-  }
-  return result;
+/// Adds int rho N^T X and int rho N^T (J X - X J6), with X = J N - N J6 the derivative of
+/// W = R N R6^T; weights are rho times (1, 1, radius of gyration squared).
+void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
+                     MovingElement& element) {
+  const Matrix6d J6 = generator6();
+  const Eigen::Matrix<double, 3, 6> X = generator() * N - N * J6;
+  const Eigen::Matrix<double, 3, 6> Y = generator() * X - X * J6;
+  element.first_derivative += N.transpose() * weights.asDiagonal() * X;
+  element.second_derivative += N.transpose() * weights.asDiagonal() * Y;
 }
 
-void add_frames(const System& system, std::vector<MovingElement>& elements) {
-  for (const FrameElement& e : system.mesh.frame) {
-    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
-    MovingElement element;
-    element.coordinates = e.coordinates;
-    element.part = &NominalMotion::member;
-    element.part_index = static_cast<std::size_t>(e.member);
-    Vector3d c = frame_rigidity(e.section, member.theory, e.length);
-    if (!member.axially_flexible) c[0] = 0;
-    const FrameDeformation B = frame_deformation_matrix(e.direction, e.length);
-    element.k = B.transpose() * c.asDiagonal() * B;
-    element.m = world_mass(e, member);
-    const RotationDerivatives derivatives = rotation_derivatives(e, member);
-    element.first_derivative = derivatives.first;
-    element.second_derivative = derivatives.second;
-    elements.push_back(element);
+MovingElement frame_element(const FrameElement& e, const Member& member) {
+  MovingElement element;
+  element.coordinates = e.coordinates;
+  element.part = &NominalMotion::member;
+  element.part_index = to_size(e.member);
+  element.axis = e.direction;
+  element.B = frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length);
+  element.c = frame_rigidity(e.section, member.theory, e.length);
+  if (!member.axially_flexible) element.c[0] = 0;
+  element.m = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
+                         : frame_mass(e.section, member.theory, member.mass, e.length);
+  if (e.is_bar() || member.mass == MassMatrix::lumped) return element;  // W does not turn
+  const double phi = shear_ratio(e.section, member.theory, e.length);
+  const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
+  for (const LineQuadraturePoint& point : line_quadrature()) {
+    const double w = point.weight * e.length;
+    add_derivatives(frame_interpolation(phi, e.length, point.xi),
+                    w * Vector3d(e.section.mass_per_length, e.section.mass_per_length, rotary),
+                    element);
   }
+  return element;
 }
 
 void add_triangles(const System& system, std::vector<MovingElement>& elements) {
@@ -78,13 +63,14 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
     MovingElement element;
     element.layout = MovingElement::Layout::triangle;
     element.part = &NominalMotion::plate;
-    element.part_index = static_cast<std::size_t>(triangle.plate);
+    element.part_index = to_size(triangle.plate);
     if (triangle.quadratic()) throw ModelError("triangles of six nodes do not move yet");
     const TrianglePoints points = corners(system.model, triangle);
     element.coordinates = system.coordinates.of_triangle<6>(triangle);
     const Plate& plate = system.model.plates[element.part_index];
     const TriangleStiffness<3> k = triangle_stiffness(points, plate);
-    element.k = k.B.transpose() * k.c.asDiagonal() * k.B;
+    element.B = k.B;
+    element.c = k.c;
     element.m = triangle_mass(points, plate);  // the interpolation is isotropic: W does not turn
     elements.push_back(element);
   }
@@ -99,7 +85,7 @@ void add_point_masses(const System& system, std::vector<MovingElement>& elements
   for (const PointMass& point_mass : model.masses) {
     MovingElement element;
     element.layout = MovingElement::Layout::point_mass;
-    const auto& node = system.coordinates.node[static_cast<std::size_t>(point_mass.node)];
+    const auto& node = system.coordinates.node[to_size(point_mass.node)];
     std::copy(node.begin(), node.end(), element.coordinates.begin());
     for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
       if (!holds(model.rigid_bodies[b], point_mass.node)) continue;
@@ -113,66 +99,61 @@ void add_point_masses(const System& system, std::vector<MovingElement>& elements
     N(0, 0) = N(1, 1) = N(2, 2) = 1;
     N(0, 2) = -point_mass.offset.y();
     N(1, 2) = point_mass.offset.x();
-    RotationDerivatives derivatives;
-    derivatives.add(N, {point_mass.mass, point_mass.mass, point_mass.inertia});
-    element.first_derivative = derivatives.first;
-    element.second_derivative = derivatives.second;
+    add_derivatives(N, {point_mass.mass, point_mass.mass, point_mass.inertia}, element);
     elements.push_back(element);
   }
 }
 
-void add_springs(const System& system, std::vector<MovingElement>& elements) {
+void add_scalars(const System& system, std::vector<MovingElement>& elements) {
   const Model& model = system.model;
+  MovingElement scalar;
+  scalar.layout = MovingElement::Layout::scalar;
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
       const double inertia = model.members[i].ends[end].inertia;
       if (inertia == 0) continue;
-      MovingElement element;
-      element.layout = MovingElement::Layout::scalar;
+      MovingElement& element = elements.emplace_back(scalar);
       element.coordinates[0] = system.coordinates.member_end[i][end];
       element.part = &NominalMotion::member;
       element.part_index = i;
       element.m(0, 0) = inertia;
-      elements.push_back(element);
     }
   }
   for (const SpringElement& spring : system.springs) {
-    MovingElement element;
-    element.layout = MovingElement::Layout::scalar;
-    element.coordinates[0] = spring.coordinates[0];
-    element.coordinates[1] = spring.coordinates[1];
-    element.k(0, 0) = element.k(1, 1) = spring.stiffness;
-    element.k(0, 1) = element.k(1, 0) = -spring.stiffness;
-    elements.push_back(element);
+    MovingElement& element = elements.emplace_back(scalar);
+    std::copy(spring.coordinates.begin(), spring.coordinates.end(), element.coordinates.begin());
+    element.B.topLeftCorner<1, 2>() << -1, 1;
+    element.c[0] = spring.stiffness;
   }
 }
 
 }  // namespace
 
-Matrix6d MovingElement::rotated(const Matrix6d& A, double angle) const {
-  if (angle == 0 || layout == Layout::scalar) return A;
-  Matrix6d B = A;
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  for (Index i = 0; i + 1 < 6; i += stride()) {
-    const Eigen::Matrix<double, 1, 6> x = c * B.row(i) - s * B.row(i + 1);
-    B.row(i + 1) = s * B.row(i) + c * B.row(i + 1);
-    B.row(i) = x;
-  }
-  for (Index i = 0; i + 1 < 6; i += stride()) {
-    const Vector6d x = c * B.col(i) - s * B.col(i + 1);
-    B.col(i + 1) = s * B.col(i) + c * B.col(i + 1);
-    B.col(i) = x;
-  }
-  return B;
+Vector2d MovingElement::direction(const NominalMotion& nominal) const {
+  const double angle = motion(nominal).angle;
+  return angle == 0 ? axis : rotated(axis, angle);
 }
 
-std::vector<MovingElement> moving_elements(const System& system) {
+Matrix6d MovingElement::in_world(const Matrix6d& A, const Vector2d& direction) const {
+  Matrix6d turned = A;
+  to_world(turned, direction);
+  turned.transposeInPlace();
+  to_world(turned, direction);
+  return turned.transpose();
+}
+
+std::vector<MovingElement> moving_elements(const System& system,
+                                           const std::vector<LinkSuperelement>& links) {
   std::vector<MovingElement> elements;
-  add_frames(system, elements);
+  for (const FrameElement& e : system.mesh.frame) {
+    elements.push_back(frame_element(e, system.model.members[to_size(e.member)]));
+    if (!links.empty()) elements.back().m = links[to_size(e.member)].m;
+  }
   add_triangles(system, elements);
   add_point_masses(system, elements);
-  add_springs(system, elements);
+  add_scalars(system, elements);
+  for (MovingElement& element : elements)
+    element.k = element.B.transpose() * element.c.asDiagonal() * element.B;
   return elements;
 }
 

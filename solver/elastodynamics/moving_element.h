@@ -4,20 +4,33 @@
 #include <vector>
 
 #include "solver/assembly/system.h"
+#include "solver/elastodynamics/link_superelement.h"
 #include "solver/elastodynamics/nominal_motion.h"
 #include "solver/elements/frame_element.h"
 
 namespace trammel::solver {
 
-/// An element that turns with a rigid part; its matrices in world axes where the model was built.
+/// Turns the pair (x, y) of columns that begins at column i by the angle of (c, s).
+template <class Block>
+void turn_columns(Block& v, Index i, double c, double s) {
+  const auto x = (c * v.col(i) - s * v.col(i + 1)).eval();
+  v.col(i + 1) = s * v.col(i) + c * v.col(i + 1);
+  v.col(i) = x;
+}
+
+/// An element that turns with a rigid part. Its matrices are constant in its own axes.
 struct MovingElement {
-  enum class Layout { frame, triangle, point_mass, scalar };  ///< what the coordinates are
+  enum class Layout { frame, triangle, point_mass, scalar };  ///< of the coordinates
 
   Layout layout = Layout::frame;
   std::array<Index, 6> coordinates{-1, -1, -1, -1, -1, -1};
-  Matrix6d k = Matrix6d::Zero(), m = Matrix6d::Zero();
-  Matrix6d first_derivative = Matrix6d::Zero();                  ///< int rho N^T dN/dangle
-  Matrix6d second_derivative = Matrix6d::Zero();                 ///< int rho N^T d2N/dangle2
+  FrameDeformation B = FrameDeformation::Zero();  ///< its own axes -> deformations
+  Vector3d c = Vector3d::Zero();                  ///< rigidities of the three deformations
+  Matrix6d k = Matrix6d::Zero();                  ///< B^T diag(c) B
+  Matrix6d m = Matrix6d::Zero();
+  Matrix6d first_derivative = Matrix6d::Zero();   ///< int rho N^T dN/dangle
+  Matrix6d second_derivative = Matrix6d::Zero();  ///< int rho N^T d2N/dangle2
+  Vector2d axis = Vector2d::UnitX();  ///< its own x axis where the model was built, world axes
   const std::vector<PartMotion> NominalMotion::*part = nullptr;  ///< null: does not turn
   std::size_t part_index = 0;
   Vector2d first_moment = Vector2d::Zero();  ///< of a point mass: mass * offset [kg m]
@@ -25,15 +38,32 @@ struct MovingElement {
   [[nodiscard]] PartMotion motion(const NominalMotion& nominal) const {
     return part ? (nominal.*part)[part_index] : PartMotion{};
   }
+  /// Its own x axis during a motion, world axes.
+  [[nodiscard]] Vector2d direction(const NominalMotion& nominal) const;
   /// Coordinates from a node's x to the next node's.
   [[nodiscard]] Index stride() const { return layout == Layout::triangle ? 2 : 3; }
-  /// Q A Q^T with Q the rotation of the coordinates by `angle` [rad].
-  [[nodiscard]] Matrix6d rotated(const Matrix6d& A, double angle) const;
+
+  /// Turns the columns of a block (any x 6), one column a coordinate, from its own axes to world
+  /// axes.
+  template <class Block>
+  void to_world(Block& v, const Vector2d& direction) const {
+    if (layout == Layout::scalar) return;
+    for (Index i = 0; i + 1 < 6; i += stride()) turn_columns(v, i, direction.x(), direction.y());
+  }
+  /// The same from world axes to its own.
+  template <class Block>
+  void to_own(Block& v, const Vector2d& direction) const {
+    to_world(v, Vector2d(direction.x(), -direction.y()));
+  }
+  /// The matrix A of its own axes in world axes.
+  [[nodiscard]] Matrix6d in_world(const Matrix6d& A, const Vector2d& direction) const;
 };
 
 /// Frame elements in the order of the mesh, then triangles, point masses, rotary inertias of the
 /// members' ends, springs.
+/// @param links  condensed members, in place of the frame elements; empty: none is condensed
 /// @throws ModelError  for triangles of six nodes.
-[[nodiscard]] std::vector<MovingElement> moving_elements(const System& system);
+[[nodiscard]] std::vector<MovingElement> moving_elements(
+    const System& system, const std::vector<LinkSuperelement>& links);
 
 }  // namespace trammel::solver

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "solver/assembly/strain.h"
-#include "solver/model/plane.h"
 
 namespace trammel::solver {
 
@@ -23,213 +22,264 @@ NominalMotion motion_at_start(const Model& model) {
   return motion;
 }
 
-/// int rho W^T (2 W. u. + W.. u) dV by the rotation of the element's own part.
-Vector6d turning_inertia(const MovingElement& element, const PartMotion& part, const Vector6d& u,
-                         const Vector6d& velocity) {
-  const Matrix6d first = element.rotated(element.first_derivative, part.angle);
-  const Matrix6d second = element.rotated(element.second_derivative, part.angle);
-  return 2 * part.rate * (first * velocity) + part.acceleration * (first * u) +
-         part.rate * part.rate * (second * u);
+System assemble_at_start(Model model, const MovingSystemOptions& options) {
+  if (options.condensed) {
+    for (Member& member : model.members) member.elements = 1;
+  }
+  const Effects all = Effects::all();
+  return assemble(model, options.inertia ? all : all.without(Effect::inertia));
+}
+
+/// Condenses each member; equal ones once.
+std::vector<LinkSuperelement> condense_members(const Model& model, const Mesh& mesh) {
+  std::vector<LinkSuperelement> links;
+  const auto numbers = [&](std::size_t i) {
+    const Member& m = model.members[i];
+    const Section& s = m.section;
+    return std::tie(s.EA, s.EI, s.kappa_GA, s.mass_per_length, s.inertia_per_length, m.theory,
+                    m.mass, m.axially_flexible, m.elements, mesh.frame[i].length);
+  };
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    std::size_t same = 0;
+    while (same < i && numbers(same) != numbers(i)) ++same;
+    links.push_back(same < i ? links[same] : condense(model.members[i], mesh.frame[i].length));
+  }
+  return links;
+}
+
+/// Calls visit(local, a, b, row, column) for the products T(a) A(local) T(b) of an element's matrix
+/// A that make up T^T A T, local = i + 6 j.
+template <class Visit>
+void for_each_contribution(const MovingElement& element, const RowMajorMatrix& T, Visit&& visit) {
+  for (int i = 0; i < 6; ++i) {
+    const Index u = element.coordinates[to_size(i)];
+    for (int j = 0; j < 6 && u >= 0; ++j) {
+      const Index w = element.coordinates[to_size(j)];
+      if (w < 0) continue;
+      for (int a = T.outerIndexPtr()[u]; a < T.outerIndexPtr()[u + 1]; ++a) {
+        for (int b = T.outerIndexPtr()[w]; b < T.outerIndexPtr()[w + 1]; ++b)
+          visit(i + 6 * j, a, b, T.innerIndexPtr()[a], T.innerIndexPtr()[b]);
+      }
+    }
+  }
+}
+
+/// Values of an element's coordinates, in its own axes.
+Vector6d gather_own(const MovingElement& element, const Vector2d& direction, const VectorXd& u) {
+  Eigen::Matrix<double, 1, 6> v = detail::gather(element.coordinates, u).transpose();
+  element.to_own(v, direction);
+  return v.transpose();
+}
+
+/// Adds an element's forces, in its own axes, to those of its coordinates.
+void scatter_own(const MovingElement& element, const Vector2d& direction, const Vector6d& force,
+                 VectorXd& u) {
+  Eigen::Matrix<double, 1, 6> f = force.transpose();
+  element.to_world(f, direction);
+  detail::scatter(element.coordinates, f.transpose().eval(), u);
 }
 
 }  // namespace
 
-MovingSystem::MovingSystem(const Model& model, bool gyroscopic, bool inertia)
-    : start_(assemble(model, inertia ? Effects::all() : Effects::all().without(Effect::inertia))),
-      gyroscopic_(gyroscopic),
-      inertia_(inertia),
+MovingSystem::MovingSystem(const Model& model, const MovingSystemOptions& options)
+    : options_(options),
+      start_(assemble_at_start(model, options)),
       motion_(motion_at_start(model)),
-      constraints_(start_, motion_, gyroscopic),
-      elements_(moving_elements(start_)),
-      pattern_(elements_, constraints_.T()),
-      interpolation_(start_),
-      K_(pattern_.matrix) {
-  if (inertia_) M_ = K_;
-  if (gyroscopic_) C_gyroscopic_ = K_centrifugal_euler_ = K_T_dot_ = M_T_dot_ = K_;
+      constraints_(start_, motion_, options.gyroscopic) {
+  if (options_.condensed) links_ = condense_members(model, start_.mesh);
+  elements_ = moving_elements(start_, links_);
+  find_spans();
+  find_pattern();
   inertia_u_.setZero(start_.coordinates.size);
   inertia_load_.setZero(K_.rows());
   load_.setZero(K_.rows());
   static_cast<void>(move_to(NominalMotion(motion_)));
 }
 
-/// The element's share of r..: an affine field, which the interpolation holds exactly.
-Vector6d MovingSystem::nominal_acceleration(const MovingElement& element) const {
-  Vector6d a = Vector6d::Zero();
-  const double alpha = element.motion(motion_).acceleration;
+void MovingSystem::find_spans() {
+  const Model& model = start_.model;
+  span_.resize(start_.mesh.positions.size());
+  for (Index i = 0; i < std::ssize(model.nodes); ++i) span_[to_size(i)].nodes = {i, i};
+  Index before = -1;
+  Index done = 0;
+  for (const FrameElement& e : start_.mesh.frame) {
+    const Member& member = model.members[to_size(e.member)];
+    done = e.member == before ? done + 1 : 1;
+    before = e.member;
+    if (done == member.elements) continue;  // its second node is the member's
+    span_[to_size(e.nodes[1])] = {member.nodes,
+                                  static_cast<double>(done) / static_cast<double>(member.elements)};
+  }
+}
+
+/// Every entry that some pose needs.
+void MovingSystem::find_pattern() {
+  const RowMajorMatrix& T = constraints_.T();
+  std::vector<Eigen::Triplet<double>> places;
+  for (int i = 0; i < static_cast<int>(T.cols()); ++i) places.emplace_back(i, i, 0.0);
+  for (const MovingElement& element : elements_) {
+    for_each_contribution(element, T, [&](int, int, int, int row, int column) {
+      places.emplace_back(row, column, 0.0);
+    });
+  }
+  K_.resize(T.cols(), T.cols());
+  K_.setFromTriplets(places.begin(), places.end());
+  K_.makeCompressed();
+  contributions_.reserve(places.size());
+  for (const MovingElement& element : elements_) {
+    first_contribution_.push_back(contributions_.size());
+    for_each_contribution(element, T, [&](int local, int a, int b, int row, int column) {
+      const int* const begin = K_.innerIndexPtr() + K_.outerIndexPtr()[column];
+      const int* const end = K_.innerIndexPtr() + K_.outerIndexPtr()[column + 1];
+      const auto place = std::lower_bound(begin, end, row) - K_.innerIndexPtr();
+      contributions_.push_back({local, a, b, static_cast<int>(place)});
+    });
+  }
+  first_contribution_.push_back(contributions_.size());
+  if (options_.inertia) M_ = K_;
+  if (options_.gyroscopic) C_gyroscopic_ = K_centrifugal_euler_ = K_T_dot_ = M_T_dot_ = K_;
+}
+
+Vector2d MovingSystem::at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& values) const {
+  const auto& [nodes, s] = span_[to_size(mesh_node)];
+  return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
+}
+
+/// Load of nominal inertia in the element's axes: the acceleration is an affine field, which the
+/// interpolation holds exactly; a mass off its node has a centripetal part.
+Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartMotion& part,
+                                       const Vector2d& direction) const {
+  Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();
   for (Index i = 0; i < 6; ++i) {
-    const Index u = element.coordinates[static_cast<std::size_t>(i)];
+    const Index u = element.coordinates[to_size(i)];
     if (u < 0) continue;
-    const Index component =
-        element.layout == MovingElement::Layout::scalar ? 2 : i % element.stride();
-    if (component == 2) {
-      a[i] = alpha;
-      continue;
-    }
-    a[i] =
-        interpolation_.at(start_.coordinates.node_of[to_size(u)], motion_.acceleration)[component];
+    const bool rotation =
+        element.layout == MovingElement::Layout::scalar || i % element.stride() == 2;
+    a[i] = rotation ? part.acceleration
+                    : at_mesh_node(start_.coordinates.node_of[to_size(u)],
+                                   motion_.acceleration)[i % element.stride()];
   }
-  return a;
-}
-
-Vector6d MovingSystem::weight(const MovingElement& element, const Matrix6d& m) const {
-  Vector6d g = Vector6d::Zero();
-  if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0)) return g;
-  for (Index i = 0; i + 1 < 6; i += element.stride()) g.segment<2>(i) = motion_.gravity;
-  return m * g;
-}
-
-/// Load of nominal inertia on the element, with the centripetal part of a mass off its node.
-Vector6d MovingSystem::element_inertia_load(const MovingElement& element, const Matrix6d& m) const {
-  Vector6d f = -m * nominal_acceleration(element);
-  if (element.layout == MovingElement::Layout::point_mass) {
-    const PartMotion part = element.motion(motion_);
-    f.head<2>() += part.rate * part.rate * rotated(element.first_moment, part.angle);
-  }
+  element.to_own(a, direction);
+  Vector6d f = -element.m * a.transpose();
+  f.head<2>() += part.rate * part.rate * element.first_moment;
   return f;
+}
+
+/// In the element's axes.
+Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& direction) const {
+  Eigen::Matrix<double, 1, 6> g = Eigen::Matrix<double, 1, 6>::Zero();
+  if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0))
+    return Vector6d::Zero();
+  for (Index i = 0; i + 1 < 6; i += element.stride()) g.segment<2>(i) = motion_.gravity;
+  element.to_own(g, direction);
+  return element.m * g.transpose();
 }
 
 Outcome MovingSystem::move_to(const NominalMotion& motion) {
   const Outcome outcome = constraints_.move(start_, motion_, motion);
   if (!outcome.solved()) return outcome;
   motion_ = motion;
-  std::fill_n(K_.valuePtr(), K_.nonZeros(), 0.0);
-  if (inertia_) std::fill_n(M_.valuePtr(), M_.nonZeros(), 0.0);
-  if (gyroscopic_) {
-    for (SparseMatrix* A : {&C_gyroscopic_, &K_centrifugal_euler_, &K_T_dot_, &M_T_dot_})
-      std::fill_n(A->valuePtr(), K_.nonZeros(), 0.0);
-  }
+  for (SparseMatrix* A : {&K_, &M_, &C_gyroscopic_, &K_centrifugal_euler_, &K_T_dot_, &M_T_dot_})
+    std::fill_n(A->valuePtr(), A->nonZeros(), 0.0);
+  for (std::size_t e = 0; e < elements_.size(); ++e) add_matrices(e);
+  if (options_.condensed) return {};
   inertia_u_.setZero();
   load_u_ = motion_.load_factor * start_.load;
-  for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const MovingElement& element = elements_[e];
-    const PartMotion part = element.motion(motion_);
-    const Matrix6d m = element.rotated(element.m, part.angle);
-    const Matrix6d k = element.rotated(element.k, part.angle);
-    add_stiffness_and_mass(e, k, m);
-    if (gyroscopic_) add_gyroscopic(e, part, k, m);
-    const Vector6d f = element_inertia_load(element, m);
-    const Vector6d w = weight(element, m);
-    for (Index i = 0; i < 6; ++i) {
-      const Index u = element.coordinates[static_cast<std::size_t>(i)];
-      if (u < 0) continue;
-      inertia_u_[u] += f[i];
-      load_u_[u] += w[i];
-    }
-  }
+  for (const MovingElement& element : elements_) add_loads(element);
   inertia_load_.noalias() = constraints_.T().transpose() * inertia_u_;
   load_.noalias() = constraints_.T().transpose() * load_u_;
   return {};
 }
 
-void MovingSystem::add_stiffness_and_mass(std::size_t index, const Matrix6d& k, const Matrix6d& m) {
-  const double* const T = constraints_.T().valuePtr();
-  for (std::size_t t = pattern_.first[index]; t < pattern_.first[index + 1]; ++t) {
-    const MovingPattern::Contribution& contribution = pattern_.contributions[t];
-    const double factor = T[contribution.a] * T[contribution.b];
-    K_.valuePtr()[contribution.destination] += factor * k(contribution.local);
-    if (inertia_) M_.valuePtr()[contribution.destination] += factor * m(contribution.local);
-  }
+void MovingSystem::add_loads(const MovingElement& element) {
+  const Vector2d direction = element.direction(motion_);
+  scatter_own(element, direction, nominal_inertia(element, element.motion(motion_), direction),
+              inertia_u_);
+  scatter_own(element, direction, weight(element, direction), load_u_);
 }
 
-void MovingSystem::add_gyroscopic(std::size_t index, const PartMotion& part, const Matrix6d& k,
-                                  const Matrix6d& m) {
+void MovingSystem::add_matrices(std::size_t index) {
   const MovingElement& element = elements_[index];
-  const Matrix6d first_derivative = element.rotated(element.first_derivative, part.angle);
-  const Matrix6d second_derivative = element.rotated(element.second_derivative, part.angle);
+  const Vector2d direction = element.direction(motion_);
+  const Matrix6d k = element.in_world(element.k, direction);
+  const Matrix6d m = element.in_world(element.m, direction);
+  const double* const T = constraints_.T().valuePtr();
+  double* const K = K_.valuePtr();
+  double* const M = options_.inertia ? M_.valuePtr() : nullptr;
+  for (std::size_t t = first_contribution_[index]; t < first_contribution_[index + 1]; ++t) {
+    const auto [local, a, b, destination] = contributions_[t];
+    const double factor = T[a] * T[b];
+    K[destination] += factor * k(local);
+    if (M != nullptr) M[destination] += factor * m(local);
+  }
+  if (options_.gyroscopic) add_gyroscopic(index, k, m);
+}
+
+void MovingSystem::add_gyroscopic(std::size_t index, const Matrix6d& k, const Matrix6d& m) {
+  const MovingElement& element = elements_[index];
+  const PartMotion part = element.motion(motion_);
+  const Vector2d direction = element.direction(motion_);
+  const Matrix6d first_derivative = element.in_world(element.first_derivative, direction);
+  const Matrix6d second_derivative = element.in_world(element.second_derivative, direction);
   const Matrix6d c = 2 * part.rate * first_derivative;
   const Matrix6d s =
       part.acceleration * first_derivative + part.rate * part.rate * second_derivative;
   const double* const T = constraints_.T().valuePtr();
-  for (std::size_t t = pattern_.first[index]; t < pattern_.first[index + 1]; ++t) {
-    const MovingPattern::Contribution& contribution = pattern_.contributions[t];
-    const double a = T[contribution.a];
-    const double b = T[contribution.b];
-    const double b_dot =
-        constraints_.variable() ? constraints_.T_dot().valuePtr()[contribution.b] : 0;
-    const double b_ddot =
-        constraints_.variable() ? constraints_.T_ddot().valuePtr()[contribution.b] : 0;
-    C_gyroscopic_.valuePtr()[contribution.destination] +=
-        a * (2 * m(contribution.local) * b_dot + c(contribution.local) * b);
-    K_centrifugal_euler_.valuePtr()[contribution.destination] +=
-        a * (m(contribution.local) * b_ddot + c(contribution.local) * b_dot +
-             s(contribution.local) * b);
-    K_T_dot_.valuePtr()[contribution.destination] += a * k(contribution.local) * b_dot;
-    M_T_dot_.valuePtr()[contribution.destination] += a * m(contribution.local) * b_dot;
+  const bool variable = constraints_.variable();
+  for (std::size_t t = first_contribution_[index]; t < first_contribution_[index + 1]; ++t) {
+    const Contribution& at = contributions_[t];
+    const double a = T[at.a];
+    const double b = T[at.b];
+    const double b_dot = variable ? constraints_.T_dot().valuePtr()[at.b] : 0;
+    const double b_ddot = variable ? constraints_.T_ddot().valuePtr()[at.b] : 0;
+    C_gyroscopic_.valuePtr()[at.destination] += a * (2 * m(at.local) * b_dot + c(at.local) * b);
+    K_centrifugal_euler_.valuePtr()[at.destination] +=
+        a * (m(at.local) * b_ddot + c(at.local) * b_dot + s(at.local) * b);
+    K_T_dot_.valuePtr()[at.destination] += a * k(at.local) * b_dot;
+    M_T_dot_.valuePtr()[at.destination] += a * m(at.local) * b_dot;
   }
-}
-
-VectorXd MovingSystem::velocity(const VectorXd& q, const VectorXd& v) const {
-  VectorXd u_dot = constraints_.T() * v;
-  if (gyroscopic_ && constraints_.variable()) u_dot += constraints_.T_dot() * q;
-  return u_dot;
-}
-
-MovingSystem::ElasticMotion MovingSystem::elastic_motion(const VectorXd& q,
-                                                         const VectorXd& v) const {
-  ElasticMotion motion{.u = constraints_.T() * q,
-                       .velocity = velocity(q, v),
-                       .Ku = VectorXd::Zero(load_u_.size()),
-                       .Kv = VectorXd::Zero(load_u_.size()),
-                       .Mv = VectorXd::Zero(load_u_.size()),
-                       .load = load_u_,
-                       .inertia = inertia_u_};
-  for (const MovingElement& element : elements_) {
-    const double angle = element.motion(motion_).angle;
-    const Matrix6d k = element.rotated(element.k, angle);
-    const Vector6d v_e = detail::gather(element.coordinates, motion.velocity);
-    const Vector6d Ku = k * detail::gather(element.coordinates, motion.u);
-    const Vector6d Kv = k * v_e;
-    const Vector6d Mv = element.rotated(element.m, angle) * v_e;
-    for (Index i = 0; i < 6; ++i) {
-      const Index c = element.coordinates[to_size(i)];
-      if (c < 0) continue;
-      motion.Ku[c] += Ku[i];
-      motion.Kv[c] += Kv[i];
-      motion.Mv[c] += Mv[i];
-    }
-  }
-  return motion;
 }
 
 MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, const VectorXd& a,
-                                          double mass_damping, double stiffness_damping,
-                                          bool with_inertia) const {
+                                          const RayleighDamping& damping, bool with_inertia) const {
   const auto& T = constraints_.T();
-  const VectorXd u = T * q;
-  const VectorXd u_dot = velocity(q, v);
-  VectorXd u_ddot = T * a + mass_damping * u_dot;
-  if (gyroscopic_ && constraints_.variable()) {
+  Forces forces;
+  forces.working = {.u = T * q, .load = load_u_, .drag = VectorXd::Zero(load_u_.size())};
+  if (with_inertia) forces.working.load += inertia_u_;
+  VectorXd u_dot = T * v;
+  VectorXd u_ddot = T * a;
+  if (options_.gyroscopic && constraints_.variable()) {
+    u_dot += constraints_.T_dot() * q;
     u_ddot += 2 * (constraints_.T_dot() * v) + constraints_.T_ddot() * q;
   }
-  Forces forces;
   forces.element.setZero(6, static_cast<Index>(start_.mesh.frame.size()));
   forces.external = motion_.load_factor * start_.load;
   forces.total = -forces.external;
-  const VectorXd strained = u + stiffness_damping * u_dot;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const MovingElement& element = elements_[e];
     const PartMotion part = element.motion(motion_);
-    const Matrix6d m = element.rotated(element.m, part.angle);
-    Vector6d inertia = m * detail::gather(element.coordinates, u_ddot);
-    if (gyroscopic_) {
-      inertia += turning_inertia(element, part, detail::gather(element.coordinates, u),
-                                 detail::gather(element.coordinates, u_dot));
+    const Vector2d direction = element.direction(motion_);
+    const Vector6d u = gather_own(element, direction, forces.working.u);
+    const Vector6d velocity = gather_own(element, direction, u_dot);
+    const Vector6d strain_force = element.k * u, momentum = element.m * velocity;
+    const Vector6d strain_drag = damping.stiffness * (element.k * velocity);
+    const Vector6d mass_drag = damping.mass * momentum;
+    Vector6d inertia = element.m * gather_own(element, direction, u_ddot) + mass_drag;
+    if (options_.gyroscopic) {
+      inertia += 2 * part.rate * (element.first_derivative * velocity) +
+                 part.acceleration * (element.first_derivative * u) +
+                 part.rate * part.rate * (element.second_derivative * u);
     }
-    if (with_inertia) inertia -= element_inertia_load(element, m);
-    inertia -= weight(element, m);
-    const Vector6d f =
-        element.rotated(element.k, part.angle) * detail::gather(element.coordinates, strained) +
-        inertia;
-    for (Index i = 0; i < 6; ++i) {
-      const Index c = element.coordinates[static_cast<std::size_t>(i)];
-      if (c < 0) continue;
-      forces.total[c] += f[i];
-      forces.external[c] -= inertia[i];
-    }
-    if (element.layout != MovingElement::Layout::frame) continue;
-    const FrameElement& frame = start_.mesh.frame[e];  // the frame elements come first
-    forces.element.col(static_cast<Index>(e)) =
-        frame_rotation(rotated(frame.direction, part.angle)) * f;
+    if (with_inertia) inertia -= nominal_inertia(element, part, direction);
+    inertia -= weight(element, direction);
+    const Vector6d f = strain_force + strain_drag + inertia;
+    forces.working.strain += u.dot(strain_force) / 2;
+    forces.working.kinetic += velocity.dot(momentum) / 2;
+    scatter_own(element, direction, mass_drag + strain_drag, forces.working.drag);
+    scatter_own(element, direction, f, forces.total);
+    scatter_own(element, direction, -inertia, forces.external);
+    if (element.layout == MovingElement::Layout::frame)  // the frame elements come first
+      forces.element.col(static_cast<Index>(e)) = f;
   }
   return forces;
 }

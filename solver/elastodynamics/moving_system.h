@@ -1,16 +1,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <utility>
 #include <vector>
 
+#include "solver/assembly/damping.h"
 #include "solver/assembly/system.h"
-#include "solver/elastodynamics/member_interpolation.h"
 #include "solver/elastodynamics/moving_constraints.h"
 #include "solver/elastodynamics/moving_element.h"
-#include "solver/elastodynamics/moving_pattern.h"
 #include "solver/model/outcome.h"
+#include "solver/time/equation_of_motion.h"
 
 namespace trammel::solver {
+
+struct MovingSystemOptions {
+  bool inertia = true;      ///< false: no M, and no inertia where the model was built
+  bool gyroscopic = false;  ///< matrices of the rates of the parts, too
+  bool condensed = false;   ///< members are condensed (link_superelement.h); no loads
+};
 
 /// A model whose parts move: K, M and loads of inertia as functions of the pose, on one pattern.
 /// Element matrices are evaluated once, in the axes of their parts; a pose rotates them and adds
@@ -26,9 +34,8 @@ namespace trammel::solver {
 /// them damping acts on all of u. = T q. + T. q; without, on T q. alone.
 class MovingSystem {
  public:
-  /// @param inertia  false: no M, and none of the start
   /// @throws ModelError  as `assemble`.
-  explicit MovingSystem(const Model& model, bool gyroscopic = false, bool inertia = true);
+  explicit MovingSystem(const Model& model, const MovingSystemOptions& options = {});
 
   /// singular: the coordinates that the constraints eliminate do not suit this pose.
   [[nodiscard]] Outcome move_to(const NominalMotion& motion);
@@ -40,7 +47,7 @@ class MovingSystem {
   [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const {
     return K_centrifugal_euler_;
   }
-  /// T^T k T. and T^T m T. of the elements: what damping takes of T. q; gyroscopic effect.
+  /// T^T k T. and T^T m T. of the elements: damping forces of T. q; gyroscopic effect.
   [[nodiscard]] const SparseMatrix& K_T_dot() const { return K_T_dot_; }
   [[nodiscard]] const SparseMatrix& M_T_dot() const { return M_T_dot_; }
   /// - int rho W^T r.. dV, as a load [N, N m].
@@ -51,55 +58,62 @@ class MovingSystem {
   [[nodiscard]] const NominalMotion& motion() const { return motion_; }
   /// Nominal position of a node of the mesh [m].
   [[nodiscard]] Vector2d position(Index mesh_node) const {
-    return interpolation_.at(mesh_node, motion_.position);
+    return at_mesh_node(mesh_node, motion_.position);
   }
   /// The model where it was built; its mesh, coordinates and numbering hold at every pose.
   [[nodiscard]] const System& start() const { return start_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_.constraints(); }
+  [[nodiscard]] const std::vector<MovingElement>& elements() const { return elements_; }
+  /// Condensed members, in the order of the model; empty unless condensed.
+  [[nodiscard]] const std::vector<LinkSuperelement>& links() const { return links_; }
 
-  /// A motion and what energies are made of, on all coordinates u at the present pose.
-  struct ElasticMotion {
-    Eigen::VectorXd u, velocity;    ///< T q and T q. + T. q
-    Eigen::VectorXd Ku, Kv, Mv;     ///< of the elements, v the velocity
-    Eigen::VectorXd load, inertia;  ///< loads and weight; of the nominal motion
-  };
-  [[nodiscard]] ElasticMotion elastic_motion(const Eigen::VectorXd& q,
-                                             const Eigen::VectorXd& v) const;
-
-  /// Forces at the ends of the frame elements and on all coordinates u, at the present pose.
+  /// Forces of an elastic motion at the present pose, on all coordinates u.
   struct Forces {
-    Eigen::MatrixXd element;   ///< 6 x frame element: what its nodes do to it, element axes
-    Eigen::VectorXd total;     ///< what constraints must give: the elements' needs less the loads
-    Eigen::VectorXd external;  ///< loads and weight, less inertia and the damping by mass, on u
+    Eigen::MatrixXd element;   ///< 6 x frame element: forces of its nodes on it, element axes
+    Eigen::VectorXd total;     ///< required constraint forces: elements' forces less the loads
+    Eigen::VectorXd external;  ///< loads and weight, less inertia and the damping by mass
+    WorkingMotion working;     ///< energies, and the forces that do work
   };
-  /// @param q, v, a  free coordinates and their rates;
-  /// @param mass_damping, stiffness_damping  Rayleigh's factors [1/s], [s]
+  /// @param q, v, a  free coordinates and their rates
   /// @param with_inertia  of the nominal motion
   [[nodiscard]] Forces forces(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                              const Eigen::VectorXd& a, double mass_damping,
-                              double stiffness_damping, bool with_inertia) const;
+                              const Eigen::VectorXd& a, const RayleighDamping& damping,
+                              bool with_inertia) const;
 
   [[nodiscard]] std::int64_t element_evaluations() const {
     return 2 * (std::ssize(start_.mesh.frame) + std::ssize(start_.model.triangles));
   }
 
  private:
-  [[nodiscard]] Vector6d nominal_acceleration(const MovingElement& element) const;
-  [[nodiscard]] Vector6d weight(const MovingElement& element, const Matrix6d& m) const;
-  [[nodiscard]] Vector6d element_inertia_load(const MovingElement& element,
-                                              const Matrix6d& m) const;
-  void add_stiffness_and_mass(std::size_t index, const Matrix6d& k, const Matrix6d& m);
-  void add_gyroscopic(std::size_t index, const PartMotion& part, const Matrix6d& k,
-                      const Matrix6d& m);
-  [[nodiscard]] Eigen::VectorXd velocity(const Eigen::VectorXd& q, const Eigen::VectorXd& v) const;
+  /// value(destination) += T(a) * element(local) * T(b), local = i + 6 j.
+  struct Contribution {
+    int local, a, b, destination;
+  };
+  /// Linear between the ends of a member, as every affine field is.
+  struct Span {
+    std::array<Index, 2> nodes{};
+    double fraction = 0;
+  };
 
+  void find_spans();
+  void find_pattern();
+  void add_matrices(std::size_t index);
+  void add_gyroscopic(std::size_t index, const Matrix6d& k, const Matrix6d& m);
+  void add_loads(const MovingElement& element);
+  [[nodiscard]] Vector2d at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& values) const;
+  [[nodiscard]] Vector6d nominal_inertia(const MovingElement& element, const PartMotion& part,
+                                         const Vector2d& direction) const;
+  [[nodiscard]] Vector6d weight(const MovingElement& element, const Vector2d& direction) const;
+
+  MovingSystemOptions options_;
   System start_;
-  bool gyroscopic_, inertia_;
   NominalMotion motion_;
   MovingConstraints constraints_;
+  std::vector<LinkSuperelement> links_;
   std::vector<MovingElement> elements_;
-  MovingPattern pattern_;
-  MemberInterpolation interpolation_;
+  std::vector<Contribution> contributions_;
+  std::vector<std::size_t> first_contribution_;  // of each element, and their number
+  std::vector<Span> span_;                       // of each node of the mesh
   SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_, K_T_dot_, M_T_dot_;
   Eigen::VectorXd inertia_u_, load_u_, inertia_load_, load_;
 };

@@ -13,6 +13,8 @@ struct PartMotion {
   double angle = 0;         ///< [rad]
   double rate = 0;          ///< [rad/s]
   double acceleration = 0;  ///< [rad/s^2]
+
+  bool operator==(const PartMotion&) const = default;
 };
 
 /// The nominal motion: every member, plate and rigid body of a model moves as a rigid part.

@@ -26,7 +26,8 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
     : options_(options),
       stands_still_(solver::stands_still(options.path)),
       rigid_(rigid_manipulator(options.design)),
-      moving_(loaded_model(options, built_at), options.gyroscopic, options.elastic_inertia) {
+      moving_(loaded_model(options, built_at),
+              {.inertia = options.elastic_inertia, .gyroscopic = options.gyroscopic}) {
   rigid_.gravity = options.gravity;
   start_ = inverse_dynamics(rigid_, at(options.path, built_at), wrench(built_at)).q;
 }
@@ -94,18 +95,6 @@ void PathFollower::matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
   if (!damped()) return;
   K.coeffs() += options_.damping.mass * moving_.M_T_dot().coeffs() +
                 options_.damping.stiffness * moving_.K_T_dot().coeffs();
-}
-
-WorkingMotion PathFollower::working_motion(const VectorXd& q, const VectorXd& v) const {
-  const MovingSystem::ElasticMotion motion = moving_.elastic_motion(q, v);
-  WorkingMotion working{
-      .u = motion.u,
-      .load = motion.load,
-      .drag = options_.damping.mass * motion.Mv + options_.damping.stiffness * motion.Kv,
-      .kinetic = motion.velocity.dot(motion.Mv) / 2,
-      .strain = motion.u.dot(motion.Ku) / 2};
-  if (options_.nominal_inertia) working.load += motion.inertia;
-  return working;
 }
 
 bool PathFollower::solve_statically(const VectorXd& f, VectorXd& q) {

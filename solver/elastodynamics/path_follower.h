@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "solver/elastodynamics/elastodynamics_options.h"
+#include "solver/elastodynamics/elastodynamics.h"
 #include "solver/elastodynamics/moving_system.h"
 #include "solver/linalg/sparse_ldlt.h"
 
@@ -25,6 +25,11 @@ class PathFollower {
   [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity);
 
   [[nodiscard]] const MovingSystem& system() const { return moving_; }
+  /// Forces and energies of an elastic motion at the present pose.
+  [[nodiscard]] MovingSystem::Forces forces(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                            const Eigen::VectorXd& a) const {
+    return moving_.forces(q, v, a, options_.damping, options_.nominal_inertia);
+  }
   [[nodiscard]] const TrajectoryPoint& point() const { return point_; }
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   [[nodiscard]] bool stands_still() const { return stands_still_; }
@@ -37,9 +42,6 @@ class PathFollower {
   /// M, C + G and K + S, with what damping takes of T. q; C stays as it is where nothing goes with
   /// velocities.
   void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
-  /// What energies are told of.
-  [[nodiscard]] WorkingMotion working_motion(const Eigen::VectorXd& q,
-                                             const Eigen::VectorXd& v) const;
   /// K q = f; false where K is singular.
   [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);
   /// (f^T K^-1 f)^(1/2), twice the energy that the load f alone would store [J^(1/2)]; NaN where K

@@ -13,6 +13,7 @@
 #include "solver/linalg/backward_error.h"
 #include "solver/manipulator/inverse_dynamics.h"
 #include "solver/model/numbers.h"
+#include "solver/model/plane.h"
 
 namespace trammel::solver {
 
@@ -89,11 +90,13 @@ class MotionIntegrator {
     result.evidence.add(Residual::equation_of_motion, largest_ratio(now.torque - given, size));
     double reach = 0, gap = 0;
     for (Index i = 0; i < 3; ++i) {
-      const Limb<double> l = limb(manipulator_, now.q, i);
-      const Vector2d open = manipulator_.geometry.base[to_size(i)] + l.proximal * l.a +
-                            l.distal * l.e - now.q.segment<2>(6) - l.c;
+      const ManipulatorGeometry& g = manipulator_.geometry;
+      const double a = g.proximal[to_size(i)], b = g.distal[to_size(i)];
+      const Vector2d limb = rotated({a, 0}, now.q(i)) + rotated({b, 0}, now.q(3 + i));
+      const Vector2d open = g.base[to_size(i)] + limb - now.q.segment<2>(6) -
+                            rotated(g.platform[to_size(i)], now.q(8));
       gap = std::max(gap, open.norm());
-      reach = std::max(reach, l.proximal + l.distal);
+      reach = std::max(reach, a + b);
     }
     result.evidence.add(Residual::constraints, gap / reach);
     if (std::isnan(start_energy_)) start_energy_ = now.kinetic_energy + now.potential_energy;

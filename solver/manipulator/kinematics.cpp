@@ -82,10 +82,6 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   return why.str();
 }
 
-bool finite(const Vector2d& v) {
-  return v.allFinite();
-}
-
 /// J_x with unit rows and its rotation scaled: dimensionless.
 Matrix3d scaled(const Jacobians& j) {
   Matrix3d s = j.parallel;
@@ -94,13 +90,13 @@ Matrix3d scaled(const Jacobians& j) {
   return s;
 }
 
-double radius(const ManipulatorGeometry& g) {
+}  // namespace
+
+double platform_radius(const ManipulatorGeometry& g) {
   double sum = 0;
   for (const Vector2d& c : g.platform) sum += c.squaredNorm();
   return std::sqrt(sum / 3);
 }
-
-}  // namespace
 
 std::array<Vector2d, 3> equilateral_base(double side) {
   return {Vector2d{0, 0}, Vector2d{side, 0}, Vector2d{side / 2, side * std::sqrt(0.75)}};
@@ -114,8 +110,8 @@ std::array<Vector2d, 3> equilateral_platform(double side) {
 void check_geometry(const ManipulatorGeometry& g) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto n = [i] { return std::to_string(i + 1); };
-    if (!finite(g.base[i])) throw ModelError("base point A" + n() + " is not finite");
-    if (!finite(g.platform[i])) throw ModelError("platform point C" + n() + " is not finite");
+    if (!g.base[i].allFinite()) throw ModelError("base point A" + n() + " is not finite");
+    if (!g.platform[i].allFinite()) throw ModelError("platform point C" + n() + " is not finite");
     if (!(g.proximal[i] > 0) || !std::isfinite(g.proximal[i]))
       throw ModelError("the proximal length of limb " + n() + " must be positive");
     if (!(g.distal[i] > 0) || !std::isfinite(g.distal[i]))
@@ -123,7 +119,7 @@ void check_geometry(const ManipulatorGeometry& g) {
     if (std::abs(g.working_mode[i]) != 1)
       throw ModelError("the working mode of limb " + n() + " must be 1 or -1");
   }
-  if (radius(g) == 0) throw ModelError("the platform points C1, C2 and C3 all lie in P");
+  if (platform_radius(g) == 0) throw ModelError("the platform points C1, C2 and C3 all lie in P");
 }
 
 Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
@@ -176,7 +172,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
                                      const std::array<double, 3>& active, const Pose& start) {
   check_geometry(g);
   constexpr int kMaxIterations = 50;
-  const double size = radius(g);
+  const double size = platform_radius(g);
   ForwardKinematics result{.outcome = {}, .pose = start};
   double last = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
@@ -219,7 +215,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
 
 Jacobians jacobians(const ManipulatorGeometry& g, const Pose& pose, const Posture& posture) {
   Jacobians j;
-  j.platform_radius = radius(g);
+  j.platform_radius = platform_radius(g);
   j.serial_distance = 1;
   const Vector2d P(pose.x, pose.y);
   for (std::size_t i = 0; i < 3; ++i) {

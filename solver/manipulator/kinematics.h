@@ -31,6 +31,8 @@ struct ManipulatorGeometry {
 [[nodiscard]] std::array<Vector2d, 3> equilateral_base(double side);
 /// Equilateral triangle about P, C_i at 210, 330 and 90 degrees, side [m].
 [[nodiscard]] std::array<Vector2d, 3> equilateral_platform(double side);
+/// Root mean square of |C_i - P| [m], which makes rotations comparable with translations.
+[[nodiscard]] double platform_radius(const ManipulatorGeometry& geometry);
 /// @throws ModelError  where a length is not positive, a number not finite, a mode neither 1 nor -1
 ///                     or the platform a point.
 void check_geometry(const ManipulatorGeometry& geometry);
@@ -83,7 +85,7 @@ struct ForwardKinematics {
 struct Jacobians {
   Matrix3d parallel;  ///< J_x [m, m, m^2]: row i = (d_i^T, cross(C_i - P, d_i)), d_i = C_i - B_i
   Vector3d serial;    ///< diagonal of J_q [m^2]: cross(B_i - A_i, d_i)
-  double platform_radius = 0;  ///< root mean square of |C_i - P| [m]: what scales a rotation
+  double platform_radius = 0;  ///< scales a rotation [m]
   /// 0 at a parallel (second-kind) singularity, 1 at best: smallest over largest singular value of
   /// J_x with its rows divided by |d_i| and its last column by the platform radius [-].
   double parallel_distance = 0;

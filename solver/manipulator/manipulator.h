@@ -6,6 +6,7 @@
 
 #include "solver/manipulator/kinematics.h"
 #include "solver/model/dual.h"
+#include "solver/model/effects.h"
 #include "solver/model/model.h"
 
 /// The 3-RRR builder: a geometry, a pose and the choices the paper leaves open make a Model.
@@ -111,5 +112,8 @@ template <Real T>
 /// "eq25" or "pin P x"... It carries no loads and no gravity.
 /// @throws ModelError  where the pose is out of reach or a combination has no meaning.
 [[nodiscard]] Model build_manipulator(const ManipulatorDesign& design, const Pose& pose);
+
+/// The manipulator without the effects that are not in `active`, before a model is built of it.
+[[nodiscard]] ManipulatorDesign restrict_effects(ManipulatorDesign design, Effects active);
 
 }  // namespace trammel::solver

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "solver/manipulator/limb.h"
+#include <array>
+
+#include "solver/manipulator/manipulator.h"
+#include "solver/model/numbers.h"
 #include "solver/model/outcome.h"
 
 /// Rigid dynamics of the 3-RRR in nine coordinates (paper Eq. 1-5):
@@ -8,31 +11,76 @@
 /// with absolute link angles, q. = W theta_a. by the closed loops, and the reduced
 ///   Mh theta_a.. + Ch theta_a. + Nh = tau + (dx/dtheta_a)^T wrench,
 ///   Mh = W^T M W,  Ch = W^T M W. + W^T C W,  Nh = W^T N.
+/// The loop P + c = A + l1 a + l2 e of a limb gives, along e and along perp(e),
+///   e . C. = l1 s theta_a.,   perp(e) . C. = l1 (a . e) theta_a. + l2 theta_p.,  s = cross(a, e).
+/// Functions of T exist for double and Dual; over Dual they carry rates, from which W. and the
+/// accelerations follow.
 namespace trammel::solver {
+
+template <class T>
+using Vector9 = Eigen::Matrix<T, 9, 1>;
+using Vector9d = Vector9<double>;
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+using Matrix93d = Eigen::Matrix<double, 9, 3>;
+
+struct RigidLink {
+  double mass = 0;     ///< [kg]
+  double center = 0;   ///< of mass, from the link's first joint along it [m]
+  double inertia = 0;  ///< about the centre of mass [kg m^2]
+};
+
+struct RigidManipulator {
+  ManipulatorGeometry geometry;
+  std::array<RigidLink, 3> proximal, distal;
+  PlatformMass platform;
+  Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
+};
+
+/// The bodies of a design. A link's inertia about its centre is the printed one, or m L^2 / 12.
+/// (The flexible model spreads the mass over the length, which has that inertia by itself, and
+/// carries a printed one on top, half at each end.)
+/// @throws ModelError  as `link_section` and `platform_mass`.
+[[nodiscard]] RigidManipulator rigid_manipulator(const ManipulatorDesign& design);
+
+/// Values with their rates as derivatives.
+template <int n>
+[[nodiscard]] Eigen::Matrix<Dual, n, 1> with_rates(const Eigen::Matrix<double, n, 1>& values,
+                                                   const Eigen::Matrix<double, n, 1>& rates) {
+  return values.binaryExpr(rates, [](double x, double rate) { return with_derivative(x, rate); });
+}
+template <int n, int m>
+[[nodiscard]] Eigen::Matrix<double, n, m> rates_of(const Eigen::Matrix<Dual, n, m>& values) {
+  return values.unaryExpr([](const Dual& x) { return derivative(x); });
+}
+
+/// M [kg, kg m, kg m^2], symmetric.
+template <Real T>
+[[nodiscard]] Eigen::Matrix<T, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<T>& q);
+
+/// W = [I; d theta_p / d theta_a; d(x, y, phi) / d theta_a].
+/// @pre no parallel singularity
+template <Real T>
+[[nodiscard]] Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q);
+
+/// q. = W theta_a. from the motion of the platform, (xdot, ydot [m/s], phidot [rad/s]).
+template <Real T>
+[[nodiscard]] Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
+                                    const Eigen::Matrix<T, 3, 1>& platform);
 
 /// All terms of Eq. 1-5 in one state; NaN unless solved.
 struct RigidTerms {
   /// singular: out of reach, at a parallel singularity (no W) or at a serial one (the velocity of
-  /// the platform asks for an infinite one of an actuator)
+  /// the platform requires an infinite one of an actuator)
   Outcome outcome;
-  Vector9d q, q_dot;
-  Matrix9d M;
-  Matrix9d C;  ///< of Christoffel symbols, so that M. - 2 C is skew-symmetric
-  Vector9d N;  ///< gravity, dV/dq [N, N m]
-  Matrix93d W, W_dot;
-  Matrix3d Mh, Ch;  ///< Mh symmetric positive definite; Mh. - 2 Ch skew-symmetric
-  Vector3d Nh;
+  Vector9d q = Vector9d::Constant(kNaN), q_dot = q;
+  Matrix9d M = Matrix9d::Constant(kNaN);
+  Matrix9d C = M;  ///< of Christoffel symbols, so that M. - 2 C is skew-symmetric
+  Vector9d N = q;  ///< gravity, dV/dq [N, N m]
+  Matrix93d W = Matrix93d::Constant(kNaN), W_dot = W;
+  /// Mh symmetric positive definite; Mh. - 2 Ch skew-symmetric
+  Matrix3d Mh = Matrix3d::Constant(kNaN), Ch = Mh;
+  Vector3d Nh = Vector3d::Constant(kNaN);
 };
-
-/// M [kg, kg m, kg m^2], symmetric; for double and std::complex<double>.
-template <class S>
-[[nodiscard]] Eigen::Matrix<S, 9, 9> mass_matrix(const RigidManipulator& m,
-                                                 const Eigen::Matrix<S, 9, 1>& q);
-
-/// Mh = W^T M W [kg m^2]; its derivative along a motion is Im(Mh(q + i h q.)) / h.
-template <class S>
-[[nodiscard]] Eigen::Matrix<S, 3, 3> reduced_mass(const RigidManipulator& m,
-                                                  const Eigen::Matrix<S, 9, 1>& q);
 
 /// @param velocity  of the platform (xdot, ydot [m/s], phidot [rad/s])
 /// @throws ModelError  as `inverse_kinematics`.
@@ -42,8 +90,8 @@ template <class S>
 /// How well the two properties of Eq. 4, 5 hold in one state.
 struct PropertyResiduals {
   double symmetry = 0;  ///< |Mh - Mh^T| / |Mh| [-]
-  /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch, with Mh. by complex step, which knows nothing
-  /// of C; 0 at a standstill [-]
+  /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch, with Mh. independent of C; 0 at a standstill
+  /// [-]
   double skewness = 0;
   double min_eigenvalue = 0;  ///< of Mh [kg m^2]
 };

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "solver/linalg/sparse_lu.h"
-#include "solver/manipulator/path_error.h"
 
 namespace trammel::solver {
 

@@ -10,6 +10,12 @@
 /// Prescribed motions of the platform: pose, velocity and acceleration at every time.
 namespace trammel::solver {
 
+/// A path that has no meaning, or does not reach as far in time as it is asked.
+class PathError : public ModelError {
+ public:
+  using ModelError::ModelError;
+};
+
 struct TrajectoryPoint {
   double time = 0;  ///< [s]
   Pose pose;

@@ -13,7 +13,7 @@
 
 #include "solver/assembly/restrict_model_effects.h"
 #include "solver/linalg/lanczos.h"
-#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/manipulator/manipulator.h"
 #include "solver/modes/modes.h"
 #include "solver/poses/moving_pencil.h"
 
@@ -96,19 +96,18 @@ class BlockSolver {
     if (!(stiffness_.compute(pencil_.K()) && stiffness_.smallest_pivot() > kSmallestPivot))
       return false;
     for (int trial = warm_ ? 0 : 1; trial < 2; ++trial) {  // the second from nothing
-      warm_ = trial == 0 || begin();
-      if (iterate(trial == 0) && certify(at)) return true;
+      if (trial > 0) begin();
+      if (iterate(trial == 0) && certify(at)) return warm_ = true;
     }
     return warm_ = false;
   }
 
-  bool begin() {
+  void begin() {
     const Index n = pencil_.ends();
     X_.ends = start_vectors(rows, n);
     // Strain energies of the joints' unit motions are m^2 or 1 times a stiffness; inside it is 1.
     X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
     X_.inside = start_vectors(rows, pencil_.inside(), 1);
-    return true;
   }
 
   /// X <- K^-1 M X, and M X of it.
@@ -116,13 +115,13 @@ class BlockSolver {
     Y_ = MX_;
     stiffness_.solve_in_place(Y_.ends);
     counters.solves += rows;
-    pencil_.mass_times(Y_, MY_, space_);
+    pencil_.mass_times(Y_, MY_);
   }
 
   /// Until the eigenvalues stand still; false where they do not.
   bool iterate(bool warm) {
     constexpr int kSteps = 60;
-    pencil_.mass_times(X_, MX_, space_);
+    pencil_.mass_times(X_, MX_);
     const Index wanted = task_.options.count;
     for (int step = 0; step < kSteps; ++step) {
       for (int k = 0; warm && step == 0 && k < plain_; ++k) {

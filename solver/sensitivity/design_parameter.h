@@ -30,24 +30,11 @@ struct DesignParameter {
   bool platform = false;  ///< its thickness, E, density or Poisson's ratio too
 };
 
-/// Whether `SeededDesign` carries its derivatives through to the elements: lengths, thickness,
-/// width, E and density.
-[[nodiscard]] bool is_seeded(DesignParameter::Kind kind);
-
-struct DesignInPose {
-  ManipulatorDesign design;
-  Pose pose;
-};
-
-/// The design with the parameter increased by `change` [unit of the parameter: m, Pa, kg/m^3, -,
-/// kg, kg m^2, N m/rad, rad].
-[[nodiscard]] DesignInPose perturbed(const ManipulatorDesign& design, const Pose& pose,
-                                     const DesignParameter& parameter, double change);
-
-/// The parameter's value [its unit]: the largest of the numbers that it names; 0 where the design
-/// has none. Of the orientation 1 rad, for no angle counts as none.
-[[nodiscard]] double parameter_value(const ManipulatorDesign& design,
-                                     const DesignParameter& parameter);
+/// Returns true for parameters of which sections and links have exact derivatives: lengths,
+/// thickness, width, E and density.
+[[nodiscard]] inline bool is_seeded(DesignParameter::Kind kind) {
+  return kind <= DesignParameter::Kind::density;
+}
 
 namespace detail {
 

@@ -52,21 +52,14 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
                                    const DesignParameter& parameter, const PoseGrid& grid) {
   SensitivityMap map;
   map.grid = grid;
-  for (Eigen::MatrixXd* m :
-       {&map.frequency, &map.derivative, &map.parallel_distance, &map.serial_distance}) {
+  for (Eigen::MatrixXd* m : {&map.frequency, &map.derivative, &map.serial_distance})
     m->setConstant(grid.rows, grid.columns, kNaN);
-  }
-  map.reachable.setConstant(grid.rows, grid.columns, false);
   for (Index j = 0; j < grid.rows; ++j) {
     for (Index i = 0; i < grid.columns; ++i) {
-      const Pose pose{grid.x0 + static_cast<double>(i) * grid.dx,
-                      grid.y0 + static_cast<double>(j) * grid.dy, grid.phi};
+      const Pose pose = grid.pose(j, i);
       const Posture posture = inverse_kinematics(design.geometry, pose);
       if (!posture.outcome.solved()) continue;
-      map.reachable(j, i) = true;
-      const Jacobians distances = jacobians(design.geometry, pose, posture);
-      map.parallel_distance(j, i) = distances.parallel_distance;
-      map.serial_distance(j, i) = distances.serial_distance;
+      map.serial_distance(j, i) = jacobians(design.geometry, pose, posture).serial_distance;
       const FirstFrequency first = first_frequency(design, parameter, pose);
       map.frequency(j, i) = first.frequency;
       map.derivative(j, i) = first.derivative;

@@ -1,5 +1,3 @@
-#include "solver/sensitivity/workspace_curves.h"
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
@@ -9,6 +7,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+
+#include "solver/sensitivity/sensitivity_map.h"
 
 namespace trammel::solver {
 namespace {
@@ -98,15 +98,9 @@ std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry, do
 std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry,
                                              const PoseGrid& grid) {
   Eigen::MatrixXd value(grid.rows, grid.columns);
-  const auto at = [&](Index i, Index j) {
-    return Vector2d(grid.x0 + static_cast<double>(i) * grid.dx,
-                    grid.y0 + static_cast<double>(j) * grid.dy);
-  };
+  const auto at = [&](Index i, Index j) { return Vector2d(grid.pose(j, i).x, grid.pose(j, i).y); };
   for (Index j = 0; j < grid.rows; ++j) {
-    for (Index i = 0; i < grid.columns; ++i) {
-      const Vector2d P = at(i, j);
-      value(j, i) = determinant(geometry, {P.x(), P.y(), grid.phi});
-    }
+    for (Index i = 0; i < grid.columns; ++i) value(j, i) = determinant(geometry, grid.pose(j, i));
   }
   std::vector<Polyline> segments;
   for (Index j = 0; j + 1 < grid.rows; ++j) {

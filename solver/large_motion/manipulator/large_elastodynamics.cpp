@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/elastodynamics/elastodynamics_recorder.h"
+#include "solver/elastodynamics/elastodynamics.h"
 #include "solver/elastodynamics/nominal_motion.h"
 #include "solver/large_motion/elements/linear_joints.h"
 #include "solver/large_motion/manipulator/joint_law.h"
@@ -345,8 +345,6 @@ class LargeElastodynamics {
     solution_.time.push_back(now.point.time);
     solution_.nominal.push_back(now.point);
     rigid_torque_.push_back(now.dynamics.torque);
-    rotation_.push_back(mean_platform_rotation(built.model, motion_between(built, now).position,
-                                               sample.displacement));
     solution_.state.push_back(std::move(sample));
   }
 
@@ -380,19 +378,10 @@ class LargeElastodynamics {
 
   void finish() {
     const Index n = std::ssize(solution_.state);
-    solution_.deflection.resize(n, 2);
-    solution_.torque.resize(n, 3);
     solution_.rigid_torque.resize(n, 3);
-    solution_.platform_rotation = Eigen::Map<const VectorXd>(rotation_.data(), n);
-    const Index P = n > 0 ? start_.model.find_node("P") : 0;
-    for (Index i = 0; i < n; ++i) {
-      const StaticSolution& sample = solution_.state[to_size(i)];
-      solution_.deflection.row(i) = sample.displacement.row(P).head<2>();
-      solution_.torque.row(i) = sample.reaction.col(2).head<3>();
-      solution_.rigid_torque.row(i) = rigid_torque_[to_size(i)];
-    }
+    for (Index i = 0; i < n; ++i) solution_.rigid_torque.row(i) = rigid_torque_[to_size(i)];
     solution_.quasi_static_deflection = Eigen::MatrixX2d::Constant(n, 2, kNaN);
-    set_path_errors(solution_);
+    set_platform_motion(options_.design.geometry, solution_);
   }
 
   const ElastodynamicsOptions& options_;
@@ -403,7 +392,6 @@ class LargeElastodynamics {
   ElastodynamicsSolution solution_;
   StaticSolution start_sample_;  ///< of a quasi-static start
   MemberBalance balance_;
-  std::vector<double> rotation_;
   std::vector<Vector3d> rigid_torque_;
 };
 

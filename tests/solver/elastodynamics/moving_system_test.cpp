@@ -66,7 +66,7 @@ struct Walk {
   MovingSystem moving;
 
   Walk(const ManipulatorDesign& d, const Path& p, double t, bool gyroscopic)
-      : design(d), path(p), start(t), moving(build_manipulator(d, at(p, t).pose), gyroscopic) {}
+      : design(d), path(p), start(t), moving(build_manipulator(d, at(p, t).pose), {.gyroscopic = gyroscopic}) {}
 
   Outcome go_to(double time) {
     const RigidManipulator rigid = rigid_manipulator(design);
@@ -230,8 +230,8 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
                   rigid.distal[i].mass * dynamics.bodies[3 + i].acceleration;
     }
     const VectorXd zero = VectorXd::Zero(walk.moving.K().rows());
-    const VectorXd with = walk.moving.forces(zero, zero, zero, 0, 0, true).external;
-    const VectorXd without = walk.moving.forces(zero, zero, zero, 0, 0, false).external;
+    const VectorXd with = walk.moving.forces(zero, zero, zero, {}, true).external;
+    const VectorXd without = walk.moving.forces(zero, zero, zero, {}, false).external;
     Vector2d sum = Vector2d::Zero();
     for (const auto& c : walk.moving.start().coordinates.node) {
       sum += Vector2d(with[c[0]] - without[c[0]], with[c[1]] - without[c[1]]);

@@ -7,9 +7,8 @@
 #include <random>
 
 #include "solver/assembly/restrict_model_effects.h"
-#include "solver/manipulator/restrict_design_effects.h"
+#include "solver/manipulator/manipulator.h"
 #include "solver/modes/modes.h"
-#include "solver/poses/dense_ldlt.h"
 #include "solver/poses/moving_pencil.h"
 #include "tests/support/solver/table_1.h"
 

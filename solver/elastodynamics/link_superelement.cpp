@@ -1,4 +1,4 @@
-#include "solver/poses/link_superelement.h"
+#include "solver/elastodynamics/link_superelement.h"
 
 #include <cmath>
 #include <vector>
@@ -73,12 +73,10 @@ LinkSuperelement condense(const Member& member, double length) {
   const double part = length / static_cast<double>(n);
   const Section& section = member.section;
   LinkSuperelement link;
-  link.B = frame_deformation_matrix(Vector2d(Vector2d::UnitX()), length);
-  link.c = frame_rigidity(section, member.theory, length);
   ElementChain chain{n, frame_deformation_matrix(Vector2d(Vector2d::UnitX()), part),
                      frame_rigidity(section, member.theory, part),
                      frame_mass(section, member.theory, member.mass, part)};
-  if (!member.axially_flexible) link.c[0] = chain.c[0] = 0;
+  if (!member.axially_flexible) chain.c[0] = 0;
   // The static motion of a prismatic member is the interpolation of one element, exactly.
   MatrixXd follows(3 * (n + 1), 6);
   const double phi = shear_ratio(section, member.theory, length);
@@ -86,7 +84,6 @@ LinkSuperelement condense(const Member& member, double length) {
     follows.middleRows<3>(3 * k) =
         frame_interpolation(phi, length, static_cast<double>(k) / static_cast<double>(n));
   }
-  link.N = follows.middleRows(3, 3 * (n - 1));
   std::vector<Index> axial, bending;
   for (Index k = 1; k < n; ++k) {
     if (member.axially_flexible) axial.push_back(3 * k);
@@ -107,7 +104,6 @@ LinkSuperelement condense(const Member& member, double length) {
   link.mu = inertia.diagonal();
   link.P = images.transpose() * follows;
   link.m = follows.transpose() * chain.mass_times(follows);
-  link.X = X.middleRows(3, 3 * (n - 1));
   return link;
 }
 

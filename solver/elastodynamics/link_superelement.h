@@ -9,17 +9,14 @@ namespace trammel::solver {
 /// with the ends held,
 ///   q_i = N q_b + X p,   K_ii X = M_ii X diag(1 / mu),   X^T K_ii X = I,
 /// which is a change of basis that leaves nothing out:
-///   K = diag(B^T diag(c) B, I),   M = [m, P^T; P, diag(mu)].
+///   K = diag(k, I),   M = [m, P^T; P, diag(mu)],
+/// k the stiffness of one element of the full length.
 /// None of it depends on where the member lies.
 /// Source: Craig & Bampton (1968), with every mode kept.
 struct LinkSuperelement {
-  FrameDeformation B;  ///< of the whole member, as of one element
-  Vector3d c;          ///< rigidities of its three deformations; c[0] = 0 where it does not stretch
-  Matrix6d m;          ///< what moves with the ends, the inside following statically
+  Matrix6d m;  ///< mass of the ends' coordinates, the inside following statically
   Eigen::Matrix<double, Eigen::Dynamic, 6> P;  ///< mode x coordinate
   Eigen::VectorXd mu;                          ///< 1 / omega^2 of each mode [s^2]
-  Eigen::Matrix<double, Eigen::Dynamic, 6> N;  ///< inside coordinate (u v θ a node) x end
-  Eigen::MatrixXd X;                           ///< inside coordinate x mode
   Index inside = 0;  ///< coordinates inside; those that carry no mass have no mode
   /// Largest |x_i^T K_ii x_j| and |x_i^T M_ii x_j| / sqrt(mu_i mu_j) of different modes, taken for
   /// zero: an eigenvalue changes by their squares.

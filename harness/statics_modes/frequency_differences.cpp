@@ -1,14 +1,24 @@
-#include "solver/sensitivity/frequency_differences.h"
+#include "harness/statics_modes/frequency_differences.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-namespace trammel::solver {
+#include "harness/statics_modes/design_change.h"
+#include "solver/modes/modes.h"
+#include "solver/sensitivity/frequency_sensitivity.h"
+
+namespace trammel::harness {
 namespace {
 
 using Eigen::VectorXd;
+using solver::DesignParameter;
+using solver::FrequencySet;
+using solver::Index;
+using solver::ManipulatorDesign;
+using solver::ModalSolution;
+using solver::Pose;
 
 constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
@@ -26,21 +36,20 @@ class Differences {
   FrequencyDifferences run(double relative_step) {
     const VectorXd all = begin();
     if (!result_.outcome.solved()) return result_;
-    result_.step = first_step(all, relative_step * parameter_value(design_, parameter_));
-    extrapolate(result_.step);
+    extrapolate(first_step(all, relative_step * parameter_value(design_, parameter_)));
     return result_;
   }
 
   FrequencyDifferences single_quotient(double relative_step, bool is_central) {
     const VectorXd all = begin();
     if (!result_.outcome.solved()) return result_;
-    result_.step = relative_step * parameter_value(design_, parameter_);
+    const double step = relative_step * parameter_value(design_, parameter_);
     if (is_central) {
-      result_.derivative = central(result_.step);
+      result_.derivative = central(step);
     } else {
-      const VectorXd above = frequencies(result_.step);
+      const VectorXd above = frequencies(step);
       if (above.size() < count_) return result_;
-      result_.derivative = (above.head(count_) - all.head(count_)) / result_.step;
+      result_.derivative = (above.head(count_) - all.head(count_)) / step;
     }
     return result_;
   }
@@ -52,15 +61,16 @@ class Differences {
     result_.frequency = all.head(std::min(count_, all.size()));
     count_ = result_.frequency.size();
     result_.derivative = VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
-    result_.error_estimate = VectorXd::Constant(count_, std::numeric_limits<double>::infinity());
-    if (result_.outcome.solved()) sets_ = equal_frequencies(all);
+    error_estimate_ = VectorXd::Constant(count_, std::numeric_limits<double>::infinity());
+    if (result_.outcome.solved()) sets_ = solver::equal_frequencies(all);
     return all;
   }
 
   VectorXd frequencies(double change) {
     const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
-    const ModalSolution modes = solve_modes(
-        assemble(build_manipulator(changed.design, changed.pose)), {.count = count_ + kExtraModes});
+    const ModalSolution modes = solver::solve_modes(
+        solver::assemble(solver::build_manipulator(changed.design, changed.pose)),
+        {.count = count_ + kExtraModes});
     result_.counters += modes.counters;
     result_.evidence.add(modes.evidence);
     if (!modes.outcome.solved()) result_.outcome = modes.outcome;
@@ -69,7 +79,7 @@ class Differences {
 
   [[nodiscard]] bool within_reach(double change) const {
     const DesignInPose changed = perturbed(design_, pose_, parameter_, change);
-    return inverse_kinematics(changed.design.geometry, changed.pose).outcome.solved();
+    return solver::inverse_kinematics(changed.design.geometry, changed.pose).outcome.solved();
   }
 
   VectorXd central(double step) {
@@ -116,10 +126,10 @@ class Differences {
 
   void keep(const VectorXd& next, const VectorXd& fine, const VectorXd& coarse) {
     for (Index n = 0; n < count_; ++n) {
-      const double error_estimate =
+      const double difference =
           std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
-      if (!(error_estimate < result_.error_estimate[n])) continue;
-      result_.error_estimate[n] = error_estimate;
+      if (!(difference < error_estimate_[n])) continue;
+      error_estimate_[n] = difference;
       result_.derivative[n] = next[n];
     }
   }
@@ -129,6 +139,7 @@ class Differences {
   const DesignParameter& parameter_;
   Index count_;
   std::vector<FrequencySet> sets_;
+  VectorXd error_estimate_;  // of the extrapolation [Hz / unit]
   FrequencyDifferences result_;
 };
 
@@ -146,4 +157,4 @@ FrequencyDifferences difference_quotient(const ManipulatorDesign& design, const 
   return Differences(design, pose, parameter, count).single_quotient(relative_step, central);
 }
 
-}  // namespace trammel::solver
+}  // namespace trammel::harness

@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <iostream>
 
-#include "tests/support/solver/sensitivity_differences.h"
+#include "tests/support/harness/sensitivity_comparison.h"
 
 BOOST_AUTO_TEST_SUITE(sensitivity_sweep)
 

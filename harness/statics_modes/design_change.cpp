@@ -1,10 +1,13 @@
-#include "solver/sensitivity/design_parameter.h"
+#include "harness/statics_modes/design_change.h"
 
 #include <algorithm>
 
-namespace trammel::solver {
+namespace trammel::harness {
 
-using Kind = trammel::solver::DesignParameter::Kind;
+using solver::DesignParameter;
+using solver::ManipulatorDesign;
+using solver::Vector2d;
+using Kind = DesignParameter::Kind;
 
 namespace {
 
@@ -18,25 +21,27 @@ void for_each_number(ManipulatorDesign& design, const DesignParameter& parameter
   };
   for (std::size_t i = 0; i < 3; ++i) {
     if (parameter.proximal[i]) {
-      meet(length ? &design.geometry.proximal[i] : detail::link_number(design.proximal[i], kind));
+      meet(length ? &design.geometry.proximal[i]
+                  : solver::detail::link_number(design.proximal[i], kind));
     }
     if (parameter.distal[i]) {
-      meet(length ? &design.geometry.distal[i] : detail::link_number(design.distal[i], kind));
+      meet(length ? &design.geometry.distal[i]
+                  : solver::detail::link_number(design.distal[i], kind));
     }
   }
-  if (parameter.platform) meet(detail::number(design.platform, kind));
+  if (parameter.platform) meet(solver::detail::number(design.platform, kind));
 }
 
 /// Calls visit(stiffness) for each spring at the joints that the parameter names.
 template <class Visit>
 void for_each_spring(ManipulatorDesign& design, Kind kind, Visit&& visit) {
   for (std::size_t i = 0; i < 3; ++i) {
-    if (kind == Kind::active_stiffness && design.active[i].kind == ActiveKind::sprung)
+    if (kind == Kind::active_stiffness && design.active[i].kind == solver::ActiveKind::sprung)
       visit(design.active[i].stiffness);
-    if (kind == Kind::elbow_stiffness && design.elbow[i].kind == ElbowKind::sprung)
+    if (kind == Kind::elbow_stiffness && design.elbow[i].kind == solver::ElbowKind::sprung)
       visit(design.elbow[i].stiffness);
     if (kind == Kind::platform_joint_stiffness &&
-        design.platform_joint[i].kind == PlatformJointKind::sprung)
+        design.platform_joint[i].kind == solver::PlatformJointKind::sprung)
       visit(design.platform_joint[i].stiffness);
   }
 }
@@ -52,11 +57,7 @@ void grow(std::array<Vector2d, 3>& triangle, const Vector2d& about, double chang
 
 }  // namespace
 
-bool is_seeded(Kind kind) {
-  return kind <= Kind::density;
-}
-
-DesignInPose perturbed(const ManipulatorDesign& design, const Pose& pose,
+DesignInPose perturbed(const ManipulatorDesign& design, const solver::Pose& pose,
                        const DesignParameter& parameter, double change) {
   DesignInPose changed{design, pose};
   ManipulatorDesign& result = changed.design;
@@ -69,7 +70,7 @@ DesignInPose perturbed(const ManipulatorDesign& design, const Pose& pose,
       grow(result.geometry.platform, Vector2d::Zero(), change);
       break;
     case Kind::platform_mass:
-      result.platform.mass = platform_mass(design).mass + change;
+      result.platform.mass = solver::platform_mass(design).mass + change;
       break;
     case Kind::platform_inertia:
       result.platform.inertia = parameter_value(design, parameter) + change;
@@ -98,10 +99,10 @@ double parameter_value(const ManipulatorDesign& design, const DesignParameter& p
     case Kind::platform_side:
       return side(design.geometry.platform);
     case Kind::platform_mass:
-      return platform_mass(design).mass;
+      return solver::platform_mass(design).mass;
     case Kind::platform_inertia: {
-      if (design.platform.kind != PlatformKind::rigid) return 0;
-      const PlatformMass mass = platform_mass(design);
+      if (design.platform.kind != solver::PlatformKind::rigid) return 0;
+      const solver::PlatformMass mass = solver::platform_mass(design);
       return design.platform.inertia.value_or(mass.inertia + mass.mass * mass.center.squaredNorm());
     }
     case Kind::orientation:
@@ -117,4 +118,4 @@ double parameter_value(const ManipulatorDesign& design, const DesignParameter& p
   }
 }
 
-}  // namespace trammel::solver
+}  // namespace trammel::harness

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "solver/model/counters.h"
+#include "solver/model/evidence.h"
+#include "solver/sensitivity/design_parameter.h"
+
+/// Sensitivities of the natural frequencies by differences, as a study over a parameter of the
+/// design: a second route, which shares no derivative with `solver::frequency_sensitivity`.
+namespace trammel::harness {
+
+struct FrequencyDifferences {
+  solver::Outcome outcome;     ///< as the modes of the design and of the changed ones
+  solver::Evidence evidence;   ///< of the modes of all designs
+  Eigen::VectorXd frequency;   ///< ascending [Hz]
+  Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated ones as in FrequencySensitivity
+  solver::Counters counters;
+};
+
+/// Central differences at steps that shrink by 1.6, extrapolated to zero; of the table, the entry
+/// that agrees best with its neighbours (Ridders 1982; here in 7 rows). A step leaves neighbouring
+/// frequencies apart and the limbs within reach. The branches of a repeated frequency are smooth:
+/// the lowest for p + h goes on from the highest for p - h.
+/// @param relative_step  the first step over the value of the parameter, where that leaves room
+/// @throws ModelError  as `build_manipulator`.
+[[nodiscard]] FrequencyDifferences differentiate_frequencies(
+    const solver::ManipulatorDesign& design, const solver::Pose& pose,
+    const solver::DesignParameter& parameter, solver::Index count, double relative_step = 5e-3);
+
+/// One difference quotient, as it is: central over 2 h or forward over h.
+/// @param relative_step  h over the value of the parameter, > 0
+/// @throws ModelError  as `build_manipulator`, so also where the step leads out of reach.
+[[nodiscard]] FrequencyDifferences difference_quotient(const solver::ManipulatorDesign& design,
+                                                       const solver::Pose& pose,
+                                                       const solver::DesignParameter& parameter,
+                                                       solver::Index count, double relative_step,
+                                                       bool central);
+
+}  // namespace trammel::harness
