@@ -108,7 +108,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);
   release_driven_actuators(analysis, case_model, large_motion, model);
-  const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
+  const GeometricallyExactSystem system(model, large_motion);
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   std::vector<PathPoint> recorded_points;

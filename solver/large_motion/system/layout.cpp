@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/elements/frame_element.h"
+#include "solver/large_motion/elements/beam.h"
 #include "solver/model/labels.h"
 #include "solver/model/numbers.h"
 
@@ -14,8 +15,8 @@ namespace {
 
 class Numbering {
  public:
-  Numbering(const Model& model, const LargeMotionModel& large_motion, int order)
-      : model_(model), large_motion_(large_motion), order_(order) {}
+  Numbering(const Model& model, const LargeMotionModel& large_motion)
+      : model_(model), large_motion_(large_motion) {}
 
   Layout run() {
     share_rotations();
@@ -83,8 +84,8 @@ class Numbering {
     }
   }
 
-  Index add(bool rotation) {
-    layout_.is_rotation.push_back(rotation);
+  Index add(int direction) {
+    layout_.direction.push_back(direction);
     fixed_.push_back(false);
     return layout_.total++;
   }
@@ -92,10 +93,10 @@ class Numbering {
   void number_nodes() {
     layout_.node.assign(model_.nodes.size(), {-1, -1, -1});
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
-      layout_.node[i][0] = add(false);
-      layout_.node[i][1] = add(false);
+      layout_.node[i][0] = add(0);
+      layout_.node[i][1] = add(1);
       if (has_rotation_[i] && owner(static_cast<Index>(i)) == static_cast<Index>(i)) {
-        layout_.node[i][2] = add(true);
+        layout_.node[i][2] = add(2);
       }
     }
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
@@ -108,7 +109,7 @@ class Numbering {
     std::array<Index, 2> rotation{-1, -1};
     for (std::size_t end = 0; end < 2 && bends; ++end) {
       const bool welded = member.ends[end].fixity == EndFixity::welded;
-      rotation[end] = welded ? layout_.node[to_size(member.nodes[end])][2] : add(true);
+      rotation[end] = welded ? layout_.node[to_size(member.nodes[end])][2] : add(2);
     }
     return rotation;
   }
@@ -130,13 +131,13 @@ class Numbering {
         continue;
       }
       element.coordinates.assign(left.begin(), left.end());
-      for (int inner = 1; inner < order_; ++inner) {
-        for (int k = 0; k < 3; ++k) element.coordinates.push_back(add(k == 2));
+      for (int inner = 2; inner < BeamInterpolation::kNodes; ++inner) {
+        for (int k = 0; k < 3; ++k) element.coordinates.push_back(add(k));
       }
       if (e + 1 == member.elements) {
         left = {last[0], last[1], rotation[1]};
       } else {
-        for (std::size_t k = 0; k < 3; ++k) left[k] = add(k == 2);
+        for (int k = 0; k < 3; ++k) left[static_cast<std::size_t>(k)] = add(k);
       }
       element.coordinates.insert(element.coordinates.end(), left.begin(), left.end());
       layout_.elements.push_back(std::move(element));
@@ -163,8 +164,8 @@ class Numbering {
         layout_.mass_centre.push_back(
             {layout_.node[to_size(mass.node)][0], layout_.node[to_size(mass.node)][1]});
       } else {
-        const Index x = add(false);
-        layout_.mass_centre.push_back({x, add(false)});
+        const Index x = add(0);
+        layout_.mass_centre.push_back({x, add(1)});
       }
     }
   }
@@ -209,13 +210,13 @@ class Numbering {
       }
       if (!fixed) layout_.free = next;
     }
-    std::vector<bool> is_rotation(to_size(next));
+    std::vector<int> direction(to_size(next));
     for (Index i = 0; i < layout_.total; ++i) {
       new_index[to_size(i)] = new_index[to_size(representative(i))];
-      is_rotation[to_size(new_index[to_size(i)])] = layout_.is_rotation[to_size(i)];
+      direction[to_size(new_index[to_size(i)])] = layout_.direction[to_size(i)];
     }
     layout_.total = next;
-    layout_.is_rotation = std::move(is_rotation);
+    layout_.direction = std::move(direction);
     const auto renumber = [&](Index& i) {
       if (i >= 0) i = new_index[to_size(i)];
     };
@@ -235,7 +236,6 @@ class Numbering {
 
   const Model& model_;
   const LargeMotionModel& large_motion_;
-  int order_;
   Layout layout_;
   std::vector<Index> owner_;           ///< node whose rotation a node shares
   std::vector<Index> representative_;  ///< coordinate that a coordinate equals
@@ -243,6 +243,11 @@ class Numbering {
 };
 
 }  // namespace
+
+Vector2d MemberElement::position(std::size_t node) const {
+  const double x = is_bar() ? static_cast<double>(node) : beam_interpolation().node[node];
+  return start + x * (end - start);
+}
 
 Index Layout::index_of(const Coordinate& coordinate) const {
   if (coordinate.kind == Coordinate::Kind::end_rotation) {
@@ -268,8 +273,8 @@ std::optional<std::array<Index, 2>> Layout::equated_coordinates(
   return pair;
 }
 
-Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion, int order) {
-  return Numbering(model, large_motion, order).run();
+Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion) {
+  return Numbering(model, large_motion).run();
 }
 
 }  // namespace trammel::solver::large_motion

@@ -67,13 +67,13 @@ double mean_of_positive(const Eigen::VectorXd& values, double none) {
 
 PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_motion,
                              const Layout& layout, const Eigen::VectorXd& mass, double size)
-    : is_rotation_(layout.is_rotation),
+    : layout_(layout),
       size_(size),
       stiffness_(coordinate_stiffness(model, large_motion, layout)),
       mass_(mass) {
   const auto of_translations = [&](Eigen::VectorXd values) {
     for (Index k = 0; k < layout.total; ++k)
-      if (is_rotation_[to_size(k)]) values[k] /= size * size;
+      if (layout_.is_rotation(k)) values[k] /= size * size;
     return values;
   };
   mean_mass_ = mean_of_positive(of_translations(mass_), 1);
@@ -84,8 +84,7 @@ PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_m
 }
 
 bool PenaltyScales::turns(std::span<const Index> coordinates) const {
-  return std::ranges::all_of(coordinates,
-                             [&](Index k) { return k < 0 || is_rotation_[to_size(k)]; });
+  return std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
 }
 
 double PenaltyScales::row_unit(std::span<const Index> coordinates) const {
@@ -99,7 +98,7 @@ double PenaltyScales::largest(const Eigen::VectorXd& values, double mean,
          levered = 0;  // of the row's own kind, and of rotations in a row of displacements
   for (const Index k : coordinates) {
     if (k < 0) continue;
-    double& kind = is_rotation_[to_size(k)] && !is_turn ? levered : value;
+    double& kind = layout_.is_rotation(k) && !is_turn ? levered : value;
     kind = std::max(kind, values[k]);
   }
   if (!(value > 0) && lever > 0) {
