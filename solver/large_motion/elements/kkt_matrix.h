@@ -70,7 +70,11 @@ class KktMatrix {
     for (Index i = 0; i < G.rows(); ++i) {
       const double least = penalty[i] > 0 ? 1e-11 / penalty[i] : 0;
       const double compliance = std::max(c[i] * E[i], least);
-      add_row_diagonal(block, n + i, n + G.rows(), -compliance, penalty[i] / E[i]);
+      const auto b = static_cast<std::size_t>(block);
+      const std::size_t size = static_cast<std::size_t>(n + G.rows()),
+                        row = static_cast<std::size_t>(n + i);
+      matrix_.valuePtr()[value_index_[block_start_[b] + row * (size + 1)]] -= compliance;
+      multiplier_scaling_[first_row_[b] + i] = penalty[i] / E[i];
     }
   }
 
@@ -116,7 +120,6 @@ class KktMatrix {
 
   void order(const std::vector<std::vector<Index>>& blocks);
   void allocate(const std::vector<std::vector<Index>>& blocks);
-  [[nodiscard]] int value_index(Index row, Index column) const;
 
   /// Adds the n x n matrix into the leading part of a block of n + rows unknowns.
   template <class Matrix>
@@ -147,16 +150,14 @@ class KktMatrix {
     }
   }
 
-  void add_row_diagonal(Index block, Index local, Index size, double value, double scaling);
-
   Index coordinates_ = 0, constraints_ = 0;
-  std::vector<Index> permutation_;      ///< elimination order: position of each unknown
-  Eigen::SparseMatrix<double> matrix_;  ///< in elimination order, both triangles
+  Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< of elimination
+  Eigen::SparseMatrix<double> matrix_;                    ///< in elimination order, both triangles
   std::vector<std::size_t> block_start_;
   std::vector<int> value_index_;  ///< per block, column-major: position in the values, -1: not free
   std::vector<int> diagonal_;     ///< per coordinate
-  std::vector<Index> row_of_value_;
-  VectorXd multiplier_scaling_;  ///< rho / E of each row
+  std::vector<Index> first_row_;  ///< of each block
+  VectorXd multiplier_scaling_;   ///< rho / E of each row
   std::unique_ptr<Factors> factors_;
   mutable VectorXd work_, solution_;
   mutable std::int64_t solves_ = 0;

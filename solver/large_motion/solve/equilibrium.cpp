@@ -161,7 +161,7 @@ Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
   return found;
 }
 
-NewtonResult Equilibrium::solve(State& state, double load) {
+NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& control) {
   NewtonResult result;
   const State before = state;
   const Index n = system_.coordinates();
@@ -172,12 +172,19 @@ NewtonResult Equilibrium::solve(State& state, double load) {
     return result;
   };
   for (int i = 0; i < options_.max_iterations; ++i) {
-    if (!factor_if_moved(state)) return fail(Status::singular, "the tangent is singular");
+    if (!factor_if_moved(state, options_.same_state))
+      return fail(Status::singular, "the tangent is singular");
     correction(state, step_, result);
+    if (control) {
+      load_direction(state, load_step_);
+      const double change = control(step_, load_step_);
+      step_ += change * load_step_;
+      system_.set_load(state, state.load + change);
+    }
     if (!step_.allFinite()) return fail(Status::singular, "the tangent is singular");
     apply_correction(state, step_);
-    const double last = result.correction.back(),
-                 displacement = weighted_rms_norm(system_, state.q.head(n));
+    const double last = result.correction.back() = weighted_rms_norm(system_, step_.head(n));
+    const double displacement = weighted_rms_norm(system_, state.q.head(n));
     if (converged(result.correction, displacement)) return result;
     if (last > 1e6 * (1 + displacement)) break;
   }

@@ -30,24 +30,6 @@ constexpr double kAlike = 1e6;
 /// How far from a mode's w^2 the matrix is factored that its vector is solved for with.
 constexpr double kAside = 1e-3;
 
-/// M, as what accelerations add to the forces of a state at rest.
-MatrixXd mass_matrix(const ConstrainedSystem& system, const State& at_rest) {
-  const Index n = system.coordinates();
-  State state = at_rest;
-  VectorXd still(n), moved(n);
-  MatrixXd M(n, n);
-  state.v.setZero();
-  state.a.setZero();
-  system.force_residual(state, still);
-  for (Index j = 0; j < n; ++j) {
-    state.a[j] = 1;
-    system.force_residual(state, moved);
-    M.col(j) = moved - still;
-    state.a[j] = 0;
-  }
-  return M;
-}
-
 /// K - w2 M on the constraints, factored with penalties and again without, for exact products:
 /// those of stiff members would round off the stiffness of soft joints.
 class ShiftedStiffness {
@@ -267,7 +249,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     found.outcome = {Status::singular, "the tangent is singular"};
     return found;
   }
-  const MatrixXd M = mass_matrix(system, state), L = mass_factor(M);
+  const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_factor(M);
   if (L.cols() == 0) {
     found.outcome = {Status::singular, "nothing vibrates, for nothing that moves has mass"};
     return found;

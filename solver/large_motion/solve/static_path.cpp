@@ -9,6 +9,7 @@
 
 #include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/state_results.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
 
@@ -93,7 +94,7 @@ class PathFollower {
       : system_(system), options_(options), equilibrium_(system, options.newton) {}
 
   StaticPath run() {
-    if (start() && !points_done()) {
+    if (start() && system_.coordinates() > 0) {
       while (next()) {
       }
     }
@@ -145,13 +146,11 @@ class PathFollower {
     State end = start;
     system_.set_load(end, options_.target);
     NewtonResult newton;
-    equilibrium_.correction(end, residual_step_, newton);
-    const double response = weighted_rms_norm(system_, residual_step_.head(system_.coordinates())) /
-                            std::abs(options_.target);
+    VectorXd step;
+    equilibrium_.correction(end, step, newton);
+    const double response = newton.correction.back() / std::abs(options_.target);
     return std::isfinite(response) ? response : 0;
   }
-
-  bool points_done() const { return system_.coordinates() == 0; }
 
   bool stop(Outcome outcome) {
     path_.outcome = std::move(outcome);
@@ -194,31 +193,17 @@ class PathFollower {
 
   /// Newton on the plane normal to the direction at distance `arc`.
   bool corrector(const State& from, const Direction& d, double arc, PathPoint& point) {
-    State& state = point.state;
-    state = from;
-    system_.set_load(state, from.load + arc * d.load);
-    apply_correction(state, d.step, arc);
-    point.newton = {};
+    point.state = from;
+    apply_correction(point.state, d.step, arc);
     double distance = 0;
-    for (int i = 0; i < options_.newton.max_iterations; ++i) {
-      if (!equilibrium_.factor_if_moved(state)) return false;
-      equilibrium_.correction(state, residual_step_, point.newton);
-      equilibrium_.load_direction(state, load_step_);
-      if (!residual_step_.allFinite() || !load_step_.allFinite()) return false;
-      const double along = dot(d, load_step_, 1);
-      const double change = along == 0 ? 0.0 : -dot(d, residual_step_, 0) / along;
-      residual_step_ += change * load_step_;
-      apply_correction(state, residual_step_);
-      system_.set_load(state, state.load + change);
-      const double correction_norm =
-          weighted_rms_norm(system_, residual_step_.head(system_.coordinates()));
-      point.newton.correction.back() = correction_norm;
-      distance += std::sqrt(squared_norm(residual_step_) + change * change);
-      if (!(distance < 0.3 * std::abs(arc))) return false;
-      if (equilibrium_.converged(point.newton.correction, weighted_rms_norm(system_, state.q)))
-        return true;
-    }
-    return false;
+    const auto stay_on_plane = [&](const VectorXd& correction, const VectorXd& load_step) {
+      const double along = dot(d, load_step, 1);
+      const double change = along == 0 ? 0.0 : -dot(d, correction, 0) / along;
+      distance += std::sqrt(squared_norm(correction + change * load_step) + change * change);
+      return distance < 0.3 * std::abs(arc) ? change : kNaN;
+    };
+    point.newton = equilibrium_.solve(point.state, from.load + arc * d.load, stay_on_plane);
+    return point.newton.outcome.solved();
   }
 
   bool next() {
@@ -464,7 +449,6 @@ class PathFollower {
   double arc_step_ = 0;
   std::size_t point_count_ = 0;
   bool switched_ = false;
-  VectorXd residual_step_, load_step_;
 };
 
 }  // namespace
